@@ -1,0 +1,33 @@
+// Sine and cosine from arithmetic alone: libm gives different bits on different machines, and a replay
+// must not. Used where the engine itself needs an angle (sampling of a diamond point, run-out).
+#pragma once
+
+#include <cstdint>
+
+namespace cavum {
+
+inline constexpr double k_pi = 3.14159265358979323846;
+
+struct SinCos {
+  double sin = 0.0, cos = 1.0;
+};
+
+/// sin and cos of `angle_rad`, |angle| up to 1e6; error below 1e-12 (Taylor polynomials on [-pi/4, pi/4]).
+[[nodiscard]] constexpr SinCos det_sincos(double angle_rad) noexcept {
+  const double turns = angle_rad / (k_pi / 2);
+  const auto quadrant = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
+  // pi/2 in two parts, so that the reduction keeps its digits
+  const double n = static_cast<double>(quadrant);
+  const double a = (angle_rad - n * 1.57079632673412561417e+00) - n * 6.07710050650619224932e-11;
+  const double a2 = a * a;
+  const double s = a * (1 + a2 * (-1.0 / 6 + a2 * (1.0 / 120 + a2 * (-1.0 / 5040 + a2 * (1.0 / 362880 + a2 * (-1.0 / 39916800 + a2 / 6227020800.0))))));
+  const double c = 1 + a2 * (-0.5 + a2 * (1.0 / 24 + a2 * (-1.0 / 720 + a2 * (1.0 / 40320 + a2 * (-1.0 / 3628800 + a2 / 479001600.0)))));
+  switch (static_cast<std::uint64_t>(quadrant) & 3u) {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
+  }
+}
+
+}  // namespace cavum

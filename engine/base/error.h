@@ -1,0 +1,18 @@
+// The one way in which bad input is reported: where, what, and what to do. Thrown while loading; the
+// command line prints it as `cavum: where: what; what to do` and exits with 2.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace cavum {
+
+/// Unusable input or environment. `what()` reads `where: what; what to do`.
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& where, const std::string& what_happened, const std::string& what_to_do)
+      : std::runtime_error(where + ": " + what_happened + "; " + what_to_do) {}
+};
+
+}  // namespace cavum

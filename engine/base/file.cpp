@@ -1,0 +1,74 @@
+#include "engine/base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+/// Closes on every way out.
+struct File {
+  int fd;
+  ~File() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+std::string reason() { return std::strerror(errno); }
+
+}  // namespace
+
+Bytes read_file(const std::string& path) {
+  const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0) throw Error(path, "cannot be opened (" + reason() + ")", "check the path and its permissions");
+  struct stat info{};
+  if (::fstat(file.fd, &info) == 0 && S_ISDIR(info.st_mode)) throw Error(path, "is a folder", "name a file");
+  Bytes bytes;
+  std::uint8_t block[1 << 16];
+  for (;;) {
+    const auto n = ::read(file.fd, block, sizeof block);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(path, "cannot be read (" + reason() + ")", "check the disk and the permissions");
+    if (n == 0) return bytes;
+    bytes.insert(bytes.end(), block, block + n);
+  }
+}
+
+std::string read_text_file(const std::string& path) {
+  const Bytes b = read_file(path);
+  return {reinterpret_cast<const char*>(b.data()), b.size()};
+}
+
+void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  const std::string temporary = path + ".part";
+  const auto fail = [&](const std::string& what) {
+    const std::string why = reason();
+    ::unlink(temporary.c_str());
+    throw Error(path, what + " (" + why + ")", "check that the folder exists, is writable and has room, then try again");
+  };
+  {
+    const File file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
+    if (file.fd < 0) fail("cannot be created");
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const auto n = ::write(file.fd, bytes.data() + done, bytes.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail("cannot be written");
+      done += static_cast<std::size_t>(n);
+    }
+    if (::fsync(file.fd) != 0) fail("cannot be written to disk");
+  }
+  if (::rename(temporary.c_str(), path.c_str()) != 0) fail("cannot be put in place");
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+}  // namespace cavum

@@ -1,0 +1,19 @@
+// Whole files in and out, with errors that say what to do. Writing goes to a temporary file that is
+// synced and renamed, so a full disk or a killed process never leaves half a file under the name.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/base/bytes.h"
+
+namespace cavum {
+
+/// Throws Error when the file cannot be read.
+[[nodiscard]] Bytes read_file(const std::string& path);
+[[nodiscard]] std::string read_text_file(const std::string& path);
+/// Replaces `path` as one step. Throws Error when it cannot be written; the old file then still stands.
+void write_file(const std::string& path, std::span<const std::uint8_t> bytes);
+void write_text_file(const std::string& path, const std::string& text);
+
+}  // namespace cavum

@@ -1,0 +1,312 @@
+#include "engine/tooth/octree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+
+Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
+    : leaf_mm_(grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
+  const int widest = std::max({grid.size.x, grid.size.y, grid.size.z});
+  const int thinnest = std::min({grid.size.x, grid.size.y, grid.size.z});
+  if (thinnest < 1 || grid.tissue.size() != grid.count() || grid.distance.size() != grid.count() || !(grid.leaf_mm > 0))
+    throw Error("tooth", "the tissue grid is empty", "check size and leaf of the input");
+  if (widest > k_max_edge_leaves)
+    throw Error("tooth", std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger leaf");
+  for (const auto& t : tissues) solid_[t.id] = t.solid;
+  while ((k_brick_edge << levels_) < widest) ++levels_;
+  root_ = build(grid, {0, 0, 0}, levels_);
+  nodes_.items.shrink_to_fit();
+  labels_.items.shrink_to_fit();
+  bricks_.items.shrink_to_fit();
+}
+
+Octree& Octree::operator=(const Octree& other) {
+  if (this == &other) return *this;
+  leaf_mm_ = other.leaf_mm_;
+  origin_mm_ = other.origin_mm_;
+  size_ = other.size_;
+  levels_ = other.levels_;
+  solid_ = other.solid_;
+  root_ = other.root_;
+  edit_hash_ = other.edit_hash_;
+  version_ = other.version_;
+  const auto copy = [](auto& to, const auto& from) {
+    to.items.clear();
+    to.items.reserve(from.items.capacity());
+    to.items.insert(to.items.end(), from.items.begin(), from.items.end());
+    to.free.clear();
+    to.free.reserve(from.free.capacity());
+    to.free.insert(to.free.end(), from.free.begin(), from.free.end());
+  };
+  copy(nodes_, other.nodes_);
+  copy(labels_, other.labels_);
+  copy(bricks_, other.bricks_);
+  return *this;
+}
+
+std::uint32_t Octree::canonical(const FullBrick& brick) {
+  bool one_tissue = true, far = true;
+  for (std::size_t i = 0; i < k_brick_leaves; ++i) {
+    one_tissue = one_tissue && brick.tissue[i] == brick.tissue[0];
+    far = far && brick.distance[i] == uniform_code(brick.tissue[i]);
+  }
+  if (far && one_tissue) return k_uniform | brick.tissue[0];
+  if (far) return k_label_brick | labels_.add({brick.tissue});
+  return k_full_brick | bricks_.add(brick);
+}
+
+std::uint32_t Octree::build(const TissueGrid& grid, IVec3 low, int level) {
+  if (low.x >= grid.size.x || low.y >= grid.size.y || low.z >= grid.size.z) return k_uniform | k_air;
+  if (level == 0) {
+    FullBrick brick;
+    std::size_t i = 0;
+    for (int z = 0; z < 4; ++z)
+      for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x, ++i) {
+          const IVec3 leaf = low + IVec3{x, y, z};
+          const bool in = grid.inside(leaf);
+          brick.tissue[i] = in ? grid.tissue[grid.index(leaf)] : std::uint8_t{k_air};
+          brick.distance[i] = in ? grid.distance[grid.index(leaf)] : std::int8_t{k_distance_far};
+        }
+    return canonical(brick);
+  }
+  Node node;
+  const int half = (k_brick_edge << level) / 2;
+  bool equal = true;
+  for (int i = 0; i < 8; ++i) {
+    const auto c = build(grid, low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, level - 1);
+    node.child[static_cast<std::size_t>(i)] = c;
+    equal = equal && (c & k_kind) == k_uniform && c == node.child[0];
+  }
+  return equal ? node.child[0] : k_node | nodes_.add(node);
+}
+
+IVec3 Octree::leaf_at(Vec3 mm) const noexcept {
+  const Vec3 p = (mm - origin_mm_) / leaf_mm_;
+  const auto down = [](double v) {
+    if (!(v > -1e6)) return -1000000;
+    if (!(v < 1e6)) return 1000000;
+    return static_cast<std::int32_t>(std::floor(v));
+  };
+  return {down(p.x), down(p.y), down(p.z)};
+}
+
+IVec3 Octree::clamp_to_tree(Vec3 mm) const noexcept {
+  const IVec3 l = leaf_at(mm);
+  const int last = (k_brick_edge << levels_) - 1;
+  return {std::clamp(l.x, -1, last + 1), std::clamp(l.y, -1, last + 1), std::clamp(l.z, -1, last + 1)};
+}
+
+std::uint32_t Octree::find(IVec3 brick) const noexcept {
+  if (((brick.x | brick.y | brick.z) >> levels_) != 0) return k_uniform | k_air;  // also catches negatives
+  std::uint32_t ref = root_;
+  for (int l = levels_ - 1; l >= 0 && (ref & k_kind) == k_node; --l)
+    ref = nodes_.items[ref & k_index].child[static_cast<std::size_t>((brick.x >> l & 1) | (brick.y >> l & 1) << 1 | (brick.z >> l & 1) << 2)];
+  return ref;
+}
+
+std::uint32_t Octree::find(IVec3 brick, Cursor& cursor) const noexcept {
+  if (((brick.x | brick.y | brick.z) >> levels_) != 0) return k_uniform | k_air;
+  if (cursor.version_ != version_) {
+    cursor.entries_.fill({});
+    cursor.version_ = version_;
+  }
+  const auto key = static_cast<std::uint32_t>(brick.x | brick.y << 10 | brick.z << 20);
+  auto& e = cursor.entries_[static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6)];
+  if (e.key != key) e = {key, find(brick)};
+  return e.ref;
+}
+
+int Octree::code_in(std::uint32_t ref, int leaf) const noexcept {
+  const auto i = static_cast<std::size_t>(leaf);
+  switch (ref & k_kind) {
+    case k_full_brick: return bricks_.items[ref & k_index].distance[i];
+    case k_label_brick: return uniform_code(labels_.items[ref & k_index].tissue[i]);
+    default: return uniform_code(static_cast<std::uint8_t>(ref & k_index));
+  }
+}
+
+std::uint8_t Octree::tissue_in(std::uint32_t ref, int leaf) const noexcept {
+  const auto i = static_cast<std::size_t>(leaf);
+  switch (ref & k_kind) {
+    case k_full_brick: return bricks_.items[ref & k_index].tissue[i];
+    case k_label_brick: return labels_.items[ref & k_index].tissue[i];
+    default: return static_cast<std::uint8_t>(ref & k_index);
+  }
+}
+
+std::uint8_t Octree::tissue(IVec3 leaf) const noexcept {
+  return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf));
+}
+
+int Octree::distance_code(IVec3 leaf) const noexcept {
+  return code_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf));
+}
+
+std::uint8_t Octree::tissue_at(Vec3 mm, Cursor& cursor) const noexcept {
+  const IVec3 leaf = leaf_at(mm);
+  return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}, cursor), leaf_in_brick(leaf));
+}
+
+SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
+  const Vec3 p = (mm - origin_mm_) / leaf_mm_ - Vec3{0.5, 0.5, 0.5};
+  if (!(std::fabs(p.x) < 1e6 && std::fabs(p.y) < 1e6 && std::fabs(p.z) < 1e6)) return {k_distance_band_leaves * leaf_mm_, {}};
+  const Vec3 floor_p{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+  const IVec3 low{static_cast<std::int32_t>(floor_p.x), static_cast<std::int32_t>(floor_p.y), static_cast<std::int32_t>(floor_p.z)};
+  const double fx = p.x - floor_p.x, fy = p.y - floor_p.y, fz = p.z - floor_p.z;
+  int c[8];
+  if ((low.x & 3) != 3 && (low.y & 3) != 3 && (low.z & 3) != 3) {
+    const auto ref = find({low.x >> 2, low.y >> 2, low.z >> 2}, cursor);
+    if ((ref & k_kind) == k_uniform) return {decode_distance(uniform_code(static_cast<std::uint8_t>(ref & k_index))) * leaf_mm_, {}};
+    const int base = leaf_in_brick(low);
+    for (int i = 0; i < 8; ++i) c[i] = code_in(ref, base + (i & 1) + ((i >> 1 & 1) << 2) + ((i >> 2) << 4));
+  } else {
+    for (int i = 0; i < 8; ++i) {
+      const IVec3 l = low + IVec3{i & 1, i >> 1 & 1, i >> 2};
+      c[i] = code_in(find({l.x >> 2, l.y >> 2, l.z >> 2}, cursor), leaf_in_brick(l));
+    }
+  }
+  const double gx = 1 - fx, gy = 1 - fy, gz = 1 - fz;
+  // along x first, then y, then z; the gradient falls out of the same differences
+  const double e00 = c[0] * gx + c[1] * fx, e10 = c[2] * gx + c[3] * fx, e01 = c[4] * gx + c[5] * fx, e11 = c[6] * gx + c[7] * fx;
+  const double f0 = e00 * gy + e10 * fy, f1 = e01 * gy + e11 * fy;
+  const double dx = ((c[1] - c[0]) * gy + (c[3] - c[2]) * fy) * gz + ((c[5] - c[4]) * gy + (c[7] - c[6]) * fy) * fz;
+  const double dy = (e10 - e00) * gz + (e11 - e01) * fz;
+  const double leaves = k_distance_band_leaves / k_distance_far;
+  return {(f0 * gz + f1 * fz) * leaves * leaf_mm_, Vec3{dx, dy, f1 - f0} * leaves};
+}
+
+bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high) const noexcept {
+  const int edge = k_brick_edge << level;
+  if (low.x > box_high.x || low.y > box_high.y || low.z > box_high.z) return true;
+  if (low.x + edge <= box_low.x || low.y + edge <= box_low.y || low.z + edge <= box_low.z) return true;
+  switch (ref & k_kind) {
+    case k_uniform: return !solid_[ref & k_index];
+    case k_node: {
+      const int half = edge / 2;
+      for (int i = 0; i < 8; ++i)
+        if (!clear_in(nodes_.items[ref & k_index].child[static_cast<std::size_t>(i)], level - 1,
+                      low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, box_low, box_high))
+          return false;
+      return true;
+    }
+    case k_label_brick: return !solid_[labels_.items[ref & k_index].tissue[0]];  // never mixed: a border would carry distances
+    default: return false;
+  }
+}
+
+bool Octree::is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept {
+  return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm));
+}
+
+void Octree::reserve_edits(std::size_t bricks) {
+  bricks_.reserve(bricks);
+  labels_.reserve(bricks);
+  nodes_.reserve(bricks);
+}
+
+std::array<std::uint64_t, 256> Octree::count_leaves() const {
+  std::array<std::uint64_t, 256> count{};
+  for_each_cube([&](IVec3, int edge, std::uint8_t t) { count[t] += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge); });
+  return count;
+}
+
+TissueGrid Octree::to_grid() const {
+  TissueGrid grid;
+  grid.allocate(size_, leaf_mm_, origin_mm_);
+  for (int bz = 0; bz < size_.z; bz += 4)
+    for (int by = 0; by < size_.y; by += 4)
+      for (int bx = 0; bx < size_.x; bx += 4) {
+        const auto ref = find({bx >> 2, by >> 2, bz >> 2});
+        if (ref == (k_uniform | k_air)) continue;
+        for (int i = 0; i < k_brick_leaves; ++i) {
+          const IVec3 leaf{bx + (i & 3), by + (i >> 2 & 3), bz + (i >> 4)};
+          if (!grid.inside(leaf)) continue;
+          grid.tissue[grid.index(leaf)] = tissue_in(ref, i);
+          grid.distance[grid.index(leaf)] = static_cast<std::int8_t>(code_in(ref, i));
+        }
+      }
+  return grid;
+}
+
+std::size_t Octree::memory_bytes() const noexcept {
+  return nodes_.used() * sizeof(Node) + labels_.used() * sizeof(LabelBrick) + bricks_.used() * sizeof(FullBrick);
+}
+
+void Octree::write(ByteWriter& out) const {
+  out.put(leaf_mm_);
+  for (const double v : {origin_mm_.x, origin_mm_.y, origin_mm_.z}) out.put(v);
+  for (const std::int32_t v : {size_.x, size_.y, size_.z}) out.put(v);
+  ByteWriter shape, tissue, distance;
+  write_ref(root_, shape, tissue, distance);
+  for (const auto* part : {&shape, &tissue, &distance}) {
+    out.put(static_cast<std::uint64_t>(part->bytes().size()));
+    out.put_bytes(part->bytes());
+  }
+}
+
+void Octree::write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue, ByteWriter& distance) const {
+  shape.put(static_cast<std::uint8_t>(ref >> 30));
+  switch (ref & k_kind) {
+    case k_uniform: shape.put(static_cast<std::uint8_t>(ref & k_index)); break;
+    case k_node:
+      for (const auto c : nodes_.items[ref & k_index].child) write_ref(c, shape, tissue, distance);
+      break;
+    case k_label_brick: tissue.put_bytes(labels_.items[ref & k_index].tissue); break;
+    default: {
+      const auto& b = bricks_.items[ref & k_index];
+      tissue.put_bytes(b.tissue);
+      int before = 0;
+      for (const int d : b.distance) {  // differences along x compress better
+        distance.put(static_cast<std::uint8_t>(d - before));
+        before = d;
+      }
+    }
+  }
+}
+
+Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
+  Octree tree;
+  tree.leaf_mm_ = in.get<double>();
+  tree.origin_mm_ = {in.get<double>(), in.get<double>(), in.get<double>()};
+  tree.size_ = {in.get<std::int32_t>(), in.get<std::int32_t>(), in.get<std::int32_t>()};
+  const auto usable = [](int n) { return n >= 1 && n <= k_max_edge_leaves; };
+  if (!(tree.leaf_mm_ > 1e-6 && tree.leaf_mm_ < 1e3) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) || !usable(tree.size_.y) || !usable(tree.size_.z))
+    in.fail("impossible leaf or size");
+  for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
+  while ((k_brick_edge << tree.levels_) < std::max({tree.size_.x, tree.size_.y, tree.size_.z})) ++tree.levels_;
+  const auto part = [&in] { return ByteReader(in.get_bytes(in.get<std::uint64_t>()), "tooth"); };
+  ByteReader shape = part(), tissue = part(), distance = part();
+  tree.root_ = tree.read_ref(shape, tissue, distance, tree.levels_);
+  if (shape.left() + tissue.left() + distance.left() != 0) in.fail("data after the end of the octree");
+  return tree;
+}
+
+std::uint32_t Octree::read_ref(ByteReader& shape, ByteReader& tissue, ByteReader& distance, int level) {
+  const auto kind = static_cast<std::uint32_t>(shape.get<std::uint8_t>()) << 30;
+  if (kind == k_uniform) return k_uniform | shape.get<std::uint8_t>();
+  if (kind == k_node) {
+    if (level == 0) shape.fail("the octree is too deep");
+    Node node;
+    for (auto& c : node.child) c = read_ref(shape, tissue, distance, level - 1);
+    return k_node | nodes_.add(node);
+  }
+  if (level != 0) shape.fail("a brick in the wrong place");
+  FullBrick brick;
+  const auto labels = tissue.get_bytes(k_brick_leaves);
+  std::copy(labels.begin(), labels.end(), brick.tissue.begin());
+  if (kind == k_label_brick) return k_label_brick | labels_.add({brick.tissue});
+  const auto deltas = distance.get_bytes(k_brick_leaves);
+  std::uint8_t d = 0;
+  for (std::size_t i = 0; i < k_brick_leaves; ++i) {
+    d = static_cast<std::uint8_t>(d + deltas[i]);
+    brick.distance[i] = static_cast<std::int8_t>(d);
+  }
+  return k_full_brick | bricks_.add(brick);
+}
+
+}  // namespace cavum

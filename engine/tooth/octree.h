@@ -1,0 +1,185 @@
+// The tooth while it is drilled: an octree of tissue, editable in place. A branch ends in a uniform
+// cube of one tissue or in a brick of 4x4x4 leaves; near the solid surface a brick also carries the
+// signed distance to it, which is what the contact feels between leaves. Edits allocate nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/bytes.h"
+#include "engine/base/vec.h"
+#include "engine/tooth/tissue_grid.h"
+
+namespace cavum {
+
+/// A leaf that a carve turned to air, and the tissue it was.
+struct RemovedLeaf {
+  std::int16_t x = 0, y = 0, z = 0;
+  std::uint8_t tissue = k_air;
+  std::uint8_t reserved = 0;
+  [[nodiscard]] IVec3 leaf() const noexcept { return {x, y, z}; }
+  friend bool operator==(const RemovedLeaf&, const RemovedLeaf&) = default;
+};
+
+/// Distance to the solid surface, mm (positive = outside), and its gradient (unit-free, about length 1;
+/// zero where the distance is saturated).
+struct SurfaceSample {
+  double distance_mm = 0.0;
+  Vec3 gradient;
+};
+
+class Octree {
+ public:
+  static constexpr int k_brick_edge = 4;
+  static constexpr int k_brick_leaves = 64;
+  static constexpr int k_max_edge_leaves = 1024;
+
+  Octree() = default;
+  /// Builds from a dense grid. Throws Error when the grid is empty or wider than 1024 leaves.
+  Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues);
+
+  // Copies keep the spare capacity that `reserve_edits` made, for the servo edits its own copy.
+  Octree(const Octree& other) { *this = other; }
+  Octree& operator=(const Octree& other);
+  Octree(Octree&&) = default;
+  Octree& operator=(Octree&&) = default;
+  ~Octree() = default;
+
+  [[nodiscard]] double leaf_mm() const noexcept { return leaf_mm_; }
+  [[nodiscard]] Vec3 origin_mm() const noexcept { return origin_mm_; }
+  /// Leaves along x, y, z of the grid it was built from.
+  [[nodiscard]] IVec3 size() const noexcept { return size_; }
+  [[nodiscard]] double leaf_volume_mm3() const noexcept { return leaf_mm_ * leaf_mm_ * leaf_mm_; }
+  [[nodiscard]] Vec3 centre_mm(IVec3 leaf) const noexcept {
+    return origin_mm_ + Vec3{leaf.x + 0.5, leaf.y + 0.5, leaf.z + 0.5} * leaf_mm_;
+  }
+  /// The leaf that holds `mm`; may lie outside `size()`, where everything is air.
+  [[nodiscard]] IVec3 leaf_at(Vec3 mm) const noexcept;
+  [[nodiscard]] bool is_solid(std::uint8_t tissue) const noexcept { return solid_[tissue]; }
+
+  /// Tissue of a leaf; air outside.
+  [[nodiscard]] std::uint8_t tissue(IVec3 leaf) const noexcept;
+  [[nodiscard]] std::uint8_t tissue_at(Vec3 mm) const noexcept { return tissue(leaf_at(mm)); }
+  /// Distance code of a leaf (see `encode_distance`); far outside the grid.
+  [[nodiscard]] int distance_code(IVec3 leaf) const noexcept;
+
+  /// Remembers where the last bricks were found. One per reader; renew nothing by hand.
+  class Cursor {
+   public:
+    friend class Octree;
+
+   private:
+    struct Entry {
+      std::uint32_t key = ~0u, ref = 0;
+    };
+    std::array<Entry, 512> entries_{};
+    std::uint64_t version_ = ~0ULL;
+  };
+  /// Trilinear distance and gradient at `mm`.
+  [[nodiscard]] SurfaceSample sample(Vec3 mm, Cursor& cursor) const noexcept;
+  [[nodiscard]] std::uint8_t tissue_at(Vec3 mm, Cursor& cursor) const noexcept;
+  /// True when no solid leaf and no distance below the band lies in the box `low`..`high` (mm). May say
+  /// false for an empty box, never true for one that is not.
+  [[nodiscard]] bool is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept;
+
+  /// Room for `bricks` more bricks, so that carving needs no allocation. Untouched room costs no memory.
+  void reserve_edits(std::size_t bricks);
+  /// Removes what lies inside a shape: `shape(mm)` is its signed distance, mm, negative inside, never
+  /// changing faster than 1 mm per mm. Only leaves in the box are looked at; the box must hold the shape
+  /// and two leaves around it. Removed leaves are appended to `removed` up to its capacity, in a fixed order.
+  /// Returns false, and leaves the rest untouched, when the reserved room or `removed` is full.
+  template <class Shape>
+  bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed) noexcept;
+  /// Changes with every edit, and is equal after equal edits of equal teeth.
+  [[nodiscard]] std::uint64_t edit_hash() const noexcept { return edit_hash_; }
+
+  /// Leaves of each tissue (index = id); air is not counted.
+  [[nodiscard]] std::array<std::uint64_t, 256> count_leaves() const;
+  /// Calls `visit(low_leaf, edge, tissue)` for every uniform cube (edge 1 for single leaves), air left out.
+  template <class Visit>
+  void for_each_cube(const Visit& visit) const;
+  [[nodiscard]] TissueGrid to_grid() const;
+  /// Bytes in use (nodes, bricks), without spare room.
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+  /// Canonical bytes: the same leaves give the same bytes. Used by the tooth file, and hashed as `hash`.
+  void write(ByteWriter& out) const;
+  /// Reads what `write` wrote. Throws Error on damaged data.
+  [[nodiscard]] static Octree read(ByteReader& in, const std::vector<Tissue>& tissues);
+
+ private:
+  // A reference: two bits of kind above thirty bits of tissue or pool index.
+  static constexpr std::uint32_t k_uniform = 0u << 30, k_node = 1u << 30, k_label_brick = 2u << 30, k_full_brick = 3u << 30;
+  static constexpr std::uint32_t k_kind = 3u << 30, k_index = ~k_kind;
+  struct Node {
+    std::array<std::uint32_t, 8> child{};
+  };
+  struct LabelBrick {
+    std::array<std::uint8_t, k_brick_leaves> tissue;
+  };
+  struct FullBrick {
+    std::array<std::uint8_t, k_brick_leaves> tissue;
+    std::array<std::int8_t, k_brick_leaves> distance;
+  };
+  /// Pool with a free list; `items` never grows past its capacity during edits.
+  template <class T>
+  struct Pool {
+    std::vector<T> items;
+    std::vector<std::uint32_t> free;
+    [[nodiscard]] bool full() const noexcept { return free.empty() && items.size() == items.capacity(); }
+    [[nodiscard]] std::size_t used() const noexcept { return items.size() - free.size(); }
+    std::uint32_t add(const T& item) {
+      if (!free.empty()) {
+        const auto i = free.back();
+        free.pop_back();
+        items[i] = item;
+        return i;
+      }
+      items.push_back(item);
+      return static_cast<std::uint32_t>(items.size() - 1);
+    }
+    void release(std::uint32_t i) { free.push_back(i); }
+    void reserve(std::size_t more) {
+      items.reserve(items.size() + more);
+      free.reserve(items.capacity());
+    }
+  };
+  struct Edit;  // what a carve carries down the tree
+
+  [[nodiscard]] static constexpr int leaf_in_brick(IVec3 l) noexcept { return (l.x & 3) | (l.y & 3) << 2 | (l.z & 3) << 4; }
+  [[nodiscard]] int uniform_code(std::uint8_t tissue) const noexcept { return solid_[tissue] ? -k_distance_far : k_distance_far; }
+  [[nodiscard]] std::uint32_t find(IVec3 brick) const noexcept;
+  [[nodiscard]] std::uint32_t find(IVec3 brick, Cursor& cursor) const noexcept;
+  [[nodiscard]] int code_in(std::uint32_t ref, int leaf) const noexcept;
+  [[nodiscard]] std::uint8_t tissue_in(std::uint32_t ref, int leaf) const noexcept;
+  std::uint32_t build(const TissueGrid& grid, IVec3 low, int level);
+  [[nodiscard]] bool clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high) const noexcept;
+  template <class Visit>
+  void visit_cubes(std::uint32_t ref, int level, IVec3 low, const Visit& visit) const;
+  template <class Shape>
+  void carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& shape, Edit& edit) noexcept;
+  template <class Shape>
+  void carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit& edit) noexcept;
+  void write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue, ByteWriter& distance) const;
+  std::uint32_t read_ref(ByteReader& shape, ByteReader& tissue, ByteReader& distance, int level);
+  [[nodiscard]] std::uint32_t canonical(const FullBrick& brick);
+  [[nodiscard]] IVec3 clamp_to_tree(Vec3 mm) const noexcept;
+
+  double leaf_mm_ = 0.05;
+  Vec3 origin_mm_;
+  IVec3 size_;
+  int levels_ = 0;  // a root of 4·2^levels leaves
+  std::array<bool, 256> solid_{};
+  std::uint32_t root_ = k_uniform | k_air;
+  Pool<Node> nodes_;
+  Pool<LabelBrick> labels_;
+  Pool<FullBrick> bricks_;
+  std::uint64_t edit_hash_ = 0;
+  std::uint64_t version_ = 0;  // of the structure; tells cursors to look again
+};
+
+}  // namespace cavum
+
+#include "engine/tooth/octree_edit.h"

@@ -1,0 +1,137 @@
+// Templates of the octree: carving by a shape and visiting cubes. Included by octree.h only.
+#pragma once
+
+#include "engine/base/hash.h"
+#include "engine/tooth/octree.h"
+
+namespace cavum {
+
+struct Octree::Edit {
+  IVec3 low, high;  // leaves that may change, inclusive
+  std::vector<RemovedLeaf>& removed;
+  double band_mm;
+  bool complete = true;
+};
+
+template <class Shape>
+bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed) noexcept {
+  Edit edit{clamp_to_tree(low_mm), clamp_to_tree(high_mm), removed, k_distance_band_leaves * leaf_mm_};
+  carve_in(root_, levels_, {0, 0, 0}, shape, edit);
+  return edit.complete;
+}
+
+template <class Shape>
+void Octree::carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& shape, Edit& edit) noexcept {
+  if (ref == (k_uniform | k_air) || !edit.complete) return;
+  const int edge = k_brick_edge << level;
+  if (low.x > edit.high.x || low.y > edit.high.y || low.z > edit.high.z) return;
+  if (low.x + edge <= edit.low.x || low.y + edge <= edit.low.y || low.z + edge <= edit.low.z) return;
+  // The shape's distance changes by at most 1 mm per mm: the centre speaks for the whole cube.
+  const double half_mm = 0.5 * edge * leaf_mm_;
+  const Vec3 middle = origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
+  if (shape(middle) > half_mm * 1.7320508075688773 + edit.band_mm) return;
+  if (level == 0) {
+    carve_brick(ref, low, shape, edit);
+    return;
+  }
+  if ((ref & k_kind) == k_uniform) {
+    if (nodes_.full()) {
+      edit.complete = false;
+      return;
+    }
+    Node split;
+    split.child.fill(ref);
+    ref = k_node | nodes_.add(split);
+    ++version_;
+  }
+  const std::uint32_t node = ref & k_index;
+  const int half = edge / 2;
+  bool all_equal = true;
+  for (int i = 0; i < 8; ++i) {
+    std::uint32_t child = nodes_.items[node].child[static_cast<std::size_t>(i)];
+    carve_in(child, level - 1, low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, shape, edit);
+    nodes_.items[node].child[static_cast<std::size_t>(i)] = child;
+    all_equal = all_equal && (child & k_kind) == k_uniform && child == nodes_.items[node].child[0];
+  }
+  if (all_equal) {
+    ref = nodes_.items[node].child[0];
+    nodes_.release(node);
+    ++version_;
+  }
+}
+
+template <class Shape>
+void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit& edit) noexcept {
+  FullBrick brick;
+  for (std::size_t i = 0; i < k_brick_leaves; ++i) {
+    brick.tissue[i] = tissue_in(ref, static_cast<int>(i));
+    brick.distance[i] = static_cast<std::int8_t>(code_in(ref, static_cast<int>(i)));
+  }
+  if (bricks_.full() || labels_.full() || edit.removed.capacity() - edit.removed.size() < k_brick_leaves) {
+    edit.complete = false;
+    return;
+  }
+  bool changed = false;
+  std::size_t i = 0;
+  for (int z = 0; z < 4; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x, ++i) {
+        if (brick.tissue[i] == k_air && brick.distance[i] == k_distance_far) continue;
+        const IVec3 leaf = low + IVec3{x, y, z};
+        const double tool_mm = shape(centre_mm(leaf));
+        const bool removed = tool_mm < 0.0 && brick.tissue[i] != k_air;
+        int code = std::max<int>(brick.distance[i], encode_distance(-tool_mm / leaf_mm_));
+        if (removed) {
+          edit.removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
+          brick.tissue[i] = k_air;
+        }
+        code = solid_[brick.tissue[i]] ? std::min(code, -1) : std::max(code, 1);
+        changed = changed || removed || code != brick.distance[i];
+        brick.distance[i] = static_cast<std::int8_t>(code);
+      }
+  if (!changed) return;
+  const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
+  edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
+  if ((ref & k_kind) == k_full_brick) {
+    FullBrick& mine = bricks_.items[ref & k_index];
+    bool empty = true;
+    for (std::size_t j = 0; j < k_brick_leaves && empty; ++j) empty = brick.tissue[j] == k_air && brick.distance[j] == k_distance_far;
+    if (!empty) {
+      mine = brick;
+      return;
+    }
+    bricks_.release(ref & k_index);
+    ref = k_uniform | k_air;
+  } else {
+    if ((ref & k_kind) == k_label_brick) labels_.release(ref & k_index);
+    ref = canonical(brick);
+  }
+  ++version_;
+}
+
+template <class Visit>
+void Octree::for_each_cube(const Visit& visit) const {
+  visit_cubes(root_, levels_, {0, 0, 0}, visit);
+}
+
+template <class Visit>
+void Octree::visit_cubes(std::uint32_t ref, int level, IVec3 low, const Visit& visit) const {
+  const int edge = k_brick_edge << level;
+  if ((ref & k_kind) == k_uniform) {
+    if ((ref & k_index) != k_air) visit(low, edge, static_cast<std::uint8_t>(ref & k_index));
+    return;
+  }
+  if ((ref & k_kind) == k_node) {
+    const int half = edge / 2;
+    for (int i = 0; i < 8; ++i)
+      visit_cubes(nodes_.items[ref & k_index].child[static_cast<std::size_t>(i)], level - 1,
+                  low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, visit);
+    return;
+  }
+  for (int i = 0; i < k_brick_leaves; ++i) {
+    const auto t = tissue_in(ref, i);
+    if (t != k_air) visit(low + IVec3{i & 3, i >> 2 & 3, i >> 4}, 1, t);
+  }
+}
+
+}  // namespace cavum

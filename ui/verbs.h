@@ -1,0 +1,15 @@
+// The verbs of the command line. Each family adds its own subcommands; a verb that runs stores its exit
+// code: 0 done, 1 done and the answer is no. Unusable input is thrown as Error and ends with 2.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace cavum {
+
+void add_tooth_verbs(CLI::App& app, int& exit_code);
+void add_scenario_verbs(CLI::App& app, int& exit_code);
+void add_exam_verbs(CLI::App& app, int& exit_code);
+void add_replay_verbs(CLI::App& app, int& exit_code);
+void add_grade_verbs(CLI::App& app, int& exit_code);
+
+}  // namespace cavum
