@@ -3,8 +3,8 @@
 // inputs give the same bits on every machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,8 +37,7 @@ struct ServoModel {
   ServoConfig config;
   ForceModel force;
   std::vector<ContactTool> tray;                    ///< diamond points ready for contact
-  std::array<Viscoelastic, 256> material{};         ///< by tissue id
-  std::array<double, 256> recession_per_s{};        ///< 1/τ by tissue id, 0 for void tissues
+  std::array<TissueConstants, 256> tissue{};        ///< by tissue id
 };
 /// Throws Error when a solid tissue has no material in the force model or the tray is empty.
 [[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force,
@@ -52,9 +51,9 @@ struct ServoState {
   RenderState render;
   SafetyState safety;
   Vec3 last_tip_mm;
-  double speed_mm_s = 0.0;         ///< approach speed, for the model force
   double rpm = 0.0;
-  double recession_mm = 0.0;       ///< surface receded but not yet carved
+  double recession_mm = 0.0;       ///< surface receded along the contact but not yet carved
+  double swept_mm = 0.0;           ///< way of the head since the last carve
   std::uint64_t trace_hash = 0;    ///< over every output so far
   std::vector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "engine/base/pose.h"
+#include "engine/force/notices.h"
 #include "engine/tooth/octree.h"
 
 namespace cavum {
@@ -44,18 +45,6 @@ struct TickInput {
 /// gives `previous` with k_stylus_fault and without k_stylus_fresh; a pedal outside 0..1 or NaN is unknown.
 [[nodiscard]] TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t point,
                                         const TickInput& previous) noexcept;
-
-/// What went wrong or stepped in during a tick, as bits of TickOutput::notices.
-enum TickNotice : std::uint16_t {
-  k_notice_stale_stylus = 1,    ///< no fresh pose for more than 5 ms: force is faded out
-  k_notice_no_pedal = 2,        ///< pedal unknown: handpiece off
-  k_notice_force_clamped = 4,   ///< the rendered force met the device's peak
-  k_notice_slew_limited = 8,
-  k_notice_force_budget = 16,   ///< sustained force above the continuous rating: reduced to it
-  k_notice_not_finite = 32,     ///< a value was not finite: force set to zero
-  k_notice_tooth_full = 64,     ///< no room left to record a carve: nothing was removed in this tick
-  k_notice_bad_point = 128,     ///< no such diamond point in the tray: handpiece off, no contact
-};
 
 /// The result of one tick. `removed` lists the leaves turned to air in this tick.
 struct TickOutput {

@@ -139,6 +139,16 @@ std::uint8_t Octree::tissue_in(std::uint32_t ref, int leaf) const noexcept {
   }
 }
 
+Octree::FullBrick Octree::expanded(std::uint32_t ref) const noexcept {
+  if ((ref & k_kind) == k_full_brick) return bricks_.items[ref & k_index];
+  FullBrick brick;
+  for (std::size_t i = 0; i < k_brick_leaves; ++i) {
+    brick.tissue[i] = tissue_in(ref, static_cast<int>(i));
+    brick.distance[i] = static_cast<std::int8_t>(uniform_code(brick.tissue[i]));
+  }
+  return brick;
+}
+
 std::uint8_t Octree::tissue(IVec3 leaf) const noexcept {
   return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf));
 }
@@ -158,18 +168,22 @@ SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
   const Vec3 floor_p{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
   const IVec3 low{static_cast<std::int32_t>(floor_p.x), static_cast<std::int32_t>(floor_p.y), static_cast<std::int32_t>(floor_p.z)};
   const double fx = p.x - floor_p.x, fy = p.y - floor_p.y, fz = p.z - floor_p.z;
+  // Eight corners out of one to eight bricks: each brick is looked up once.
   int c[8];
-  if ((low.x & 3) != 3 && (low.y & 3) != 3 && (low.z & 3) != 3) {
-    const auto ref = find({low.x >> 2, low.y >> 2, low.z >> 2}, cursor);
-    if ((ref & k_kind) == k_uniform) return {decode_distance(uniform_code(static_cast<std::uint8_t>(ref & k_index))) * leaf_mm_, {}};
-    const int base = leaf_in_brick(low);
-    for (int i = 0; i < 8; ++i) c[i] = code_in(ref, base + (i & 1) + ((i >> 1 & 1) << 2) + ((i >> 2) << 4));
-  } else {
-    for (int i = 0; i < 8; ++i) {
-      const IVec3 l = low + IVec3{i & 1, i >> 1 & 1, i >> 2};
-      c[i] = code_in(find({l.x >> 2, l.y >> 2, l.z >> 2}, cursor), leaf_in_brick(l));
-    }
-  }
+  const int step_x = (low.x & 3) == 3, step_y = (low.y & 3) == 3, step_z = (low.z & 3) == 3;  // does an axis cross into the next brick?
+  for (int bz = 0; bz <= step_z; ++bz)
+    for (int by = 0; by <= step_y; ++by)
+      for (int bx = 0; bx <= step_x; ++bx) {
+        const auto ref = find({(low.x >> 2) + bx, (low.y >> 2) + by, (low.z >> 2) + bz}, cursor);
+        const bool full = (ref & k_kind) == k_full_brick;
+        const std::int8_t* codes = full ? bricks_.items[ref & k_index].distance.data() : nullptr;
+        for (int i = 0; i < 8; ++i) {
+          const int ix = i & 1, iy = i >> 1 & 1, iz = i >> 2;
+          if ((step_x && ix != bx) || (step_y && iy != by) || (step_z && iz != bz)) continue;
+          const int leaf = leaf_in_brick(low + IVec3{ix, iy, iz});
+          c[i] = full ? codes[leaf] : code_in(ref, leaf);
+        }
+      }
   const double gx = 1 - fx, gy = 1 - fy, gz = 1 - fz;
   // along x first, then y, then z; the gradient falls out of the same differences
   const double e00 = c[0] * gx + c[1] * fx, e10 = c[2] * gx + c[3] * fx, e01 = c[4] * gx + c[5] * fx, e11 = c[6] * gx + c[7] * fx;

@@ -89,9 +89,11 @@ class Octree {
   /// Removes what lies inside a shape: `shape(mm)` is its signed distance, mm, negative inside, never
   /// changing faster than 1 mm per mm. Only leaves in the box are looked at; the box must hold the shape
   /// and two leaves around it. Removed leaves are appended to `removed` up to its capacity, in a fixed order.
+  /// The distance field is cut wider by `clearance_mm` than the labels: what interpolation between leaves rounds off
+  /// would otherwise clamp a tool in the very hole it has cut.
   /// Returns false, and leaves the rest untouched, when the reserved room or `removed` is full.
   template <class Shape>
-  bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed) noexcept;
+  bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm = 0.0) noexcept;
   /// Changes with every edit, and is equal after equal edits of equal teeth.
   [[nodiscard]] std::uint64_t edit_hash() const noexcept { return edit_hash_; }
 
@@ -153,6 +155,7 @@ class Octree {
   [[nodiscard]] std::uint32_t find(IVec3 brick) const noexcept;
   [[nodiscard]] std::uint32_t find(IVec3 brick, Cursor& cursor) const noexcept;
   [[nodiscard]] int code_in(std::uint32_t ref, int leaf) const noexcept;
+  [[nodiscard]] FullBrick expanded(std::uint32_t ref) const noexcept;
   [[nodiscard]] std::uint8_t tissue_in(std::uint32_t ref, int leaf) const noexcept;
   std::uint32_t build(const TissueGrid& grid, IVec3 low, int level);
   [[nodiscard]] bool clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high) const noexcept;

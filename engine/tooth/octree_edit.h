@@ -9,13 +9,13 @@ namespace cavum {
 struct Octree::Edit {
   IVec3 low, high;  // leaves that may change, inclusive
   std::vector<RemovedLeaf>& removed;
-  double band_mm;
+  double clearance_mm, band_mm;
   bool complete = true;
 };
 
 template <class Shape>
-bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed) noexcept {
-  Edit edit{clamp_to_tree(low_mm), clamp_to_tree(high_mm), removed, k_distance_band_leaves * leaf_mm_};
+bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm) noexcept {
+  Edit edit{clamp_to_tree(low_mm), clamp_to_tree(high_mm), removed, clearance_mm, k_distance_band_leaves * leaf_mm_ + clearance_mm};
   carve_in(root_, levels_, {0, 0, 0}, shape, edit);
   return edit.complete;
 }
@@ -62,33 +62,34 @@ void Octree::carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& sha
 
 template <class Shape>
 void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit& edit) noexcept {
-  FullBrick brick;
-  for (std::size_t i = 0; i < k_brick_leaves; ++i) {
-    brick.tissue[i] = tissue_in(ref, static_cast<int>(i));
-    brick.distance[i] = static_cast<std::int8_t>(code_in(ref, static_cast<int>(i)));
-  }
   if (bricks_.full() || labels_.full() || edit.removed.capacity() - edit.removed.size() < k_brick_leaves) {
     edit.complete = false;
     return;
   }
+  FullBrick brick = expanded(ref);
   bool changed = false;
-  std::size_t i = 0;
-  for (int z = 0; z < 4; ++z)
-    for (int y = 0; y < 4; ++y)
-      for (int x = 0; x < 4; ++x, ++i) {
-        if (brick.tissue[i] == k_air && brick.distance[i] == k_distance_far) continue;
-        const IVec3 leaf = low + IVec3{x, y, z};
-        const double tool_mm = shape(centre_mm(leaf));
-        const bool removed = tool_mm < 0.0 && brick.tissue[i] != k_air;
-        int code = std::max<int>(brick.distance[i], encode_distance(-tool_mm / leaf_mm_));
-        if (removed) {
-          edit.removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
-          brick.tissue[i] = k_air;
-        }
-        code = solid_[brick.tissue[i]] ? std::min(code, -1) : std::max(code, 1);
-        changed = changed || removed || code != brick.distance[i];
-        brick.distance[i] = static_cast<std::int8_t>(code);
+  // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
+  const double skip_mm = leaf_mm_ * 0.8660254037844387 + edit.band_mm;
+  for (int block = 0; block < 8; ++block) {
+    const IVec3 corner{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2};
+    const IVec3 at = low + corner;
+    if (shape(origin_mm_ + Vec3{at.x + 1.0, at.y + 1.0, at.z + 1.0} * leaf_mm_) > skip_mm) continue;
+    for (int inner = 0; inner < 8; ++inner) {
+      const IVec3 leaf = at + IVec3{inner & 1, inner >> 1 & 1, inner >> 2};
+      const auto i = static_cast<std::size_t>(leaf_in_brick(leaf));
+      if (brick.tissue[i] == k_air && brick.distance[i] == k_distance_far) continue;
+      const double tool_mm = shape(centre_mm(leaf));
+      const bool removed = tool_mm < 0.0 && brick.tissue[i] != k_air;
+      int code = std::max<int>(brick.distance[i], encode_distance((edit.clearance_mm - tool_mm) / leaf_mm_));
+      if (removed) {
+        edit.removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
+        brick.tissue[i] = k_air;
       }
+      code = solid_[brick.tissue[i]] ? std::min(code, -1) : std::max(code, 1);
+      changed = changed || removed || code != brick.distance[i];
+      brick.distance[i] = static_cast<std::int8_t>(code);
+    }
+  }
   if (!changed) return;
   const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
   edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);

@@ -1,0 +1,83 @@
+#include "engine/base/toml_reader.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace cavum {
+namespace {
+
+std::string place(const std::string& where, const toml::source_region& source) {
+  return where + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
+}
+
+std::string plain(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+}  // namespace
+
+toml::table parse_toml(const std::string& text, const std::string& where) {
+  try {
+    return toml::parse(text, where);
+  } catch (const toml::parse_error& e) {
+    throw Error(place(where, e.source()), std::string(e.description()), "correct the TOML at this place");
+  }
+}
+
+const toml::node* TomlReader::find(std::string_view key) {
+  known_.emplace(key);
+  return table_.get(key);
+}
+
+void TomlReader::fail(std::string_view key, const std::string& what, const std::string& todo) const {
+  const toml::node* node = table_.get(key);
+  throw Error(place(where_, node != nullptr ? node->source() : table_.source()), "'" + std::string(key) + "' " + what, todo);
+}
+
+double TomlReader::number(std::string_view key, double low, double high) {
+  const toml::node* node = find(key);
+  if (node == nullptr) fail(key, "is missing", "add it");
+  const auto value = node->value<double>();
+  if (!value || !node->is_number()) fail(key, "is not a number", "write a number");
+  if (!(*value >= low && *value <= high))
+    fail(key, "is " + plain(*value) + ", outside " + plain(low) + " .. " + plain(high), "choose a value in that range");
+  return *value;
+}
+
+double TomlReader::number_or(std::string_view key, double low, double high, double otherwise) {
+  return find(key) == nullptr ? otherwise : number(key, low, high);
+}
+
+std::string TomlReader::text(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) fail(key, "is missing", "add it");
+  const auto value = node->value<std::string>();
+  if (!value) fail(key, "is not text", "write it in quotes");
+  return *value;
+}
+
+std::string TomlReader::text_or(std::string_view key, const std::string& otherwise) { return find(key) == nullptr ? otherwise : text(key); }
+
+const toml::table* TomlReader::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return nullptr;
+  if (!node->is_table()) fail(key, "is not a table", "write [" + std::string(key) + "]");
+  return node->as_table();
+}
+
+const toml::array* TomlReader::array(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return nullptr;
+  if (!node->is_array()) fail(key, "is not a list", "write [ ... ]");
+  return node->as_array();
+}
+
+void TomlReader::finish() const {
+  for (const auto& [key, node] : table_)
+    if (!known_.contains(key.str()))
+      throw Error(place(where_, node.source()), "'" + std::string(key.str()) + "' is not known here", "remove it or correct its spelling");
+}
+
+}  // namespace cavum

@@ -1,0 +1,78 @@
+#include "engine/contact/contact_tool.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/det_math.h"
+
+namespace cavum {
+namespace {
+
+/// Samples of the part between two heights, one for each `spacing²` of area, along a golden-angle spiral.
+void spread(const Profile& profile, double low_z, double high_z, double spacing, std::vector<ToolSample>& out) {
+  struct Ring {
+    Profile::SurfacePoint place;
+    double area, until;
+  };
+  constexpr double k_step = 0.004;
+  std::vector<Ring> rings;
+  double total = 0;
+  const auto places = profile.walk(k_step, high_z);
+  ProfilePoint before;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& p = places[i];
+    const ProfilePoint next = i + 1 < places.size() ? places[i + 1].at : p.at;
+    const double dr = 0.5 * (next.r_mm - before.r_mm), dz = 0.5 * (next.z_mm - before.z_mm);
+    before = p.at;
+    if (p.at.z_mm < low_z) continue;
+    const double area = 2 * k_pi * p.at.r_mm * std::sqrt(dr * dr + dz * dz);
+    total += area;
+    rings.push_back({p, area, total});
+  }
+  const int n = std::max(8, static_cast<int>(total / (spacing * spacing)));
+  const double golden_rad = k_pi * (3.0 - std::sqrt(5.0));
+  std::size_t ring = 0;
+  for (int i = 0; i < n; ++i) {
+    const double area = total * (i + 0.5) / n;
+    while (ring + 1 < rings.size() && rings[ring].until < area) ++ring;
+    const auto& p = rings[ring].place;
+    const auto turn = det_sincos(i * golden_rad);
+    out.push_back({{p.at.r_mm * turn.cos, p.at.r_mm * turn.sin, p.at.z_mm}, {p.normal.r_mm * turn.cos, p.normal.r_mm * turn.sin, p.normal.z_mm}, total / n});
+  }
+}
+
+/// Groups samples [first, end) into cubes of `edge`, each a patch.
+void group(ContactTool& tool, std::size_t first, double edge) {
+  const auto cell = [edge](const ToolSample& s) {
+    return IVec3{static_cast<int>(std::floor(s.at_mm.x / edge)), static_cast<int>(std::floor(s.at_mm.y / edge)), static_cast<int>(std::floor(s.at_mm.z / edge))};
+  };
+  std::stable_sort(tool.samples.begin() + static_cast<std::ptrdiff_t>(first), tool.samples.end(),
+                   [&](const ToolSample& a, const ToolSample& b) { return cell(a) < cell(b); });
+  for (std::size_t i = first; i < tool.samples.size();) {
+    std::size_t j = i;
+    Vec3 sum;
+    while (j < tool.samples.size() && cell(tool.samples[j]) == cell(tool.samples[i])) sum += tool.samples[j++].at_mm;
+    ToolPatch patch{sum / static_cast<double>(j - i), 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
+    for (std::size_t s = i; s < j; ++s) patch.radius_mm = std::max(patch.radius_mm, length(tool.samples[s].at_mm - patch.centre_mm));
+    tool.patches.push_back(patch);
+    i = j;
+  }
+}
+
+}  // namespace
+
+ContactTool make_contact_tool(const DiamondPoint& point, double head_spacing_mm) {
+  ContactTool tool;
+  tool.point = point;
+  spread(point.profile, 0, point.cutting_length_mm, head_spacing_mm, tool.samples);
+  tool.samples.push_back({{0, 0, 0}, {0, 0, -1}, 0.0});  // the very tip, without weight
+  group(tool, 0, 0.4);
+  tool.head_patches = static_cast<std::uint32_t>(tool.patches.size());
+  const auto head = tool.samples.size();
+  spread(point.profile, point.cutting_length_mm, std::min(point.profile.length_mm(), 16.0), 3 * head_spacing_mm, tool.samples);
+  group(tool, head, 1.2);
+  for (const auto& s : tool.samples) tool.reach_mm = std::max(tool.reach_mm, length(s.at_mm));
+  return tool;
+}
+
+}  // namespace cavum

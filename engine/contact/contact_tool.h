@@ -1,0 +1,37 @@
+// A diamond point made ready for contact: its whole surface (head, neck, shank) as weighted samples in
+// small patches, so that patches in free air cost nothing.
+#pragma once
+
+#include <vector>
+
+#include "engine/instrument/diamond_point.h"
+
+namespace cavum {
+
+/// A place on the surface in the tool frame.
+struct ToolSample {
+  Vec3 at_mm;
+  Vec3 normal;           ///< unit, outwards
+  double area_mm2 = 0;   ///< of the surface it stands for
+};
+
+/// Neighbouring samples with a ball around them.
+struct ToolPatch {
+  Vec3 centre_mm;
+  double radius_mm = 0;
+  std::uint32_t first = 0, last = 0;  ///< samples [first, last)
+};
+
+struct ContactTool {
+  DiamondPoint point;
+  std::vector<ToolSample> samples;
+  std::vector<ToolPatch> patches;
+  std::uint32_t head_patches = 0;  ///< the first patches are the coated head
+  double reach_mm = 0;             ///< furthest sample from the tip
+};
+
+/// Spreads samples at about `head_spacing_mm` over the coated head and three times that elsewhere. Each
+/// sample sits at a height of its own, so that no ring of them crosses a border in the same tick.
+[[nodiscard]] ContactTool make_contact_tool(const DiamondPoint& point, double head_spacing_mm = 0.09);
+
+}  // namespace cavum

@@ -1,0 +1,26 @@
+// The small quadratic program of the proxy: the step nearest to the wanted one that keeps to every
+// half space. Exact for three dimensions, deterministic, without allocation.
+#pragma once
+
+#include <span>
+
+#include "engine/base/vec.h"
+
+namespace cavum {
+
+/// Steps s with normal·s >= -slack_mm are allowed (normal about unit length).
+struct HalfSpace {
+  Vec3 normal;
+  double slack_mm = 0.0;
+};
+
+struct HalfSpaceSolution {
+  Vec3 step;
+  bool feasible = true;  ///< false when the half spaces exclude one another: `step` then breaks them least as found
+};
+
+/// argmin |s - wanted| over all allowed s. Active-set method: the most violated half space enters, at
+/// most three stay (their KKT conditions are solved exactly); the objective grows with each round.
+[[nodiscard]] HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces) noexcept;
+
+}  // namespace cavum

@@ -1,0 +1,41 @@
+#include "engine/force/force_model.h"
+
+#include "engine/base/toml_reader.h"
+
+namespace cavum {
+
+ForceModel parse_force_model(const std::string& text, const std::string& where) {
+  const toml::table document = parse_toml(text, where);
+  TomlReader in(document, where);
+  ForceModel model;
+  model.name = in.text("name");
+  if (const auto* t = in.table("cutting")) {
+    TomlReader cutting(*t, where);
+    model.rpm_ref = cutting.number("rpm_ref", 1, 1e6);
+    cutting.finish();
+  } else {
+    in.fail("cutting", "is missing", "add [cutting] with rpm_ref");
+  }
+  if (const auto* t = in.table("rendering")) {
+    TomlReader r(*t, where);
+    model.rendering.kvc_n_per_mm = r.number("kvc_n_per_mm", 0, 10);
+    model.rendering.filtered_damping_n_s_per_mm = r.number("filtered_damping_n_s_per_mm", 0, 1);
+    model.rendering.speed_filter_s = r.number("speed_filter_s", 0, 1);
+    r.finish();
+  }
+  const auto* materials = in.table("materials");
+  if (materials == nullptr) in.fail("materials", "is missing", "add [materials.NAME] for each tissue");
+  for (const auto& [name, node] : *materials) {
+    if (!node.is_table()) in.fail("materials", "holds '" + std::string(name.str()) + "', which is not a table", "write [materials.NAME]");
+    TomlReader m(*node.as_table(), where);
+    Material material;
+    material.voigt = {m.number("k_n_per_mm", 0, 100), m.number("c_n_s_per_mm", 0, 100)};
+    material.tau_s = m.number_or("tau_s", 0, 1e6, 0);
+    m.finish();
+    model.materials.emplace(name.str(), material);
+  }
+  in.finish();
+  return model;
+}
+
+}  // namespace cavum

@@ -1,0 +1,29 @@
+// From the model force to one that a sampled device can render. Explicit c·V at 1 kHz is unstable for
+// the paper's c (PHYSICS.md section 3); so k·X stands in parallel to a Maxwell branch, which equals the
+// Voigt law at rest and at constant speed, and stays passive in between.
+#pragma once
+
+#include "engine/force/voigt.h"
+
+namespace cavum {
+
+/// Source of the defaults: PHYSICS.md section 3, force sd 0.008-0.018 N in a closed-loop press.
+struct RenderingModel {
+  double kvc_n_per_mm = 0.7;                    ///< spring of the Maxwell branch
+  double filtered_damping_n_s_per_mm = 0.002;   ///< on the filtered speed, for the device's own ringing
+  double speed_filter_s = 0.005;                ///< time constant of the speed estimate
+};
+
+struct RenderState {
+  double branch_n = 0.0;    ///< z, force of the Maxwell branch
+  double speed_mm_s = 0.0;  ///< filtered approach speed, positive = deeper
+};
+
+/// Filtered approach speed after the tip moved `approach_mm` deeper in a tick of `dt_s`; 0 out of contact.
+void update_speed(const RenderingModel& model, RenderState& state, bool touching, double approach_mm, double dt_s) noexcept;
+
+/// Rendered force, N, never pulling: F = k·X + z + b·V, z' = Kvc·V − (Kvc/c)·z integrated implicitly.
+[[nodiscard]] double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm,
+                                    double approach_mm, double dt_s) noexcept;
+
+}  // namespace cavum

@@ -1,0 +1,43 @@
+#include "engine/instrument/diamond_point.h"
+
+#include "engine/base/toml_reader.h"
+
+namespace cavum {
+
+DiamondPoint parse_diamond_point(const std::string& text, const std::string& where) {
+  const toml::table document = parse_toml(text, where);
+  TomlReader in(document, where);
+  DiamondPoint point;
+  point.name = in.text("name");
+  point.title = in.text("title");
+  point.cutting_length_mm = in.number("cutting_length_mm", 0.1, 20);
+  const toml::array* pieces = in.array("profile");
+  if (pieces == nullptr) in.fail("profile", "is missing", "list {r_mm, z_mm} from the tip upwards");
+  std::vector<ProfileSegment> segments;
+  for (const auto& node : *pieces) {
+    if (!node.is_table()) in.fail("profile", "has an entry that is not a table", "write {r_mm = .., z_mm = ..}");
+    TomlReader piece(*node.as_table(), where);
+    ProfileSegment s;
+    s.end = {piece.number("r_mm", 0, 5), piece.number("z_mm", 0, 60)};
+    if (const toml::array* c = piece.array("centre")) {
+      const auto r = c->size() == 2 ? c->get(0)->value<double>() : std::nullopt;
+      const auto z = c->size() == 2 ? c->get(1)->value<double>() : std::nullopt;
+      if (!r || !z) piece.fail("centre", "is not [r, z]", "give two numbers in mm");
+      s.arc = true;
+      s.centre = {*r, *z};
+    }
+    piece.finish();
+    segments.push_back(s);
+  }
+  in.finish();
+  try {
+    point.profile = Profile(std::move(segments));
+  } catch (const Error& e) {
+    throw Error(where, e.what(), "correct the profile");
+  }
+  point.head = point.profile.below(point.cutting_length_mm);
+  point.head_radius_mm = point.profile.largest_radius_mm(point.cutting_length_mm);
+  return point;
+}
+
+}  // namespace cavum

@@ -1,0 +1,185 @@
+#include "engine/servo/servo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/cutting/carve_head.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_carve_step_leaves = 1.0 / 8;  // recession is gathered up to this before the octree is edited
+constexpr double k_sweep_step_leaves = 0.25;      // way through void tissue between two carves
+constexpr double k_still_share = 0.01;            // of the full speed: below it the handpiece stands still
+constexpr std::size_t k_edit_room = 1 << 17;      // bricks; untouched room costs no memory
+constexpr std::size_t k_removed_room = 1 << 16;   // leaves a tick
+
+std::int32_t to_whole(double value) noexcept {
+  if (!(value > -2147483647.0)) return -2147483647;
+  if (!(value < 2147483647.0)) return 2147483647;
+  return static_cast<std::int32_t>(std::floor(value + 0.5));
+}
+
+/// Speed of the handpiece after this tick; without a known pedal it stops at once.
+double next_rpm(const ServoConfig& config, double rpm, const TickInput& input) noexcept {
+  if ((input.flags & k_pedal_fresh) == 0) return 0.0;
+  constexpr double k_dead_travel = 0.02;
+  const double pedal = input.pedal();
+  const double wanted = pedal > k_dead_travel ? pedal * config.max_rpm : 0.0;
+  rpm += (wanted - rpm) * (config.tick_s / (config.spin_up_s + config.tick_s));
+  return wanted == 0.0 && rpm < k_still_share * config.max_rpm ? 0.0 : rpm;
+}
+
+/// Lets the surface recede and carves when enough has gathered.
+void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, const ContactResult& contact, const TouchedMeans& means,
+         double penetration_mm, TickOutput& out) noexcept {
+  const double leaf = state.tooth.leaf_mm();
+  bool carve = false;
+  if (means.touching) {
+    // v = X/τ · rpm/rpm_ref (PHYSICS.md section 2)
+    state.recession_mm += penetration_mm * means.of.recession_per_s * (state.rpm / model.force.rpm_ref) * model.config.tick_s;
+    state.recession_mm = std::min(state.recession_mm, leaf);
+    carve = state.recession_mm >= k_carve_step_leaves * leaf;
+    out.cutting = means.of.recession_per_s > 0;
+  }
+  state.swept_mm += length(contact.moved_mm);
+  if (means.void_tissue && state.swept_mm >= k_sweep_step_leaves * leaf) carve = true;
+  if (!carve) return;
+  const double ahead = means.touching ? std::max(0.0, state.recession_mm) : 0.0;
+  const Vec3 at = state.contact.proxy_mm - state.contact.normal * ahead;
+  if (!carve_head(state.tooth, tool.point, at, state.contact.rotation, state.removed)) out.notices |= k_notice_tooth_full;
+  state.swept_mm = 0.0;
+}
+
+}  // namespace
+
+TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t point, const TickInput& previous) noexcept {
+  TickInput in = previous;
+  in.flags = flags;
+  in.point = point;
+  constexpr double k_furthest_mm = 2000.0;
+  const Quat q = pose.rotation;
+  const double n2 = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  const Vec3 t = pose.tip_mm;
+  if (is_finite(t) && std::fabs(t.x) < k_furthest_mm && std::fabs(t.y) < k_furthest_mm && std::fabs(t.z) < k_furthest_mm && n2 > 0.25 && n2 < 4.0) {
+    in.tip_nm = {to_whole(t.x * 1e6), to_whole(t.y * 1e6), to_whole(t.z * 1e6)};
+    const Quat u = normalized(q);
+    constexpr double k_one = 1 << 30;
+    in.rotation_q30 = {to_whole(u.w * k_one), to_whole(u.x * k_one), to_whole(u.y * k_one), to_whole(u.z * k_one)};
+  } else {
+    in.flags = static_cast<std::uint16_t>((in.flags & ~k_stylus_fresh) | k_stylus_fault);
+  }
+  if (pedal >= 0.0 && pedal <= 1.0) {
+    in.pedal_q16 = static_cast<std::uint16_t>(pedal * 65535.0 + 0.5);
+  } else {
+    in.pedal_q16 = 0;
+    in.flags = static_cast<std::uint16_t>(in.flags & ~k_pedal_fresh);
+  }
+  return in;
+}
+
+TickRecord make_tick_record(const TickOutput& out) noexcept {
+  TickRecord r;
+  r.rendered_un = {to_whole(out.rendered_force_n.x * 1e6), to_whole(out.rendered_force_n.y * 1e6), to_whole(out.rendered_force_n.z * 1e6)};
+  r.model_un = to_whole(out.model_force_n * 1e6);
+  r.penetration_nm = to_whole(out.penetration_mm * 1e6);
+  r.proxy_nm = {to_whole(out.proxy_mm.x * 1e6), to_whole(out.proxy_mm.y * 1e6), to_whole(out.proxy_mm.z * 1e6)};
+  r.rpm = to_whole(out.rpm);
+  r.removed = out.removed_count;
+  r.notices = out.notices;
+  return r;
+}
+
+ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force, const ServoConfig& config) {
+  if (tray.empty() || tray.size() > 255) throw Error("tray", "holds " + std::to_string(tray.size()) + " diamond points", "allow between 1 and 255");
+  ServoModel model;
+  model.config = config;
+  model.force = force;
+  for (const auto& p : tray) model.tray.push_back(make_contact_tool(p));
+  for (const auto& t : tooth.tissues) {
+    const auto found = force.materials.find(t.name);
+    if (found == force.materials.end()) {
+      if (!t.solid) continue;  // a void without entry resists nothing
+      throw Error("force model '" + force.name + "'", "has no material for tissue '" + t.name + "'", "add [materials." + t.name + "]");
+    }
+    const Material& m = found->second;
+    if (t.solid && !(m.tau_s > 0)) throw Error("force model '" + force.name + "'", "has no tau_s for solid tissue '" + t.name + "'", "add tau_s");
+    model.tissue[t.id] = {m.voigt.stiffness_n_per_mm, m.voigt.damping_n_s_per_mm, t.solid ? 1.0 / m.tau_s : 0.0};
+  }
+  return model;
+}
+
+ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 first_tip_mm) {
+  ServoState state;
+  state.tooth = tooth.octree;
+  state.tooth.reserve_edits(k_edit_room);
+  state.contact = make_contact_state(model.tray, first_tip_mm);
+  state.last_tip_mm = first_tip_mm;
+  state.removed.reserve(k_removed_room);
+  return state;
+}
+
+TickOutput step(const ServoModel& model, ServoState& state, const TickInput& input) noexcept {
+  TickOutput out;
+  state.removed.clear();
+  const double dt = model.config.tick_s;
+  const bool fresh = (input.flags & k_stylus_fresh) != 0;
+  if ((input.flags & k_pedal_fresh) == 0) out.notices |= k_notice_no_pedal;
+  state.rpm = next_rpm(model.config, state.rpm, input);
+
+  double wanted_n = 0.0;
+  if (input.point < model.tray.size()) {
+    const ContactTool& tool = model.tray[input.point];
+    const Pose device = input.pose();
+    const bool was_touching = state.contact.touching;
+    const ContactResult contact = update_contact(state.tooth, tool, input.point, device, state.contact);
+    const TouchedMeans means =
+        contact.touching || state.rpm > 0 ? touched_means(state.tooth, tool, model.tissue.data(), state.contact) : TouchedMeans{};
+    // What the proxy advanced along the contact is paid from the recession that was owed; so the surface recedes
+    // at exactly v·dt, whatever the rounding of a single carve.
+    if (contact.touching && was_touching)
+      state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
+    else
+      state.recession_mm = 0.0;
+    const double approach_mm = contact.touching ? -dot(device.tip_mm - state.last_tip_mm, contact.normal) : 0.0;
+    const double penetration = contact.touching ? std::max(0.0, contact.penetration_mm - state.recession_mm) : 0.0;
+    const Viscoelastic tissue{means.of.stiffness_n_per_mm, means.of.damping_n_s_per_mm};
+    update_speed(model.force.rendering, state.render, contact.touching, approach_mm, dt);
+    out.model_force_n = voigt_force_n(tissue, penetration, state.render.speed_mm_s);
+    wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt);
+    if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, out);
+    state.last_tip_mm = device.tip_mm;
+    out.contact = contact.touching;
+    out.penetration_mm = penetration;
+    out.approach_mm_s = state.render.speed_mm_s;
+    out.stiffness_n_per_mm = tissue.stiffness_n_per_mm;
+    out.normal = contact.touching ? contact.normal : Vec3{};
+  } else {
+    out.notices |= k_notice_bad_point;
+    state.rpm = 0.0;
+  }
+  out.proxy_mm = state.contact.proxy_mm;
+  out.rpm = state.rpm;
+  out.removed_count = static_cast<std::uint32_t>(state.removed.size());
+  out.rendered_force_n = make_safe(model.config.limits, state.safety, out.normal * wanted_n, fresh, dt, out.notices);
+
+  ++state.tick;
+  const TickRecord record = make_tick_record(out);
+  state.trace_hash = fast_hash(record.rendered_un.data(), sizeof record.rendered_un, state.trace_hash);
+  const std::array<std::int64_t, 8> rest{record.model_un, record.penetration_nm, record.proxy_nm[0], record.proxy_nm[1],
+                                         record.proxy_nm[2], record.rpm, record.removed, record.notices};
+  state.trace_hash = fast_hash(rest.data(), sizeof rest, state.trace_hash);
+  return out;
+}
+
+std::uint64_t state_hash(const ServoState& s) noexcept {
+  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash()};
+  const std::array<double, 16> parts{s.contact.proxy_mm.x, s.contact.proxy_mm.y, s.contact.proxy_mm.z, s.contact.normal.x,   s.contact.normal.y, s.contact.normal.z,
+                                     s.render.branch_n,    s.render.speed_mm_s,  s.safety.force_n.x,   s.safety.force_n.y,   s.safety.force_n.z, s.safety.used_budget_n_s,
+                                     s.safety.silent_s,    s.rpm,                s.recession_mm,       s.swept_mm};
+  return fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version));
+}
+
+}  // namespace cavum

@@ -1,0 +1,96 @@
+#include "engine/session/chain_check.h"
+
+#include <algorithm>
+
+#include "engine/session/chain.h"
+#include "engine/session/station_key.h"
+
+namespace cavum {
+namespace {
+
+using Findings = std::vector<std::string>;
+
+/// Gathers the events of every chunk; one that belongs to none is a finding.
+std::vector<std::vector<EventRow>> events_by_chunk(const SessionReader& session, Findings& findings) {
+  std::vector<std::vector<EventRow>> by_chunk(session.chunks().size());
+  for (const auto& e : session.event_rows()) {
+    if (e.chunk >= 0 && e.chunk < static_cast<std::int64_t>(by_chunk.size()))
+      by_chunk[static_cast<std::size_t>(e.chunk)].push_back(e);
+    else
+      findings.push_back("table event, row " + std::to_string(e.seq) + " (tick " + std::to_string(e.event.tick) + "): belongs to no chunk");
+  }
+  return by_chunk;
+}
+
+std::string name_of(const ChunkRow& c) {
+  if (c.ticks == 0) return "chunk " + std::to_string(c.seq) + " (events at tick " + std::to_string(c.first_tick) + ")";
+  return "chunk " + std::to_string(c.seq) + " (ticks " + std::to_string(c.first_tick) + " to " + std::to_string(c.first_tick + c.ticks - 1) + ")";
+}
+
+void check_artifacts(const SessionReader& session, Findings& findings) {
+  for (const auto& a : session.artifacts())
+    if (sha256(a.bytes) != a.sha256) findings.push_back("table artifact: '" + a.name + "' was changed after it was recorded");
+  for (const char* name : {"scenario.toml", "start_tooth.cvt", "point_000.toml", "force_model.toml", "servo.toml"})
+    if (session.artifact(name) == nullptr) findings.push_back(std::string("table artifact: '") + name + "' is missing");
+}
+
+void check_chunks(const SessionReader& session, Findings& findings) {
+  Sha256 before = genesis_hash(session.meta(), session.artifacts());
+  const auto events = events_by_chunk(session, findings);
+  for (std::size_t i = 0; i < session.chunks().size(); ++i) {
+    const ChunkRow& c = session.chunks()[i];
+    const auto say = [&](const std::string& what) { findings.push_back(name_of(c) + ": " + what); };
+    if (c.prev_sha256 != before) {
+      if (i == 0)
+        findings.push_back("table meta or artifact: not what the chain of this session began with (a fact, a file or a hash was changed)");
+      else
+        say("does not follow the chunk before it (one of them was changed, moved or replaced)");
+    }
+    const auto part = [&](bool same, const std::string& what) {
+      if (!same) say(what + " changed after recording");
+      return same;
+    };
+    const bool same_inputs = part(sha256(c.inputs) == c.inputs_sha256, "its motion (inputs) was");
+    const bool same_records = part(sha256(c.records) == c.records_sha256, "its forces (records) were");
+    const bool same_removed = part(sha256(c.removed) == c.removed_sha256, "its removed leaves were");
+    const bool same_events = part(events_hash(events[i]) == c.events_sha256, "its events were");
+    if (chunk_hash(c) != c.sha256)
+      say(same_inputs && same_records && same_removed && same_events ? "its clocks, tick numbers, state hash or part hashes were changed after recording"
+                                                                     : "its link in the chain does not hold");
+    before = c.sha256;
+  }
+}
+
+void check_seal(const SessionReader& session, Findings& findings) {
+  const bool has_result = !session.result_json().empty(), has_tooth = session.artifact(k_final_tooth) != nullptr;
+  if (!session.seal()) {
+    if (has_result || has_tooth) findings.push_back("table seal: missing, though the session has a result or a final tooth");
+    return;
+  }
+  const Seal& seal = *session.seal();
+  const auto say = [&](bool holds, const std::string& what) {
+    if (!holds) findings.push_back(what);
+  };
+  const Sha256 end = session.chunks().empty() ? genesis_hash(session.meta(), session.artifacts()) : session.chunks().back().sha256;
+  say(is_signed_by(seal.public_key, seal_message(seal), seal.signature), "table seal: the signature does not hold (hash, count, clock or key was changed)");
+  say(seal.chain_sha256 == end, "table seal: the chain does not end where the session was closed");
+  say(seal.chunks == static_cast<std::int64_t>(session.chunks().size()), "table chunk: " + std::to_string(session.chunks().size()) +
+                                                                               " chunks, closed with " + std::to_string(seal.chunks));
+  say(seal.ticks == session.ticks(), "table chunk: " + std::to_string(session.ticks()) + " ticks, closed with " + std::to_string(seal.ticks));
+  say(seal.events == static_cast<std::int64_t>(session.event_rows().size()),
+      "table event: " + std::to_string(session.event_rows().size()) + " events, closed with " + std::to_string(seal.events));
+  say(has_result && sha256(session.result_json()) == seal.result_sha256, "table result: the result was changed or removed after closing");
+  say(has_tooth && sha256(session.final_tooth()) == seal.final_tooth_sha256, "table artifact: the final tooth was changed or removed after closing");
+}
+
+}  // namespace
+
+std::vector<std::string> check_chain(const SessionReader& session) {
+  Findings findings;
+  check_artifacts(session, findings);
+  check_chunks(session, findings);
+  check_seal(session, findings);
+  return findings;
+}
+
+}  // namespace cavum

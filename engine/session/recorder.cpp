@@ -1,0 +1,285 @@
+#include "engine/session/recorder.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "engine/servo/servo.h"
+#include "engine/session/chain.h"
+#include "engine/session/schema.h"
+
+namespace cavum {
+namespace {
+
+constexpr char k_insert_chunk[] = "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+constexpr char k_insert_event[] = "INSERT INTO event VALUES (?, ?, ?, ?, ?)";
+
+/// Leaves the transaction again unless it was committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+  ~Transaction() {
+    try {
+      if (database_.in_transaction()) database_.run("ROLLBACK");
+    } catch (const Error&) {  // SQLite has rolled back by itself
+    }
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit() { database_.run("COMMIT"); }
+
+ private:
+  Database& database_;
+};
+
+std::map<std::string, std::string> meta_of(const SessionSetup& setup) {
+  const Clocks now = read_clocks();
+  char tick[32];
+  std::snprintf(tick, sizeof tick, "%.17g", parse_servo_config(setup.servo_toml, "servo settings").tick_s);
+  std::map<std::string, std::string> meta{
+      {"format", std::to_string(k_session_format)},
+      {"engine_version", CAVUM_VERSION},
+      {"physics_version", std::to_string(k_physics_version)},
+      {"candidate", setup.candidate},
+      {"device", setup.device},
+      {"calibration", setup.calibration},
+      {"tick_s", tick},
+      {"first_tip_x_nm", std::to_string(setup.first_tip_nm[0])},
+      {"first_tip_y_nm", std::to_string(setup.first_tip_nm[1])},
+      {"first_tip_z_nm", std::to_string(setup.first_tip_nm[2])},
+      {"created_utc", utc_text(now.utc_ns)},
+      {"created_utc_ns", std::to_string(now.utc_ns)},
+      {"created_boot_ns", std::to_string(now.boot_ns)},
+      {"created_monotonic_ns", std::to_string(now.monotonic_ns)},
+      {"boot_id", boot_id()},
+  };
+  for (const auto& [key, value] : setup.notes) meta["note." + key] = value;
+  return meta;
+}
+
+void insert_artifact(Database& database, std::int64_t seq, const Artifact& a) {
+  Statement s = database.prepare("INSERT INTO artifact VALUES (?, ?, ?, ?, ?)");
+  s.bind(1, seq).bind(2, a.name).bind(3, a.sha256).bind(4, static_cast<std::int64_t>(a.bytes.size())).bind(5, a.bytes).run();
+}
+
+void write_setup(const std::string& path, const std::map<std::string, std::string>& meta, const std::vector<Artifact>& artifacts) {
+  Database database = Database::open(path, true);
+  // Small pages: a chunk fills its last page by half on average.
+  database.run("PRAGMA page_size = 1024; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
+  database.run(("PRAGMA application_id = " + std::to_string(k_session_application_id)).c_str());
+  database.run(("PRAGMA user_version = " + std::to_string(k_session_format)).c_str());
+  Transaction transaction(database);
+  for (const char* sql : k_session_schema) database.run(sql);
+  {
+    Statement insert = database.prepare("INSERT INTO meta VALUES (?, ?)");
+    for (const auto& [key, value] : meta) insert.bind(1, key).bind(2, value).run();
+  }
+  for (std::size_t i = 0; i < artifacts.size(); ++i) insert_artifact(database, static_cast<std::int64_t>(i), artifacts[i]);
+  transaction.commit();
+}
+
+// A file never appears under its name before its setup is complete, and never replaces another.
+void put_in_place(const std::string& made, const std::string& path) {
+  if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return;
+  const bool unsupported = errno == EINVAL || errno == ENOSYS;
+  if (unsupported && ::access(path.c_str(), F_OK) != 0 && ::rename(made.c_str(), path.c_str()) == 0) return;
+  const std::string why = std::strerror(errno);
+  ::unlink(made.c_str());
+  throw Error(path, "cannot be put in place (" + why + ")", "choose another name; an existing session is never overwritten");
+}
+
+void sync_folder_of(const std::string& path) {
+  auto folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+}  // namespace
+
+void make_single_file(Database& database) {
+  database.run("PRAGMA wal_checkpoint(TRUNCATE)");
+  database.run("PRAGMA journal_mode = DELETE");
+}
+
+Recorder::Recorder(std::string path, StationKey key) : path_(std::move(path)), key_(key), pending_(1) {}
+
+Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
+  const auto need = [&](bool there, const std::string& what) {
+    if (!there) throw Error(path, "a session needs " + what, "give it in the setup");
+  };
+  need(!setup.tooth.empty(), "a tooth");
+  need(!setup.points_toml.empty() && setup.points_toml.size() <= 255, "between 1 and 255 diamond points");
+  need(!setup.force_model_toml.empty(), "a force model");
+  need(!setup.servo_toml.empty(), "servo settings");
+  need(!setup.candidate.empty(), "the candidate's pseudonym");
+  for (const char* suffix : {"", "-wal", "-journal"})
+    if (struct stat info{}; ::lstat((path + suffix).c_str(), &info) == 0)
+      throw Error(path + suffix, "exists already", "choose another name; an existing session is never overwritten");
+
+  Recorder recorder(path, load_station_key(station_key_path()));
+  const auto meta = meta_of(setup);
+  const auto artifacts = artifacts_of(setup);
+  const std::string made = path + ".new";
+  ::unlink(made.c_str());
+  ::unlink((made + "-journal").c_str());
+  try {
+    write_setup(made, meta, artifacts);
+  } catch (const Error&) {
+    ::unlink(made.c_str());
+    ::unlink((made + "-journal").c_str());
+    throw;
+  }
+  put_in_place(made, path);
+  sync_folder_of(path);
+  recorder.chain_ = genesis_hash(meta, artifacts);
+  recorder.next_artifact_ = static_cast<std::int64_t>(artifacts.size());
+  recorder.open_for_recording();
+  return recorder;
+}
+
+void Recorder::open_for_recording() {
+  database_ = Database::open(path_, false);
+  // exclusive: no second recorder, and the index of the log stays in memory
+  database_->run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 4000");
+  if (database_->text("PRAGMA journal_mode = WAL") != "wal")
+    throw Error(path_, "the file system does not allow a write-ahead log", "record to a local disk");
+  insert_chunk_ = database_->prepare(k_insert_chunk);
+  insert_event_ = database_->prepare(k_insert_event);
+}
+
+Recorder::~Recorder() {
+  try {
+    if (database_ && database_->is_open() && !sealed_) flush();
+  } catch (const std::exception&) {  // everything written so far stands; the rest is lost with the process
+  }
+}
+
+void Recorder::require_open() const {
+  if (sealed_) throw Error(path_, "the session is closed", "record into a new one");
+}
+
+void Recorder::append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
+  require_open();
+  if (record.removed != removed.size())
+    throw Error(path_, "tick " + std::to_string(ticks_) + " lists " + std::to_string(removed.size()) + " removed leaves, its record says " +
+                           std::to_string(record.removed), "hand over state.removed of the same tick");
+  Pending& now = pending_.back();
+  now.inputs.push_back(input);
+  now.records.push_back(record);
+  now.removed.counts.push_back(record.removed);
+  now.removed.leaves.insert(now.removed.leaves.end(), removed.begin(), removed.end());
+  now.state_hash = state_hash;
+  ++ticks_;
+  if (static_cast<std::int64_t>(now.inputs.size()) < k_chunk_ticks && now.removed.leaves.size() < k_chunk_leaves) return;
+  now.complete = read_clocks();
+  pending_.emplace_back();
+  pending_.back().state_hash = state_hash;
+  write_pending();
+}
+
+void Recorder::add_event(std::int64_t tick, const std::string& kind, const std::string& detail_json) {
+  require_open();
+  if (!nlohmann::json::accept(detail_json)) throw Error("event " + kind, "its detail is not JSON: " + detail_json, "give one JSON value");
+  pending_.back().events.push_back({tick, kind, detail_json});
+}
+
+void Recorder::flush() {
+  Pending& now = pending_.back();
+  if (!now.inputs.empty() || !now.events.empty()) {
+    const auto state_hash = now.state_hash;
+    now.complete = read_clocks();
+    pending_.emplace_back();
+    pending_.back().state_hash = state_hash;
+  }
+  write_pending();
+}
+
+void Recorder::write_pending() {
+  while (pending_.size() > 1) {
+    write_chunk(pending_.front());
+    pending_.pop_front();
+  }
+}
+
+void Recorder::write_chunk(const Pending& pending) {
+  const auto start = std::chrono::steady_clock::now();
+  ChunkRow c;
+  c.seq = next_chunk_;
+  c.first_tick = ticks_on_disk_;
+  c.ticks = static_cast<std::int64_t>(pending.inputs.size());
+  c.inputs = pack_inputs(pending.inputs);
+  c.records = pack_records(pending.records);
+  c.removed = pack_removed(pending.removed);
+  c.state_hash = pending.state_hash;
+  c.clocks = *pending.complete;
+  c.inputs_sha256 = sha256(c.inputs);
+  c.records_sha256 = sha256(c.records);
+  c.removed_sha256 = sha256(c.removed);
+  std::vector<EventRow> events;
+  for (const auto& e : pending.events) events.push_back({next_event_ + static_cast<std::int64_t>(events.size()), c.seq, e});
+  c.events_sha256 = events_hash(events);
+  c.prev_sha256 = chain_;
+  c.sha256 = chunk_hash(c);
+
+  Transaction transaction(*database_);
+  insert_chunk_->bind(1, c.seq).bind(2, c.first_tick).bind(3, c.ticks).bind(4, c.inputs).bind(5, c.records).bind(6, c.removed);
+  insert_chunk_->bind(7, static_cast<std::int64_t>(c.state_hash)).bind(8, c.clocks.monotonic_ns).bind(9, c.clocks.boot_ns).bind(10, c.clocks.utc_ns);
+  insert_chunk_->bind(11, c.inputs_sha256).bind(12, c.records_sha256).bind(13, c.removed_sha256).bind(14, c.events_sha256);
+  insert_chunk_->bind(15, c.prev_sha256).bind(16, c.sha256).run();
+  for (const auto& e : events)
+    insert_event_->bind(1, e.seq).bind(2, e.event.tick).bind(3, e.chunk).bind(4, e.event.kind).bind(5, e.event.detail_json).run();
+  transaction.commit();
+
+  chain_ = c.sha256;
+  ++next_chunk_;
+  next_event_ += static_cast<std::int64_t>(events.size());
+  ticks_on_disk_ += c.ticks;
+  slowest_write_s_ = std::max(slowest_write_s_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
+  flush();
+  Seal seal;
+  seal.chain_sha256 = chain_;
+  seal.final_tooth_sha256 = sha256(final_tooth);
+  seal.result_sha256 = sha256(result_json);
+  seal.chunks = next_chunk_;
+  seal.ticks = ticks_on_disk_;
+  seal.events = next_event_;
+  seal.clocks = read_clocks();
+  seal.public_key = key_.public_key;
+  seal.signature = key_.sign(seal_message(seal));
+  Transaction transaction(*database_);
+  insert_artifact(*database_, next_artifact_, {k_final_tooth, seal.final_tooth_sha256, Bytes(final_tooth.begin(), final_tooth.end())});
+  Statement result = database_->prepare("INSERT INTO result VALUES (0, ?)");
+  result.bind(1, result_json).run();
+  Statement s = database_->prepare("INSERT INTO seal VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  s.bind(1, seal.chain_sha256).bind(2, seal.final_tooth_sha256).bind(3, seal.result_sha256).bind(4, seal.chunks).bind(5, seal.ticks);
+  s.bind(6, seal.events).bind(7, seal.clocks.monotonic_ns).bind(8, seal.clocks.boot_ns).bind(9, seal.clocks.utc_ns);
+  s.bind(10, seal.public_key).bind(11, seal.signature).run();
+  transaction.commit();
+  sealed_ = true;
+}
+
+void Recorder::close(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
+  if (final_tooth.empty()) throw Error(path_, "the final tooth is missing", "give save_tooth of the drilled tooth");
+  if (!nlohmann::json::accept(result_json)) throw Error(path_, "the result is not JSON", "give one JSON value");
+  if (!sealed_) write_seal(final_tooth, result_json);
+  insert_chunk_.reset();
+  insert_event_.reset();
+  make_single_file(*database_);
+  database_->close();
+}
+
+}  // namespace cavum

@@ -1,0 +1,86 @@
+#include "engine/session/resume.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/session/chain.h"
+#include "engine/session/chain_check.h"
+
+namespace cavum {
+
+/// The recorder's door for resuming: puts it where the file ends.
+class Resumption {
+ public:
+  static Recorder open(const SessionReader& session) {
+    Recorder recorder(session.path(), load_station_key(station_key_path()));
+    recorder.open_for_recording();
+    recorder.chain_ = session.chunks().empty() ? genesis_hash(session.meta(), session.artifacts()) : session.chunks().back().sha256;
+    recorder.next_chunk_ = static_cast<std::int64_t>(session.chunks().size());
+    recorder.next_event_ = static_cast<std::int64_t>(session.event_rows().size());
+    recorder.next_artifact_ = static_cast<std::int64_t>(session.artifacts().size());
+    recorder.ticks_ = recorder.ticks_on_disk_ = session.ticks();
+    recorder.pending_.back().state_hash = session.chunks().empty() ? 0 : session.chunks().back().state_hash;
+    // Nobody may have written between reading and opening; the lock is ours from the first read on.
+    if (recorder.database_->integer("SELECT count(*) FROM chunk") != recorder.next_chunk_ ||
+        recorder.database_->integer("SELECT count(*) FROM seal") != 0)
+      throw Error(session.path(), "was written to while it was being resumed", "try again");
+    return recorder;
+  }
+};
+
+namespace {
+
+void require_intact(const SessionReader& session) {
+  session.require_readable();
+  if (session.closed()) throw Error(session.path(), "is closed", "there is nothing to resume: start a new exam");
+  const auto findings = check_chain(session);
+  if (!findings.empty()) throw Error(session.path(), findings.front(), "it is evidence now: keep it, and start a new exam");
+  if (session.number("physics_version", 0) != k_physics_version)
+    throw Error(session.path(), "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
+                "resume it with the program that recorded it");
+}
+
+void simulate(const SessionReader& session, Simulation& simulation, const TickVisitor& visit) {
+  for (std::size_t i = 0; i < session.chunks().size(); ++i) {
+    const ChunkRow& c = session.chunks()[i];
+    const ChunkMotion motion = session.motion(i);
+    for (std::size_t t = 0; t < motion.inputs.size(); ++t) {
+      const TickOutput output = step(simulation.model, simulation.state, motion.inputs[t]);
+      if (visit) visit(c.first_tick + static_cast<std::int64_t>(t), motion.inputs[t], output, simulation.state);
+    }
+    if (c.ticks > 0 && state_hash(simulation.state) != c.state_hash)
+      throw Error(session.path(), "replays differently by tick " + std::to_string(c.first_tick + c.ticks), "run `cavum replay --verify` on it");
+  }
+}
+
+std::string gap_detail(const SessionReader& session) {
+  Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
+  std::string last_boot = session.fact("boot_id");
+  for (const auto& e : session.event_rows())
+    if (e.event.kind == "gap") last_boot = nlohmann::json::parse(e.event.detail_json).value("boot_id", last_boot);
+  const Clocks now = read_clocks();
+  const std::string this_boot = boot_id();
+  nlohmann::json detail;
+  detail["last_utc_ns"] = last.utc_ns;
+  detail["resumed_utc_ns"] = now.utc_ns;
+  detail["gap_utc_s"] = static_cast<double>(now.utc_ns - last.utc_ns) * 1e-9;
+  detail["gap_boot_s"] = nullptr;
+  if (!this_boot.empty() && this_boot == last_boot) detail["gap_boot_s"] = static_cast<double>(now.boot_ns - last.boot_ns) * 1e-9;
+  detail["boot_id"] = this_boot;
+  return detail.dump();
+}
+
+}  // namespace
+
+ResumedSession resume_session(const std::string& path, const TickVisitor& visit) {
+  const SessionReader session(path);
+  require_intact(session);
+  SessionSetup setup = session.setup();
+  Simulation simulation = make_simulation(setup, path);
+  simulate(session, simulation, visit);
+  Recorder recorder = Resumption::open(session);
+  recorder.add_event(session.ticks(), "gap", gap_detail(session));
+  recorder.flush();
+  return {std::move(recorder), std::move(simulation), std::move(setup), session.ticks()};
+}
+
+}  // namespace cavum

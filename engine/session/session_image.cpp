@@ -1,0 +1,89 @@
+#include "engine/session/session_image.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "engine/base/file.h"
+#include "engine/session/sqlite.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t k_largest_file = 2'000'000'000;
+constexpr char k_magic[] = "SQLite format 3";  // 16 bytes with its zero
+
+void check_file(const std::string& path) {
+  struct stat info{};
+  if (::stat(path.c_str(), &info) != 0) throw Error(path, std::string("cannot be opened (") + std::strerror(errno) + ")", "check the path");
+  if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file", "name a session file");
+  if (info.st_size > k_largest_file) throw Error(path, "is larger than any session", "name a session file");
+}
+
+std::optional<Bytes> read_beside(const std::string& path) {
+  struct stat info{};
+  if (::stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_size == 0 || info.st_size > k_largest_file) return std::nullopt;
+  return read_file(path);
+}
+
+/// A folder of our own that goes away again.
+struct PrivateFolder {
+  fs::path path;
+  PrivateFolder() {
+    std::string name = (fs::temp_directory_path() / "cavum-read-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "set TMPDIR to a folder that is writable and has room");
+    path = name;
+  }
+  ~PrivateFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+};
+
+Bytes apply(const Bytes& file, const std::optional<Bytes>& log, const std::optional<Bytes>& journal) {
+  const PrivateFolder folder;
+  const std::string copy = (folder.path / "copy").string();
+  write_file(copy, file);
+  if (log) write_file(copy + "-wal", *log);
+  if (journal) write_file(copy + "-journal", *journal);
+  Database database = Database::open(copy, false);
+  // exclusive: the index of the log then stays in memory
+  database.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON; SELECT count(*) FROM sqlite_schema; PRAGMA journal_mode = DELETE");
+  database.close();
+  return read_file(copy);
+}
+
+}  // namespace
+
+Bytes read_session_image(const std::string& path, std::vector<std::string>& findings) {
+  check_file(path);
+  Bytes file;
+  std::optional<Bytes> log, journal;
+  // A recorder may be writing. While the log stays the same, the file beside it only gains pages that the log
+  // holds too; so a pair is consistent when the log did not change while the file was read.
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    log = read_beside(path + "-wal");
+    journal = read_beside(path + "-journal");
+    file = read_file(path);
+    if (log == read_beside(path + "-wal") && journal == read_beside(path + "-journal")) break;
+  }
+  if (file.empty()) throw Error(path, "is empty", "name a session file");
+  if (file.size() < 100 || std::memcmp(file.data(), k_magic, sizeof k_magic) != 0)
+    throw Error(path, "is not a session file (no SQLite header)", "name a .cavum file that an exam wrote, or use an intact copy");
+  if (!log && !journal) return file;
+  try {
+    return apply(file, log, journal);
+  } catch (const DatabaseError& e) {
+    findings.push_back(std::string("file: the log beside it cannot be applied, and was left out: ") + e.what());
+    return file;
+  }
+}
+
+}  // namespace cavum

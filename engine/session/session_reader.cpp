@@ -1,0 +1,237 @@
+#include "engine/session/session_reader.h"
+
+#include <charconv>
+#include <cstring>
+#include <set>
+
+#include "engine/base/error.h"
+#include "engine/session/schema.h"
+#include "engine/session/session_image.h"
+#include "engine/session/sqlite.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::size_t k_most_rows = 2'000'000;  // of one table; a day of motion has 86,400 chunks
+
+std::int64_t header_number(const Bytes& image, std::size_t at) {
+  return static_cast<std::int64_t>(image[at]) << 24 | image[at + 1] << 16 | image[at + 2] << 8 | image[at + 3];
+}
+
+/// Reads one table row by row; damage in it is one finding and leaves the other tables alone. Keys must rise,
+/// so that pages which refer to one another in a circle cannot go on for ever.
+template <class Row>
+void read_table(Database& database, const char* table, const std::string& columns, std::vector<std::string>& findings, const Row& row) {
+  std::size_t rows = 0;
+  try {
+    Statement s = database.prepare(("SELECT " + columns + " FROM " + table + " ORDER BY 1").c_str());
+    for (; s.step(); ++rows) {
+      if (rows == k_most_rows) throw Error(table, "has more rows than any session", "use an intact copy");
+      row(s);
+    }
+  } catch (const Error& e) {
+    findings.push_back(std::string("table ") + table + ", row " + std::to_string(rows) + ": " + e.what());
+  }
+}
+
+std::int64_t rising(const Statement& s, std::int64_t expected, const char* table) {
+  const std::int64_t seq = s.integer(0);
+  if (seq != expected)
+    throw Error(table, "number " + std::to_string(expected) + " is missing or moved (found " + std::to_string(seq) + ")", "use an intact copy");
+  return seq;
+}
+
+void check_schema(Database& database, std::vector<std::string>& findings) {
+  std::size_t i = 0;
+  Statement s = database.prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
+  for (; s.step(); ++i)
+    if (i >= k_session_schema.size() || s.text(0) != "table" || s.text(2) != k_session_schema[i])
+      throw Error("schema", "'" + s.text(1) + "' is not a table of a session of format " + std::to_string(k_session_format), "use an intact copy");
+  if (i != k_session_schema.size()) throw Error("schema", "a table is missing", "use an intact copy");
+  if (const auto v = database.integer("PRAGMA user_version"); v != k_session_format)
+    findings.push_back("file: user_version is " + std::to_string(v) + ", this program reads format " + std::to_string(k_session_format));
+  if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back("file: application_id is not Cavum's");
+}
+
+void quick_check(Database& database, std::vector<std::string>& findings) {
+  try {
+    Statement s = database.prepare("PRAGMA quick_check(10)");
+    while (s.step())
+      if (const std::string line = s.text(0); line != "ok") findings.push_back("file: " + line);
+  } catch (const DatabaseError& e) {
+    findings.push_back(std::string("file: ") + e.what());
+  }
+}
+
+Clocks clocks_at(const Statement& s, int column) { return {s.integer(column), s.integer(column + 1), s.integer(column + 2)}; }
+
+}  // namespace
+
+SessionReader::SessionReader(const std::string& path) : path_(path) {
+  Bytes image = read_session_image(path, findings_);
+  const bool marked = header_number(image, 68) == k_session_application_id;
+  Database database = Database::from_image(std::move(image), path);
+  try {
+    check_schema(database, findings_);
+  } catch (const Error& e) {
+    if (!marked) throw Error(path, "is an SQLite database, but not a Cavum session", "name a .cavum file that an exam wrote");
+    findings_.push_back(std::string("file: ") + e.what());
+    return;  // with tables of another shape, every query would be a guess
+  }
+  quick_check(database, findings_);
+
+  read_table(database, "meta", "key, value", findings_, [&](const Statement& s) { meta_.emplace(s.text(0), s.text(1)); });
+  std::set<std::string> names;
+  read_table(database, "artifact", "seq, name, sha256, size_bytes, bytes", findings_, [&](const Statement& s) {
+    rising(s, static_cast<std::int64_t>(artifacts_.size()), "artifact");
+    Artifact a{s.text(1), s.fixed_blob<32>(2), s.blob(4)};
+    if (!names.insert(a.name).second) throw Error("artifact", "'" + a.name + "' is there twice", "use an intact copy");
+    if (s.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back("table artifact, '" + a.name + "': its size was changed");
+    artifacts_.push_back(std::move(a));
+  });
+  const std::string columns =
+      "seq, first_tick, ticks, inputs, records, removed, state_hash, monotonic_ns, boot_ns, utc_ns, inputs_sha256, records_sha256, "
+      "removed_sha256, events_sha256, prev_sha256, sha256";
+  read_table(database, "chunk", columns, findings_, [&](const Statement& s) {
+    ChunkRow c;
+    c.seq = rising(s, static_cast<std::int64_t>(chunks_.size()), "chunk");
+    c.first_tick = s.integer(1);
+    c.ticks = s.integer(2);
+    c.inputs = s.blob(3);
+    c.records = s.blob(4);
+    c.removed = s.blob(5);
+    c.state_hash = static_cast<std::uint64_t>(s.integer(6));
+    c.clocks = clocks_at(s, 7);
+    c.inputs_sha256 = s.fixed_blob<32>(10);
+    c.records_sha256 = s.fixed_blob<32>(11);
+    c.removed_sha256 = s.fixed_blob<32>(12);
+    c.events_sha256 = s.fixed_blob<32>(13);
+    c.prev_sha256 = s.fixed_blob<32>(14);
+    c.sha256 = s.fixed_blob<32>(15);
+    const std::string where = "table chunk, " + std::to_string(c.seq);
+    if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, std::to_string(c.ticks) + " ticks", "use an intact copy");
+    if (c.first_tick != ticks())
+      throw Error(where, "begins at tick " + std::to_string(c.first_tick) + " instead of " + std::to_string(ticks()), "use an intact copy");
+    chunks_.push_back(std::move(c));
+  });
+  read_table(database, "event", "seq, tick, chunk, kind, detail_json", findings_, [&](const Statement& s) {
+    const auto seq = rising(s, static_cast<std::int64_t>(events_.size()), "event");
+    events_.push_back({seq, s.integer(2), {s.integer(1), s.text(3), s.text(4)}});
+  });
+  read_table(database, "result", "seq, json", findings_, [&](const Statement& s) {
+    rising(s, 0, "result");
+    result_json_ = s.text(1);
+  });
+  const std::string seal_columns =
+      "seq, chain_sha256, final_tooth_sha256, result_sha256, chunks, ticks, events, monotonic_ns, boot_ns, utc_ns, public_key, signature";
+  read_table(database, "seal", seal_columns, findings_, [&](const Statement& s) {
+    rising(s, 0, "seal");
+    seal_ = Seal{s.fixed_blob<32>(1), s.fixed_blob<32>(2), s.fixed_blob<32>(3), s.integer(4),         s.integer(5),
+                 s.integer(6),        clocks_at(s, 7),     s.fixed_blob<32>(10), s.fixed_blob<64>(11)};
+  });
+}
+
+void SessionReader::require_readable() const {
+  if (!findings_.empty()) throw Error(path_, findings_.front(), "use an intact copy");
+}
+
+std::string SessionReader::fact(const std::string& key) const {
+  const auto found = meta_.find(key);
+  return found == meta_.end() ? std::string() : found->second;
+}
+
+std::int64_t SessionReader::number(const std::string& key, std::int64_t fallback) const {
+  const std::string text = fact(key);
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && !text.empty() ? value : fallback;
+}
+
+const Artifact* SessionReader::artifact(const std::string& name) const noexcept {
+  for (const auto& a : artifacts_)
+    if (a.name == name) return &a;
+  return nullptr;
+}
+
+SessionSetup SessionReader::setup() const {
+  SessionSetup s;
+  const auto text = [this](const std::string& name) {
+    const Artifact* a = artifact(name);
+    return a == nullptr ? std::string() : std::string(a->bytes.begin(), a->bytes.end());
+  };
+  s.candidate = fact("candidate");
+  s.device = fact("device");
+  s.calibration = fact("calibration");
+  s.scenario_toml = text("scenario.toml");
+  s.rubric_toml = text("rubric.toml");
+  s.force_model_toml = text("force_model.toml");
+  s.servo_toml = text("servo.toml");
+  if (const Artifact* tooth = artifact("start_tooth.cvt")) s.tooth = tooth->bytes;
+  s.first_tip_nm = {static_cast<std::int32_t>(number("first_tip_x_nm", 0)), static_cast<std::int32_t>(number("first_tip_y_nm", 0)),
+                    static_cast<std::int32_t>(number("first_tip_z_nm", 0))};
+  for (const auto& [key, value] : meta_)
+    if (key.starts_with("note.")) s.notes.emplace_back(key.substr(5), value);
+  for (const auto& a : artifacts_) {
+    if (a.name.starts_with("point_")) s.points_toml.emplace_back(a.bytes.begin(), a.bytes.end());
+    if (a.name.starts_with("attachment/")) s.attachments.emplace_back(a.name.substr(11), a.bytes);
+  }
+  return s;
+}
+
+Bytes SessionReader::final_tooth() const {
+  const Artifact* tooth = artifact(k_final_tooth);
+  return tooth == nullptr ? Bytes() : tooth->bytes;
+}
+
+Clocks SessionReader::created() const { return {number("created_monotonic_ns", 0), number("created_boot_ns", 0), number("created_utc_ns", 0)}; }
+
+std::vector<SessionEvent> SessionReader::events() const {
+  std::vector<SessionEvent> all;
+  all.reserve(events_.size());
+  for (const auto& e : events_) all.push_back(e.event);
+  return all;
+}
+
+ChunkMotion SessionReader::motion(std::size_t index) const {
+  const ChunkRow& c = chunks_.at(index);
+  const std::string where = path_ + ": chunk " + std::to_string(c.seq) + ", ";
+  ChunkMotion m{unpack_inputs(c.inputs, c.ticks, where + "inputs"), unpack_records(c.records, c.ticks, where + "records"),
+                unpack_removed(c.removed, c.ticks, where + "removed")};
+  for (std::size_t i = 0; i < m.records.size(); ++i)
+    if (m.records[i].removed != m.removed.counts[i])
+      throw Error(where + "tick " + std::to_string(c.first_tick + static_cast<std::int64_t>(i)),
+                  std::to_string(m.records[i].removed) + " leaves removed by the records, " + std::to_string(m.removed.counts[i]) + " listed",
+                  "the recording is damaged here: use an intact copy");
+  return m;
+}
+
+std::vector<TickInput> SessionReader::inputs() const {
+  std::vector<TickInput> all;
+  for (const auto& c : chunks_) {
+    const auto part = unpack_inputs(c.inputs, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", inputs");
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+std::vector<TickRecord> SessionReader::records() const {
+  std::vector<TickRecord> all;
+  for (const auto& c : chunks_) {
+    const auto part = unpack_records(c.records, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", records");
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+std::vector<RemovedAt> SessionReader::removed() const {
+  std::vector<RemovedAt> all;
+  for (const auto& c : chunks_) {
+    const auto part = unpack_removed(c.removed, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", removed");
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < part.counts.size(); ++i)
+      for (std::uint32_t k = 0; k < part.counts[i]; ++k) all.push_back({c.first_tick + static_cast<std::int64_t>(i), part.leaves[at++]});
+  }
+  return all;
+}
+
+}  // namespace cavum

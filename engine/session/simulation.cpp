@@ -1,0 +1,27 @@
+#include "engine/session/simulation.h"
+
+namespace cavum {
+
+Simulation make_simulation(const SessionSetup& setup, const std::string& where) {
+  Simulation s;
+  s.tooth = load_tooth(setup.tooth, where + ": start_tooth.cvt");
+  std::vector<DiamondPoint> tray;
+  for (std::size_t i = 0; i < setup.points_toml.size(); ++i)
+    tray.push_back(parse_diamond_point(setup.points_toml[i], where + ": diamond point " + std::to_string(i)));
+  const ForceModel force = parse_force_model(setup.force_model_toml, where + ": force_model.toml");
+  const ServoConfig config = parse_servo_config(setup.servo_toml, where + ": servo.toml");
+  s.model = make_servo_model(s.tooth, tray, force, config);
+  s.state = make_servo_state(s.model, s.tooth, setup.first_tip_mm());
+  return s;
+}
+
+Tooth drilled_tooth(const Simulation& simulation) {
+  Tooth tooth;
+  tooth.octree = simulation.state.tooth;
+  tooth.tissues = simulation.tooth.tissues;
+  tooth.name = simulation.tooth.name;
+  tooth.source = simulation.tooth.source;
+  return tooth;
+}
+
+}  // namespace cavum

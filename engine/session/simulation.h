@@ -1,0 +1,23 @@
+// The exam's physics, built from what a session holds and nothing else. The exam and its replay both start
+// here, so that they cannot start differently.
+#pragma once
+
+#include "engine/servo/servo.h"
+#include "engine/session/session.h"
+
+namespace cavum {
+
+struct Simulation {
+  Tooth tooth;  ///< before the first tick
+  ServoModel model;
+  ServoState state;
+};
+
+/// Throws Error when the tooth, a diamond point, the force model or the servo settings cannot be used;
+/// `where` precedes the name of the part.
+[[nodiscard]] Simulation make_simulation(const SessionSetup& setup, const std::string& where);
+
+/// The tooth as it is now; save_tooth of it is what a session keeps on closing.
+[[nodiscard]] Tooth drilled_tooth(const Simulation& simulation);
+
+}  // namespace cavum

@@ -1,0 +1,93 @@
+// The little of SQLite that a session needs: a connection that writes safely, a connection on bytes in
+// memory that can change nothing, and statements whose columns must have the type the schema promises.
+#pragma once
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "engine/base/bytes.h"
+#include "engine/base/error.h"
+
+namespace cavum {
+
+/// SQLite said no. `code()` is its primary result code.
+class DatabaseError : public Error {
+ public:
+  DatabaseError(const std::string& where, const std::string& what_happened, const std::string& what_to_do, int code)
+      : Error(where, what_happened, what_to_do), code_(code) {}
+  [[nodiscard]] int code() const noexcept { return code_; }
+
+ private:
+  int code_;
+};
+
+/// One prepared statement. Bind from 1, step, read columns from 0.
+class Statement {
+ public:
+  Statement& bind(int index, std::int64_t value);
+  Statement& bind(int index, const std::string& text);
+  Statement& bind(int index, std::span<const std::uint8_t> blob);
+  /// True while there is a row.
+  [[nodiscard]] bool step();
+  /// For statements without rows; ready to be bound anew afterwards.
+  void run();
+
+  // Throw DatabaseError when the column holds another type, as a damaged or edited file may.
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] std::string text(int column) const;
+  [[nodiscard]] Bytes blob(int column) const;
+  /// A blob of exactly N bytes.
+  template <std::size_t N>
+  [[nodiscard]] std::array<std::uint8_t, N> fixed_blob(int column) const {
+    const Bytes b = blob(column);
+    if (b.size() != N) wrong_type(column, std::to_string(N) + " bytes");
+    std::array<std::uint8_t, N> out{};
+    std::copy(b.begin(), b.end(), out.begin());
+    return out;
+  }
+
+ private:
+  friend class Database;
+  Statement(sqlite3* db, sqlite3_stmt* statement, std::string where);
+  [[noreturn]] void wrong_type(int column, const std::string& wanted) const;
+  void check(int code);
+
+  sqlite3* db_;
+  std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement_;
+  std::string where_;
+};
+
+class Database {
+ public:
+  /// An existing or (`make`) new file, for writing.
+  [[nodiscard]] static Database open(const std::string& path, bool make);
+  /// A whole database file held in memory, read-only. Damage shows as DatabaseError while reading.
+  [[nodiscard]] static Database from_image(Bytes image, const std::string& where);
+
+  void run(const char* sql);
+  [[nodiscard]] Statement prepare(const char* sql);
+  /// First column of the first row.
+  [[nodiscard]] std::int64_t integer(const char* sql);
+  [[nodiscard]] std::string text(const char* sql);
+  [[nodiscard]] bool in_transaction() const noexcept { return sqlite3_get_autocommit(db_.get()) == 0; }
+  /// Closes; statements must be gone. Throws nothing: what was committed is on disk already.
+  void close() noexcept { db_.reset(); }
+  [[nodiscard]] bool is_open() const noexcept { return db_ != nullptr; }
+
+ private:
+  Database() = default;
+  void connect(const std::string& name, int flags);
+
+  std::unique_ptr<Bytes> image_;  // both must outlive the connection
+  std::unique_ptr<int> work_;     // calls of the progress handler
+  std::unique_ptr<sqlite3, int (*)(sqlite3*)> db_{nullptr, sqlite3_close_v2};
+  std::string where_;
+};
+
+}  // namespace cavum

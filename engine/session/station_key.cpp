@@ -1,0 +1,87 @@
+#include "engine/session/station_key.h"
+
+#include <fcntl.h>
+#include <sodium.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+
+namespace cavum {
+namespace {
+
+constexpr char k_heading[] = "cavum station key 1 (Ed25519 seed; keep secret): ";
+
+void start_sodium() {
+  if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");
+}
+
+// link() makes the complete file appear in one step and never replaces a key that another process just made.
+void make_key(const std::string& path) {
+  const auto fail = [&](const std::string& what) {
+    throw Error(path, what + " (" + std::strerror(errno) + ")", "make its folder writable, or set CAVUM_HOME to a folder that is");
+  };
+  std::error_code ignored;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+  std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
+  randombytes_buf(seed.data(), seed.size());
+  const std::string text = k_heading + to_hex(seed) + "\n";
+  const std::string temporary = path + "." + std::to_string(::getpid());
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (fd < 0) fail("the station's key cannot be made");
+  const bool written = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
+  ::close(fd);
+  const bool placed = written && (::link(temporary.c_str(), path.c_str()) == 0 || errno == EEXIST);
+  const int why = errno;
+  ::unlink(temporary.c_str());
+  errno = why;
+  if (!placed) fail("the station's key cannot be written");
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 64> StationKey::sign(std::span<const std::uint8_t> message) const {
+  std::array<std::uint8_t, 64> signature{};
+  crypto_sign_detached(signature.data(), nullptr, message.data(), message.size(), secret_key.data());
+  return signature;
+}
+
+std::string station_key_path() {
+  if (const char* home = std::getenv("CAVUM_HOME"); home != nullptr && *home != 0) return std::string(home) + "/station.key";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return std::string(home) + "/.config/cavum/station.key";
+  throw Error("station key", "neither CAVUM_HOME nor HOME is set", "set CAVUM_HOME to the station's own folder");
+}
+
+StationKey load_station_key(const std::string& path) {
+  start_sodium();
+  struct stat info{};
+  if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) make_key(path);
+  if (::stat(path.c_str(), &info) == 0 && (info.st_mode & 077) != 0)
+    throw Error(path, "the station's key may be read by others", "chmod 600 it, and replace it if someone may have copied it");
+  const std::string text = read_text_file(path);
+  const std::string heading = k_heading;
+  std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
+  std::size_t read = 0;
+  const bool whole = text.size() == heading.size() + 2 * seed.size() + 1 && text.starts_with(heading) && text.back() == '\n' &&
+                     sodium_hex2bin(seed.data(), seed.size(), text.data() + heading.size(), 2 * seed.size(), nullptr, &read, nullptr) == 0 &&
+                     read == seed.size();
+  if (!whole) throw Error(path, "the station's key is damaged", "restore it from a backup, or remove it and let the station make a new one");
+  StationKey key;
+  crypto_sign_seed_keypair(key.public_key.data(), key.secret_key.data(), seed.data());
+  return key;
+}
+
+bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<const std::uint8_t> message,
+                  const std::array<std::uint8_t, 64>& signature) {
+  start_sodium();
+  return crypto_sign_verify_detached(signature.data(), message.data(), message.size(), public_key.data()) == 0;
+}
+
+}  // namespace cavum

@@ -1,0 +1,31 @@
+// The station's signing key: one Ed25519 key pair per exam station, made on first use and kept in a file
+// that only its user may read. It says which station closed a session, not who sat at it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace cavum {
+
+/// Ed25519 key pair (libsodium).
+struct StationKey {
+  std::array<std::uint8_t, 32> public_key{};
+  std::array<std::uint8_t, 64> secret_key{};
+
+  [[nodiscard]] std::array<std::uint8_t, 64> sign(std::span<const std::uint8_t> message) const;
+};
+
+/// $CAVUM_HOME/station.key, or ~/.config/cavum/station.key. Throws Error when neither variable is set.
+[[nodiscard]] std::string station_key_path();
+
+/// Reads the key at `path`, or makes one there (mode 0600) when there is none. Throws Error when the file
+/// cannot be read or made, is damaged, or may be read by others.
+[[nodiscard]] StationKey load_station_key(const std::string& path);
+
+/// True when `signature` over `message` was made by the owner of `public_key`.
+[[nodiscard]] bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<const std::uint8_t> message,
+                                const std::array<std::uint8_t, 64>& signature);
+
+}  // namespace cavum

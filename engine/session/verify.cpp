@@ -1,0 +1,143 @@
+#include "engine/session/verify.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include "engine/session/chain_check.h"
+#include "engine/session/session_reader.h"
+#include "engine/session/simulation.h"
+
+namespace cavum {
+namespace {
+
+std::string scaled(std::int64_t value, double scale, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.6f %s", static_cast<double>(value) * scale, unit);
+  return text;
+}
+
+std::string leaf_text(const RemovedLeaf& l) {
+  return "(" + std::to_string(l.x) + ", " + std::to_string(l.y) + ", " + std::to_string(l.z) + ") tissue " + std::to_string(l.tissue);
+}
+
+/// First field in which two records differ, or nothing.
+std::optional<Divergence> compare(std::int64_t tick, const TickRecord& was, const TickRecord& is) {
+  const auto differ = [&](const char* what, std::int64_t a, std::int64_t b, double scale, const char* unit) {
+    return Divergence{tick, what, scaled(a, scale, unit), scaled(b, scale, unit)};
+  };
+  static constexpr const char* k_force[] = {"rendered_force_x", "rendered_force_y", "rendered_force_z"};
+  static constexpr const char* k_proxy[] = {"proxy_x", "proxy_y", "proxy_z"};
+  if (was == is) return std::nullopt;
+  if (was.model_un != is.model_un) return differ("model_force", was.model_un, is.model_un, 1e-6, "N");
+  if (was.penetration_nm != is.penetration_nm) return differ("penetration", was.penetration_nm, is.penetration_nm, 1e-6, "mm");
+  for (std::size_t i = 0; i < 3; ++i)
+    if (was.proxy_nm[i] != is.proxy_nm[i]) return differ(k_proxy[i], was.proxy_nm[i], is.proxy_nm[i], 1e-6, "mm");
+  for (std::size_t i = 0; i < 3; ++i)
+    if (was.rendered_un[i] != is.rendered_un[i]) return differ(k_force[i], was.rendered_un[i], is.rendered_un[i], 1e-6, "N");
+  if (was.rpm != is.rpm) return differ("rpm", was.rpm, is.rpm, 1, "rpm");
+  if (was.removed != is.removed) return Divergence{tick, "removed", std::to_string(was.removed) + " leaves", std::to_string(is.removed) + " leaves"};
+  return Divergence{tick, "notices", std::to_string(was.notices), std::to_string(is.notices)};
+}
+
+/// First leaf in which the removals of a tick differ.
+std::optional<Divergence> compare(std::int64_t tick, std::span<const RemovedLeaf> was, std::span<const RemovedLeaf> is) {
+  for (std::size_t i = 0; i < std::max(was.size(), is.size()); ++i) {
+    if (i < was.size() && i < is.size() && was[i] == is[i]) continue;
+    return Divergence{tick, "removed_leaf", i < was.size() ? leaf_text(was[i]) : "none", i < is.size() ? leaf_text(is[i]) : "none"};
+  }
+  return std::nullopt;
+}
+
+void note(VerifyReport& report, const std::optional<Divergence>& divergence) {
+  if (!divergence) return;
+  ++report.ticks_different;
+  if (!report.first_divergence) report.first_divergence = divergence;
+}
+
+/// Simulates every chunk that unpacks; ends early only when one does not, for then the state is unknown.
+void replay(const SessionReader& session, Simulation& simulation, VerifyReport& report) {
+  for (std::size_t i = 0; i < session.chunks().size(); ++i) {
+    const ChunkRow& c = session.chunks()[i];
+    ChunkMotion motion;
+    try {
+      motion = session.motion(i);
+    } catch (const Error& e) {
+      report.findings.push_back(std::string(e.what()) + " (replay stops here)");
+      return;
+    }
+    std::span<const RemovedLeaf> listed = motion.removed.leaves;
+    for (std::size_t t = 0; t < motion.inputs.size(); ++t) {
+      const auto tick = c.first_tick + static_cast<std::int64_t>(t);
+      const TickRecord record = make_tick_record(step(simulation.model, simulation.state, motion.inputs[t]));
+      const auto removed = listed.first(motion.removed.counts[t]);
+      listed = listed.subspan(removed.size());
+      auto divergence = compare(tick, motion.records[t], record);
+      if (!divergence) divergence = compare(tick, removed, simulation.state.removed);
+      note(report, divergence);
+    }
+    report.ticks_replayed += c.ticks;
+    const std::uint64_t expected = report.ticks_replayed == 0 ? 0 : state_hash(simulation.state);
+    if (expected == c.state_hash) continue;
+    report.findings.push_back("chunk " + std::to_string(c.seq) + ": state hash after tick " + std::to_string(c.first_tick + c.ticks - 1) + " differs from the replay");
+    if (!report.first_divergence)
+      report.first_divergence = Divergence{c.first_tick + c.ticks - 1, "state_hash", std::to_string(c.state_hash), std::to_string(expected)};
+  }
+}
+
+void compare_final_tooth(const SessionReader& session, const Simulation& simulation, VerifyReport& report) {
+  try {
+    const Tooth kept = load_tooth(session.final_tooth(), session.path() + ": final_tooth.cvt");
+    if (tooth_hash(kept) != tooth_hash(drilled_tooth(simulation)))
+      report.findings.push_back("table artifact: the final tooth is not the one that the replay leaves");
+  } catch (const std::exception& e) {
+    report.findings.push_back(e.what());
+  }
+}
+
+void simulate_and_compare(const SessionReader& session, VerifyReport& report) {
+  const auto recorded_physics = session.number("physics_version", 0);
+  if (recorded_physics != k_physics_version) {
+    report.findings.push_back("table meta: recorded under physics " + std::to_string(recorded_physics) + ", this program has " +
+                              std::to_string(k_physics_version) + ": chain and signature were checked, the motion cannot be replayed");
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  double tick_s = 0;
+  try {
+    Simulation simulation = make_simulation(session.setup(), session.path());
+    tick_s = simulation.model.config.tick_s;
+    replay(session, simulation, report);
+    if (report.closed && report.ticks_replayed == report.ticks) compare_final_tooth(session, simulation, report);
+  } catch (const std::exception& e) {
+    report.findings.push_back(std::string(e.what()) + " (not replayed)");
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (seconds > 0) report.speed_x_realtime = static_cast<double>(report.ticks_replayed) * tick_s / seconds;
+  if (report.ticks_different == 0) return;
+  const Divergence& d = *report.first_divergence;
+  report.findings.push_back("tick " + std::to_string(d.tick) + ": " + d.what + " recorded " + d.recorded + ", replayed " + d.replayed + "; " +
+                            std::to_string(report.ticks_different) + " of " + std::to_string(report.ticks_replayed) + " ticks differ");
+}
+
+}  // namespace
+
+VerifyReport verify_session(const std::string& path) {
+  const SessionReader session(path);
+  VerifyReport report;
+  report.file = path;
+  report.closed = session.closed();
+  report.ticks = session.ticks();
+  report.findings = session.findings();
+  for (auto& f : check_chain(session)) report.findings.push_back(std::move(f));
+  simulate_and_compare(session, report);
+  report.intact = report.findings.empty() && !report.first_divergence;
+  if (session.seal())
+    report.station_key = to_hex(session.seal()->public_key);
+  else
+    report.findings.push_back("table seal: the session was never closed; " + std::to_string(report.ticks) +
+                              (report.intact ? " ticks are intact and can be resumed" : " ticks are there"));
+  report.verified = report.intact && report.closed;
+  return report;
+}
+
+}  // namespace cavum

@@ -1,0 +1,259 @@
+#include "engine/tooth/distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+constexpr int k_reach = 3;  // leaves around a surface that may still lie in the band
+constexpr float k_band = static_cast<float>(k_distance_band_leaves) + 0.25f;
+
+/// Closest point of triangle abc to p (by Voronoi regions of its corners, edges and face).
+Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3 bp = p - b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const Vec3 cp = p - c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double sum = va + vb + vc;
+  if (!(sum > 0)) return a;  // a triangle without area: its edges were tried above
+  return a + ab * (vb / sum) + ac * (vc / sum);
+}
+
+/// Squared distance (in leaves) from every leaf to the nearest leaf of the other kind, up to k_reach along
+/// each axis; 255 beyond.
+std::vector<std::uint8_t> squared_to_other_kind(const TissueGrid& grid, const std::vector<std::uint8_t>& solid) {
+  std::vector<std::uint8_t> squared(grid.count(), 255);
+  const std::size_t nx = static_cast<std::size_t>(grid.size.x), nxy = nx * static_cast<std::size_t>(grid.size.y);
+  for (std::int32_t z = 0; z < grid.size.z; ++z)
+    for (std::int32_t y = 0; y < grid.size.y; ++y)
+      for (std::int32_t x = 0; x < grid.size.x; ++x) {
+        const IVec3 l{x, y, z};
+        const std::size_t i = grid.index(l);
+        const auto kind = solid[i];
+        const bool border = (x > 0 && solid[i - 1] != kind) || (x + 1 < grid.size.x && solid[i + 1] != kind) || (y > 0 && solid[i - nx] != kind) ||
+                            (y + 1 < grid.size.y && solid[i + nx] != kind) || (z > 0 && solid[i - nxy] != kind) ||
+                            (z + 1 < grid.size.z && solid[i + nxy] != kind);
+        if (!border) continue;  // the nearest leaf of the other kind always touches a face of its border
+        for (int dz = -k_reach; dz <= k_reach; ++dz)
+          for (int dy = -k_reach; dy <= k_reach; ++dy)
+            for (int dx = -k_reach; dx <= k_reach; ++dx) {
+              const IVec3 n{x + dx, y + dy, z + dz};
+              if (!grid.inside(n)) continue;
+              const std::size_t j = grid.index(n);
+              const auto d = static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz);
+              if (solid[j] != kind && d < squared[j]) squared[j] = d;
+            }
+      }
+  return squared;
+}
+
+}  // namespace
+
+void check_lattice(IVec3 size, double leaf_mm, const std::string& where) {
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, "the leaf must be larger than 0 mm", "give --leaf-mm 0.05, for example");
+  if (size.x < 1 || size.y < 1 || size.z < 1) throw Error(where, "nothing to build", "check the size of the input");
+  const int widest = std::max({size.x, size.y, size.z});
+  if (widest > Octree::k_max_edge_leaves)
+    throw Error(where, std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger --leaf-mm, or check that the unit is mm");
+}
+
+BandDistance::BandDistance(const TissueGrid& grid)
+    : size_(grid.size), leaf_mm_(grid.leaf_mm), first_mm_(grid.centre_mm({0, 0, 0})), leaves_(grid.count(), k_no_surface) {}
+
+void BandDistance::add(const TriangleMesh& mesh, const AcceptSurface& accept) {
+  const auto low_leaf = [](double v, int n) { return std::clamp(static_cast<int>(std::ceil(std::clamp(v, -1e6, 1e6))), 0, n); };
+  const auto high_leaf = [](double v, int n) { return std::clamp(static_cast<int>(std::floor(std::clamp(v, -1e6, 1e6))), -1, n - 1); };
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = (mesh.vertices_mm[t[0]] - first_mm_) / leaf_mm_;
+    const Vec3 b = (mesh.vertices_mm[t[1]] - first_mm_) / leaf_mm_;
+    const Vec3 c = (mesh.vertices_mm[t[2]] - first_mm_) / leaf_mm_;
+    const Vec3 across = cross(b - a, c - a);
+    const double area = length(across);
+    if (!(area > 1e-12)) continue;
+    const Vec3 normal = across / area;
+    const double plane = dot(normal, a);
+    const int x0 = low_leaf(std::min({a.x, b.x, c.x}) - k_band, size_.x), x1 = high_leaf(std::max({a.x, b.x, c.x}) + k_band, size_.x);
+    const int y0 = low_leaf(std::min({a.y, b.y, c.y}) - k_band, size_.y), y1 = high_leaf(std::max({a.y, b.y, c.y}) + k_band, size_.y);
+    const int z0 = low_leaf(std::min({a.z, b.z, c.z}) - k_band, size_.z), z1 = high_leaf(std::max({a.z, b.z, c.z}) + k_band, size_.z);
+    for (int z = z0; z <= z1; ++z)
+      for (int y = y0; y <= y1; ++y) {
+        float* row = leaves_.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(size_.x);
+        for (int x = x0; x <= x1; ++x) {
+          const Vec3 p{double(x), double(y), double(z)};
+          const double best = std::min(row[x], k_band);
+          if (std::fabs(dot(normal, p) - plane) >= best) continue;  // its plane is already farther
+          const Vec3 q = closest_on_triangle(p, a, b, c);
+          const double d = length(p - q);
+          if (d >= best || (accept && !accept(first_mm_ + q * leaf_mm_, normal))) continue;
+          row[x] = static_cast<float>(d);
+        }
+      }
+  }
+}
+
+void BandDistance::encode(TissueGrid& grid, const std::vector<Tissue>& tissues) const {
+  bool is_solid[256] = {};
+  for (const auto& t : tissues) is_solid[t.id] = t.solid;
+  std::vector<std::uint8_t> solid(grid.count());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = is_solid[grid.tissue[i]];
+  const auto squared = squared_to_other_kind(grid, solid);
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    double d = k_distance_band_leaves;
+    if (squared[i] != 255) {
+      // All centres nearer than `other` are of this leaf's kind: the surface lies within half a leaf's diagonal of it.
+      const double other = std::sqrt(static_cast<double>(squared[i]));
+      const double known = leaves_[i];
+      d = known >= k_no_surface ? std::max(other - 0.5, 0.0) : std::clamp(known, std::max(other - 0.9, 0.0), other);
+    }
+    grid.distance[i] = encode_distance(solid[i] ? -d : d);
+  }
+  grid.make_consistent(tissues);
+}
+
+void set_surface_from_field(TissueGrid& grid, const std::vector<Tissue>& tissues, std::span<const float> field, const std::function<double(Vec3)>& exact) {
+  std::vector<std::uint8_t> inside(field.size());
+  for (std::size_t i = 0; i < field.size(); ++i) inside[i] = field[i] < 0;
+  const Vec3 first = grid.centre_mm({0, 0, 0});
+  const auto fraction = [&](IVec3 a, IVec3 b) {
+    double fa = field[grid.index(a)], fb = field[grid.index(b)];
+    double ta = 0.0, tb = 1.0, t = fa / (fa - fb);
+    if (exact) {
+      const Vec3 from = grid.centre_mm(a), step = grid.centre_mm(b) - from;
+      for (int i = 0; i < 3; ++i) {  // false position, its old end halved so that it cannot stall (Illinois)
+        t = std::clamp(ta + (tb - ta) * fa / (fa - fb), 0.0, 1.0);
+        const double f = exact(from + step * t);
+        if (f < 0) {
+          ta = t;
+          fa = f;
+          fb *= 0.5;
+        } else {
+          tb = t;
+          fb = f;
+          fa *= 0.5;
+        }
+        if (std::fabs(f) < 1e-7 || !(fa < fb)) break;
+      }
+    }
+    return std::clamp(t, 1e-3, 1 - 1e-3);
+  };
+  BandDistance band(grid);
+  band.add(march_tetrahedra(grid.size, first, grid.leaf_mm, inside, fraction));
+  band.encode(grid, tissues);
+}
+
+namespace {
+
+/// Lower envelope of parabolas along one line: for each position the site that is nearest when site s costs
+/// cost[s] + (position - s)^2. Sites with a negative cost do not exist. O(n).
+void nearest_site(std::span<const std::int32_t> cost, std::span<std::int32_t> site, std::vector<std::int32_t>& stack, std::vector<double>& from) {
+  const auto n = static_cast<std::int32_t>(cost.size());
+  stack.clear();
+  from.clear();
+  for (std::int32_t s = 0; s < n; ++s) {
+    const std::int64_t c = cost[static_cast<std::size_t>(s)];
+    if (c < 0) continue;
+    double start = -1.0;
+    while (!stack.empty()) {
+      const std::int64_t v = stack.back(), cv = cost[static_cast<std::size_t>(v)];
+      start = static_cast<double>((c + std::int64_t{s} * s) - (cv + v * v)) / static_cast<double>(2 * (s - v));
+      if (start > from.back()) break;
+      stack.pop_back();
+      from.pop_back();
+    }
+    if (stack.empty()) start = -1.0;
+    stack.push_back(s);
+    from.push_back(start);
+  }
+  std::size_t k = 0;
+  for (std::int32_t p = 0; p < n; ++p) {
+    if (stack.empty()) {
+      site[static_cast<std::size_t>(p)] = -1;
+      continue;
+    }
+    while (k + 1 < stack.size() && from[k + 1] < p) ++k;
+    site[static_cast<std::size_t>(p)] = stack[k];
+  }
+}
+
+}  // namespace
+
+std::vector<std::int32_t> nearest_marked(IVec3 size, std::span<const std::uint8_t> marked, double radius_leaves) {
+  const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y), nz = static_cast<std::size_t>(size.z);
+  const double reach = std::min(radius_leaves * radius_leaves, 3.2e6);
+  const auto limit = static_cast<std::int32_t>(reach);
+  std::vector<std::int32_t> nearest(nx * ny * nz, -1);
+  for (std::size_t row = 0; row < ny * nz; ++row) {  // along x: the last mark to the left, the next to the right
+    std::int32_t last = -1;
+    for (std::size_t x = 0; x < nx; ++x) {
+      if (marked[row * nx + x]) last = static_cast<std::int32_t>(x);
+      nearest[row * nx + x] = last;
+    }
+    last = -1;
+    for (std::size_t x = nx; x-- > 0;) {
+      if (marked[row * nx + x]) last = static_cast<std::int32_t>(x);
+      auto& best = nearest[row * nx + x];
+      const auto here = static_cast<std::int32_t>(x);
+      if (last >= 0 && (best < 0 || last - here < here - best)) best = last;
+      if (best >= 0) best = (best - here) * (best - here) <= limit ? static_cast<std::int32_t>(row * nx) + best : -1;
+    }
+  }
+  // Along y, then z. Several neighbouring lines are taken together, so that memory is read in order.
+  constexpr std::size_t k_lines = 16;
+  std::vector<std::int32_t> stack;
+  std::vector<double> from;
+  const auto square_to = [&](std::int32_t feature, std::size_t x, std::size_t y, std::size_t z) {
+    const auto f = static_cast<std::size_t>(feature);
+    const auto dx = static_cast<std::int32_t>(f % nx) - static_cast<std::int32_t>(x);
+    const auto dy = static_cast<std::int32_t>(f / nx % ny) - static_cast<std::int32_t>(y);
+    const auto dz = static_cast<std::int32_t>(f / (nx * ny)) - static_cast<std::int32_t>(z);
+    return dx * dx + dy * dy + dz * dz;
+  };
+  const auto pass = [&](std::size_t lines, std::size_t length, const auto& index_of) {
+    std::vector<std::int32_t> feature(length), cost(length), site(length), block(k_lines * length);
+    for (std::size_t first = 0; first < nx; first += k_lines) {
+      const std::size_t count = std::min(k_lines, nx - first);
+      for (std::size_t line = 0; line < lines; ++line) {
+        for (std::size_t s = 0; s < length; ++s)
+          for (std::size_t c = 0; c < count; ++c) block[c * length + s] = nearest[index_of(line, s) + first + c];
+        for (std::size_t c = 0; c < count; ++c) {
+          bool any = false;
+          for (std::size_t s = 0; s < length; ++s) {
+            feature[s] = block[c * length + s];
+            const std::size_t at = index_of(line, s);
+            cost[s] = feature[s] < 0 ? -1 : square_to(feature[s], first + c, at / nx % ny, at / (nx * ny));
+            any = any || feature[s] >= 0;
+          }
+          if (!any) continue;
+          nearest_site(cost, site, stack, from);
+          for (std::size_t s = 0; s < length; ++s) {
+            const auto step = site[s] - static_cast<std::int32_t>(s);
+            const bool near = cost[static_cast<std::size_t>(site[s])] + step * step <= limit;
+            block[c * length + s] = near ? feature[static_cast<std::size_t>(site[s])] : -1;
+          }
+        }
+        for (std::size_t s = 0; s < length; ++s)
+          for (std::size_t c = 0; c < count; ++c) nearest[index_of(line, s) + first + c] = block[c * length + s];
+      }
+    }
+  };
+  pass(nz, ny, [&](std::size_t z, std::size_t y) { return (z * ny + y) * nx; });
+  pass(ny, nz, [&](std::size_t y, std::size_t z) { return (z * ny + y) * nx; });
+  return nearest;
+}
+
+}  // namespace cavum

@@ -1,0 +1,51 @@
+// Distances on the leaf lattice: exact distance to triangles in a narrow band, the surface of a smooth
+// field as distance codes, and the nearest marked leaf of every leaf. Shared by the makers and importers,
+// so that every tooth carries the same kind of surface: exact on planes, a few micrometres on curves.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/tooth/surface_mesh.h"
+#include "engine/tooth/tissue_grid.h"
+
+namespace cavum {
+
+/// Throws Error(`where`, ...) unless the lattice has 1..1024 leaves along every axis and a leaf > 0.
+void check_lattice(IVec3 size, double leaf_mm, const std::string& where);
+
+/// Says whether a surface point counts: `point_mm` on a triangle, `normal` its unit outward normal.
+using AcceptSurface = std::function<bool(Vec3 point_mm, Vec3 normal)>;
+
+/// Unsigned distances, in leaves, from leaf centres to a surface; leaves farther than the band of the
+/// distance codes (plus a diagonal) keep `k_no_surface`.
+class BandDistance {
+ public:
+  static constexpr float k_no_surface = 1e9f;
+  explicit BandDistance(const TissueGrid& grid);
+  /// Takes the nearer of what is known and this mesh (exact point-to-triangle distance). Points that
+  /// `accept` refuses do not count; an empty `accept` accepts all.
+  void add(const TriangleMesh& mesh, const AcceptSurface& accept = {});
+  /// Writes the codes of `grid`: sign from the labels, size from the distances, held within what the labels
+  /// allow (the surface passes between a leaf and its nearest leaf of the other kind).
+  void encode(TissueGrid& grid, const std::vector<Tissue>& tissues) const;
+
+ private:
+  IVec3 size_;
+  double leaf_mm_;
+  Vec3 first_mm_;  // centre of leaf (0,0,0)
+  std::vector<float> leaves_;
+};
+
+/// Sets the codes of `grid` from a smooth field at the leaf centres, negative exactly in the solid leaves, any
+/// unit. `exact`, when given, is the same field anywhere (mm) and places the surface's vertices more finely.
+void set_surface_from_field(TissueGrid& grid, const std::vector<Tissue>& tissues, std::span<const float> field,
+                            const std::function<double(Vec3)>& exact = {});
+
+/// Index of the nearest marked leaf for every leaf (exact Euclidean, O(n)), -1 where none lies within
+/// `radius_leaves`. Ties go to one of the nearest, always the same.
+[[nodiscard]] std::vector<std::int32_t> nearest_marked(IVec3 size, std::span<const std::uint8_t> marked, double radius_leaves);
+
+}  // namespace cavum
