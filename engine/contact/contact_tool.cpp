@@ -8,6 +8,24 @@
 namespace cavum {
 namespace {
 
+/// Moves a place near a bulging corner onto the fillet that rounds it.
+void round_edges(const std::vector<Profile::Corner>& corners, Profile::SurfacePoint& p) {
+  for (const auto& c : corners) {
+    const double bend = c.normal_before.r_mm * c.normal_after.z_mm - c.normal_before.z_mm * c.normal_after.r_mm;
+    const double along = c.normal_before.r_mm * c.normal_after.r_mm + c.normal_before.z_mm * c.normal_after.z_mm;
+    if (bend <= 0) continue;  // hollow
+    const double tangent = k_edge_radius_mm * bend / (1 + along);  // radius · tan(half the turn)
+    const double dr = p.at.r_mm - c.at.r_mm, dz = p.at.z_mm - c.at.z_mm;
+    if (dr * dr + dz * dz > tangent * tangent) continue;
+    // the fillet's centre lies one radius inside both sides
+    const double inward = k_edge_radius_mm / (1 + along);
+    const ProfilePoint centre{c.at.r_mm - inward * (c.normal_before.r_mm + c.normal_after.r_mm), c.at.z_mm - inward * (c.normal_before.z_mm + c.normal_after.z_mm)};
+    const double vr = p.at.r_mm - centre.r_mm, vz = p.at.z_mm - centre.z_mm, v = std::sqrt(vr * vr + vz * vz);
+    p.normal = {vr / v, vz / v};
+    p.at = {centre.r_mm + k_edge_radius_mm * vr / v, centre.z_mm + k_edge_radius_mm * vz / v};
+  }
+}
+
 /// Samples of the part between two heights, one for each `spacing²` of area, along a golden-angle spiral.
 void spread(const Profile& profile, double low_z, double high_z, double spacing, std::vector<ToolSample>& out) {
   struct Ring {
@@ -31,11 +49,13 @@ void spread(const Profile& profile, double low_z, double high_z, double spacing,
   }
   const int n = std::max(8, static_cast<int>(total / (spacing * spacing)));
   const double golden_rad = k_pi * (3.0 - std::sqrt(5.0));
+  const auto corners = profile.corners();
   std::size_t ring = 0;
   for (int i = 0; i < n; ++i) {
     const double area = total * (i + 0.5) / n;
     while (ring + 1 < rings.size() && rings[ring].until < area) ++ring;
-    const auto& p = rings[ring].place;
+    auto p = rings[ring].place;
+    round_edges(corners, p);
     const auto turn = det_sincos(i * golden_rad);
     out.push_back({{p.at.r_mm * turn.cos, p.at.r_mm * turn.sin, p.at.z_mm}, {p.normal.r_mm * turn.cos, p.normal.r_mm * turn.sin, p.normal.z_mm}, total / n});
   }
@@ -64,12 +84,22 @@ void group(ContactTool& tool, std::size_t first, double edge) {
 ContactTool make_contact_tool(const DiamondPoint& point, double head_spacing_mm) {
   ContactTool tool;
   tool.point = point;
+  // a long head is sampled more coarsely: its sides are straight, and the count decides the time of a tick
+  constexpr double k_most_head_samples = 450;
+  double head_area = 0;
+  ProfilePoint before;
+  for (const auto& p : point.profile.walk(0.02, point.cutting_length_mm)) {
+    const double dr = p.at.r_mm - before.r_mm, dz = p.at.z_mm - before.z_mm;
+    head_area += 2 * k_pi * p.at.r_mm * std::sqrt(dr * dr + dz * dz);
+    before = p.at;
+  }
+  head_spacing_mm = std::clamp(std::sqrt(head_area / k_most_head_samples), head_spacing_mm, 2 * head_spacing_mm);
   spread(point.profile, 0, point.cutting_length_mm, head_spacing_mm, tool.samples);
-  tool.samples.push_back({{0, 0, 0}, {0, 0, -1}, 0.0});  // the very tip, without weight
+  tool.samples.push_back({{0, 0, 0}, {0, 0, -1}, 1e-4});  // the very tip: a sharp point touches with nothing else
   group(tool, 0, 0.4);
   tool.head_patches = static_cast<std::uint32_t>(tool.patches.size());
   const auto head = tool.samples.size();
-  spread(point.profile, point.cutting_length_mm, std::min(point.profile.length_mm(), 16.0), 3 * head_spacing_mm, tool.samples);
+  spread(point.profile, point.cutting_length_mm, std::min(point.profile.length_mm(), 16.0), 0.27, tool.samples);
   group(tool, head, 1.2);
   for (const auto& s : tool.samples) tool.reach_mm = std::max(tool.reach_mm, length(s.at_mm));
   return tool;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int k_max_steps = 12;         // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
+constexpr double k_linear_leaves = 0.1;   // so far a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
 constexpr double k_settled_mm = 2e-5;   // a smaller step ends the search
 constexpr double k_resting_stride = 0.1; // leaves: first stride of a tool that was already in contact
@@ -39,14 +40,20 @@ void reset(ContactState& state, const ContactTool& tool, int point) noexcept {
   state.tool_clear_until_mm = state.travel_mm;
   std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), state.travel_mm);
   std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
-  state.gathered_travel_mm = -1;
+  state.gathered_turned_mm = -1;
   std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), state.travel_mm);
 }
 
 /// Collects a half space for each sample that a step of `reach_mm` could bring into contact.
 void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state) noexcept {
-  if (state.gathered_travel_mm == state.travel_mm && state.gathered_edit == tooth.edit_hash() && state.gathered_reach_mm >= reach_mm) return;
-  state.gathered_travel_mm = state.travel_mm;
+  const Vec3 moved = state.proxy_mm - state.gathered_mm;
+  const double moved_mm = length(moved);
+  if (state.gathered_turned_mm == state.turned_mm && state.gathered_edit == tooth.edit_hash() && moved_mm <= k_linear_leaves * tooth.leaf_mm() &&
+      state.gathered_reach_mm >= reach_mm + moved_mm)
+    return;
+  reach_mm += k_linear_leaves * tooth.leaf_mm();
+  state.gathered_mm = state.proxy_mm;
+  state.gathered_turned_mm = state.turned_mm;
   state.gathered_edit = tooth.edit_hash();
   state.gathered_reach_mm = reach_mm;
   state.half_spaces.clear();
@@ -94,7 +101,9 @@ ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept {
   const Vec3 before = state.proxy_mm;
   const Mat3 turned = rotation(device.rotation);
-  state.travel_mm += turn_bound_mm(state.rotation, turned, tool.reach_mm);
+  const double turn_mm = turn_bound_mm(state.rotation, turned, tool.reach_mm);
+  state.travel_mm += turn_mm;
+  state.turned_mm += turn_mm;
   state.rotation = turned;
   if (state.point != point) reset(state, tool, point);
 
@@ -114,12 +123,15 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       const double rest_mm = length(rest);
       gather(tooth, tool, std::min(rest_mm, stride) + 0.02 * leaf, state);
       const Vec3 wanted = rest_mm > stride ? rest * (stride / rest_mm) : rest;
-      auto solution = nearest_step(wanted, state.half_spaces);
+      // the half spaces stand about the place where they were gathered: so do the steps
+      const Vec3 since = state.proxy_mm - state.gathered_mm;
+      auto solution = nearest_step(since + wanted, state.half_spaces);
       if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
         for (auto& h : state.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
-        state.gathered_travel_mm = -1;
-        solution = nearest_step(wanted, state.half_spaces);
+        state.gathered_turned_mm = -1;
+        solution = nearest_step(since + wanted, state.half_spaces);
       }
+      solution.step -= since;
       Vec3 stepped = solution.feasible ? solution.step : Vec3{};
       double stepped_mm = length(stepped);
       if (stepped_mm > stride) {
@@ -152,8 +164,12 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
 
 TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const TissueConstants* tissue, ContactState& state) noexcept {
   const Vec3 swung = state.normal - state.means_normal;
-  if (state.means_travel_mm == state.travel_mm && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2) return state.means;
-  state.means_travel_mm = state.travel_mm;
+  const Vec3 moved = state.proxy_mm - state.means_proxy_mm;
+  const double same_mm = 0.5 * k_linear_leaves * tooth.leaf_mm();
+  if (state.means_turned_mm == state.turned_mm && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2 && dot(moved, moved) < same_mm * same_mm)
+    return state.means;
+  state.means_turned_mm = state.turned_mm;
+  state.means_proxy_mm = state.proxy_mm;
   state.means_edit = tooth.edit_hash();
   state.means_normal = state.normal;
   TouchedMeans& means = state.means;

@@ -35,13 +35,15 @@ struct ContactState {
   double travel_mm = 0;   ///< how far any part of the tool has moved so far, an upper bound
   double tool_clear_until_mm = 0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;  ///< in units of travel
-  std::vector<HalfSpace> half_spaces;  ///< room for one of each sample; kept while neither tool nor tooth changed
-  double gathered_travel_mm = -1, gathered_reach_mm = 0;
+  double turned_mm = 0;  ///< part of the travel that came from rotation
+  std::vector<HalfSpace> half_spaces;  ///< about `gathered_mm`; room for one of each sample
+  Vec3 gathered_mm;      ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
+  double gathered_turned_mm = -1, gathered_reach_mm = 0;
   std::uint64_t gathered_edit = 0;
-  TouchedMeans means;                  ///< as long as neither tool, tooth nor normal changed
-  double means_travel_mm = -1;
+  TouchedMeans means;                  ///< as long as neither tool, tooth nor normal changed much
+  double means_turned_mm = -1;
   std::uint64_t means_edit = 0;
-  Vec3 means_normal;
+  Vec3 means_proxy_mm, means_normal;
   Octree::Cursor cursor;
 };
 [[nodiscard]] ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm);

@@ -1,23 +1,58 @@
 #include "engine/cutting/carve_head.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cavum {
+namespace {
 
-bool carve_head(Octree& tooth, const DiamondPoint& point, Vec3 tip_mm, const Mat3& turned, std::vector<RemovedLeaf>& removed) noexcept {
-  const double top = point.cutting_length_mm;
+/// The head at a pose, as the octree asks for it.
+struct HeadShape {
+  const DiamondPoint& point;
+  Vec3 tip_mm;
+  const Mat3& rotation;
+  bool only_leading = false;
+  Vec3 way{};            // of the tip since the last carve, tool frame
+  double across_mm = 0;  // its part across the axis
+
+  double operator()(Vec3 mm) const noexcept { return point.head_distance_mm(rotation.transposed(mm - tip_mm)); }
+
+  /// The distance to a convex body that moved by `way` can fall at x only where the surface nearest to x faces
+  /// along the way. Faces of a body of revolution: sideways within the half turn about x, downwards only below
+  /// the height where the head is widest, upwards only above the height where it begins to narrow.
+  [[nodiscard]] bool unchanged(Vec3 centre_mm, double radius_mm) const noexcept {
+    if (!only_leading) return false;
+    const Vec3 c = rotation.transposed(centre_mm - tip_mm);
+    if (across_mm > 0 && c.x * way.x + c.y * way.y + radius_mm * across_mm > 0) return false;
+    if (way.z < 0 && c.z - radius_mm < point.widest_from_mm) return false;
+    if (way.z > 0 && c.z + radius_mm > point.widest_to_mm) return false;
+    return true;
+  }
+};
+
+bool same(const Mat3& a, const Mat3& b) noexcept { return a.row_x == b.row_x && a.row_y == b.row_y && a.row_z == b.row_z; }
+
+}  // namespace
+
+bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, CarvedHead& last,
+                std::vector<RemovedLeaf>& removed) noexcept {
+  const double leaf = tooth.leaf_mm();
   // The head's box: the capsule around its axis, and the band of distances that changes around it.
-  const double r = point.head_radius_mm + (k_distance_band_leaves + 1.0) * tooth.leaf_mm();
-  const Vec3 end = tip_mm + turned * Vec3{0, 0, top};
+  const double r = head.head_radius_mm + (k_distance_band_leaves + 1.0) * leaf;
+  const Vec3 end = tip_mm + rotation * Vec3{0, 0, head.cutting_length_mm};
   const Vec3 low{std::min(tip_mm.x, end.x) - r, std::min(tip_mm.y, end.y) - r, std::min(tip_mm.z, end.z) - r};
   const Vec3 high{std::max(tip_mm.x, end.x) + r, std::max(tip_mm.y, end.y) + r, std::max(tip_mm.z, end.z) + r};
-  const auto head = [&](Vec3 mm) noexcept {
-    return point.head_distance_mm(turned.transposed(mm - tip_mm));
-  };
+  HeadShape shape{head, tip_mm, rotation};
+  if (last.point == point && same(last.rotation, rotation)) {
+    shape.only_leading = true;
+    shape.way = rotation.transposed(tip_mm - last.tip_mm);
+    shape.across_mm = std::sqrt(shape.way.x * shape.way.x + shape.way.y * shape.way.y);
+  }
   // Trilinear interpolation of a hollow of radius R lies leaf²/(8R) a direction inside it, rounding of the codes adds 0.01 leaf.
-  const double leaf = tooth.leaf_mm();
-  const double clearance_mm = leaf * (0.01 + 0.25 * leaf / point.head_radius_mm);
-  return tooth.carve(low, high, head, removed, clearance_mm);
+  const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm);
+  const bool complete = tooth.carve(low, high, shape, removed, clearance_mm);
+  last = {tip_mm, rotation, complete ? point : -1};
+  return complete;
 }
 
 }  // namespace cavum

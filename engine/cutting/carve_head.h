@@ -10,8 +10,18 @@
 
 namespace cavum {
 
+/// Where a head was carved last, to know what it has already done.
+struct CarvedHead {
+  Vec3 tip_mm;
+  Mat3 rotation;
+  int point = -1;  ///< of the tray; -1 = nothing carved yet, or not completely
+};
+
 /// Turns every leaf inside the head to air and raises the surface distance around it. Appends to `removed`
-/// within its capacity. Returns false when room ran out (then part of the head was not carved).
-bool carve_head(Octree& tooth, const DiamondPoint& point, Vec3 tip_mm, const Mat3& rotation, std::vector<RemovedLeaf>& removed) noexcept;
+/// within its capacity; `last` is brought up to date. Returns false when room ran out (then part of the head was
+/// not carved). A head that only moved on since `last` is carved on its leading side alone: behind it nothing
+/// can change, for all heads are convex.
+bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, CarvedHead& last,
+                std::vector<RemovedLeaf>& removed) noexcept;
 
 }  // namespace cavum

@@ -36,7 +36,22 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
     throw Error(where, e.what(), "correct the profile");
   }
   point.head = point.profile.below(point.cutting_length_mm);
-  point.head_radius_mm = point.profile.largest_radius_mm(point.cutting_length_mm);
+  ProfilePoint facing{0, -1};
+  for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm)) {
+    // carving relies on it: see carve_head
+    if (facing.r_mm * p.normal.z_mm - facing.z_mm * p.normal.r_mm < -1e-6)
+      throw Error(where, "the coated head is hollow at a height of " + std::to_string(p.at.z_mm) + " mm", "make the profile convex up to cutting_length_mm");
+    facing = p.normal;
+    point.head_radius_mm = std::max(point.head_radius_mm, p.at.r_mm);
+    if (p.normal.z_mm < -1e-9) point.widest_from_mm = p.at.z_mm;  // still facing down
+  }
+  point.smallest_radius_mm = point.head.smallest_arc_mm(point.head_radius_mm);
+  point.widest_to_mm = point.cutting_length_mm;
+  for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm))
+    if (p.normal.z_mm > 1e-9) {
+      point.widest_to_mm = p.at.z_mm;  // faces up from here on
+      break;
+    }
   return point;
 }
 

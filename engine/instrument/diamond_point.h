@@ -15,6 +15,8 @@ struct DiamondPoint {
   double cutting_length_mm = 0;  ///< coated from the tip up to this height
   Profile profile;               ///< head, neck and shank
   double head_radius_mm = 0;     ///< largest radius of the coated part
+  double smallest_radius_mm = 0;  ///< of the head's curvature: a ball end's, or the head's own
+  double widest_from_mm = 0, widest_to_mm = 0;  ///< heights between which the head does not get narrower either way
   Profile head;                  ///< the coated part alone, closed by a flat top
 
   /// Signed distance, mm, to the coated head, in the tool frame: what cuts.

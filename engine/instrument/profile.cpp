@@ -61,10 +61,30 @@ double Profile::radius_mm(double z_mm) const noexcept {
   return widest >= 0 ? widest : pieces_.back().b.r_mm;
 }
 
-double Profile::largest_radius_mm(double below_z_mm) const noexcept {
-  double widest = 0.0;
-  for (const auto& p : walk(0.05, below_z_mm)) widest = std::max(widest, p.at.r_mm);
-  return widest;
+ProfilePoint Profile::normal_at(const Piece& p, ProfilePoint at) noexcept {
+  if (p.arc) {  // counter-clockwise about its centre is a bulge
+    const double s = p.turn / p.radius;
+    return {(at.r_mm - p.centre.r_mm) * s, (at.z_mm - p.centre.z_mm) * s};
+  }
+  const double length = std::sqrt(p.length2);
+  return length > 0 ? ProfilePoint{(p.b.z_mm - p.a.z_mm) / length, -(p.b.r_mm - p.a.r_mm) / length} : ProfilePoint{1, 0};
+}
+
+std::vector<Profile::Corner> Profile::corners() const {
+  std::vector<Corner> out;
+  for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
+    const ProfilePoint at = pieces_[i].b;
+    const Corner c{at, normal_at(pieces_[i], at), normal_at(pieces_[i + 1], at)};
+    if (c.normal_before.r_mm * c.normal_after.r_mm + c.normal_before.z_mm * c.normal_after.z_mm < 0.999) out.push_back(c);
+  }
+  return out;
+}
+
+double Profile::smallest_arc_mm(double otherwise) const noexcept {
+  double smallest = otherwise;
+  for (const auto& p : pieces_)
+    if (p.arc && p.turn > 0) smallest = std::min(smallest, p.radius);
+  return smallest;
 }
 
 std::vector<Profile::SurfacePoint> Profile::walk(double step_mm, double below_z_mm) const {

@@ -38,13 +38,19 @@ class Profile {
   [[nodiscard]] double length_mm() const noexcept { return segments_.empty() ? 0.0 : segments_.back().end.z_mm; }
   /// The pieces that begin below a height: the same shape there, cheaper to ask.
   [[nodiscard]] Profile below(double z_mm) const;
-  [[nodiscard]] double largest_radius_mm(double below_z_mm) const noexcept;
   [[nodiscard]] const std::vector<ProfileSegment>& segments() const noexcept { return segments_; }
 
   /// A place on the surface with its outward normal, both in the (r, z) half plane.
   struct SurfacePoint {
     ProfilePoint at, normal;
   };
+  /// A place where two pieces meet at an angle, with the normals on both sides.
+  struct Corner {
+    ProfilePoint at, normal_before, normal_after;
+  };
+  [[nodiscard]] std::vector<Corner> corners() const;
+  /// Smallest radius of a bulging arc, mm; `otherwise` without one.
+  [[nodiscard]] double smallest_arc_mm(double otherwise) const noexcept;
   /// The profile's points at even steps of at most `step_mm`, from the tip to `below_z_mm`.
   [[nodiscard]] std::vector<SurfacePoint> walk(double step_mm, double below_z_mm) const;
 
@@ -57,6 +63,8 @@ class Profile {
     double turn = 1;  ///< +1 counter-clockwise about the centre
   };
   [[nodiscard]] static double distance_to(const Piece& piece, double r, double z) noexcept;
+  [[nodiscard]] static ProfilePoint normal_at(const Piece& piece, ProfilePoint at) noexcept;
+  [[nodiscard]] static bool holds(const Piece& piece, double r, double z) noexcept;
   [[nodiscard]] static double radius_on(const Piece& piece, double z) noexcept;
 
   std::vector<ProfileSegment> segments_;
@@ -91,19 +99,36 @@ inline double Profile::radius_on(const Piece& p, double z) noexcept {
   return p.a.r_mm + (p.b.r_mm - p.a.r_mm) * (z - p.a.z_mm) / dz;
 }
 
+inline bool Profile::holds(const Piece& p, double r, double z) noexcept {
+  if (p.arc) {
+    const bool in_circle = profile_squared(r - p.centre.r_mm) + profile_squared(z - p.centre.z_mm) < profile_squared(p.radius);
+    return p.bulge ? r <= p.centre.r_mm || in_circle : r < p.centre.r_mm && !in_circle;
+  }
+  const double dz = p.b.z_mm - p.a.z_mm;
+  if (dz <= 0) return r < std::max(p.a.r_mm, p.b.r_mm);
+  return (r - p.a.r_mm) * dz < (p.b.r_mm - p.a.r_mm) * (z - p.a.z_mm);
+}
+
 inline double Profile::distance_mm(Vec3 at) const noexcept {
   const double r = std::sqrt(at.x * at.x + at.y * at.y);
-  double nearest = std::numeric_limits<double>::max(), radius = -1.0;
-  for (const auto& p : pieces_) {
-    nearest = std::min(nearest, distance_to(p, r, at.z));
-    if (at.z >= p.a.z_mm && at.z <= p.b.z_mm) radius = std::max(radius, radius_on(p, at.z));
-  }
+  double nearest = std::numeric_limits<double>::max();
+  bool inside = false;
   const ProfilePoint end = pieces_.back().b;
   if (at.z > end.z_mm) {  // the handle side goes on
-    radius = end.r_mm;
-    nearest = std::min(nearest, std::fabs(r - end.r_mm));
+    inside = r < end.r_mm;
+    nearest = std::fabs(r - end.r_mm);
   }
-  return r < radius ? -nearest : nearest;
+  // pieces at this height first: they are near, and tell how far the others may be passed over
+  for (const auto& p : pieces_) {
+    if (at.z < p.a.z_mm || at.z > p.b.z_mm) continue;
+    nearest = std::min(nearest, distance_to(p, r, at.z));
+    inside = inside || holds(p, r, at.z);
+  }
+  for (const auto& p : pieces_) {
+    const double gap = at.z < p.a.z_mm ? p.a.z_mm - at.z : at.z - p.b.z_mm;
+    if (gap > 0 && gap < nearest) nearest = std::min(nearest, distance_to(p, r, at.z));
+  }
+  return inside ? -nearest : nearest;
 }
 
 }  // namespace cavum

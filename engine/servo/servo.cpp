@@ -5,13 +5,12 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "engine/cutting/carve_head.h"
 
 namespace cavum {
 namespace {
 
-constexpr double k_carve_step_leaves = 1.0 / 8;  // recession is gathered up to this before the octree is edited
-constexpr double k_sweep_step_leaves = 0.25;      // way through void tissue between two carves
+constexpr double k_carve_step_leaves = 0.25; // recession is gathered up to this before the octree is edited
+constexpr double k_sweep_step_leaves = 1.0;     // way through void tissue between two carves
 constexpr double k_still_share = 0.01;            // of the full speed: below it the handpiece stands still
 constexpr std::size_t k_edit_room = 1 << 17;      // bricks; untouched room costs no memory
 constexpr std::size_t k_removed_room = 1 << 16;   // leaves a tick
@@ -34,7 +33,7 @@ double next_rpm(const ServoConfig& config, double rpm, const TickInput& input) n
 
 /// Lets the surface recede and carves when enough has gathered.
 void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, const ContactResult& contact, const TouchedMeans& means,
-         double penetration_mm, TickOutput& out) noexcept {
+         double penetration_mm, int input_point, TickOutput& out) noexcept {
   const double leaf = state.tooth.leaf_mm();
   bool carve = false;
   if (means.touching) {
@@ -49,7 +48,14 @@ void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, co
   if (!carve) return;
   const double ahead = means.touching ? std::max(0.0, state.recession_mm) : 0.0;
   const Vec3 at = state.contact.proxy_mm - state.contact.normal * ahead;
-  if (!carve_head(state.tooth, tool.point, at, state.contact.rotation, state.removed)) out.notices |= k_notice_tooth_full;
+  // Where the head was carved already (held up by neck or shank, or swinging in its hole) there is nothing to gain.
+  const Mat3& turned = state.contact.rotation;
+  if (state.carved.point == input_point) {
+    const Vec3 top{0, 0, tool.point.cutting_length_mm};
+    const Vec3 tip_way = at - state.carved.tip_mm, top_way = tip_way + turned * top - state.carved.rotation * top;
+    if (length(tip_way) + length(top_way) < k_carve_step_leaves * leaf) return;
+  }
+  if (!carve_head(state.tooth, tool.point, input_point, at, turned, state.carved, state.removed)) out.notices |= k_notice_tooth_full;
   state.swept_mm = 0.0;
 }
 
@@ -149,7 +155,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     update_speed(model.force.rendering, state.render, contact.touching, approach_mm, dt);
     out.model_force_n = voigt_force_n(tissue, penetration, state.render.speed_mm_s);
     wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt);
-    if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, out);
+    if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, input.point, out);
     state.last_tip_mm = device.tip_mm;
     out.contact = contact.touching;
     out.penetration_mm = penetration;

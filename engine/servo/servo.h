@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/contact/proxy.h"
+#include "engine/cutting/carve_head.h"
 #include "engine/force/force_model.h"
 #include "engine/force/rendering.h"
 #include "engine/force/safety.h"
@@ -54,6 +55,7 @@ struct ServoState {
   double rpm = 0.0;
   double recession_mm = 0.0;       ///< surface receded along the contact but not yet carved
   double swept_mm = 0.0;           ///< way of the head since the last carve
+  CarvedHead carved;               ///< pose of the last carve
   std::uint64_t trace_hash = 0;    ///< over every output so far
   std::vector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
 };

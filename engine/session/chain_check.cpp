@@ -54,9 +54,9 @@ void check_chunks(const SessionReader& session, Findings& findings) {
     const bool same_records = part(sha256(c.records) == c.records_sha256, "its forces (records) were");
     const bool same_removed = part(sha256(c.removed) == c.removed_sha256, "its removed leaves were");
     const bool same_events = part(events_hash(events[i]) == c.events_sha256, "its events were");
+    const bool same_parts = same_inputs && same_records && same_removed && same_events;
     if (chunk_hash(c) != c.sha256)
-      say(same_inputs && same_records && same_removed && same_events ? "its clocks, tick numbers, state hash or part hashes were changed after recording"
-                                                                     : "its link in the chain does not hold");
+      say(same_parts ? "its clocks, tick numbers, state hash or part hashes were changed after recording" : "its link in the chain does not hold");
     before = c.sha256;
   }
 }
@@ -72,7 +72,8 @@ void check_seal(const SessionReader& session, Findings& findings) {
     if (!holds) findings.push_back(what);
   };
   const Sha256 end = session.chunks().empty() ? genesis_hash(session.meta(), session.artifacts()) : session.chunks().back().sha256;
-  say(is_signed_by(seal.public_key, seal_message(seal), seal.signature), "table seal: the signature does not hold (hash, count, clock or key was changed)");
+  say(is_signed_by(seal.public_key, seal_message(seal), seal.signature),
+      "table seal: the signature does not hold (hash, count, clock or key was changed)");
   say(seal.chain_sha256 == end, "table seal: the chain does not end where the session was closed");
   say(seal.chunks == static_cast<std::int64_t>(session.chunks().size()), "table chunk: " + std::to_string(session.chunks().size()) +
                                                                                " chunks, closed with " + std::to_string(seal.chunks));

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/servo/servo.h"
 #include "engine/session/chain.h"
@@ -123,6 +124,9 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   need(!setup.force_model_toml.empty(), "a force model");
   need(!setup.servo_toml.empty(), "servo settings");
   need(!setup.candidate.empty(), "the candidate's pseudonym");
+  std::set<std::string> attached;
+  for (const auto& [name, bytes] : setup.attachments)
+    if (!attached.insert(name).second) throw Error(path, "two attachments are named '" + name + "'", "give each its own name");
   for (const char* suffix : {"", "-wal", "-journal"})
     if (struct stat info{}; ::lstat((path + suffix).c_str(), &info) == 0)
       throw Error(path + suffix, "exists already", "choose another name; an existing session is never overwritten");

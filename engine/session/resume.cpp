@@ -35,7 +35,8 @@ void require_intact(const SessionReader& session) {
   const auto findings = check_chain(session);
   if (!findings.empty()) throw Error(session.path(), findings.front(), "it is evidence now: keep it, and start a new exam");
   if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(session.path(), "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
+    throw Error(session.path(),
+                "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
                 "resume it with the program that recorded it");
 }
 
@@ -56,7 +57,8 @@ std::string gap_detail(const SessionReader& session) {
   Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
-    if (e.event.kind == "gap") last_boot = nlohmann::json::parse(e.event.detail_json).value("boot_id", last_boot);
+    if (const auto detail = nlohmann::json::parse(e.event.detail_json, nullptr, false); e.event.kind == "gap" && detail.is_object())
+      last_boot = detail.value("boot_id", last_boot);
   const Clocks now = read_clocks();
   const std::string this_boot = boot_id();
   nlohmann::json detail;

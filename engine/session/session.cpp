@@ -1,6 +1,6 @@
 #include "engine/session/session.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <ctime>
 #include <fstream>
 
@@ -45,9 +45,8 @@ std::vector<Artifact> artifacts_of(const SessionSetup& setup) {
   if (!setup.rubric_toml.empty()) all.push_back(artifact("rubric.toml", setup.rubric_toml));
   all.push_back(artifact("start_tooth.cvt", setup.tooth));
   for (std::size_t i = 0; i < setup.points_toml.size(); ++i) {
-    char name[24];
-    std::snprintf(name, sizeof name, "point_%03zu.toml", i);
-    all.push_back(artifact(name, setup.points_toml[i]));
+    const std::string number = std::to_string(i);
+    all.push_back(artifact("point_" + std::string(3 - std::min<std::size_t>(3, number.size()), '0') + number + ".toml", setup.points_toml[i]));
   }
   all.push_back(artifact("force_model.toml", setup.force_model_toml));
   all.push_back(artifact("servo.toml", setup.servo_toml));

@@ -78,9 +78,9 @@ void replay(const SessionReader& session, Simulation& simulation, VerifyReport& 
     report.ticks_replayed += c.ticks;
     const std::uint64_t expected = report.ticks_replayed == 0 ? 0 : state_hash(simulation.state);
     if (expected == c.state_hash) continue;
-    report.findings.push_back("chunk " + std::to_string(c.seq) + ": state hash after tick " + std::to_string(c.first_tick + c.ticks - 1) + " differs from the replay");
-    if (!report.first_divergence)
-      report.first_divergence = Divergence{c.first_tick + c.ticks - 1, "state_hash", std::to_string(c.state_hash), std::to_string(expected)};
+    const auto last = c.first_tick + c.ticks - 1;
+    report.findings.push_back("chunk " + std::to_string(c.seq) + ": state hash after tick " + std::to_string(last) + " differs from the replay");
+    if (!report.first_divergence) report.first_divergence = Divergence{last, "state_hash", std::to_string(c.state_hash), std::to_string(expected)};
   }
 }
 
@@ -121,20 +121,25 @@ void simulate_and_compare(const SessionReader& session, VerifyReport& report) {
 
 }  // namespace
 
-VerifyReport verify_session(const std::string& path) {
+VerifyReport verify_session(const std::string& path, const std::string& expected_station_key) {
   const SessionReader session(path);
   VerifyReport report;
   report.file = path;
   report.closed = session.closed();
   report.ticks = session.ticks();
   report.findings = session.findings();
+  if (session.meta().empty() && session.chunks().empty()) {  // nothing could be read: the reader has said why
+    if (report.findings.empty()) report.findings.push_back("table meta: empty");
+    return report;
+  }
   for (auto& f : check_chain(session)) report.findings.push_back(std::move(f));
+  if (session.seal()) report.station_key = to_hex(session.seal()->public_key);
+  if (!expected_station_key.empty() && session.seal() && report.station_key != expected_station_key)
+    report.findings.push_back("table seal: closed by station " + report.station_key + ", not by the one expected");
   simulate_and_compare(session, report);
   report.intact = report.findings.empty() && !report.first_divergence;
-  if (session.seal())
-    report.station_key = to_hex(session.seal()->public_key);
-  else
-    report.findings.push_back("table seal: the session was never closed; " + std::to_string(report.ticks) +
+  if (!report.closed)
+    report.findings.push_back("table seal: none, the session was never closed; " + std::to_string(report.ticks) +
                               (report.intact ? " ticks are intact and can be resumed" : " ticks are there"));
   report.verified = report.intact && report.closed;
   return report;

@@ -32,7 +32,9 @@ struct VerifyReport {
   std::string station_key;            ///< public key that signed, hexadecimal; empty when not closed
 };
 
-/// Throws Error only when the file cannot be read as a session at all; damage is in the report.
-[[nodiscard]] VerifyReport verify_session(const std::string& path);
+/// Throws Error only when the file cannot be read as a session at all; damage is in the report. With
+/// `expected_station_key` (hexadecimal) a session closed by any other station is not verified: whoever can
+/// simulate can also forge a whole new session, but not sign it with a key that is not theirs.
+[[nodiscard]] VerifyReport verify_session(const std::string& path, const std::string& expected_station_key = "");
 
 }  // namespace cavum

@@ -91,6 +91,7 @@ class Octree {
   /// and two leaves around it. Removed leaves are appended to `removed` up to its capacity, in a fixed order.
   /// The distance field is cut wider by `clearance_mm` than the labels: what interpolation between leaves rounds off
   /// would otherwise clamp a tool in the very hole it has cut.
+  /// `shape.unchanged(centre, radius)` may say true for a ball (mm) in which an earlier carve did all of it already.
   /// Returns false, and leaves the rest untouched, when the reserved room or `removed` is full.
   template <class Shape>
   bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm = 0.0) noexcept;

@@ -29,7 +29,10 @@ void Octree::carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& sha
   // The shape's distance changes by at most 1 mm per mm: the centre speaks for the whole cube.
   const double half_mm = 0.5 * edge * leaf_mm_;
   const Vec3 middle = origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
-  if (shape(middle) > half_mm * 1.7320508075688773 + edit.band_mm) return;
+  const double radius_mm = half_mm * 1.7320508075688773;
+  if (shape(middle) > radius_mm + edit.band_mm) return;
+  if constexpr (requires { shape.unchanged(middle, radius_mm); })
+    if (shape.unchanged(middle, radius_mm)) return;
   if (level == 0) {
     carve_brick(ref, low, shape, edit);
     return;

@@ -1,0 +1,149 @@
+#include "engine/device/motion_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::array<std::string_view, 12> k_columns{"t_s", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz", "pedal", "b1", "b2", "point"};
+constexpr std::size_t k_required = 9;
+
+std::string_view trimmed(std::string_view s) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!s.empty() && blank(s.front())) s.remove_prefix(1);
+  while (!s.empty() && blank(s.back())) s.remove_suffix(1);
+  return s;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Reads the lines of one file and says where it stands.
+class Reader {
+ public:
+  Reader(const std::string& text, std::string where) : rest_(text), where_(std::move(where)) {}
+
+  std::optional<std::string_view> line() {
+    if (rest_.empty()) return std::nullopt;
+    ++number_;
+    const auto end = rest_.find('\n');
+    const auto line = trimmed(rest_.substr(0, end));
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    return line;
+  }
+  [[noreturn]] void fail(const std::string& what, const std::string& todo) const { throw Error(where_ + ":" + std::to_string(number_), what, todo); }
+
+ private:
+  std::string_view rest_;
+  std::string where_;
+  int number_ = 0;
+};
+
+/// Which of our columns each cell of the header is.
+std::vector<std::size_t> read_header(const Reader& in, std::string_view header) {
+  std::vector<std::size_t> column_of;
+  for (const auto name : cells_of(header)) {
+    const auto found = std::find(k_columns.begin(), k_columns.end(), name);
+    if (found == k_columns.end()) {
+      for (const std::string_view axis : {"t", "x", "y", "z"})
+        if (name == axis || name.starts_with(std::string(axis) + "_"))
+          in.fail("column '" + std::string(name) + "' has another unit or none", "convert it to '" + std::string(axis) + (axis == "t" ? "_s" : "_mm") + "'");
+      in.fail("column '" + std::string(name) + "' is not known", "use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point");
+    }
+    const auto c = static_cast<std::size_t>(found - k_columns.begin());
+    if (std::find(column_of.begin(), column_of.end(), c) != column_of.end()) in.fail("column '" + std::string(name) + "' stands twice", "remove one");
+    column_of.push_back(c);
+  }
+  for (std::size_t c = 0; c < k_required; ++c)
+    if (std::find(column_of.begin(), column_of.end(), c) == column_of.end())
+      in.fail("column '" + std::string(k_columns[c]) + "' is missing", "add it to header and rows");
+  return column_of;
+}
+
+MotionSample read_row(const Reader& in, std::string_view line, const std::vector<std::size_t>& column_of) {
+  const auto cells = cells_of(line);
+  if (cells.size() != column_of.size())
+    in.fail("has " + std::to_string(cells.size()) + " values for " + std::to_string(column_of.size()) + " columns", "complete the row");
+  std::array<double, k_columns.size()> v{};
+  v[11] = -1;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    double& value = v[column_of[i]];
+    const auto name = std::string(k_columns[column_of[i]]);
+    const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), value);
+    if (error != std::errc{} || end != cells[i].data() + cells[i].size()) in.fail("'" + std::string(cells[i]) + "' in column " + name + " is not a number", "write a number with a point");
+    if (!std::isfinite(value)) in.fail("column " + name + " is " + std::string(cells[i]), "repair or cut out this row");
+  }
+  if (v[8] < 0 || v[8] > 1) in.fail("pedal is " + std::to_string(v[8]) + ", outside 0 .. 1", "scale it: 0 released, 1 pressed to the floor");
+  for (int axis = 1; axis <= 3; ++axis)
+    if (std::fabs(v[static_cast<std::size_t>(axis)]) > 500) in.fail(std::string(k_columns[static_cast<std::size_t>(axis)]) + " is further than 500 mm from the tooth", "give millimetres in the tooth frame");
+  const double n2 = v[4] * v[4] + v[5] * v[5] + v[6] * v[6] + v[7] * v[7];
+  if (n2 < 0.5 || n2 > 2) in.fail("the rotation qw,qx,qy,qz is not of unit length", "give a unit quaternion, 1,0,0,0 for an upright handpiece");
+  if (v[11] != std::floor(v[11]) || v[11] < -1 || v[11] > 255) in.fail("point is not a number of the tray", "write 0 for the first diamond point");
+  return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
+}
+
+}  // namespace
+
+Motion parse_motion(const std::string& text, const std::string& where) {
+  Reader in(text, where);
+  Motion motion;
+  std::vector<std::size_t> column_of;
+  while (const auto line = in.line()) {
+    if (line->empty()) continue;
+    if (line->front() == '#') {
+      const auto equals = line->find('=');
+      if (equals != std::string_view::npos && trimmed(line->substr(1, equals - 1)) == "point") motion.point = trimmed(line->substr(equals + 1));
+      continue;
+    }
+    if (column_of.empty()) {
+      column_of = read_header(in, *line);
+      continue;
+    }
+    motion.samples.push_back(read_row(in, *line, column_of));
+    const auto n = motion.samples.size();
+    if (n > 1 && !(motion.samples[n - 1].t_s > motion.samples[n - 2].t_s)) in.fail("t_s does not grow", "sort the rows and remove repeated times");
+  }
+  if (motion.samples.size() < 2) throw Error(where, "holds fewer than two rows of motion", "give a header and at least two rows");
+  Vec3 low = motion.samples[0].pose.tip_mm, high = low;
+  for (const auto& s : motion.samples) {
+    const Vec3 p = s.pose.tip_mm;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double way = length(high - low);
+  if (way > 0 && way < 0.05) throw Error(where, "moves less than 0.05 mm in all", "x_mm, y_mm and z_mm look like metres: multiply by 1000");
+  return motion;
+}
+
+MotionSample Motion::at(double t_s) const noexcept {
+  const double t = samples.front().t_s + t_s;
+  const auto after = std::upper_bound(samples.begin(), samples.end(), t, [](double time, const MotionSample& s) { return time < s.t_s; });
+  if (after == samples.begin()) return samples.front();
+  if (after == samples.end()) return samples.back();
+  const MotionSample &a = *(after - 1), &b = *after;
+  const double f = (t - a.t_s) / (b.t_s - a.t_s);
+  MotionSample s = a;  // pedal is linear, buttons and point hold
+  s.t_s = t;
+  s.pose.tip_mm = a.pose.tip_mm + (b.pose.tip_mm - a.pose.tip_mm) * f;
+  const Quat p = a.pose.rotation, q = b.pose.rotation;
+  const double side = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0 ? -1.0 : 1.0;  // the shorter way round
+  s.pose.rotation = normalized(Quat{p.w + (side * q.w - p.w) * f, p.x + (side * q.x - p.x) * f, p.y + (side * q.y - p.y) * f, p.z + (side * q.z - p.z) * f});
+  s.pedal = a.pedal + (b.pedal - a.pedal) * f;
+  return s;
+}
+
+}  // namespace cavum

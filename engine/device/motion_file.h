@@ -1,0 +1,34 @@
+// Recorded or scripted motion as a CSV file, read whole and checked before the exam starts, then played
+// tick by tick. Columns: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point (number in the
+// tray); any order, any rate. `# point = round-1.0` before the header chooses the diamond point.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/pose.h"
+
+namespace cavum {
+
+struct MotionSample {
+  double t_s = 0;
+  Pose pose;         ///< tip and rotation (tool to tooth), tooth frame
+  double pedal = 0;  ///< 0..1
+  bool button_1 = false, button_2 = false;
+  int point = -1;    ///< number in the tray; -1 = the one already mounted
+};
+
+struct Motion {
+  std::vector<MotionSample> samples;  ///< t_s grows strictly
+  std::string point;                  ///< from the header comment; empty = none named
+
+  [[nodiscard]] double duration_s() const noexcept { return samples.back().t_s - samples.front().t_s; }
+  /// Pose and pedal at `t_s` after the first sample: linear between samples (rotations normalised), ends held.
+  [[nodiscard]] MotionSample at(double t_s) const noexcept;
+};
+
+/// Throws Error(where:line, ...) on a missing or unknown column, a wrong unit, NaN, a pedal outside 0..1, time
+/// that does not grow, a rotation without direction, or a way that cannot be millimetres.
+[[nodiscard]] Motion parse_motion(const std::string& text, const std::string& where);
+
+}  // namespace cavum

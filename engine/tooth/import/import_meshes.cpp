@@ -1,0 +1,195 @@
+#include "engine/tooth/import/import_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/tooth/distance.h"
+#include "engine/tooth/import/fill_mesh.h"
+#include "engine/tooth/import/read_mesh.h"
+#include "engine/tooth/periodontium.h"
+
+namespace cavum {
+namespace {
+
+constexpr float k_widest_gap_leaves = 2.0f;
+
+struct Box {
+  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+  void add(const TriangleMesh& mesh) {
+    for (const Vec3 v : mesh.vertices_mm) {
+      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+  }
+};
+
+TissueGrid lattice_around(const Box& box, double leaf_mm, const std::string& where) {
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", "the leaf must be larger than 0 mm", "give 0.05, for example");
+  const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor(v / leaf_mm), -1e8, 1e8)) - 4; };
+  const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil(v / leaf_mm), -1e8, 1e8)) + 4; };
+  const IVec3 first{low(box.low.x), low(box.low.y), low(box.low.z)};
+  const IVec3 size = IVec3{high(box.high.x), high(box.high.y), high(box.high.z)} - first;
+  check_lattice(size, leaf_mm, where);
+  TissueGrid grid;
+  grid.allocate(size, leaf_mm, Vec3{double(first.x), double(first.y), double(first.z)} * leaf_mm);
+  return grid;
+}
+
+Vec3 direction(const TissueGrid& grid, const std::vector<float>& field, IVec3 l) {
+  const auto at = [&](IVec3 i) { return static_cast<double>(field[grid.index(i)]); };
+  return normalized({at(l + IVec3{1, 0, 0}) - at(l - IVec3{1, 0, 0}), at(l + IVec3{0, 1, 0}) - at(l - IVec3{0, 1, 0}),
+                     at(l + IVec3{0, 0, 1}) - at(l - IVec3{0, 0, 1})},
+                    {0, 0, 0});
+}
+
+/// Marks the air leaves that are joined to the grid's border.
+std::vector<std::uint8_t> outside_air(const TissueGrid& grid) {
+  std::vector<std::uint8_t> reached(grid.count(), 0);
+  std::vector<std::size_t> front{0};  // a corner of the margin
+  reached[0] = 1;
+  const std::size_t nx = static_cast<std::size_t>(grid.size.x), nxy = nx * static_cast<std::size_t>(grid.size.y);
+  while (!front.empty()) {
+    const std::size_t i = front.back();
+    front.pop_back();
+    const std::size_t x = i % nx, y = i / nx % static_cast<std::size_t>(grid.size.y), z = i / nxy;
+    const auto visit = [&](bool exists, std::size_t j) {
+      if (!exists || reached[j] || grid.tissue[j] != k_air) return;
+      reached[j] = 1;
+      front.push_back(j);
+    };
+    visit(x > 0, i - 1);
+    visit(x + 1 < nx, i + 1);
+    visit(y > 0, i - nx);
+    visit(y + 1 < static_cast<std::size_t>(grid.size.y), i + nx);
+    visit(z > 0, i - nxy);
+    visit(z + 1 < static_cast<std::size_t>(grid.size.z), i + nxy);
+  }
+  return reached;
+}
+
+struct Layers {
+  std::vector<float> enamel, dentin, pulp;
+};
+
+/// Rule 1 of the header.
+std::uint64_t label_by_precedence(TissueGrid& grid, const Layers& f) {
+  std::uint64_t overlaps = 0;
+  for (std::size_t i = 0; i < grid.tissue.size(); ++i) {
+    const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0;
+    overlaps += e + d + p > 1;
+    grid.tissue[i] = p ? k_pulp : e ? k_enamel : d ? k_dentin : k_air;
+  }
+  return overlaps;
+}
+
+/// Rule 2 of the header.
+std::uint64_t close_gaps(TissueGrid& grid, const Layers& f) {
+  std::vector<std::size_t> gaps;
+  for (std::int32_t z = 1; z + 1 < grid.size.z; ++z)
+    for (std::int32_t y = 1; y + 1 < grid.size.y; ++y)
+      for (std::int32_t x = 1; x + 1 < grid.size.x; ++x) {
+        const IVec3 l{x, y, z};
+        const auto i = grid.index(l);
+        if (grid.tissue[i] != k_air) continue;
+        const auto facing = [&](const std::vector<float>& a, const std::vector<float>& b) {
+          return a[i] + b[i] <= k_widest_gap_leaves && dot(direction(grid, a, l), direction(grid, b, l)) < -0.5;
+        };
+        if (facing(f.enamel, f.dentin) || facing(f.dentin, f.pulp) || facing(f.enamel, f.pulp)) gaps.push_back(i);
+      }
+  const auto give = [&](std::size_t i) { grid.tissue[i] = f.enamel[i] < f.dentin[i] ? k_enamel : k_dentin; };
+  for (const auto i : gaps) give(i);
+  std::uint64_t closed = gaps.size();
+  const auto reached = outside_air(grid);
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    if (grid.tissue[i] == k_air && !reached[i]) {
+      give(i);
+      ++closed;
+    }
+  return closed;
+}
+
+/// The pulp lies in dentin and touches hardly anything else, in every tooth: what it touches tells whether the
+/// three files are what they are said to be.
+void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
+  std::array<std::uint64_t, 256> touched{};
+  const std::size_t nx = static_cast<std::size_t>(grid.size.x), nxy = nx * static_cast<std::size_t>(grid.size.y);
+  for (std::size_t i = nxy; i + nxy < grid.tissue.size(); ++i) {
+    if (grid.tissue[i] != k_pulp) continue;
+    for (const auto j : {i - 1, i + 1, i - nx, i + nx, i - nxy, i + nxy}) ++touched[grid.tissue[j]];
+  }
+  const auto all = touched[k_air] + touched[k_enamel] + touched[k_dentin];
+  if (all == 0) throw Error(paths.pulp, "the pulp is smaller than a leaf", "check the unit (mm), or use a smaller --leaf-mm");
+  if (touched[k_enamel] > touched[k_dentin] && touched[k_enamel] >= touched[k_air])
+    throw Error(paths.enamel + ", " + paths.dentin, "enamel and dentin look exchanged: the pulp lies in the enamel", "exchange --enamel and --dentin");
+  if (touched[k_air] * 5 > all)
+    throw Error(paths.pulp, "the pulp is not enclosed by the dentin: " + std::to_string(100 * touched[k_air] / all) + " % of its surface is bare",
+                "check which file is enamel, dentin and pulp, and that all share one frame");
+}
+
+void turn_into(TriangleMesh& mesh, const Mat3& axes) {
+  for (auto& v : mesh.vertices_mm) v = axes * v;
+}
+
+}  // namespace
+
+MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& options) {
+  ReadMesh enamel = read_closed_mesh(paths.enamel), dentin = read_closed_mesh(paths.dentin), pulp = read_closed_mesh(paths.pulp);
+  const ToothAxes frame = tooth_axes(dentin.centroid_mm, enamel.centroid_mm, options.frame);
+  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes);
+  Box crown, all;
+  crown.add(enamel.mesh);
+  const Vec3 origin = (crown.low + crown.high) * 0.5;
+  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) {
+    for (auto& v : m->vertices_mm) v = v - origin;
+    all.add(*m);
+  }
+  TissueGrid grid = lattice_around(all, options.leaf_mm, paths.dentin);
+
+  MeshImport out;
+  out.mesh_enamel_mm3 = enamel.volume_mm3;
+  out.mesh_dentin_mm3 = dentin.volume_mm3;
+  out.mesh_pulp_mm3 = pulp.volume_mm3;
+  {
+    const Layers fields{fill_mesh(enamel.mesh, grid), fill_mesh(dentin.mesh, grid), fill_mesh(pulp.mesh, grid)};
+    out.overlap_leaves = label_by_precedence(grid, fields);
+    check_layers(grid, paths);
+    out.gap_leaves = close_gaps(grid, fields);
+  }
+
+  // Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.
+  const auto label = [&](Vec3 mm) {
+    const Vec3 p = (mm - grid.origin_mm) / grid.leaf_mm;
+    return grid.tissue[grid.index({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y), static_cast<std::int32_t>(p.z)})];
+  };
+  const auto hard = [](std::uint8_t t) { return t == k_enamel || t == k_dentin; };
+  const AcceptSurface outer = [&](Vec3 q, Vec3 n) { return label(q + n * grid.leaf_mm) == k_air && hard(label(q - n * (0.75 * grid.leaf_mm))); };
+  const AcceptSurface inner = [&](Vec3 q, Vec3 n) { return hard(label(q + n * grid.leaf_mm)) && label(q - n * (0.75 * grid.leaf_mm)) == k_pulp; };
+  BandDistance band(grid);
+  band.add(enamel.mesh, outer);
+  band.add(dentin.mesh, outer);
+  band.add(pulp.mesh, inner);
+  band.encode(grid, out.tooth.tissues);
+  out.periodontium_leaves = add_periodontium(grid, options.periodontium_mm);
+  out.tooth.octree = Octree(grid, out.tooth.tissues);
+
+  const auto file = [](const std::string& p) { return std::filesystem::path(p).filename().string(); };
+  std::ostringstream source;
+  source << "import of meshes " << file(paths.enamel) << ", " << file(paths.dentin) << ", " << file(paths.pulp) << "; unit assumed mm; leaf " << options.leaf_mm << " mm; "
+         << frame.note << "; overlaps (pulp, enamel, dentin) " << out.overlap_leaves << " leaves, gaps to the nearer hard tissue " << out.gap_leaves << " leaves; ";
+  if (out.periodontium_leaves > 0)
+    source << "periodontium " << options.periodontium_mm << " mm added around the roots";
+  else
+    source << "no periodontium";
+  for (const auto* m : {&enamel, &dentin, &pulp})
+    for (const auto& note : m->notes) source << "; " << note;
+  out.tooth.name = "tooth from " + std::filesystem::path(paths.enamel).stem().string();
+  out.tooth.source = source.str();
+  return out;
+}
+
+}  // namespace cavum

@@ -1,0 +1,207 @@
+#include "engine/tooth/import/import_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/tooth/distance.h"
+#include "engine/tooth/import/read_volume.h"
+#include "engine/tooth/import/segment.h"
+#include "engine/tooth/periodontium.h"
+
+namespace cavum {
+namespace {
+
+/// Catmull-Rom weights of the four voxels around a position t in 0..1 between the middle two.
+std::array<double, 4> cubic_weights(double t) {
+  const double t2 = t * t, t3 = t2 * t;
+  return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t), 0.5 * (t3 - t2)};
+}
+
+/// A field on voxels, read between them. Beyond the volume it is `outside`.
+class Field {
+ public:
+  Field(IVec3 size, const std::vector<float>& values, float outside) : size_(size), values_(values), outside_(outside) {}
+
+  [[nodiscard]] float at(IVec3 v) const noexcept {
+    if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= size_.x || v.y >= size_.y || v.z >= size_.z) return outside_;
+    return values_[(static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(v.y)) * static_cast<std::size_t>(size_.x) +
+                   static_cast<std::size_t>(v.x)];
+  }
+  [[nodiscard]] double linear(Vec3 p) const noexcept {
+    const IVec3 l = low(p);
+    const double fx = p.x - l.x, fy = p.y - l.y, fz = p.z - l.z;
+    const auto along = [&](int y, int z) { return at(l + IVec3{0, y, z}) * (1 - fx) + at(l + IVec3{1, y, z}) * fx; };
+    return (along(0, 0) * (1 - fy) + along(1, 0) * fy) * (1 - fz) + (along(0, 1) * (1 - fy) + along(1, 1) * fy) * fz;
+  }
+  [[nodiscard]] double cubic(Vec3 p) const noexcept {
+    const IVec3 l = low(p);
+    const auto wx = cubic_weights(p.x - l.x), wy = cubic_weights(p.y - l.y), wz = cubic_weights(p.z - l.z);
+    double sum = 0.0;
+    for (int z = 0; z < 4; ++z)
+      for (int y = 0; y < 4; ++y) {
+        double row = 0.0;
+        for (int x = 0; x < 4; ++x) row += wx[static_cast<std::size_t>(x)] * at(l + IVec3{x - 1, y - 1, z - 1});
+        sum += row * wy[static_cast<std::size_t>(y)] * wz[static_cast<std::size_t>(z)];
+      }
+    return sum;
+  }
+  [[nodiscard]] static IVec3 low(Vec3 p) noexcept {
+    return {static_cast<std::int32_t>(std::floor(p.x)), static_cast<std::int32_t>(std::floor(p.y)), static_cast<std::int32_t>(std::floor(p.z))};
+  }
+
+ private:
+  IVec3 size_;
+  const std::vector<float>& values_;
+  float outside_;
+};
+
+/// Cells (between eight voxels) whose cubic neighbourhood holds both signs; elsewhere one voxel tells the side.
+std::vector<std::uint8_t> mixed_cells(IVec3 size, const std::vector<float>& solid) {
+  const Field f(size, solid, -1.0f);
+  std::vector<std::uint8_t> mixed(solid.size(), 0);
+  const auto nx = static_cast<std::size_t>(size.x), nxy = nx * static_cast<std::size_t>(size.y);
+  for (std::int32_t z = 0; z < size.z; ++z)
+    for (std::int32_t y = 0; y < size.y; ++y)
+      for (std::int32_t x = 0; x < size.x; ++x) {
+        const bool in = f.at({x, y, z}) > 0;
+        if ((f.at({x + 1, y, z}) > 0) == in && (f.at({x, y + 1, z}) > 0) == in && (f.at({x, y, z + 1}) > 0) == in) continue;
+        for (int dz = -2; dz <= 2; ++dz)
+          for (int dy = -2; dy <= 2; ++dy)
+            for (int dx = -2; dx <= 2; ++dx) {
+              const IVec3 c{x + dx, y + dy, z + dz};
+              if (c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < size.x && c.y < size.y && c.z < size.z)
+                mixed[static_cast<std::size_t>(c.z) * nxy + static_cast<std::size_t>(c.y) * nx + static_cast<std::size_t>(c.x)] = 1;
+            }
+      }
+  return mixed;
+}
+
+struct Extent {
+  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30}, sum;
+  std::uint64_t n = 0;
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    sum += p;
+    ++n;
+  }
+  [[nodiscard]] Vec3 centroid() const { return n > 0 ? sum / static_cast<double>(n) : Vec3{}; }
+};
+
+template <class Visit>
+void for_voxels(const Segmentation& s, const Visit& visit) {
+  std::size_t i = 0;
+  for (std::int32_t z = 0; z < s.size.z; ++z)
+    for (std::int32_t y = 0; y < s.size.y; ++y)
+      for (std::int32_t x = 0; x < s.size.x; ++x, ++i)
+        if (s.tissue[i] != k_air) visit(Vec3{double(x), double(y), double(z)}, s.tissue[i]);
+}
+
+TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin, const Extent& box, double leaf_mm, const std::string& where) {
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", "the leaf must be larger than 0 mm", "give 0.05, for example");
+  const double reach = std::max({volume.spacing_mm[0], volume.spacing_mm[1], volume.spacing_mm[2]});
+  const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor((v - reach) / leaf_mm), -1e8, 1e8)) - 4; };
+  const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil((v + reach) / leaf_mm), -1e8, 1e8)) + 4; };
+  const IVec3 first{low(box.low.x), low(box.low.y), low(box.low.z)};
+  const IVec3 size = IVec3{high(box.high.x), high(box.high.y), high(box.high.z)} - first;
+  check_lattice(size, leaf_mm, where);
+  TissueGrid grid;
+  grid.allocate(size, leaf_mm, Vec3{double(first.x), double(first.y), double(first.z)} * leaf_mm);
+
+  // One voxel beyond the volume's edge is outside, so that a tooth cut by the edge is closed there.
+  const Field solid(s.size, s.solid, -1.0f);
+  auto enamel = smoothed_indicator(s, k_enamel), pulp = smoothed_indicator(s, k_pulp);
+  const auto dentin = smoothed_indicator(s, k_dentin), air = smoothed_indicator(s, k_air);
+  for (std::size_t i = 0; i < enamel.size(); ++i) {
+    enamel[i] -= dentin[i];
+    pulp[i] -= air[i];
+  }
+  const Field enamel_or_dentin(s.size, enamel, 0.0f), pulp_or_air(s.size, pulp, -1.0f);
+  const auto mixed = mixed_cells(s.size, s.solid);
+  const auto voxel_of = [&](Vec3 tooth_mm) { return volume.voxel_at(axes.transposed(tooth_mm + origin)); };
+  std::vector<float> field(grid.count());
+  for (std::int32_t z = 0; z < size.z; ++z)
+    for (std::int32_t y = 0; y < size.y; ++y)
+      for (std::int32_t x = 0; x < size.x; ++x) {
+        const auto i = grid.index({x, y, z});
+        const Vec3 p = voxel_of(grid.centre_mm({x, y, z}));
+        const IVec3 cell = Field::low(p);
+        const bool within = cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < s.size.x && cell.y < s.size.y && cell.z < s.size.z;
+        const double value = !within || mixed[volume.index(cell)] ? solid.cubic(p) : solid.at(cell);
+        field[i] = static_cast<float>(-value);
+        if (field[i] < 0)
+          grid.tissue[i] = enamel_or_dentin.linear(p) > 0 ? k_enamel : k_dentin;
+        else
+          grid.tissue[i] = pulp_or_air.linear(p) > 0 ? k_pulp : k_air;
+      }
+  set_surface_from_field(grid, standard_tissues(), field, [&](Vec3 mm) { return -solid.cubic(voxel_of(mm)); });
+  return grid;
+}
+
+}  // namespace
+
+VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options) {
+  Volume volume = read_volume(path, options.spacing_mm);
+  const bool map = !options.labels.empty();
+  std::string how;
+  Segmentation s;
+  if (map) {
+    s = from_labels(volume, options.labels, path);
+    how = "label map";
+  } else {
+    const auto levels = find_gray_levels(volume, options.thresholds, path);
+    s = segment(volume, levels, path);
+    how = "CT volume; " + levels.note + "; " + s.note;
+  }
+  volume.gray = {};
+
+  Extent enamel, dentin;
+  for_voxels(s, [&](Vec3 v, std::uint8_t t) {
+    if (t == k_enamel) enamel.add(volume.place_mm(v));
+    if (t == k_dentin) dentin.add(volume.place_mm(v));
+  });
+  if ((enamel.n == 0 || dentin.n == 0) && !options.frame.occlusal_axis)
+    throw Error(path, std::string("holds no ") + (enamel.n == 0 ? "enamel" : "dentin") + ", so there is no occlusal direction", "give --occlusal-axis x,y,z");
+  const ToothAxes frame = tooth_axes(dentin.centroid(), enamel.centroid(), options.frame);
+  Extent crown, all;
+  for_voxels(s, [&](Vec3 v, std::uint8_t t) {
+    const Vec3 p = frame.axes * volume.place_mm(v);
+    if (t == k_enamel) crown.add(p);
+    if (t != k_periodontium) all.add(p);
+  });
+  const Vec3 origin = enamel.n > 0 ? (crown.low + crown.high) * 0.5 : (all.low + all.high) * 0.5;
+  all.low = all.low - origin;
+  all.high = all.high - origin;
+  const Vec3 extent = all.high - all.low;
+  if (const double longest = std::max({extent.x, extent.y, extent.z}); volume.spacing_assumed && !(longest > 4 && longest < 45))
+    throw Error(path, "the file gives no spacing, and the assumed 0.125 mm would make a tooth of " + std::to_string(longest) + " mm", "give --spacing-mm");
+
+  VolumeImport out;
+  TissueGrid grid = resample(volume, s, frame.axes, origin, all, options.leaf_mm, path);
+  const auto around = add_periodontium(grid, options.periodontium_mm);
+  out.tooth.octree = Octree(grid, out.tooth.tissues);
+  out.spacing_assumed = volume.spacing_assumed;
+  out.spacing_note = volume.spacing_note;
+  out.native_enamel = s.voxels[k_enamel];
+  out.native_dentin = s.voxels[k_dentin];
+  out.native_pulp = s.voxels[k_pulp];
+  out.pulp_bodies = s.pulp_bodies;
+  out.rim_percent = s.rim_percent;
+  std::ostringstream source;
+  const auto file = std::filesystem::path(path).filename().string();
+  source << "import of " << (file.empty() ? path : file) << ", " << how << "; " << volume.spacing_note << "; leaf " << options.leaf_mm << " mm; " << frame.note << "; ";
+  if (around > 0)
+    source << "periodontium " << options.periodontium_mm << " mm added around the roots";
+  else
+    source << "no periodontium added";
+  out.tooth.source = source.str();
+  out.tooth.name = "tooth from " + (file.empty() ? path : file);
+  return out;
+}
+
+}  // namespace cavum

@@ -1,0 +1,126 @@
+#include "engine/tooth/import/read_mesh.h"
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <sstream>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+};
+using Surface = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+std::string place(Vec3 p) {
+  std::ostringstream s;
+  s.precision(5);
+  s << '(' << p.x << ", " << p.y << ", " << p.z << ')';
+  return s.str();
+}
+
+Vec3 point(const Surface& surface, Surface::VertexHandle v) {
+  const auto& p = surface.point(v);
+  return {p[0], p[1], p[2]};
+}
+
+Surface load(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw Error(path, "no such mesh file", "check the path");
+  // OpenMesh reports on the console; our errors say the same with the file's name.
+  omout().disable();
+  omlog().disable();
+  omerr().disable();
+  Surface surface;
+  if (!OpenMesh::IO::read_mesh(surface, path) || surface.n_faces() == 0)
+    throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
+  return surface;
+}
+
+}  // namespace
+
+std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices_mm.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles)
+    for (const std::size_t i : {1u, 2u}) parent[std::max(root(t[0]), root(t[i]))] = std::min(root(t[0]), root(t[i]));
+  std::vector<std::uint32_t> part_of(parent.size(), ~0u), place_of(parent.size(), ~0u);
+  std::vector<TriangleMesh> parts;
+  for (const auto& t : mesh.triangles) {
+    auto& part = part_of[root(t[0])];
+    if (part == ~0u) {
+      part = static_cast<std::uint32_t>(parts.size());
+      parts.emplace_back();
+    }
+    TriangleMesh& to = parts[part];
+    std::array<std::uint32_t, 3> copy{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (place_of[t[i]] == ~0u) {
+        place_of[t[i]] = static_cast<std::uint32_t>(to.vertices_mm.size());
+        to.vertices_mm.push_back(mesh.vertices_mm[t[i]]);
+      }
+      copy[i] = place_of[t[i]];
+    }
+    to.triangles.push_back(copy);
+  }
+  return parts;
+}
+
+ReadMesh read_closed_mesh(const std::string& path) {
+  const Surface surface = load(path);
+  std::size_t open_edges = 0;
+  Vec3 open_at;
+  for (const auto e : surface.edges()) {
+    if (!surface.is_boundary(e)) continue;
+    const auto h = surface.halfedge_handle(e, 0);
+    if (open_edges++ == 0) open_at = (point(surface, surface.from_vertex_handle(h)) + point(surface, surface.to_vertex_handle(h))) * 0.5;
+  }
+  if (open_edges > 0)
+    throw Error(path, "the surface is not closed: " + std::to_string(open_edges) + " open or non-manifold edges, one at " + place(open_at),
+                "close the holes in a mesh editor and export again");
+
+  ReadMesh out;
+  std::vector<std::uint32_t> renumbered(surface.n_vertices(), ~0u);
+  std::size_t pinched = 0;
+  for (const auto v : surface.vertices()) {
+    if (surface.is_isolated(v)) continue;
+    const Vec3 p = point(surface, v);
+    if (!is_finite(p) || length(p) > 1e6) throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
+    pinched += !surface.is_manifold(v);
+    renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(out.mesh.vertices_mm.size());
+    out.mesh.vertices_mm.push_back(p);
+  }
+  const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
+  if (isolated > 0) out.notes.push_back(path + ": " + std::to_string(isolated) + " unused vertices deleted");
+  if (pinched > 0) throw Error(path, std::to_string(pinched) + " non-manifold vertices", "repair the mesh in a mesh editor and export again");
+  for (const auto f : surface.faces()) {
+    std::array<std::uint32_t, 3> t{};
+    std::size_t i = 0;
+    for (const auto v : surface.fv_range(f)) t[i++] = renumbered[static_cast<std::size_t>(v.idx())];
+    out.mesh.triangles.push_back(t);
+  }
+  out.volume_mm3 = signed_volume_mm3(out.mesh);
+  if (!(std::fabs(out.volume_mm3) > 1e-6)) throw Error(path, "the surface encloses no volume", "check the file and its unit (mm)");
+  if (out.volume_mm3 < 0) {
+    for (auto& t : out.mesh.triangles) std::swap(t[1], t[2]);
+    out.volume_mm3 = -out.volume_mm3;
+    out.notes.push_back(path + ": the faces looked inwards and were turned");
+  }
+  Vec3 moment;
+  for (const auto& t : out.mesh.triangles) {
+    const Vec3 a = out.mesh.vertices_mm[t[0]], b = out.mesh.vertices_mm[t[1]], c = out.mesh.vertices_mm[t[2]];
+    moment += (a + b + c) * (dot(a, cross(b, c)) / 24);
+  }
+  out.centroid_mm = moment / out.volume_mm3;
+  return out;
+}
+
+}  // namespace cavum

@@ -1,0 +1,26 @@
+// One closed surface from a mesh file (STL ascii or binary, PLY, OBJ, OFF; read by OpenMesh), checked so
+// that it can be filled: finite, closed, 2-manifold, facing outwards.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/tooth/surface_mesh.h"
+
+namespace cavum {
+
+struct ReadMesh {
+  TriangleMesh mesh;              ///< unused vertices removed, faces outwards (cavities: towards the cavity)
+  double volume_mm3 = 0.0;        ///< of the closed surface, cavities subtracted
+  Vec3 centroid_mm;               ///< of that volume
+  std::vector<std::string> notes; ///< what was put right on the way
+};
+
+/// Throws Error naming the file when it is missing or unreadable, holds a coordinate that is not finite, encloses
+/// nothing, or is open: then with the number of open edges and the place of one.
+[[nodiscard]] ReadMesh read_closed_mesh(const std::string& path);
+
+/// The connected parts of a mesh.
+[[nodiscard]] std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh);
+
+}  // namespace cavum

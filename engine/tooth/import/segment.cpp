@@ -1,0 +1,303 @@
+#include "engine/tooth/import/segment.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/tooth/distance.h"
+
+namespace cavum {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+/// Walks the six neighbours of a voxel that lie inside the volume.
+template <class Visit>
+void for_neighbours(IVec3 size, std::size_t i, const Visit& visit) {
+  const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y), nz = static_cast<std::size_t>(size.z);
+  const std::size_t x = i % nx, y = i / nx % ny, z = i / (nx * ny);
+  if (x > 0) visit(i - 1);
+  if (x + 1 < nx) visit(i + 1);
+  if (y > 0) visit(i - nx);
+  if (y + 1 < ny) visit(i + nx);
+  if (z > 0) visit(i - nx * ny);
+  if (z + 1 < nz) visit(i + nx * ny);
+}
+
+bool on_border(IVec3 size, std::size_t i) {
+  const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y), nz = static_cast<std::size_t>(size.z);
+  const std::size_t x = i % nx, y = i / nx % ny, z = i / (nx * ny);
+  return x == 0 || y == 0 || z == 0 || x + 1 == nx || y + 1 == ny || z + 1 == nz;
+}
+
+/// Connected bodies (by faces) of a mask: number of each voxel's body (0 = none, 1..), and sizes by number.
+struct Bodies {
+  std::vector<std::uint32_t> number;
+  std::vector<std::uint64_t> voxels{0};
+  [[nodiscard]] std::uint32_t largest() const {
+    return static_cast<std::uint32_t>(std::max_element(voxels.begin() + 1, voxels.end()) - voxels.begin());
+  }
+};
+Bodies bodies_of(IVec3 size, const Mask& mask) {
+  Bodies b;
+  b.number.assign(mask.size(), 0);
+  std::vector<std::size_t> front;
+  for (std::size_t seed = 0; seed < mask.size(); ++seed) {
+    if (!mask[seed] || b.number[seed]) continue;
+    const auto number = static_cast<std::uint32_t>(b.voxels.size());
+    b.voxels.push_back(0);
+    b.number[seed] = number;
+    front.push_back(seed);
+    while (!front.empty()) {
+      const auto i = front.back();
+      front.pop_back();
+      ++b.voxels[number];
+      for_neighbours(size, i, [&](std::size_t j) {
+        if (!mask[j] || b.number[j]) return;
+        b.number[j] = number;
+        front.push_back(j);
+      });
+    }
+  }
+  return b;
+}
+
+/// Rule 2: what a ball reaches from the border.
+Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
+  const auto nearest = nearest_marked(size, hard, radius_voxels);
+  Mask reached(hard.size(), 0);
+  std::vector<std::size_t> front;
+  const auto enter = [&](std::size_t i) {
+    if (reached[i] || nearest[i] >= 0) return;
+    reached[i] = 1;
+    front.push_back(i);
+  };
+  for (std::size_t i = 0; i < hard.size(); ++i)
+    if (on_border(size, i)) enter(i);
+  while (!front.empty()) {
+    const auto i = front.back();
+    front.pop_back();
+    for_neighbours(size, i, enter);
+  }
+  const auto to_reached = nearest_marked(size, reached, radius_voxels + 0.5);
+  Mask outside(hard.size());
+  for (std::size_t i = 0; i < hard.size(); ++i) outside[i] = !hard[i] && to_reached[i] >= 0;
+  return outside;
+}
+
+/// Rule 3, on voxels labelled by gray alone.
+void give_rim_to_what_lies_beneath(Segmentation& s, const Mask& outside) {
+  const auto to_outside = nearest_marked(s.size, outside, k_rim_voxels);
+  Mask trusted(s.tissue.size());
+  for (std::size_t i = 0; i < trusted.size(); ++i) trusted[i] = s.tissue[i] == k_enamel || (s.tissue[i] == k_dentin && to_outside[i] < 0);
+  const auto nearest = nearest_marked(s.size, trusted, 4 * k_rim_voxels);
+  const auto before = s.tissue;
+  for (std::size_t i = 0; i < trusted.size(); ++i)
+    if (before[i] == k_dentin && !trusted[i] && nearest[i] >= 0) s.tissue[i] = before[static_cast<std::size_t>(nearest[i])];
+}
+
+/// Share of the enamel's outer side that shows dentin: outer dentin voxels with enamel straight below, within 3 voxels
+/// along the gray's gradient, against those and the outer enamel voxels together.
+double measure_rim_percent(const Segmentation& s, const Volume& v, const Mask& outside) {
+  std::uint64_t covered = 0, bare = 0;
+  for (std::int32_t z = 1; z + 1 < s.size.z; ++z)
+    for (std::int32_t y = 1; y + 1 < s.size.y; ++y)
+      for (std::int32_t x = 1; x + 1 < s.size.x; ++x) {
+        const IVec3 at{x, y, z};
+        const auto i = v.index(at);
+        if (s.tissue[i] != k_enamel && s.tissue[i] != k_dentin) continue;
+        bool outer = false;
+        for_neighbours(s.size, i, [&](std::size_t j) { outer = outer || outside[j]; });
+        if (!outer) continue;
+        if (s.tissue[i] == k_enamel) {
+          ++bare;
+          continue;
+        }
+        const auto g = [&](IVec3 d) { return static_cast<double>(v.gray[v.index(at + d)]) - static_cast<double>(v.gray[v.index(at - d)]); };
+        const Vec3 inwards = normalized({g({1, 0, 0}), g({0, 1, 0}), g({0, 0, 1})}, {0, 0, 0});
+        for (int step = 1; step <= 3; ++step) {
+          const auto round = [](double w) { return static_cast<std::int32_t>(std::floor(w + 0.5)); };
+          const IVec3 below{x + round(inwards.x * step), y + round(inwards.y * step), z + round(inwards.z * step)};
+          if (below.x < 0 || below.y < 0 || below.z < 0 || below.x >= s.size.x || below.y >= s.size.y || below.z >= s.size.z) break;
+          if (s.tissue[v.index(below)] == k_enamel) {
+            ++covered;
+            break;
+          }
+        }
+      }
+  return covered + bare > 0 ? 100.0 * static_cast<double>(covered) / static_cast<double>(covered + bare) : 0.0;
+}
+
+/// 1-2-1 along each axis, the outermost voxels repeated.
+void smooth(IVec3 size, std::vector<float>& f) {
+  const std::size_t step[3] = {1, static_cast<std::size_t>(size.x), static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
+  const std::size_t length[3] = {static_cast<std::size_t>(size.x), static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.z)};
+  for (int a = 0; a < 3; ++a) {
+    const auto from = f;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const std::size_t p = i / step[a] % length[a];
+      f[i] = 0.25f * from[p > 0 ? i - step[a] : i] + 0.5f * from[i] + 0.25f * from[p + 1 < length[a] ? i + step[a] : i];
+    }
+  }
+}
+
+void count(Segmentation& s) {
+  Mask pulp(s.tissue.size());
+  for (std::size_t i = 0; i < pulp.size(); ++i) {
+    ++s.voxels[s.tissue[i]];
+    pulp[i] = s.tissue[i] == k_pulp;
+  }
+  s.pulp_bodies = bodies_of(s.size, pulp).voxels.size() - 1;
+}
+
+}  // namespace
+
+std::vector<float> smoothed_indicator(const Segmentation& s, std::uint8_t tissue) {
+  std::vector<float> f(s.tissue.size());
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] = s.tissue[i] == tissue ? 1.0f : 0.0f;
+  smooth(s.size, f);
+  return f;
+}
+
+Segmentation segment(const Volume& volume, const GrayLevels& levels, const std::string& where) {
+  const std::size_t n = volume.gray.size();
+  Segmentation s;
+  s.size = volume.size;
+  Mask hard(n);
+  for (std::size_t i = 0; i < n; ++i) hard[i] = volume.gray[i] > levels.hard;
+  const Bodies found = bodies_of(volume.size, hard);
+  if (found.voxels.size() < 2 || found.voxels[found.largest()] < 100)
+    throw Error(where, "no tooth found: nothing larger than 100 voxels is brighter than " + std::to_string(levels.hard), "check the volume or --dentin-threshold");
+  const auto tooth = found.largest();
+  for (std::size_t i = 0; i < n; ++i) hard[i] = found.number[i] == tooth;
+
+  const double mean_spacing = (volume.spacing_mm[0] + volume.spacing_mm[1] + volume.spacing_mm[2]) / 3;
+  const Mask outside = outside_of(volume.size, hard, std::clamp(k_cap_mm / mean_spacing, 2.0, 40.0));
+  Mask enclosed(n);
+  for (std::size_t i = 0; i < n; ++i) enclosed[i] = !hard[i] && !outside[i];
+  const Bodies hollow = bodies_of(volume.size, enclosed);
+  if (hollow.voxels.size() < 2) throw Error(where, "no pulp found: no hollow is enclosed by hard tissue", "check --dentin-threshold");
+  // A hollow counts as pulp when it is large and mostly enclosed; narrow clefts in the outer surface are outside.
+  std::vector<std::uint64_t> outer_faces(hollow.voxels.size(), 0), hard_faces(hollow.voxels.size(), 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (enclosed[i])
+      for_neighbours(volume.size, i, [&](std::size_t j) {
+        outer_faces[hollow.number[i]] += outside[j];
+        hard_faces[hollow.number[i]] += hard[j];
+      });
+  std::uint32_t pulp = 0;
+  for (std::uint32_t b = 1; b < hollow.voxels.size(); ++b)
+    if (outer_faces[b] * 5 < hard_faces[b] && (pulp == 0 || hollow.voxels[b] > hollow.voxels[pulp])) pulp = b;
+  if (pulp == 0) throw Error(where, "no pulp found: every hollow is open to the outside", "check --dentin-threshold");
+
+  // The tissue of every voxel. Hollows that are no pulp: pores in hard tissue are filled, clefts are outside.
+  s.tissue.assign(n, k_air);
+  std::uint64_t pores = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto b = hollow.number[i];
+    const bool is_pulp = b != 0 && (b == pulp || (outer_faces[b] == 0 && hollow.voxels[b] * 20 > hollow.voxels[pulp]));
+    const bool pore = b != 0 && !is_pulp && outer_faces[b] == 0;
+    pores += pore;
+    if (is_pulp)
+      s.tissue[i] = k_pulp;
+    else if (hard[i] || pore)
+      s.tissue[i] = volume.gray[i] > levels.enamel ? k_enamel : k_dentin;
+  }
+  Mask air(n), enamel(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    air[i] = s.tissue[i] == k_air;
+    enamel[i] = s.tissue[i] == k_enamel;
+  }
+  const Bodies caps = bodies_of(volume.size, enamel);
+  if (caps.voxels.size() < 2) throw Error(where, "no enamel found above gray " + std::to_string(levels.enamel), "check --enamel-threshold");
+  const auto crown = caps.voxels[caps.largest()];
+  for (std::size_t i = 0; i < n; ++i)
+    if (caps.number[i] != 0 && caps.voxels[caps.number[i]] * 50 < crown) s.tissue[i] = k_dentin;  // bright specks
+  give_rim_to_what_lies_beneath(s, air);
+  s.rim_percent = measure_rim_percent(s, volume, air);
+
+  // The surface lies half way between the grays of the two sides, so the level depends on who meets whom.
+  const auto enamel_share = smoothed_indicator(s, k_enamel), dentin_share = smoothed_indicator(s, k_dentin), pulp_share = smoothed_indicator(s, k_pulp);
+  std::vector<float> level(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double hard_share = enamel_share[i] + dentin_share[i];
+    const double e = hard_share > 0 ? enamel_share[i] / hard_share : 0.0, p = std::min(1.0, 3.0 * pulp_share[i]);
+    level[i] = static_cast<float>(p * levels.pulp_surface + (1 - p) * (e * levels.enamel_surface + (1 - e) * levels.hard));
+  }
+  smooth(volume.size, level);
+  const double full = std::max(levels.enamel - levels.hard, 1e-9);
+  s.solid.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double value = std::clamp((volume.gray[i] - level[i]) / full, -1.0, 1.0);
+    const bool is_hard = s.tissue[i] == k_enamel || s.tissue[i] == k_dentin;
+    // Where the label was decided by more than the voxel's gray (specks, pores), the label wins.
+    if (is_hard)
+      s.solid[i] = static_cast<float>(hard[i] ? value : std::max(value, 0.3));
+    else
+      s.solid[i] = static_cast<float>(found.number[i] != 0 && found.number[i] != tooth ? std::min(value, -0.3) : value);
+  }
+  count(s);
+  std::ostringstream note;
+  note << found.voxels.size() - 2 << " loose specks ignored, " << pores << " pore voxels filled, rim " << s.rim_percent << " %";
+  s.note = note.str();
+  return s;
+}
+
+Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>& meaning, const std::string& where) {
+  Segmentation s;
+  s.size = labels.size;
+  s.tissue.resize(labels.gray.size());
+  std::set<int> unknown;
+  for (std::size_t i = 0; i < s.tissue.size(); ++i) {
+    const double value = labels.gray[i];
+    if (value != std::floor(value) || std::fabs(value) > 1e6) throw Error(where, "not a label map: voxel " + std::to_string(i) + " is no whole number", "leave out --map to import a CT volume");
+    const int label = static_cast<int>(value);
+    const auto it = meaning.find(label);
+    if (it != meaning.end())
+      s.tissue[i] = it->second;
+    else if (label != 0)
+      unknown.insert(label);
+  }
+  if (!unknown.empty()) {
+    std::string list;
+    int shown = 0;
+    for (const int u : unknown)
+      if (++shown <= 20) list += (list.empty() ? "" : ", ") + std::to_string(u);
+    throw Error(where, "labels without a meaning: " + list + (unknown.size() > 20 ? ", ..." : ""), "name them in --map, as N=enamel, N=dentin, N=pulp or N=air");
+  }
+  count(s);
+  if (s.voxels[k_enamel] + s.voxels[k_dentin] == 0) throw Error(where, "no voxel is enamel or dentin", "check --map");
+  const auto e = smoothed_indicator(s, k_enamel), d = smoothed_indicator(s, k_dentin);
+  s.solid.resize(s.tissue.size());
+  for (std::size_t i = 0; i < s.solid.size(); ++i) {
+    const float value = 2 * (e[i] + d[i]) - 1;
+    // A label's own voxel keeps its side, so that canals of a single voxel survive the smoothing.
+    const bool hard = s.tissue[i] == k_enamel || s.tissue[i] == k_dentin;
+    s.solid[i] = hard ? std::max(value, 0.15f) : std::min(value, -0.15f);
+  }
+  return s;
+}
+
+std::map<int, std::uint8_t> parse_label_map(const std::string& text) {
+  std::map<int, std::uint8_t> map;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto equal = part.find('=');
+    int label = 0;
+    const auto read = std::from_chars(part.data(), part.data() + std::min(equal, part.size()), label);
+    const std::string name = equal == std::string::npos ? "" : part.substr(equal + 1);
+    std::uint8_t id = name == "air" ? std::uint8_t{k_air} : std::uint8_t{255};
+    for (const auto& t : standard_tissues())
+      if (t.name == name) id = t.id;
+    if (read.ec != std::errc{} || equal == std::string::npos || read.ptr != part.data() + equal || id == 255)
+      throw Error("--map", "cannot read '" + part + "'", "write 1=enamel,2=dentin,3=pulp (also air and periodontium)");
+    if (!map.emplace(label, id).second) throw Error("--map", "label " + std::to_string(label) + " is given twice", "give each label once");
+  }
+  if (map.empty()) throw Error("--map", "is empty", "write 1=enamel,2=dentin,3=pulp");
+  return map;
+}
+
+}  // namespace cavum

@@ -1,0 +1,41 @@
+// Grades an exam: from the tooth before and after, the motion and the scenario's zones to a Result. Needs
+// no physics, so an old recording can be graded again for ever; the same input gives the same result.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/session/session.h"
+#include "engine/session/session_reader.h"
+#include "grading/result.h"
+#include "scenarios/scenario.h"
+
+namespace cavum {
+
+/// Everything a grade depends on. `inputs` and `records` are of one length; `removed` is in order of ticks.
+struct GradeInput {
+  const Scenario& scenario;
+  const Tooth& before;
+  const ZoneMap& zones;
+  const Octree& after;
+  std::span<const TickInput> inputs;
+  std::span<const TickRecord> records;
+  std::span<const RemovedAt> removed;
+  std::span<const SessionEvent> events;  ///< kinds as event_name gives them; others are ignored
+};
+
+/// `rubric` may be another than the scenario's own.
+[[nodiscard]] Result grade(const GradeInput& input, const RubricSpec& rubric);
+
+/// Value of a measure by its name in scenarios/names.h (`touched_NAME_mm3` for any tissue); none when it cannot be
+/// measured. Throws Error when there is no such measure.
+struct MetricValue {
+  std::optional<double> value;
+  double bound = 0.0;
+};
+[[nodiscard]] MetricValue metric_value(const Result& measured, const std::string& metric);
+
+/// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
+void mark(Result& result, const RubricSpec& rubric);
+
+}  // namespace cavum

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "grading/grade.h"
+
+namespace cavum {
+namespace {
+
+MetricValue of_volume(const Volume& v) { return {v.mm3, v.bound_mm3}; }
+
+MetricValue sum_of(const Result& r, std::initializer_list<Zone> zones) {
+  MetricValue sum{0.0, 0.0};
+  for (const Zone z : zones) {
+    const Volume& v = r.volumes.zone[static_cast<std::size_t>(z)].removed;
+    *sum.value += v.mm3;
+    sum.bound += v.bound_mm3;
+  }
+  return sum;
+}
+
+double wall_figure(const WallMeasures& w, const std::string& figure) {
+  if (figure == "mean_mm") return w.mean_mm;
+  if (figure == "p95_mm") return w.p95_mm;
+  if (figure == "max_over_mm") return w.max_over_mm;
+  return w.max_under_mm;
+}
+
+/// Largest figure of walls 0..last.
+MetricValue worst_wall(const Result& r, std::size_t walls, const std::string& figure) {
+  MetricValue worst{std::nullopt, r.shape.bound_mm};
+  for (std::size_t w = 0; w < walls; ++w) {
+    if (r.shape.wall[w].samples == 0) continue;
+    const double v = wall_figure(r.shape.wall[w], figure);
+    if (!worst.value || v > *worst.value) worst.value = v;
+  }
+  return worst;
+}
+
+MetricValue length_of(const Result& r, std::optional<double> v, double target, bool error) {
+  if (!v) return {std::nullopt, r.shape.bound_mm};
+  return {error ? std::fabs(*v - target) : *v, r.shape.bound_mm};
+}
+
+}  // namespace
+
+MetricValue metric_value(const Result& r, const std::string& metric) {
+  const auto& m = r.motion;
+  const auto zone = [&](Zone z) { return of_volume(r.volumes.zone[static_cast<std::size_t>(z)].removed); };
+  const auto exact = [](double v) { return MetricValue{v, 0.0}; };
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const std::string name = wall_name(static_cast<Wall>(w));
+    for (const char* figure : {"mean_mm", "p95_mm", "max_over_mm", "max_under_mm"}) {
+      if (metric != name + "_" + figure) continue;
+      const WallMeasures& wall = r.shape.wall[w];
+      if (wall.samples == 0) return {std::nullopt, r.shape.bound_mm};
+      return {wall_figure(wall, figure), r.shape.bound_mm};
+    }
+  }
+  if (metric.rfind("touched_", 0) == 0 && metric.size() > 12 && metric.ends_with("_mm3")) {
+    const std::string tissue = metric.substr(8, metric.size() - 12);
+    for (const auto& t : r.tissues)
+      if (t.name == tissue) return of_volume(r.volumes.tissue[t.id]);
+    return exact(0.0);  // this tooth has none of it
+  }
+  if (metric == "target_removed_percent") return {r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent};
+  if (metric == "missed_mm3") return of_volume(r.volumes.missed);
+  if (metric == "removed_mm3") return of_volume(r.volumes.removed);
+  if (metric == "outside_mm3") return zone(Zone::none);
+  if (metric == "protected_mm3") return zone(Zone::protected_);
+  if (metric == "dice") return {r.volumes.dice, (r.volumes.removed.bound_mm3 + r.volumes.target.bound_mm3) / (r.volumes.removed.mm3 + r.volumes.target.mm3)};
+  if (metric == "leeway_sides_mm3") return zone(Zone::leeway_sides);
+  if (metric == "leeway_bottom_mm3") return zone(Zone::leeway_bottom);
+  if (metric == "container_sides_mm3") return zone(Zone::container_sides);
+  if (metric == "container_bottom_mm3") return zone(Zone::container_bottom);
+  if (metric == "container_mm3") return sum_of(r, {Zone::container_sides, Zone::container_bottom});
+  if (metric == "overcut_mm3") return sum_of(r, {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
+  if (metric == "side_walls_max_over_mm") return worst_wall(r, 4, "max_over_mm");
+  if (metric == "side_walls_max_under_mm") return worst_wall(r, 4, "max_under_mm");
+  if (metric == "side_walls_p95_mm") return worst_wall(r, 4, "p95_mm");
+  if (metric == "walls_max_over_mm") return worst_wall(r, k_walls, "max_over_mm");
+  if (metric == "walls_max_under_mm") return worst_wall(r, k_walls, "max_under_mm");
+  if (metric == "outline_width_mm") return length_of(r, r.shape.width_mm, 0, false);
+  if (metric == "outline_length_mm") return length_of(r, r.shape.length_mm, 0, false);
+  if (metric == "outline_width_error_mm") return length_of(r, r.shape.width_mm, r.shape.target_width_mm, true);
+  if (metric == "outline_length_error_mm") return length_of(r, r.shape.length_mm, r.shape.target_length_mm, true);
+  if (metric == "depth_mm") return length_of(r, r.shape.depth_mm, 0, false);
+  if (metric == "depth_error_mm") return length_of(r, r.shape.depth_mm, r.shape.target_depth_mm, true);
+  if (metric == "taper_deg") return {r.shape.taper_deg, 1.0};
+  if (metric == "time_s") return exact(m.time_s);
+  if (metric == "handpiece_time_s") return exact(m.handpiece_time_s);
+  if (metric == "idle_s") return exact(m.idle_s);
+  if (metric == "path_mm") return exact(m.path_mm);
+  if (metric == "force_mean_n") return exact(m.force_mean_n);
+  if (metric == "force_peak_n") return exact(m.force_peak_n);
+  if (metric == "force_over_limit_s") return exact(m.force_over_limit_s);
+  if (metric == "perforated") return exact(r.perforation.fault.perforated ? 1.0 : 0.0);
+  if (metric == "perforation_volume_mm3") return exact(r.perforation.fault.volume_mm3);
+  if (metric == "perforation_events")
+    return exact(static_cast<double>(std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault; })));
+  if (metric == "steps_completed") return exact(r.progress.steps_completed);
+  if (metric == "steps_failed") return exact(r.progress.steps_failed);
+  if (metric == "violations") return exact(r.progress.violations);
+  throw Error("rubric", "there is no measure '" + metric + "'", "use one that `cavum scenario check` knows");
+}
+
+}  // namespace cavum

@@ -1,0 +1,57 @@
+#include "grading/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cavum {
+
+double force_n(const TickRecord& r) noexcept {
+  return length({r.rendered_un[0] * 1e-6, r.rendered_un[1] * 1e-6, r.rendered_un[2] * 1e-6});
+}
+
+MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks) {
+  MotionMeasures m;
+  const auto n = static_cast<std::size_t>(ticks);
+  m.time_s = static_cast<double>(ticks) * k_tick_s;
+  m.late_ticks = static_cast<std::int64_t>(input.inputs.size()) - ticks;
+  const auto tip = [&](std::size_t i) {
+    const auto& t = input.inputs[i].tip_nm;
+    return Vec3{t[0] * 1e-6, t[1] * 1e-6, t[2] * 1e-6};
+  };
+  double sum = 0;
+  std::int64_t turning = 0, cutting = 0, over = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const TickRecord& r = input.records[i];
+    const double f = force_n(r);
+    const bool turns = r.rpm >= k_turning_rpm;
+    turning += turns ? 1 : 0;
+    if (turns && r.penetration_nm > 0) {
+      sum += f;
+      ++cutting;
+    }
+    if (f > m.force_peak_n) {
+      m.force_peak_n = f;
+      m.force_peak = {static_cast<std::int64_t>(i), tip(i)};
+    }
+    if (input.scenario.force_limit_n > 0 && f > input.scenario.force_limit_n) {
+      if (over++ == 0) m.first_over_limit = {static_cast<std::int64_t>(i), tip(i)};
+    }
+  }
+  for (std::size_t i = static_cast<std::size_t>(k_path_step_ticks); i < n; i += static_cast<std::size_t>(k_path_step_ticks))
+    m.path_mm += length(tip(i) - tip(i - static_cast<std::size_t>(k_path_step_ticks)));
+  std::int64_t idle = 0;
+  const auto window = static_cast<std::size_t>(k_idle_window_ticks);
+  for (std::size_t i = 0; i + window <= n; i += window) {
+    bool quiet = true;
+    for (std::size_t j = i; j < i + window && quiet; ++j)
+      quiet = input.records[j].removed == 0 && input.records[j].penetration_nm == 0 && length(tip(j) - tip(i)) <= k_idle_mm;
+    idle += quiet ? k_idle_window_ticks : 0;
+  }
+  m.handpiece_time_s = static_cast<double>(turning) * k_tick_s;
+  m.idle_s = static_cast<double>(idle) * k_tick_s;
+  m.force_mean_n = cutting > 0 ? sum / static_cast<double>(cutting) : 0.0;
+  m.force_over_limit_s = static_cast<double>(over) * k_tick_s;
+  return m;
+}
+
+}  // namespace cavum

@@ -1,0 +1,35 @@
+// Which leaves were removed and when: a dense map over the box of all removed leaves.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/session/session_reader.h"
+
+namespace cavum {
+
+class RemovedMap {
+ public:
+  /// Leaves removed in ticks 0..last_tick.
+  RemovedMap(std::span<const RemovedAt> removed, std::int64_t last_tick);
+
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  /// Tick in which a leaf was removed, -1 when it was not.
+  [[nodiscard]] std::int64_t tick(IVec3 leaf) const noexcept {
+    const IVec3 l = leaf - low_;
+    if (l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return -1;
+    return tick_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
+                 static_cast<std::size_t>(l.x)];
+  }
+  [[nodiscard]] bool has(IVec3 leaf) const noexcept { return tick(leaf) >= 0; }
+
+ private:
+  IVec3 low_, size_;
+  std::vector<std::int32_t> tick_;  // 2^31 ms are 24 days
+  std::size_t count_ = 0;
+};
+
+inline constexpr IVec3 k_six_neighbours[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+}  // namespace cavum

@@ -1,0 +1,134 @@
+// The result of an exam: every figure of DESIGN.md §6, each with what it is uncertain by and, where points
+// were lost, when and where. Plain data; grade.h makes it, result_json.h writes it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/vec.h"
+#include "scenarios/runner.h"
+#include "scenarios/zone_map.h"
+
+namespace cavum {
+
+/// When and where something happened; tick -1 = never.
+struct Trace {
+  std::int64_t tick = -1;
+  Vec3 site_mm;
+  [[nodiscard]] double t_s() const noexcept { return static_cast<double>(tick) * k_tick_s; }
+};
+
+/// A volume and half a leaf over its border: the true volume lies within ± bound.
+struct Volume {
+  double mm3 = 0.0, bound_mm3 = 0.0;
+};
+
+/// What was removed in one zone.
+struct ZoneVolume {
+  Volume removed;
+  std::array<double, k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
+  Trace first;                                    ///< first leaf removed
+};
+
+struct VolumeMeasures {
+  Volume target, removed, missed;
+  double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
+  double dice = 0.0;
+  std::array<ZoneVolume, k_zones> zone;           ///< by Zone; none = outside
+  std::array<double, k_walls + 1> missed_by_wall_mm3{};
+  std::array<Volume, 256> tissue;                 ///< removed, by tissue id
+};
+
+/// Signed distance of the cut surface from the target's, mm, + = overcut. Meaningless when samples == 0.
+struct WallMeasures {
+  std::size_t samples = 0;        ///< leaves of cut surface
+  double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
+  Trace worst_over, worst_under;
+};
+
+struct ShapeMeasures {
+  std::array<WallMeasures, k_walls> wall;
+  double bound_mm = 0.0;                          ///< of every distance here
+  std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
+  double target_length_mm = 0.0, target_width_mm = 0.0, target_depth_mm = 0.0;
+};
+
+/// A breakthrough seen in the force.
+struct PerforationEvent {
+  std::int64_t tick = 0;          ///< onset of the drop
+  std::int64_t seen_tick = 0;     ///< when the detector could say so
+  Vec3 site_mm;                   ///< tip
+  double force_before_n = 0.0, force_after_n = 0.0;
+  double advance_mm = 0.0;        ///< of the tip, against the force, while it dropped
+  bool fault = false;             ///< by the place: outside target and leeway, or no aim in this scenario
+  bool confirmed = false;         ///< tissue of that kind was removed within 100 ms
+};
+
+struct PerforationTruth {
+  bool perforated = false;
+  Trace first;
+  std::string tissue;
+  double volume_mm3 = 0.0;
+};
+
+struct PerforationMeasures {
+  std::vector<PerforationEvent> events;  ///< in order of time
+  PerforationTruth fault, aim;           ///< `aim`: the breakthrough that the task asks for
+  [[nodiscard]] bool detected() const noexcept {
+    for (const auto& e : events)
+      if (e.fault) return true;
+    return false;
+  }
+  /// Force and tissue tell the same story about faults.
+  [[nodiscard]] bool agree() const noexcept { return detected() == fault.perforated; }
+};
+
+struct MotionMeasures {
+  double time_s = 0.0, handpiece_time_s = 0.0, idle_s = 0.0, path_mm = 0.0;
+  double force_mean_n = 0.0, force_peak_n = 0.0, force_over_limit_s = 0.0;
+  Trace force_peak, first_over_limit;
+  std::int64_t late_ticks = 0;            ///< recorded after the exam was over; they count nowhere
+};
+
+struct ProgressMeasures {
+  int steps = 0, steps_completed = 0, steps_failed = 0, violations = 0;
+  Trace first_violation;
+  std::string finish = "running";
+};
+
+struct CriterionResult {
+  std::string id, title, metric, unit, reason;
+  std::optional<double> value;            ///< none when the metric cannot be measured on this cavity
+  double bound = 0.0;
+  double points = 0.0, max = 0.0;
+  bool critical_failed = false;
+  Trace first;                            ///< where the loss began
+};
+
+enum class Verdict { pass, fail, review };
+
+struct Result {
+  std::string scenario_id, scenario_title, tooth_name;
+  double leaf_mm = 0.0;
+  Verdict verdict = Verdict::fail;
+  std::vector<std::string> verdict_reasons;
+  double points = 0.0, max_points = 0.0;
+  bool compensatory = true;
+  double pass_percent = 0.0, borderline_percent = 0.0;
+  std::vector<CriterionResult> criteria;
+  VolumeMeasures volumes;
+  ShapeMeasures shape;
+  PerforationMeasures perforation;
+  MotionMeasures motion;
+  ProgressMeasures progress;
+  double extra_time_percent = 0.0;
+  std::vector<std::string> notes;         ///< what a reader must know: disagreement in the record, late ticks
+  std::vector<Tissue> tissues;
+};
+
+[[nodiscard]] inline const char* verdict_name(Verdict v) noexcept { return v == Verdict::pass ? "pass" : v == Verdict::fail ? "fail" : "review"; }
+
+}  // namespace cavum

@@ -1,0 +1,27 @@
+#include "grading/session_input.h"
+
+#include "engine/base/error.h"
+#include "scenarios/parse.h"
+
+namespace cavum {
+
+std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
+  const SessionReader reader(path);
+  reader.require_readable();
+  if (!reader.closed()) throw Error(path, "this exam was not closed", "resume it with `cavum exam --resume`, or let it end");
+  const SessionSetup setup = reader.setup();
+  auto s = std::make_unique<GradedSession>();
+  s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario");
+  s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
+  s->before = load_tooth(setup.tooth, path + ": tooth");
+  s->after = load_tooth(reader.final_tooth(), path + ": final tooth");
+  s->zones = build_zones(s->scenario, s->before);
+  s->inputs = reader.inputs();
+  s->records = reader.records();
+  s->removed = reader.removed();
+  s->events = reader.events();
+  s->facts = {setup.candidate, setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(s->before)};
+  return s;
+}
+
+}  // namespace cavum

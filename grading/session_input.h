@@ -1,0 +1,29 @@
+// A session file as grading wants it: scenario, zones, tooth before and after, motion and events.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grading/grade.h"
+#include "grading/report.h"
+
+namespace cavum {
+
+struct GradedSession {
+  Scenario scenario;
+  RubricSpec rubric;          ///< of the session: its own, else the scenario's
+  Tooth before, after;
+  ZoneMap zones;
+  std::vector<TickInput> inputs;
+  std::vector<TickRecord> records;
+  std::vector<RemovedAt> removed;
+  std::vector<SessionEvent> events;
+  ReportFacts facts;
+  [[nodiscard]] GradeInput input() const { return {scenario, before, zones, after.octree, inputs, records, removed, events}; }
+};
+
+/// Throws Error when the file is damaged, or was never closed (resume it first).
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
+
+}  // namespace cavum

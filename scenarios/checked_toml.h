@@ -1,0 +1,68 @@
+// TOML with all mistakes collected: each value is asked for with what it must be, a wrong one is noted
+// with its place and a harmless default returned, and what was never asked for is an unknown key.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <toml++/toml.h>
+#include <vector>
+
+#include "engine/base/vec.h"
+#include "scenarios/parse.h"
+
+namespace cavum {
+
+class ProblemList {
+ public:
+  explicit ProblemList(std::string path) : path_(std::move(path)) {}
+  void add(const toml::source_region& at, const std::string& what, const std::string& what_to_do);
+  /// Sorted by place.
+  [[nodiscard]] std::vector<Problem> take();
+
+ private:
+  std::string path_;
+  std::vector<Problem> problems_;
+};
+
+/// Reads one table. `name` is how messages call it ("[zones.leeway]").
+class CheckedTable {
+ public:
+  CheckedTable(const toml::table& table, std::string name, ProblemList& problems) : table_(table), name_(std::move(name)), problems_(problems) {}
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+  /// A number within [low, high]; `fallback` when absent (a problem if `required`) or wrong.
+  double number(std::string_view key, double low, double high, double fallback, bool required = false);
+  std::string text(std::string_view key, const std::string& fallback, bool required = false);
+  bool truth(std::string_view key, bool fallback);
+  static constexpr std::size_t k_wrong = static_cast<std::size_t>(-1);
+  /// Index of one of `words`; `fallback` when absent, k_wrong (a problem) for any other word or when absent though `required`.
+  std::size_t word(std::string_view key, const std::vector<std::string>& words, std::size_t fallback, bool required = false);
+  std::vector<std::string> texts(std::string_view key, bool required = false);
+  /// `count` numbers (2 or 3) as a vector.
+  Vec3 vector(std::string_view key, std::size_t count, Vec3 fallback, bool required = false);
+  std::vector<Vec3> points(std::string_view key, std::size_t at_least, bool required);
+  /// The table under `key`; nullptr when absent (a problem if `required`).
+  const toml::table* table(std::string_view key, bool required = false);
+  /// Every table of the array under `key`; one table alone counts as an array of one.
+  std::vector<const toml::table*> tables(std::string_view key, bool required = false);
+  /// Place of a key's value, or of the table.
+  [[nodiscard]] toml::source_region where(std::string_view key) const;
+  void problem(std::string_view key, const std::string& what, const std::string& what_to_do) { problems_.add(where(key), what, what_to_do); }
+  /// Reports keys that nobody asked for. Call last.
+  void finish();
+
+ private:
+  const toml::node* ask(std::string_view key, bool required);
+  const toml::table& table_;
+  std::string name_;
+  ProblemList& problems_;
+  std::vector<std::string> asked_;
+};
+
+/// The word of `words` closest to `wrong`, as "did you mean 'x'?", or a list of all when none is close.
+[[nodiscard]] std::string suggestion(const std::string& wrong, const std::vector<std::string>& words);
+/// 3.5 as "3.5", 60.0 as "60".
+[[nodiscard]] std::string plain_number(double v);
+
+}  // namespace cavum

@@ -1,0 +1,318 @@
+#include "scenarios/cut_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/distance_transform.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_above_mm = 1.0;     // height of the ways through the air over the tooth
+constexpr double k_lift_over_mm = 0.6;  // a longer gap between two loops is crossed in the air
+
+/// A set of columns with the distance of each to its edge.
+struct Region {
+  int nx = 0, ny = 0;
+  std::vector<std::uint8_t> inside;
+  std::vector<double> depth;  ///< columns to the edge, 0.5 at a border column
+  [[nodiscard]] bool has(int x, int y) const noexcept {
+    return x >= 0 && y >= 0 && x < nx && y < ny && inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] != 0;
+  }
+};
+
+Region region_of(int nx, int ny, const std::vector<std::uint8_t>& inside) {
+  Region r{nx, ny, inside, std::vector<double>(inside.size(), 0.0)};
+  // padded by a column, so that the map's border counts as an edge
+  const int px = nx + 2, py = ny + 2;
+  std::vector<std::uint8_t> outside(static_cast<std::size_t>(px) * static_cast<std::size_t>(py), 1);
+  for (int y = 0; y < ny; ++y)
+    for (int x = 0; x < nx; ++x) outside[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)] = !r.has(x, y);
+  const auto nearest = nearest_seed({px, py, 1}, outside);
+  for (int y = 0; y < ny; ++y)
+    for (int x = 0; x < nx; ++x) {
+      const int n = nearest[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)];
+      const double dx = n % px - (x + 1), dy = n / px - (y + 1);
+      r.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] = std::sqrt(dx * dx + dy * dy) - 0.5;
+    }
+  return r;
+}
+
+struct Column {
+  int x = 0, y = 0;
+  friend bool operator==(const Column&, const Column&) = default;
+};
+
+/// Outer border of the component that holds `start` (its lowest, leftmost column), by Moore's neighbour tracing.
+std::vector<Column> trace(const Region& r, Column start) {
+  static constexpr Column k_around[8] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  std::vector<Column> loop{start};
+  int from = 4;  // came from the left
+  Column at = start;
+  for (std::size_t guard = 0; guard < 4 * r.inside.size(); ++guard) {
+    bool moved = false;
+    for (int i = 1; i <= 8; ++i) {
+      const int d = (from + i) % 8;
+      const Column next{at.x + k_around[d].x, at.y + k_around[d].y};
+      if (!r.has(next.x, next.y)) continue;
+      at = next;
+      from = (d + 4) % 8;
+      moved = true;
+      break;
+    }
+    if (!moved || at == start) break;
+    loop.push_back(at);
+  }
+  loop.push_back(start);
+  return loop;
+}
+
+/// Marks the component of `start` as done.
+void erase_component(Region& r, Column start) {
+  std::vector<Column> todo{start};
+  const auto clear = [&r](Column c) { r.inside[static_cast<std::size_t>(c.y) * static_cast<std::size_t>(r.nx) + static_cast<std::size_t>(c.x)] = 0; };
+  clear(start);
+  while (!todo.empty()) {
+    const Column c = todo.back();
+    todo.pop_back();
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (r.has(c.x + dx, c.y + dy)) {
+          clear({c.x + dx, c.y + dy});
+          todo.push_back({c.x + dx, c.y + dy});
+        }
+  }
+}
+
+/// Closed loops that cover a region, innermost first.
+std::vector<std::vector<Column>> loops_of(const Region& region, double spacing_columns) {
+  const double deepest = region.depth.empty() ? 0 : *std::max_element(region.depth.begin(), region.depth.end());
+  std::vector<std::vector<Column>> loops;
+  for (int ring = static_cast<int>(deepest / spacing_columns); ring >= 0; --ring) {
+    Region level = region;
+    for (std::size_t i = 0; i < level.inside.size(); ++i) level.inside[i] = region.inside[i] != 0 && region.depth[i] >= ring * spacing_columns;
+    for (int y = 0; y < level.ny; ++y)
+      for (int x = 0; x < level.nx; ++x)
+        if (level.has(x, y)) {
+          loops.push_back(trace(level, {x, y}));
+          erase_component(level, {x, y});
+        }
+  }
+  return loops;
+}
+
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 ab = b - a;
+  const double n = dot(ab, ab);
+  const double t = n > 0 ? std::clamp(dot(p - a, ab) / n, 0.0, 1.0) : 0.0;
+  return length(p - a - ab * t);
+}
+
+/// Douglas-Peucker: keeps the points that stand off the line between their neighbours by more than `tolerance`.
+void simplify(const std::vector<Vec3>& line, std::size_t first, std::size_t last, double tolerance, std::vector<Vec3>& out) {
+  double furthest = tolerance;
+  std::size_t split = first;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double d = distance_to_segment(line[i], line[first], line[last]);
+    if (d > furthest) {
+      furthest = d;
+      split = i;
+    }
+  }
+  if (split == first) {
+    out.push_back(line[last]);
+    return;
+  }
+  simplify(line, first, split, tolerance, out);
+  simplify(line, split, last, tolerance, out);
+}
+
+/// A loop as places of the tip, simplified to `tolerance_mm`, at the layer's height or higher where the column ends.
+std::vector<Vec3> corners(const ReachMap& map, const std::vector<Column>& loop, double layer_z, double tolerance_mm) {
+  std::vector<Vec3> line;
+  for (const auto& c : loop) line.push_back(map.at(c.x, c.y, std::max(layer_z, map.lowest_mm[map.index(c.x, c.y)])));
+  if (line.size() < 3) return line;
+  std::vector<Vec3> out{line.front()};
+  const std::size_t half = line.size() / 2;  // a closed loop has no chord: cut it in two
+  simplify(line, 0, half, tolerance_mm, out);
+  simplify(line, half, line.size() - 1, tolerance_mm, out);
+  return out;
+}
+
+/// Builds the list of waypoints, lifting between distant places and marking those close to a void tissue.
+class Way {
+ public:
+  Way(const Tooth& tooth, double air_z) : tooth_(tooth), air_z_(air_z) {}
+
+  void follow(const std::vector<Vec3>& loop) {
+    if (loop.empty()) return;
+    if (points_.empty() || length(points_.back().tip_mm - loop.front()) > k_lift_over_mm) {
+      lift();
+      const Vec3 over{loop.front().x, loop.front().y, air_z_};
+      points_.push_back({over, false, false});
+    }
+    for (const auto& p : loop) points_.push_back({p, true, near_void(p)});
+  }
+  void lift() {
+    if (points_.empty()) return;
+    const Vec3 p = points_.back().tip_mm;
+    if (p.z < air_z_) points_.push_back({{p.x, p.y, air_z_}, false, false});
+  }
+  [[nodiscard]] std::vector<Waypoint> take() { return std::move(points_); }
+
+ private:
+  [[nodiscard]] bool near_void(Vec3 tip) const {
+    for (double below = -0.2; below <= 0.8; below += 0.1) {
+      const auto t = tooth_.octree.tissue_at(tip - Vec3{0, 0, below});
+      if (t != k_air && !tooth_.octree.is_solid(t)) return true;
+    }
+    return false;
+  }
+  const Tooth& tooth_;
+  double air_z_;
+  std::vector<Waypoint> points_;
+};
+
+}  // namespace
+
+ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, double margin_mm) {
+  const Vec3 low = zones.target_low_mm(), high = zones.target_high_mm();
+  ReachMap map;
+  map.step_mm = std::max(0.1, 2 * zones.leaf_mm());
+  constexpr int k_border = 12;  // columns around the target: tooth that the shank could meet
+  const int nx = static_cast<int>((high.x - low.x) / map.step_mm) + 2 + 2 * k_border, ny = static_cast<int>((high.y - low.y) / map.step_mm) + 2 + 2 * k_border;
+  const double top = tooth.octree.origin_mm().z + tooth.octree.size().z * tooth.octree.leaf_mm();
+  map.nx = nx;
+  map.ny = ny;
+  map.origin_mm = {low.x - k_border * map.step_mm, low.y - k_border * map.step_mm, top};
+  const auto columns = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+  map.lowest_mm.assign(columns, ReachMap::k_unreachable);
+
+  // For every height the free radius around each column: an upright body of revolution fits where no slice is wider.
+  const double dz = map.step_mm, base = low.z - 0.3;
+  const int slices = static_cast<int>((top - base) / dz) + 1;
+  std::vector<float> free_mm(columns * static_cast<std::size_t>(slices));
+  std::vector<std::uint8_t> forbidden(columns);
+  std::vector<double> beyond(columns);
+  for (int k = 0; k < slices; ++k) {
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) {
+        const Vec3 p = map.at(x, y, base + k * dz);
+        const double outside = zones.distance_mm(p) - margin_mm;
+        forbidden[map.index(x, y)] = outside > 0 && tooth.octree.tissue_at(p) != k_air;
+        beyond[map.index(x, y)] = outside;
+      }
+    const auto nearest = nearest_seed({nx, ny, 1}, forbidden);
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) {
+        const auto n = nearest[map.index(x, y)];
+        double room = 100.0;
+        if (n >= 0) {
+          const double dx = n % nx - x, dy = n / nx - y;
+          // the forbidden column's centre lies `beyond` the target's surface: that much of the way is still free
+          room = std::sqrt(dx * dx + dy * dy) * map.step_mm - std::min(beyond[static_cast<std::size_t>(n)], map.step_mm);
+        }
+        free_mm[static_cast<std::size_t>(k) * columns + map.index(x, y)] = static_cast<float>(forbidden[map.index(x, y)] != 0 ? 0.0 : room);
+      }
+  }
+  std::vector<double> radius(static_cast<std::size_t>(slices));
+  for (std::size_t h = 0; h < radius.size(); ++h) radius[h] = tool.point.profile.radius_mm(static_cast<double>(h) * dz + 0.5 * dz);
+  for (std::size_t c = 0; c < columns; ++c) {
+    double& lowest = map.lowest_mm[c];
+    for (int k = static_cast<int>((high.z + 0.3 - base) / dz); k >= 0; --k) {
+      bool fits = true;
+      for (int h = k; h < slices && fits; ++h) fits = free_mm[static_cast<std::size_t>(h) * columns + c] >= radius[static_cast<std::size_t>(h - k)];
+      if (!fits) break;
+      lowest = base + k * dz;
+    }
+    if (lowest > high.z) lowest = ReachMap::k_unreachable;  // never got below the opening
+  }
+  return map;
+}
+
+double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
+  const double low_z = zones.target_low_mm().z, high_z = zones.target_high_mm().z, dz = map.step_mm;
+  const auto slices = static_cast<std::size_t>((high_z - low_z) / dz) + 1;
+  const auto columns = map.lowest_mm.size();
+  std::vector<std::uint8_t> covered(columns * slices);
+  for (int y = 0; y < map.ny; ++y)
+    for (int x = 0; x < map.nx; ++x) {
+      const double tip = map.lowest_mm[map.index(x, y)];
+      if (tip >= ReachMap::k_unreachable) continue;
+      for (std::size_t k = 0; k < slices; ++k) {
+        const double above = low_z + (static_cast<double>(k) + 0.5) * dz - tip;
+        if (above < 0) continue;
+        // what the coated head reaches there, at this or any higher place of the tip
+        const double r = tool.point.profile.radius_mm(std::min(above, tool.point.cutting_length_mm)) / map.step_mm;
+        const int n = static_cast<int>(r);
+        for (int dy = -n; dy <= n; ++dy)
+          for (int dx = -n; dx <= n; ++dx) {
+            if (dx * dx + dy * dy > r * r || x + dx < 0 || y + dy < 0 || x + dx >= map.nx || y + dy >= map.ny) continue;
+            covered[k * columns + map.index(x + dx, y + dy)] = 1;
+          }
+      }
+    }
+  double all = 0, reached = 0;
+  for (std::size_t k = 0; k < slices; ++k)
+    for (int y = 0; y < map.ny; ++y)
+      for (int x = 0; x < map.nx; ++x) {
+        const Vec3 p = map.at(x, y, low_z + (static_cast<double>(k) + 0.5) * dz);
+        if (zones.distance_mm(p) >= 0 || tooth.octree.tissue_at(p) == k_air) continue;
+        all += 1;
+        reached += covered[k * columns + map.index(x, y)];
+      }
+  return all > 0 ? reached / all : 0;
+}
+
+std::vector<Waypoint> plan_cut(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const PlanOptions& options) {
+  double deepest = ReachMap::k_unreachable;
+  for (const double z : map.lowest_mm) deepest = std::min(deepest, z);
+  if (deepest == ReachMap::k_unreachable) return {};
+  const double top = zones.target_high_mm().z;
+  Way way(tooth, map.origin_mm.z + k_above_mm);
+  std::vector<std::uint8_t> inside(map.lowest_mm.size());
+  const int layers = std::max(1, static_cast<int>((top - deepest) / options.layer_mm + 0.999));
+  for (int i = 1; i <= layers; ++i) {
+    const double z = top - (top - deepest) * i / layers;
+    // columns that end higher join with the height they have, so that each layer keeps its full outline
+    const double reach_z = z + options.layer_mm;
+    for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] < reach_z;
+    const Region region = region_of(map.nx, map.ny, inside);
+    const auto loops = loops_of(region, options.spacing_mm / map.step_mm);
+    for (const auto& loop : loops) way.follow(corners(map, loop, z, options.tolerance_mm));
+    // once more around the wall: what the first pass left would hold up the neck of the point further down
+    if (!loops.empty()) way.follow(corners(map, loops.back(), z, options.tolerance_mm));
+  }
+  // the floor pass follows the lowest reach of every column
+  for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] < ReachMap::k_unreachable;
+  const Region all = region_of(map.nx, map.ny, inside);
+  for (const auto& loop : loops_of(all, options.finish_spacing_mm / map.step_mm)) way.follow(corners(map, loop, deepest, options.tolerance_mm));
+  way.lift();
+  return way.take();
+}
+
+std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth, const ReachMap& map, std::uint8_t fault) {
+  constexpr double k_furthest_mm = 6.0, k_beyond_mm = 0.8;
+  const double leaf = zones.leaf_mm();
+  double shortest = k_furthest_mm;
+  Vec3 from, to;
+  for (int y = 0; y < map.ny; ++y)
+    for (int x = 0; x < map.nx; ++x) {
+      const double z = map.lowest_mm[map.index(x, y)];
+      if (z >= ReachMap::k_unreachable) continue;
+      const Vec3 start = map.at(x, y, z);
+      for (double down = 0; down < shortest; down += leaf) {
+        const Vec3 p = start - Vec3{0, 0, down};
+        if (tooth.octree.tissue_at(p) != fault) continue;
+        shortest = down;
+        from = start;
+        to = p - Vec3{0, 0, k_beyond_mm};
+        break;
+      }
+    }
+  if (shortest >= k_furthest_mm) return {};
+  const double air_z = map.origin_mm.z + k_above_mm;
+  return {{{from.x, from.y, air_z}, false, false}, {from, true, false}, {to, true, false}, {{to.x, to.y, air_z}, false, false}};
+}
+
+}  // namespace cavum

@@ -1,0 +1,150 @@
+#include "scenarios/exam.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
+  nlohmann::json detail = nlohmann::json::object();
+  const auto index = static_cast<std::size_t>(event.index);
+  switch (event.kind) {
+    case ExamEventKind::step_started:
+    case ExamEventKind::step_completed:
+    case ExamEventKind::step_failed:
+    case ExamEventKind::step_time_limit:
+      detail["step"] = index < setup.scenario.steps.size() ? setup.scenario.steps[index].id : "";
+      break;
+    case ExamEventKind::point_not_allowed: detail["point"] = event.index; break;
+    case ExamEventKind::aim_reached:
+    case ExamEventKind::perforation: {
+      detail["tissue"] = setup.tooth.tissue_name(static_cast<std::uint8_t>(event.index));
+      const Vec3 at = setup.tooth.octree.centre_mm({event.leaf[0], event.leaf[1], event.leaf[2]});
+      detail["site_mm"] = {at.x, at.y, at.z};
+      break;
+    }
+    case ExamEventKind::finished: detail["how"] = finish_name(static_cast<Finish>(event.index)); break;
+    default: break;
+  }
+  return detail.dump();
+}
+
+/// Text of a material set: a name in data/materials, or a file.
+std::string force_model_text(const std::string& wanted, const std::string& near_file) {
+  return read_text_file(wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file));
+}
+
+/// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
+void fill(ExamSetup& setup, const std::string& scenario_path) {
+  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path);
+  setup.tooth = load_tooth(setup.session.tooth, "tooth");
+  for (const auto& text : setup.session.points_toml) {
+    setup.points.push_back(parse_diamond_point(text, "diamond point"));
+    setup.point_names.push_back(setup.points.back().name);
+  }
+  setup.zones = build_zones(setup.scenario, setup.tooth);
+}
+
+}  // namespace
+
+std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file) {
+  std::vector<fs::path> places;
+  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder / name);
+  places.push_back(fs::path(near_file).parent_path() / ".." / folder / name);
+  places.push_back(fs::path("data") / folder / name);
+  places.push_back(fs::path(CAVUM_DATA_DIR) / folder / name);
+  std::string looked;
+  for (const auto& p : places) {
+    if (fs::exists(p)) return p.lexically_normal().string();
+    looked += (looked.empty() ? "" : ", ") + p.lexically_normal().string();
+  }
+  throw Error(folder + "/" + name, "is nowhere to be found (looked at " + looked + ")", "correct the name or set CAVUM_DATA to the data folder");
+}
+
+std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
+  auto setup = std::make_unique<ExamSetup>();
+  SessionSetup& s = setup->session;
+  s.scenario_toml = read_text_file(scenario_path);
+  const Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
+  s.candidate = options.candidate;
+  s.device = options.device;
+  s.notes = options.notes;
+  s.tooth = read_file(options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file);
+  s.force_model_toml = force_model_text(options.force_model, scenario_path);
+  for (const auto& name : scenario.points) s.points_toml.push_back(read_text_file(find_data_file("points", name + ".toml", scenario_path)));
+  ServoConfig config;
+  config.max_rpm = scenario.max_rpm;
+  s.servo_toml = to_toml(config);
+  fill(*setup, scenario_path);
+  return setup;
+}
+
+std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
+  auto setup = std::make_unique<ExamSetup>();
+  setup->session = session;
+  fill(*setup, "scenario of the session");
+  return setup;
+}
+
+Exam::Exam(const ExamSetup& setup, Simulation simulation)
+    : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names), simulation_(std::move(simulation)) {}
+
+std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm) {
+  SessionSetup session = setup.session;
+  const TickInput first = make_tick_input({first_tip_mm, {}}, 0, k_stylus_fresh, 0, {});
+  session.first_tip_nm = first.tip_nm;
+  std::unique_ptr<Exam> exam(new Exam(setup, make_simulation(session, path)));
+  exam->last_input_ = first;
+  exam->last_.proxy_mm = first_tip_mm;
+  exam->recorder_.emplace(Recorder::create(path, session));
+  return exam;
+}
+
+std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path) {
+  std::unique_ptr<Exam> exam(new Exam(setup, {}));
+  ResumedSession resumed = resume_session(path, [&](std::int64_t, const TickInput& input, const TickOutput& output, const ServoState& state) {
+    exam->runner_.advance(*exam->runner_state_, input, output, state.removed);
+    exam->last_input_ = input;
+    exam->last_ = output;
+  });
+  if (resumed.ticks == 0) {
+    exam->last_input_.tip_nm = resumed.setup.first_tip_nm;
+    exam->last_.proxy_mm = resumed.setup.first_tip_mm();
+  }
+  exam->events_recorded_ = exam->runner_state_->event_count;
+  exam->simulation_ = std::move(resumed.simulation);
+  exam->recorder_.emplace(std::move(resumed.recorder));
+  return exam;
+}
+
+void Exam::record_events() {
+  const RunnerState& r = *runner_state_;
+  for (; events_recorded_ < r.event_count; ++events_recorded_) {
+    const ExamEvent& e = r.events[events_recorded_];
+    recorder_->add_event(e.tick, event_name(e.kind), event_detail(e, setup_));
+  }
+}
+
+const TickOutput& Exam::tick(const TickInput& input) {
+  last_input_ = input;
+  last_ = step(simulation_.model, simulation_.state, input);
+  runner_.advance(*runner_state_, input, last_, simulation_.state.removed);
+  record_events();  // before the tick, so that both are written in one transaction
+  recorder_->append(input, make_tick_record(last_), simulation_.state.removed, state_hash(simulation_.state));
+  return last_;
+}
+
+void Exam::end() {
+  runner_.end(*runner_state_);
+  record_events();
+}
+
+void Exam::close(const std::string& result_json) { recorder_->close(save_tooth(tooth_now()), result_json); }
+
+}  // namespace cavum

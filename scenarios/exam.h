@@ -1,0 +1,85 @@
+// An exam made ready and run tick by tick: scenario, tooth, tray and force model come together here, and
+// every tick goes through the same four steps, whether a hand, a motion file or a simulated candidate
+// gives the input: servo, runner, events, recording.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/session/recorder.h"
+#include "engine/session/resume.h"
+#include "scenarios/parse.h"
+#include "scenarios/runner.h"
+
+namespace cavum {
+
+/// A file that ships with Cavum, by folder and name ("points", "round-1.0.toml"): looked for in $CAVUM_DATA, beside
+/// `near_file`'s folder (../points of data/scenarios/x.toml), in ./data, and where Cavum was built or installed.
+/// Throws Error naming the places.
+[[nodiscard]] std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file);
+
+/// What may be chosen beside the scenario itself.
+struct ExamOptions {
+  std::string candidate;               ///< pseudonym
+  std::string device;                  ///< name of what gives the input
+  std::string tooth_file;              ///< empty: the scenario's
+  std::string force_model = "consistent";  ///< name of data/materials/NAME.toml, or a path ending in .toml
+  std::vector<std::pair<std::string, std::string>> notes;  ///< recorded as they are
+};
+
+/// Everything constant during one exam.
+struct ExamSetup {
+  Scenario scenario;
+  Tooth tooth;
+  std::vector<DiamondPoint> points;
+  ZoneMap zones;
+  std::vector<std::string> point_names;  ///< in the order of the tray
+  SessionSetup session;
+};
+/// Reads all files. Throws Error on any that is missing or wrong.
+[[nodiscard]] std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options);
+/// The same from what a session holds: for resuming and regrading.
+[[nodiscard]] std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session);
+
+/// A running exam.
+class Exam {
+ public:
+  /// Starts recording to `path`, with the tip at `first_tip_mm`. Throws Error when it cannot.
+  [[nodiscard]] static std::unique_ptr<Exam> start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm);
+  /// Takes up a session that was killed, with the setup it holds; the ticks recorded so far are simulated again.
+  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path);
+
+  /// One tick; throws Error when it cannot be recorded (the tick is kept, go on after making room).
+  const TickOutput& tick(const TickInput& input);
+  [[nodiscard]] bool over() const noexcept { return runner_state_->finish != Finish::running; }
+  /// The candidate stops: the exam is over.
+  void end();
+  /// Seals the session with the tooth as it is and the result.
+  void close(const std::string& result_json);
+
+  [[nodiscard]] const TickOutput& last() const noexcept { return last_; }
+  [[nodiscard]] const TickInput& last_input() const noexcept { return last_input_; }
+  [[nodiscard]] const RunnerState& runner_state() const noexcept { return *runner_state_; }
+  [[nodiscard]] const std::string& instruction() const noexcept { return runner_.instruction(*runner_state_); }
+  [[nodiscard]] const ServoState& state() const noexcept { return simulation_.state; }
+  [[nodiscard]] Tooth tooth_now() const { return drilled_tooth(simulation_); }
+  [[nodiscard]] Recorder& recorder() noexcept { return *recorder_; }
+
+ private:
+  Exam(const ExamSetup& setup, Simulation simulation);
+  void record_events();
+
+  const ExamSetup& setup_;
+  Runner runner_;
+  std::unique_ptr<RunnerState> runner_state_ = std::make_unique<RunnerState>();
+  std::uint32_t events_recorded_ = 0;
+  std::optional<Recorder> recorder_;
+  Simulation simulation_;
+  TickOutput last_;
+  TickInput last_input_;
+};
+
+}  // namespace cavum

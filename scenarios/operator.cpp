@@ -1,0 +1,171 @@
+#include "scenarios/operator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_free_speed_mm_s = 5.0;  // through the air near the tooth
+constexpr double k_arrived_mm = 0.04;      // cutting; ways through the air need not end that exactly
+constexpr double k_lead_rate_mm_s = 15.0;   // how fast the hand builds up its push
+constexpr double k_gentle_bend = 0.7;      // cosine between two pieces of the way
+constexpr double k_give_up_s = 1.5;         // without getting nearer
+
+}  // namespace
+
+Skill make_skill(const std::string& name, std::uint64_t seed) {
+  Skill s;
+  s.name = name;
+  if (name == "expert") return s;
+  if (name == "perforator") {
+    s.perforates = true;
+    return s;
+  }
+  if (name == "novice") {
+    Random random(seed);
+    s.press_mm = 1.2;
+    s.careful_press_mm = 0.9;
+    s.reaction_s = 0.16;
+    s.tremor_mm = 0.07;
+    // leans towards one wall, by half a millimetre to three quarters
+    const double side = random.uniform(0.5, 0.75);
+    const bool across = random.below(2) == 0;
+    const double sign = random.below(2) == 0 ? 1.0 : -1.0;
+    s.offset_mm = across ? Vec3{0, sign * side, 0} : Vec3{sign * side, 0, 0};
+    s.stops_short = random.uniform(0.05, 0.12);
+    s.hand.stiffness_n_per_mm = 1.2;
+    return s;
+  }
+  throw Error("operator '" + name + "'", "is not known", "use expert, novice or perforator");
+}
+
+Operator::Operator(Skill skill, std::vector<Waypoint> way, std::uint64_t seed) : skill_(std::move(skill)), way_(std::move(way)), random_(seed) {
+  double top = -1e9, bottom = 1e9;
+  for (const auto& w : way_) {
+    top = std::max(top, w.tip_mm.z);
+    bottom = std::min(bottom, w.tip_mm.z);
+  }
+  for (auto& w : way_) {
+    if (!w.cut) continue;
+    w.tip_mm += skill_.offset_mm;
+    w.tip_mm.z = std::max(w.tip_mm.z, bottom + skill_.stops_short * (top - bottom));
+  }
+  memory_.resize(static_cast<std::size_t>(skill_.reaction_s / k_tick_s) + 1);
+  for (auto& m : memory_) m.proxy_mm = start_mm();
+  from_mm_ = start_mm();
+  way_.reserve(2 * way_.size() + 16);  // retreats add to it
+}
+
+Operator::Sight Operator::delayed(const TickOutput& seen, double dt_s) noexcept {
+  const auto length_ticks = std::clamp<std::size_t>(static_cast<std::size_t>(skill_.reaction_s / dt_s), 1, memory_.size());
+  memory_[now_] = {seen.proxy_mm, seen.penetration_mm, seen.contact};
+  now_ = (now_ + 1) % length_ticks;
+  return memory_[now_];
+}
+
+void Operator::retreat(Vec3 from_mm) noexcept {
+  if (next_ + 1 >= way_.size() || way_.size() == way_.capacity()) return;
+  // held up: out of the cavity, and in again above the place after the next
+  const Vec3 to = way_[next_ + 1].tip_mm;
+  const double air_z = start_mm().z;
+  way_[next_] = {{from_mm.x, from_mm.y, air_z}, true, false};  // turning, so that a ledge gives way
+  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {{to.x, to.y, air_z}, false, false});
+  from_mm_ = from_mm;
+  best_mm_ = 1e9;
+  stuck_s_ = 0;
+  lead_mm_ = 0;
+}
+
+Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
+  const Sight sight = delayed(seen, dt_s);
+  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, true};
+  const Waypoint* goal = &way_[next_];
+  Vec3 along = goal->tip_mm - from_mm_;
+  double whole = length(along);
+  // The eye follows the point on its way; what is seen late is made up for by what the hand knows it did.
+  double done = whole > 0 ? std::clamp(dot(seen.proxy_mm - from_mm_, along) / whole, 0.0, whole) : whole;
+  const double left = whole - done;
+  stuck_s_ += dt_s;
+  if (left < best_mm_ - 0.01) {
+    best_mm_ = left;
+    stuck_s_ = 0;
+  }
+  const bool through = next_ + 1 < way_.size() && dot(normalized(way_[next_ + 1].tip_mm - goal->tip_mm), normalized(along)) > k_gentle_bend;
+  const double arrived_mm = !goal->cut ? 0.2 : through ? 0.1 : k_arrived_mm;
+  if (stuck_s_ > k_give_up_s && goal->cut) {
+    retreat(seen.proxy_mm);
+    return {seen.proxy_mm, 0.0, false};
+  }
+  if (left < arrived_mm || stuck_s_ > k_give_up_s) {
+    if (!through) lead_mm_ *= 0.5;  // into a corner the hand yields, along a gentle bend it goes on
+    from_mm_ = goal->tip_mm;
+    ++next_;
+    best_mm_ = 1e9;
+    stuck_s_ = 0;
+    if (next_ >= way_.size()) return {goal->tip_mm, 0.0, true};
+    goal = &way_[next_];
+    along = goal->tip_mm - from_mm_;
+    whole = length(along);
+    done = 0;
+  }
+  const Vec3 direction = whole > 0 ? along / whole : Vec3{0, 0, 1};
+
+  // Push until the penetration felt is the one aimed at; where nothing resists, move at a quiet speed.
+  const double wanted_mm = goal->cut ? (goal->careful ? skill_.careful_press_mm : skill_.press_mm) : 0.3;
+  const double slow_down = through ? 1.0 : std::clamp((whole - done) / 0.25, 0.4, 1.0);
+  const double free_lead = k_free_speed_mm_s * (skill_.hand.damping_n_s_per_mm / skill_.hand.stiffness_n_per_mm) * (goal->careful ? 0.4 : 1.0);
+  if (sight.contact && sight.penetration_mm > 0.02) {
+    const double error = std::clamp((wanted_mm * slow_down - sight.penetration_mm) / wanted_mm, -1.0, 1.0);
+    lead_mm_ = std::clamp(lead_mm_ + k_lead_rate_mm_s * error * dt_s, 0.05, 4.0);
+  } else {
+    lead_mm_ = std::max(free_lead, lead_mm_ - 40.0 * dt_s);
+    if (lead_mm_ < free_lead + 0.2) lead_mm_ = free_lead;
+  }
+
+  constexpr double k_tremor_s = 0.05;
+  const double kick = skill_.tremor_mm * std::sqrt(2 * dt_s / k_tremor_s);
+  tremor_mm_ = tremor_mm_ * (1 - dt_s / k_tremor_s) + Vec3{random_.normal(), random_.normal(), random_.normal()} * kick;
+
+  const double pedal = goal->cut ? 1.0 : 0.0;
+  pedal_ += std::clamp(pedal - pedal_, -dt_s / 0.15, dt_s / 0.15);  // a foot takes 150 ms
+  Vec3 tip = from_mm_ + direction * (done + lead_mm_) + tremor_mm_;
+  if (goal->cut && pedal_ < 0.95 && !sight.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
+  return {tip, pedal_, false};
+}
+
+Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray,
+                         std::uint64_t seed) {
+  const Skill skill = make_skill(skill_name, seed);
+  // The point that reaches most of the target's columns at their full depth; of equals the first one allowed.
+  std::size_t best = tray.size();
+  double best_score = 0;
+  ReachMap best_map;
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    ReachMap map = reach_map(zones, tooth, tray[i], PlanOptions{}.margin_mm);
+    // a head shorter than the target is deep leaves ledges that hold up its neck
+    const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
+    const double score = coverage(map, zones, tooth, tray[i]) * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
+    if (score > best_score * 1.01) {
+      best_score = score;
+      best = i;
+      best_map = std::move(map);
+    }
+  }
+  if (best == tray.size()) throw Error(scenario.path.empty() ? "scenario" : scenario.path, "no allowed diamond point fits into the target", "allow a thinner one");
+  auto way = plan_cut(best_map, zones, tooth, PlanOptions{});
+  if (skill.perforates)
+    for (const auto& fault : scenario.perforation.faults) {
+      bool present = false;
+      for (const auto& t : tooth.tissues) present = present || t.name == fault;
+      if (!present) continue;
+      const auto deeper = plan_perforation(zones, tooth, best_map, tooth.tissue_id(fault));
+      way.insert(way.end(), deeper.begin(), deeper.end());
+      if (!deeper.empty()) break;
+    }
+  return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(best)};
+}
+
+}  // namespace cavum

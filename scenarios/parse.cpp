@@ -1,0 +1,219 @@
+#include "scenarios/parse.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "scenarios/checked_toml.h"
+#include "scenarios/expression.h"
+#include "scenarios/names.h"
+#include "scenarios/parse_zones.h"
+
+namespace cavum {
+namespace {
+
+bool good_id(const std::string& id) {
+  return !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-'; });
+}
+
+std::string read_id(CheckedTable& t, const std::string& fallback) {
+  std::string id = t.text("id", fallback, true);
+  if (!id.empty() && !good_id(id)) t.problem("id", "'id' is \"" + id + "\"", "use small letters, digits, _ and -");
+  return id;
+}
+
+void check_condition(CheckedTable& t, const char* key, const std::string& text) {
+  if (text.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& q : k_live_quantities) names.emplace_back(q.name);
+  for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
+  try {
+    std::vector<std::string> known = names;
+    for (const auto& used : names_in_expression(text)) {
+      if (std::find(names.begin(), names.end(), used) != names.end()) continue;
+      if (used.rfind("touched_", 0) != 0)
+        t.problem(key, "'" + std::string(key) + "' uses the unknown quantity '" + used + "'", suggestion(used, names));
+      known.push_back(used);
+    }
+    std::vector<double> values(known.size(), 0.0);
+    const Expression compiled(text, known, values);
+    static_cast<void>(compiled);
+  } catch (const std::runtime_error& e) {
+    t.problem(key, "'" + std::string(key) + "' cannot be read (" + e.what() + ")", "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
+  }
+}
+
+std::vector<StepSpec> read_steps(CheckedTable& scenario, ProblemList& problems) {
+  std::vector<StepSpec> steps;
+  for (const auto* table : scenario.tables("steps", true)) {
+    CheckedTable t(*table, "[[steps]]", problems);
+    StepSpec s;
+    s.id = read_id(t, "");
+    s.instruction = t.text("instruction", "", true);
+    s.complete_when = t.text("complete_when", "", true);
+    check_condition(t, "complete_when", s.complete_when);
+    s.fail_when = t.text("fail_when", "");
+    check_condition(t, "fail_when", s.fail_when);
+    if (t.has("time_limit_s")) s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 60);
+    else t.number("time_limit_s", 0, 0, 0);
+    s.failure_ends_exam = t.truth("failure_ends_exam", false);
+    t.finish();
+    for (const auto& other : steps)
+      if (other.id == s.id && !s.id.empty()) t.problem("id", "two steps are called '" + s.id + "'", "give each its own id");
+    steps.push_back(std::move(s));
+  }
+  return steps;
+}
+
+CriterionSpec read_criterion(const toml::table& table, ProblemList& problems) {
+  CheckedTable t(table, "[[rubric.criteria]]", problems);
+  CriterionSpec c;
+  c.id = read_id(t, "");
+  c.title = t.text("title", c.id);
+  c.metric = t.text("metric", "", true);
+  std::vector<std::string> names;
+  for (const auto& m : k_metrics) names.emplace_back(m.name);
+  if (!c.metric.empty() && std::find(names.begin(), names.end(), c.metric) == names.end() && c.metric.rfind("touched_", 0) != 0)
+    t.problem("metric", "there is no measure '" + c.metric + "'", suggestion(c.metric, names));
+  c.full = t.number("full", -1e9, 1e9, 1, true);
+  c.zero = t.number("zero", -1e9, 1e9, 0, true);
+  if (t.has("full") && t.has("zero") && c.full == c.zero)
+    t.problem("zero", "'full' and 'zero' are the same value", "points run linearly from one to the other: make them differ");
+  c.points = t.number("points", 0, 1000, 1, true);
+  if (t.has("critical_above")) c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
+  else t.number("critical_above", 0, 0, 0);
+  if (t.has("critical_below")) c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
+  else t.number("critical_below", 0, 0, 0);
+  t.finish();
+  return c;
+}
+
+RubricSpec read_rubric(const toml::table& table, const std::string& name, ProblemList& problems) {
+  CheckedTable t(table, name, problems);
+  RubricSpec r;
+  r.compensatory = t.word("rule", {"compensatory", "non-compensatory"}, 0, true) == 0;
+  r.pass_percent = t.number("pass_percent", 0, 100, 60, true);
+  r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
+  double sum = 0;
+  for (const auto* c : t.tables("criteria", true)) {
+    r.criteria.push_back(read_criterion(*c, problems));
+    sum += r.criteria.back().points;
+    for (std::size_t i = 0; i + 1 < r.criteria.size(); ++i)
+      if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
+        problems.add(c->source(), "two criteria are called '" + r.criteria[i].id + "'", "give each its own id");
+  }
+  if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", "no criterion gives any points", "give at least one some points");
+  t.finish();
+  return r;
+}
+
+void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
+  for (const auto& name : list)
+    if (!good_id(name)) t.problem(key, "'" + name + "' is no name of a tissue", "use names such as pulp or periodontium");
+}
+
+Scenario read_scenario(const toml::table& table, const std::string& path, ProblemList& problems) {
+  CheckedTable t(table, "the scenario", problems);
+  Scenario s;
+  s.path = path;
+  s.id = read_id(t, "");
+  s.title = t.text("title", "", true);
+  s.description = t.text("description", "");
+  s.tooth_file = t.text("tooth", "", true);
+  s.points = t.texts("points", true);
+  for (std::size_t i = 0; i < s.points.size(); ++i)
+    if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
+      t.problem("points", "'" + s.points[i] + "' is no name of a diamond point", "use names of data/points, such as round-1.0");
+    else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) != s.points.begin() + static_cast<std::ptrdiff_t>(i))
+      t.problem("points", "'" + s.points[i] + "' is listed twice", "list each point once");
+  s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
+  s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
+  s.force_limit_n = t.number("force_limit_n", 0, 100, 0);
+  if (const auto* a = t.table("accommodations")) {
+    CheckedTable at(*a, "[accommodations]", problems);
+    s.accommodations.extra_time_percent = at.number("extra_time_percent", 0, 400, 0);
+    s.accommodations.left_handed = at.truth("left_handed", false);
+    s.accommodations.high_contrast = at.truth("high_contrast", false);
+    at.finish();
+  }
+  s.steps = read_steps(t, problems);
+  if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, problems);
+  if (const auto* p = t.table("perforation", true)) {
+    CheckedTable pt(*p, "[perforation]", problems);
+    s.perforation.aims = pt.texts("aims");
+    s.perforation.faults = pt.texts("faults");
+    check_tissues(pt, "aims", s.perforation.aims);
+    check_tissues(pt, "faults", s.perforation.faults);
+    for (const auto& aim : s.perforation.aims)
+      if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
+        pt.problem("faults", "'" + aim + "' is both an aim and a fault", "keep it in one of the two lists");
+    pt.finish();
+  }
+  if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", problems);
+  t.finish();
+  return s;
+}
+
+/// Parses the TOML itself; a file that is no TOML has exactly one problem.
+bool read_toml(const std::string& text, const std::string& path, toml::table& table, ProblemList& problems) {
+  try {
+    table = toml::parse(text, path);
+    return true;
+  } catch (const toml::parse_error& e) {
+    problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
+    return false;
+  }
+}
+
+void throw_all(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
+  std::string rest = problems[0].what_to_do;
+  for (std::size_t i = 1; i < problems.size(); ++i) rest += "\n" + problems[i].text();
+  throw Error(problems[0].where, problems[0].what, rest);
+}
+
+}  // namespace
+
+std::vector<Problem> check_scenario(const std::string& text, const std::string& path) {
+  ProblemList problems(path);
+  toml::table table;
+  if (read_toml(text, path, table, problems)) static_cast<void>(read_scenario(table, path, problems));
+  return problems.take();
+}
+
+Scenario parse_scenario(const std::string& text, const std::string& path) {
+  ProblemList problems(path);
+  toml::table table;
+  Scenario s;
+  if (read_toml(text, path, table, problems)) s = read_scenario(table, path, problems);
+  throw_all(problems.take());
+  return s;
+}
+
+Scenario load_scenario(const std::string& path) { return parse_scenario(read_text_file(path), path); }
+
+RubricSpec parse_rubric(const std::string& text, const std::string& path) {
+  ProblemList problems(path);
+  toml::table table;
+  RubricSpec r;
+  if (read_toml(text, path, table, problems)) {
+    const auto* inner = table.get_as<toml::table>("rubric");
+    r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", problems);
+  }
+  throw_all(problems.take());
+  return r;
+}
+
+std::string find_tooth_file(const Scenario& scenario) {
+  namespace fs = std::filesystem;
+  const fs::path written(scenario.tooth_file), folder = fs::path(scenario.path).parent_path();
+  if (written.is_absolute() && fs::exists(written)) return written.string();
+  for (const fs::path& candidate : {folder / written, folder / ".." / "teeth" / written, fs::path("data/teeth") / written})
+    if (fs::exists(candidate)) return candidate.lexically_normal().string();
+  throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",
+              "put it beside the scenario or in data/teeth, or name another with --tooth");
+}
+
+}  // namespace cavum

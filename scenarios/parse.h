@@ -1,0 +1,33 @@
+// Reads scenario and rubric files. Every mistake of a file is found in one go, each with its place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+
+namespace cavum {
+
+/// One mistake: `where` is file:line:column.
+struct Problem {
+  std::string where, what, what_to_do;
+  int line = 0, column = 0;
+  [[nodiscard]] std::string text() const { return where + ": " + what + "; " + what_to_do; }
+};
+
+/// All mistakes of a scenario file, in the order of the file; empty when it is sound. `path` names the file in them.
+[[nodiscard]] std::vector<Problem> check_scenario(const std::string& text, const std::string& path);
+/// Throws Error naming every mistake.
+[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path);
+[[nodiscard]] Scenario load_scenario(const std::string& path);
+/// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]).
+[[nodiscard]] RubricSpec parse_rubric(const std::string& text, const std::string& path);
+
+/// The tooth file of a scenario: beside the scenario file, else in ../teeth of it, else data/teeth of the
+/// working directory. Throws Error when none is there.
+[[nodiscard]] std::string find_tooth_file(const Scenario& scenario);
+
+/// A commented scenario to start from; it passes `check_scenario`.
+[[nodiscard]] std::string scenario_template();
+
+}  // namespace cavum

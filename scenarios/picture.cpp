@@ -1,0 +1,328 @@
+#include "scenarios/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "scenarios/relief.h"
+
+namespace cavum {
+namespace {
+
+// Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
+constexpr const char* k_enamel_colour = "#eef2f6";
+constexpr const char* k_dentin_colour = "#f2dfa6";
+constexpr const char* k_pulp_colour = "#e7a6a1";
+constexpr const char* k_periodontium_colour = "#cfd8cf";
+constexpr const char* k_other_colour = "#d8c7e0";
+constexpr const char* k_removed_colour = "#56b4e9";
+constexpr const char* k_overcut_colour = "#d55e00";
+constexpr const char* k_leeway_colour = "#f0b74d";
+constexpr const char* k_target_line = "#0072b2";
+constexpr const char* k_leeway_line = "#8a6d00";
+constexpr const char* k_container_line = "#8c2d04";
+
+std::string number(double v) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.2f", v);
+  std::string s = buffer;
+  while (s.back() == '0') s.pop_back();
+  if (s.back() == '.') s.pop_back();
+  return s == "-0" ? "0" : s;
+}
+
+const char* tissue_colour(std::uint8_t t) {
+  switch (t) {
+    case k_enamel: return k_enamel_colour;
+    case k_dentin: return k_dentin_colour;
+    case k_pulp: return k_pulp_colour;
+    case k_periodontium: return k_periodontium_colour;
+    default: return k_other_colour;
+  }
+}
+
+/// The window of a picture, in leaves, and how it turns into three dimensions.
+struct Window {
+  View view;
+  IVec3 low, high;  // of the tooth
+  int depth = 0;    // leaf along the axis looked at
+  int width = 0, height = 0;
+
+  [[nodiscard]] IVec3 leaf(int column, int row) const {  // row counts upwards
+    switch (view) {
+      case View::mesio_distal: return {low.x + column, depth, low.z + row};
+      case View::bucco_lingual: return {depth, low.y + column, low.z + row};
+      default: return {low.x + column, low.y + row, depth};
+    }
+  }
+};
+
+/// Leaves of one colour as one path of runs.
+struct Runs {
+  std::map<std::string, std::string> path;  // by fill
+  void add(const std::string& fill, int column, int row_from_top, int n) {
+    path[fill] += "M" + std::to_string(column) + " " + std::to_string(row_from_top) + "h" + std::to_string(n) + "v1h-" + std::to_string(n) + "z";
+  }
+};
+
+/// Where a field on the window's leaf centres crosses a level: marching squares, in leaf units, y down.
+template <class Field>
+std::string contour(int width, int height, const Field& field, double level) {
+  std::string path;
+  const auto segment = [&](double ax, double ay, double bx, double by) {
+    path += "M" + number(ax + 0.5) + " " + number(height - ay - 0.5) + "L" + number(bx + 0.5) + " " + number(height - by - 0.5);
+  };
+  std::vector<double> now(static_cast<std::size_t>(width)), next(static_cast<std::size_t>(width));
+  for (int x = 0; x < width; ++x) next[static_cast<std::size_t>(x)] = field(x, 0) - level;
+  for (int y = 0; y + 1 < height; ++y) {
+    now.swap(next);
+    for (int x = 0; x < width; ++x) next[static_cast<std::size_t>(x)] = field(x, y + 1) - level;
+    for (int x = 0; x + 1 < width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const double a = now[i], b = now[i + 1], c = next[i + 1], d = next[i];
+      std::array<std::pair<double, double>, 4> at;
+      int n = 0;
+      const auto cross = [&](double p, double q, double px, double py, double qx, double qy) {
+        if ((p < 0) == (q < 0)) return;
+        const double t = p / (p - q);
+        at[static_cast<std::size_t>(n++)] = {px + t * (qx - px), py + t * (qy - py)};
+      };
+      cross(a, b, x, y, x + 1, y);
+      cross(b, c, x + 1, y, x + 1, y + 1);
+      cross(c, d, x + 1, y + 1, x, y + 1);
+      cross(d, a, x, y + 1, x, y);
+      for (int k = 0; k + 1 < n; k += 2)
+        segment(at[static_cast<std::size_t>(k)].first, at[static_cast<std::size_t>(k)].second, at[static_cast<std::size_t>(k + 1)].first, at[static_cast<std::size_t>(k + 1)].second);
+    }
+  }
+  return path;
+}
+
+std::string line(const std::string& path, const char* colour, double leaf_px, double width_px, const char* dash) {
+  if (path.empty()) return "";
+  return "<path fill='none' stroke='" + std::string(colour) + "' stroke-width='" + number(width_px / leaf_px) + "' stroke-linecap='round'" +
+         (dash[0] != 0 ? " stroke-dasharray='" + std::string(dash) + "'" : "") + " d='" + path + "'/>\n";
+}
+
+/// Highest leaf of a column with tissue that is not periodontium; -1 without.
+int top_of(const Octree& tree, int x, int y) {
+  for (int z = tree.size().z - 1; z >= 0; --z) {
+    const auto t = tree.tissue({x, y, z});
+    if (t != k_air && t != k_periodontium) return z;
+  }
+  return -1;
+}
+
+const char* finding_colour(Zone zone) {
+  switch (zone) {
+    case Zone::target: return k_removed_colour;
+    case Zone::leeway_sides:
+    case Zone::leeway_bottom: return k_leeway_colour;
+    default: return k_overcut_colour;
+  }
+}
+
+}  // namespace
+
+std::string xml_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      case '\'': out += "&#39;"; break;
+      default: out += c;
+    }
+  return out;
+}
+
+std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap& zones, const PictureSpec& spec) {
+  const Octree& tree = before.octree;
+  const double leaf = tree.leaf_mm();
+  Window w{spec.view, {0, 0, 0}, tree.size(), 0, 0, 0};
+  // the crown and what lies around the target; the tips of the roots are not needed
+  w.low.z = std::max(0, tree.leaf_at(zones.target_low_mm() - Vec3{0, 0, 3.0}).z);
+  w.high.z = std::min(w.high.z, tree.leaf_at(zones.target_high_mm() + Vec3{0, 0, 0.8}).z + 1);
+  const IVec3 probe = tree.leaf_at({spec.at_mm, spec.at_mm, spec.at_mm});
+  w.depth = spec.view == View::mesio_distal ? probe.y : spec.view == View::bucco_lingual ? probe.x : probe.z;
+  w.width = spec.view == View::bucco_lingual ? w.high.y - w.low.y : w.high.x - w.low.x;
+  w.height = spec.view == View::mesio_distal || spec.view == View::bucco_lingual ? w.high.z - w.low.z : w.high.y - w.low.y;
+
+  const double px = spec.scale_px_per_mm * leaf;
+  const double title_px = spec.title.empty() ? 0 : 22, width_px = w.width * px, height_px = w.height * px;
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width_px) + "' height='" + number(height_px + title_px) + "' viewBox='0 0 " +
+                    number(width_px) + " " + number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" + xml_text(spec.title) + "</title>\n" +
+                    "<rect width='100%' height='100%' fill='#ffffff'/>\n";
+  if (title_px > 0) svg += "<text x='4' y='15' font-size='13' fill='#222222'>" + xml_text(spec.title) + "</text>\n";
+  svg += "<g transform='translate(0 " + number(title_px) + ") scale(" + number(px) + ")'>\n";
+
+  // For the view from above each column shows its highest leaf.
+  std::vector<int> top, top_after;
+  const auto flat = [&](int column, int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(w.width) + static_cast<std::size_t>(column); };
+  if (spec.view == View::occlusal)
+    for (int row = 0; row < w.height; ++row)
+      for (int column = 0; column < w.width; ++column) {
+        top.push_back(top_of(tree, column, row));
+        top_after.push_back(after != nullptr ? top_of(*after, column, row) : top.back());
+      }
+  Runs tissue, removed, shade;
+  const auto look = [&](int column, int row) -> std::array<std::string, 3> {  // tissue, finding, shade
+    if (spec.view == View::occlusal) {
+      const auto i = flat(column, row);
+      if (top[i] < 0) return {};
+      // slopes facing away from the light at the upper left are darkened: the fissures show
+      const auto height = [&](int c, int r) {
+        const int z = top_after[flat(std::clamp(c, 0, w.width - 1), std::clamp(r, 0, w.height - 1))];
+        return z < 0 ? top_after[i] : z;
+      };
+      const int slope = height(column + 3, row - 3) - height(column - 3, row + 3);
+      std::string dark = slope < -5 ? "#000000;0.24" : slope < -2 ? "#000000;0.14" : slope < 0 ? "#000000;0.07" : "";
+      if (top_after[i] < 0) return {"", k_overcut_colour, ""};
+      std::string found;
+      if (top_after[i] < top[i]) {
+        Zone worst = Zone::target;  // of the removed leaves of this column
+        for (int z = top_after[i] + 1; z <= top[i]; ++z) {
+          const Zone zone = zones.zone({column, row, z});
+          if (zone == Zone::target) continue;
+          const bool mild = zone == Zone::leeway_sides || zone == Zone::leeway_bottom;
+          if (!mild || worst == Zone::target) worst = zone;
+          if (!mild) break;
+        }
+        found = finding_colour(worst);
+      }
+      return {tissue_colour(tree.tissue({column, row, top[i]})), found, dark};
+    }
+    const IVec3 at = w.leaf(column, row);
+    const auto t = tree.tissue(at);
+    if (t == k_air) return {};
+    if (after != nullptr && after->tissue(at) == k_air) return {"", finding_colour(zones.zone(at)), ""};
+    return {tissue_colour(t), "", ""};
+  };
+  for (int row = 0; row < w.height; ++row) {
+    std::array<std::string, 3> current;
+    int start = 0;
+    for (int column = 0; column <= w.width; ++column) {
+      const auto here = column < w.width ? look(column, row) : std::array<std::string, 3>{};
+      if (column > 0 && column < w.width && here == current) continue;
+      if (column > 0) {
+        const int from_top = w.height - 1 - row;
+        if (!current[0].empty()) tissue.add(current[0], start, from_top, column - start);
+        if (!current[1].empty()) removed.add(current[1], start, from_top, column - start);
+        if (!current[2].empty()) shade.add(current[2], start, from_top, column - start);
+      }
+      current = here;
+      start = column;
+    }
+  }
+  for (const auto& [fill, path] : tissue.path) svg += "<path shape-rendering='crispEdges' fill='" + fill + "' d='" + path + "'/>\n";
+  for (const auto& [fill, path] : removed.path)
+    svg += "<path shape-rendering='crispEdges' fill='" + fill + "'" + (spec.view == View::occlusal ? " fill-opacity='0.75'" : "") + " d='" + path + "'/>\n";
+  for (const auto& [fill, path] : shade.path)
+    svg += "<path shape-rendering='crispEdges' fill='" + fill.substr(0, 7) + "' fill-opacity='" + fill.substr(8) + "' d='" + path + "'/>\n";
+
+  // outlines of tooth and zones
+  const auto solid = [&](int c, int r) {
+    if (spec.view == View::occlusal) return top[flat(c, r)] >= 0 ? -1.0 : 1.0;
+    const auto t = tree.tissue(w.leaf(c, r));
+    return t != k_air && t != k_periodontium ? -1.0 : 1.0;
+  };
+  svg += line(contour(w.width, w.height, solid, 0.0), "#7a7a7a", px, 0.8, "");
+  const auto place = [&](int c, int r) {
+    IVec3 at = w.leaf(c, r);
+    if (spec.view == View::occlusal) at.z = std::max(top[flat(c, r)], 0);
+    return at;
+  };
+  const auto distance = [&](int c, int r) {
+    const IVec3 at = place(c, r);
+    if (spec.view == View::occlusal && top[flat(c, r)] < 0) return 9.0;
+    return zones.distance_mm(at);
+  };
+  // leeway and container end where the zone changes; the target's own line is smooth
+  const auto in_zones = [&](std::initializer_list<Zone> list) {
+    return [&, list = std::vector<Zone>(list)](int c, int r) {
+      const Zone z = zones.zone(place(c, r));
+      return std::find(list.begin(), list.end(), z) != list.end() ? -1.0 : 1.0;
+    };
+  };
+  svg += line(contour(w.width, w.height, in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}), 0.0),
+              k_container_line, px, 1.0, "");
+  svg += line(contour(w.width, w.height, in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), 0.0), k_leeway_line, px, 1.0, "");
+  svg += line(contour(w.width, w.height, distance, 0.0), k_target_line, px, 1.8, "");
+  svg += "</g>\n";
+  // a millimetre, and which way is which
+  const auto caption = [&](double x, double y, const std::string& text, const char* anchor) {
+    svg += "<text x='" + number(x) + "' y='" + number(y) + "' font-size='11' fill='#444444' text-anchor='" + anchor + "'>" + text + "</text>\n";
+  };
+  const double bottom = height_px + title_px;
+  svg += "<path d='M6 " + number(bottom - 6) + "h" + number(spec.scale_px_per_mm) + "' stroke='#222222' stroke-width='2'/>\n";
+  caption(8 + spec.scale_px_per_mm, bottom - 3, "1 mm", "start");
+  const bool from_side = spec.view == View::mesio_distal || spec.view == View::bucco_lingual;
+  caption(width_px - 4, title_px + 12, spec.view == View::bucco_lingual ? "buccal &#8594;" : "mesial &#8594;", "end");
+  caption(4, title_px + 12, from_side ? "&#8593; occlusal" : "&#8593; buccal", "start");
+  svg += "</svg>\n";
+  return svg;
+}
+
+std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones) {
+  const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
+  const double low = zones.target_low_mm().z + 0.3 * (zones.target_high_mm().z - zones.target_low_mm().z);
+  const PictureSpec specs[] = {{View::mesio_distal, middle.y, 30, "section mesial-distal, y = " + number(middle.y) + " mm"},
+                               {View::bucco_lingual, middle.x, 30, "section buccal-lingual, x = " + number(middle.x) + " mm"},
+                               {View::horizontal, low, 30, "section across, z = " + number(low) + " mm"},
+                               {View::occlusal, 0, 30, "from above"}};
+  const auto size_of = [](const std::string& svg, const char* key) {
+    const auto at = svg.find(key);
+    return std::stod(svg.substr(at + std::string(key).size()));
+  };
+  double row_y = 40, row_height = 0, x = 10, width = 0;
+  std::string body;
+  for (int i = 0; i < 4; ++i) {
+    if (i == 2) {
+      row_y += row_height + 14;
+      row_height = 0;
+      x = 10;
+    }
+    const std::string svg = section_svg(tooth, nullptr, zones, specs[i]);
+    body += "<g transform='translate(" + number(x) + " " + number(row_y) + ")'>" + svg + "</g>\n";
+    row_height = std::max(row_height, size_of(svg, "height='"));
+    x += size_of(svg, "width='") + 14;
+    width = std::max(width, x);
+  }
+  const double height = row_y + row_height + 40;
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width) + "' height='" + number(height) + "' font-family='sans-serif'>\n" +
+         "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>" +
+         xml_text(scenario.title + " (" + tooth.name + ")") + "</text>\n" + body + "<g transform='translate(10 " + number(height - 30) + ")'>" +
+         legend_svg(false) + "</g>\n</svg>\n";
+}
+
+std::string legend_svg(bool with_removed) {
+  struct Entry {
+    const char *colour, *text;
+    bool is_line;
+  };
+  std::vector<Entry> entries{{k_enamel_colour, "enamel", false}, {k_dentin_colour, "dentin", false}, {k_pulp_colour, "pulp", false},
+                             {k_periodontium_colour, "periodontium", false}, {k_target_line, "target", true}, {k_leeway_line, "leeway", true},
+                             {k_container_line, "container", true}};
+  if (with_removed) {
+    entries.push_back({k_removed_colour, "removed, target", false});
+    entries.push_back({k_leeway_colour, "removed, leeway", false});
+    entries.push_back({k_overcut_colour, "removed, damage", false});
+  }
+  std::string svg, items;
+  double x = 4;
+  for (const auto& e : entries) {
+    if (e.is_line) items += "<path d='M" + number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
+    else items += "<rect x='" + number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
+    items += "<text x='" + number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + std::string(e.text) + "</text>";
+    x += 34 + 6.6 * static_cast<double>(std::string(e.text).size());
+  }
+  svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(x) + "' height='22' viewBox='0 0 " + number(x) + " 22' font-family='sans-serif'>" + items + "</svg>\n";
+  return svg;
+}
+
+}  // namespace cavum

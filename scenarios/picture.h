@@ -1,0 +1,39 @@
+// Sections of a tooth as SVG: tissues as filled leaves, zones as outlines, what was removed as hatching.
+// Colours keep apart for colour-blind eyes, and removed tissue is also told by its pattern.
+#pragma once
+
+#include <string>
+
+#include "engine/tooth/tooth.h"
+#include "scenarios/zone_map.h"
+
+namespace cavum {
+
+/// Which way one looks: the two axes of the picture, to the right and up.
+enum class View : std::uint8_t {
+  mesio_distal,   ///< right = mesial, up = occlusal; cut across buccal-lingual
+  bucco_lingual,  ///< right = buccal, up = occlusal
+  horizontal,     ///< right = mesial, up = buccal, cut at a height
+  occlusal,       ///< from above, the whole surface
+};
+
+struct PictureSpec {
+  View view = View::mesio_distal;
+  double at_mm = 0.0;                 ///< where the section is cut, along the axis looked at
+  double scale_px_per_mm = 24.0;
+  std::string title;
+};
+
+/// One picture, a complete `<svg>` element. `after` may be null (nothing was removed yet); then only the zones show.
+[[nodiscard]] std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap& zones, const PictureSpec& spec);
+
+/// Three sections through the middle of the target and the view from above, on one sheet.
+[[nodiscard]] std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones);
+
+/// The key to the colours, an `<svg>` element. `with_removed` adds what a graded section shows.
+[[nodiscard]] std::string legend_svg(bool with_removed);
+
+/// Text made safe for XML.
+[[nodiscard]] std::string xml_text(const std::string& text);
+
+}  // namespace cavum

@@ -1,0 +1,110 @@
+// Runs an exam inside the ticks: after each servo step it counts what was removed where, evaluates the
+// conditions of the current step, watches time, points and speed, and says when the exam is over. Same
+// ticks, same answers: a replay runs it again and must come to the same events.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/servo/tick.h"
+#include "engine/tooth/octree.h"
+#include "scenarios/expression.h"
+#include "scenarios/scenario.h"
+#include "scenarios/zone_map.h"
+
+namespace cavum {
+
+enum class ExamEventKind : std::uint8_t {
+  step_started,       ///< index = step
+  step_completed,     ///< index = step
+  step_failed,        ///< index = step; its fail_when came true
+  step_time_limit,    ///< index = step
+  time_limit,         ///< the exam's
+  point_not_allowed,  ///< index = point of the tray
+  over_speed,         ///< faster than max_rpm
+  aim_reached,        ///< index = tissue id, first leaf of a tissue under perforation.aims
+  perforation,        ///< index = tissue id, first leaf of a tissue under perforation.faults
+  finished,           ///< index = Finish
+};
+[[nodiscard]] const char* event_name(ExamEventKind kind) noexcept;
+
+struct ExamEvent {
+  std::int64_t tick = 0;              ///< 0 is the first tick of the exam
+  ExamEventKind kind{};
+  std::int32_t index = 0;
+  std::array<std::int32_t, 3> leaf{}; ///< aim_reached and perforation: the leaf; otherwise 0
+  friend bool operator==(const ExamEvent&, const ExamEvent&) = default;
+};
+
+enum class Finish : std::uint8_t { running, completed, failed, time, ended };
+[[nodiscard]] const char* finish_name(Finish finish) noexcept;
+
+/// Everything that changes during an exam, outside the servo.
+struct RunnerState {
+  static constexpr std::size_t k_most_events = 256;
+  std::int64_t ticks = 0;                ///< done so far
+  std::int64_t step_start = 0;
+  std::int32_t step = 0;
+  Finish finish = Finish::running;
+  std::array<std::uint64_t, k_zones> removed_in_zone{};  ///< leaves; index Zone::none = outside
+  std::array<std::uint64_t, 256> removed_of_tissue{};    ///< leaves, by tissue id
+  double depth_mm = 0.0;                 ///< deepest so far below the opening
+  double peak_force_n = 0.0;
+  std::int32_t last_point = -1;
+  bool over_speed = false;
+  bool perforated = false;
+  std::array<ExamEvent, k_most_events> events{};
+  std::uint32_t event_count = 0;
+  std::uint32_t events_dropped = 0;
+};
+
+class Runner {
+ public:
+  /// `tray[i]` is the name of point i of TickInput::point. Throws Error when a condition cannot be compiled.
+  /// Scenario, zones and tooth must outlive the runner.
+  Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray);
+
+  /// After a servo step. Does nothing once the exam is over. Allocates nothing.
+  void advance(RunnerState& state, const TickInput& input, const TickOutput& output, std::span<const RemovedLeaf> removed) noexcept;
+  /// The candidate stops before the end (device lost, operator done): the exam is over with `ended`.
+  void end(RunnerState& state) noexcept;
+
+  /// Ticks until time is up, extra time included.
+  [[nodiscard]] std::int64_t limit_ticks() const noexcept { return limit_ticks_; }
+  /// What the candidate is asked to do now; empty when the exam is over.
+  [[nodiscard]] const std::string& instruction(const RunnerState& state) const noexcept;
+  /// Live quantities by name and, after `advance`, by value.
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
+  [[nodiscard]] const std::vector<double>& values() const noexcept { return values_; }
+
+ private:
+  struct CompiledStep {
+    Expression complete;
+    std::vector<Expression> fail;  // none or one
+    std::int64_t limit_ticks;
+  };
+  static void emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf = {}) noexcept;
+  void count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept;
+  void fill_values(const RunnerState& state, const TickInput& input, const TickOutput& output) noexcept;
+  void next_step(RunnerState& state) const noexcept;
+  void finish(RunnerState& state, Finish how) const noexcept;
+
+  const Scenario& scenario_;
+  const ZoneMap& zones_;
+  std::vector<std::string> names_;
+  std::vector<double> values_;
+  std::vector<std::uint8_t> touched_ids_;   // tissue of names_[k_live_quantities.size() + i]
+  std::vector<CompiledStep> steps_;
+  std::array<std::uint8_t, 256> role_{};    // 1 aim, 2 fault, by tissue id
+  std::array<bool, 256> allowed_{};         // by point of the tray
+  std::int64_t limit_ticks_ = 0;
+};
+
+/// Seconds of a scenario as whole ticks, extra time added; at least one.
+[[nodiscard]] std::int64_t time_in_ticks(double seconds, double extra_percent) noexcept;
+
+}  // namespace cavum

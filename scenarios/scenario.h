@@ -1,0 +1,126 @@
+// What an instructor writes: one TOML file with the tooth, the instruments, the steps, the zones and the
+// rubric of an exam. Plain data; `parse_scenario` (parse.h) reads it, `build_zones` (zone_map.h) lays its
+// zones into a tooth, `Runner` (runner.h) runs its steps, and grading reads the rubric.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/vec.h"
+
+namespace cavum {
+
+/// Which leaves of a tissue a shape speaks of. The chamber of a pulp is what lies above its floor: the
+/// level where, going down from the widest slice, the pulp parts into canals or narrows to a third.
+enum class TissuePart { all, chamber };
+
+/// A closed line on the occlusal surface, seen from above. All lengths in mm, tooth frame x and y.
+struct OutlineSpec {
+  enum class Kind { circle, polygon, stroke, projection };
+  Kind kind = Kind::circle;
+  Vec3 centre_mm;                    ///< added to every point; z unused
+  bool from_chamber = false;         ///< centre counted from the middle of the pulp chamber instead of the tooth's origin
+  double radius_mm = 0.0;            ///< circle
+  std::vector<Vec3> points_mm;       ///< polygon corners, or the path of a stroke
+  double width_mm = 0.0;             ///< of a stroke
+  std::string tissue = "pulp";       ///< projection: seen from above, the shadow of this tissue
+  TissuePart part = TissuePart::all;
+  double offset_mm = 0.0;            ///< moves the outline outwards (negative: inwards)
+  double rounding_mm = 0.0;          ///< projection: no notch and no corner sharper than this radius
+};
+
+/// Where a column ends.
+struct BottomSpec {
+  enum class Kind { level, below_surface, below_lowest, below_mean, tissue_roof, tissue_floor };
+  Kind kind = Kind::level;
+  double z_mm = 0.0;                 ///< level: height in the tooth frame
+  double depth_mm = 0.0;             ///< below the surface (everywhere, or its lowest or mean height inside the outline)
+  std::string tissue = "pulp";
+  TissuePart part = TissuePart::all;
+  double deeper_mm = 0.0;            ///< moves a tissue's roof or floor down
+};
+
+/// A body in the tooth frame, or one relative to a tissue. Bodies of a list are combined in their order.
+struct ShapeSpec {
+  enum class Kind { box, cylinder, cone, ball, prism, column, tissue };
+  enum class Combine { add, subtract, intersect };
+  Kind kind = Kind::box;
+  Combine combine = Combine::add;
+  Vec3 at_mm;                        ///< centre of a box or ball; middle of the lower face of the others
+  Vec3 axis{0, 0, 1};                ///< from the lower face upwards, unit
+  double turn_deg = 0.0;             ///< about the axis
+  Vec3 size_mm;                      ///< box
+  double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;
+  OutlineSpec outline;               ///< prism, column
+  BottomSpec bottom;                 ///< column
+  double taper_deg = 0.0;            ///< column: its walls open by this angle towards the occlusal side
+  std::string tissue = "pulp";       ///< tissue: the leaves of this tissue ...
+  TissuePart part = TissuePart::all;
+  double offset_mm = 0.0;            ///< ... grown by this much
+  int line = 0;                      ///< in the scenario file, for messages
+};
+
+/// Width of a zone beside and below the target, mm, measured from the target's surface.
+struct MarginSpec {
+  double sides_mm = 0.0, bottom_mm = 0.0;
+};
+
+struct ZoneSpec {
+  std::vector<ShapeSpec> target;            ///< to remove
+  MarginSpec leeway;                        ///< tolerated
+  MarginSpec container;                     ///< damage; beyond it lies `outside`
+  std::vector<ShapeSpec> protected_shapes;  ///< must stay, even inside leeway and container
+};
+
+struct StepSpec {
+  std::string id, instruction;
+  std::string complete_when;                ///< expression over live quantities
+  std::string fail_when;                    ///< may be empty
+  std::optional<double> time_limit_s;       ///< of this step; when it passes, the step has failed
+  bool failure_ends_exam = false;
+};
+
+/// Which tissues may be broken into, and which must not.
+struct PerforationSpec {
+  std::vector<std::string> aims, faults;
+};
+
+struct CriterionSpec {
+  std::string id, title, metric;
+  double full = 0.0, zero = 0.0;            ///< metric value for full and for no points; linear between
+  double points = 0.0;
+  std::optional<double> critical_above, critical_below;  ///< beyond it the exam is failed whatever the sum
+};
+
+struct RubricSpec {
+  bool compensatory = true;                 ///< points of one criterion may make up for another
+  double pass_percent = 60.0;               ///< of all points (non-compensatory: of each criterion's)
+  double borderline_percent = 0.0;          ///< this close to the pass mark a person decides
+  std::vector<CriterionSpec> criteria;
+};
+
+/// Changes granted to one candidate; recorded with the result.
+struct Accommodations {
+  double extra_time_percent = 0.0;
+  bool left_handed = false;
+  bool high_contrast = false;
+};
+
+struct Scenario {
+  std::string id, title, description;
+  std::string path;                         ///< file it was read from
+  std::string tooth_file;                   ///< as written
+  std::vector<std::string> points;          ///< allowed diamond points, names of data/points/NAME.toml; the first is mounted
+  double max_rpm = 200000.0;
+  double time_limit_s = 0.0;
+  double force_limit_n = 0.0;               ///< pressing harder than this counts as force over limit; 0 = no limit
+  Accommodations accommodations;
+  std::vector<StepSpec> steps;
+  ZoneSpec zones;
+  PerforationSpec perforation;
+  RubricSpec rubric;
+};
+
+}  // namespace cavum

@@ -1,0 +1,39 @@
+// Bodies as signed distance: negative inside, mm. Exact for the primitive bodies, near their surface also
+// for columns and combined ones; zone_map.h makes true distances of them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/tooth/tooth.h"
+#include "scenarios/relief.h"
+#include "scenarios/scenario.h"
+
+namespace cavum {
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+  /// Signed distance at a point of the tooth frame, mm. Where it is not a true distance it keeps its sign.
+  [[nodiscard]] virtual double distance_mm(Vec3 p) const noexcept = 0;
+};
+
+/// Makes bodies for one tooth; keeps what they have in common (surface, pulp chamber).
+class ShapeMaker {
+ public:
+  /// `where` names the scenario in errors.
+  ShapeMaker(const Tooth& tooth, std::string where);
+  ~ShapeMaker();
+  /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to.
+  [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);
+  [[nodiscard]] const ColumnMap& surface();
+
+ private:
+  [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
+  struct Cache;
+  const Tooth& tooth_;
+  std::string where_;
+  std::unique_ptr<Cache> cache_;
+};
+
+}  // namespace cavum

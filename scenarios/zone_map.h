@@ -1,0 +1,102 @@
+// The zones of a scenario laid into one tooth, leaf by leaf, with the signed distance to the target's
+// surface and the wall that each leaf belongs to. Everything that is counted or measured uses it.
+//
+// Rules. A leaf belongs to the target when its centre lies inside the target's shape. Any other leaf
+// belongs to the *bottom* when the line from the nearest point of the target's surface to the leaf runs
+// within 45° of straight down, otherwise to the *sides*; within the leeway's width there it is leeway,
+// within the container's container, beyond it none. Protected leaves are protected unless they are
+// target. Only leaves that hold tissue have a zone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/tooth/tooth.h"
+#include "scenarios/scenario.h"
+
+namespace cavum {
+
+enum class Zone : std::uint8_t { none, target, leeway_sides, leeway_bottom, container_sides, container_bottom, protected_ };
+inline constexpr std::size_t k_zones = 7;
+/// Towards where the target's nearest surface faces. The opening (occlusal) is no wall.
+enum class Wall : std::uint8_t { mesial, distal, buccal, lingual, floor, opening };
+inline constexpr std::size_t k_walls = 5;
+[[nodiscard]] const char* zone_name(Zone zone) noexcept;
+[[nodiscard]] const char* wall_name(Wall wall) noexcept;
+
+/// Wall that a surface facing out of the target along `direction` belongs to.
+[[nodiscard]] Wall wall_of(Vec3 direction) noexcept;
+
+/// How far a distance to the target's surface may be from the true one, in leaves (shape given exactly).
+inline constexpr double k_distance_bound_leaves = 0.5;
+
+class ZoneMap {
+ public:
+  [[nodiscard]] double leaf_mm() const noexcept { return leaf_mm_; }
+  [[nodiscard]] double leaf_volume_mm3() const noexcept { return leaf_mm_ * leaf_mm_ * leaf_mm_; }
+  /// First leaf and number of leaves of the stored box (octree leaf coordinates).
+  [[nodiscard]] IVec3 low() const noexcept { return low_; }
+  [[nodiscard]] IVec3 size() const noexcept { return size_; }
+  [[nodiscard]] Vec3 centre_mm(IVec3 leaf) const noexcept { return origin_mm_ + Vec3{leaf.x + 0.5, leaf.y + 0.5, leaf.z + 0.5} * leaf_mm_; }
+  [[nodiscard]] bool in_box(IVec3 leaf) const noexcept {
+    const IVec3 l = leaf - low_;
+    return l.x >= 0 && l.y >= 0 && l.z >= 0 && l.x < size_.x && l.y < size_.y && l.z < size_.z;
+  }
+  /// Zone of a leaf of the tooth; none outside the box and where the tooth has no tissue.
+  [[nodiscard]] Zone zone(IVec3 leaf) const noexcept { return in_box(leaf) ? static_cast<Zone>(zone_[index(leaf)]) : Zone::none; }
+  /// Signed distance of a leaf's centre to the target's surface, mm, negative inside.
+  [[nodiscard]] double distance_mm(IVec3 leaf) const noexcept;
+  /// The same between leaves (trilinear); beyond the box, the border's value and the way there.
+  [[nodiscard]] double distance_mm(Vec3 p) const noexcept;
+  [[nodiscard]] Wall wall(IVec3 leaf) const noexcept;
+  /// Leaves (with tissue) of each zone.
+  [[nodiscard]] const std::array<std::uint64_t, k_zones>& counts() const noexcept { return counts_; }
+  [[nodiscard]] std::uint64_t count(Zone z) const noexcept { return counts_[static_cast<std::size_t>(z)]; }
+  [[nodiscard]] double target_mm3() const noexcept { return static_cast<double>(count(Zone::target)) * leaf_volume_mm3(); }
+  /// Target leaves with a neighbour that is not target: half of them bounds the error of the target's volume.
+  [[nodiscard]] std::uint64_t target_border_leaves() const noexcept { return target_border_; }
+  /// Corners of the box of all target leaves, mm.
+  [[nodiscard]] Vec3 target_low_mm() const noexcept { return target_low_mm_; }
+  [[nodiscard]] Vec3 target_high_mm() const noexcept { return target_high_mm_; }
+  /// Mean height of the tooth's surface over the target: the level of the occlusal opening.
+  [[nodiscard]] double opening_z_mm() const noexcept { return opening_z_mm_; }
+  /// Calls `visit(leaf)` for every target leaf, z slowest.
+  template <class Visit>
+  void for_each_target_leaf(const Visit& visit) const {
+    for_each_leaf([&](IVec3 leaf, Zone z) {
+      if (z == Zone::target) visit(leaf);
+    });
+  }
+  /// Calls `visit(leaf, zone)` for every leaf of the box.
+  template <class Visit>
+  void for_each_leaf(const Visit& visit) const {
+    std::size_t i = 0;
+    for (int z = 0; z < size_.z; ++z)
+      for (int y = 0; y < size_.y; ++y)
+        for (int x = 0; x < size_.x; ++x, ++i) visit(low_ + IVec3{x, y, z}, static_cast<Zone>(zone_[i]));
+  }
+
+ private:
+  friend ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth);
+  [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
+    const IVec3 l = leaf - low_;
+    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(l.x);
+  }
+
+  double leaf_mm_ = 0.05;
+  Vec3 origin_mm_;             // of leaf (0,0,0) of the tooth
+  IVec3 low_, size_;
+  std::vector<std::uint8_t> zone_, wall_;
+  std::vector<float> distance_mm_;
+  std::array<std::uint64_t, k_zones> counts_{};
+  std::uint64_t target_border_ = 0;
+  Vec3 target_low_mm_, target_high_mm_;
+  double opening_z_mm_ = 0.0;
+};
+
+/// Lays the zones into a tooth (the whole one, before the exam). Throws Error when the target is empty or
+/// the tooth lacks a tissue that a zone refers to.
+[[nodiscard]] ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth);
+
+}  // namespace cavum

@@ -1,0 +1,183 @@
+#include "engine/tooth/import/import_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/tooth/import/read_mesh.h"
+#include "engine/tooth/make_molar.h"
+#include "tests/engine/tooth/import/import_testing.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_import;
+
+/// A cap of enamel (z 0..2) on a block of dentin (z -6..0) that holds a pulp of 1 x 1 x 3 mm.
+struct Blocks {
+  TriangleMesh enamel = box({-3, -2.5, 0}, {3, 2.5, 2}), dentin = box({-3, -2.5, -6}, {3, 2.5, 0}), pulp = box({-0.5, -0.5, -4}, {0.5, 0.5, -1});
+  [[nodiscard]] MeshPaths write(const fs::path& f) const {
+    return {write_obj(f / "e.obj", enamel), write_obj(f / "d.obj", dentin), write_ascii_stl(f / "p.stl", pulp)};
+  }
+};
+
+double volume_mm3(const Tooth& t, std::uint8_t id) { return static_cast<double>(t.octree.count_leaves()[id]) * t.octree.leaf_volume_mm3(); }
+
+MeshImportOptions options(double leaf_mm, double periodontium_mm = 0.0) {
+  MeshImportOptions o;
+  o.leaf_mm = leaf_mm;
+  o.periodontium_mm = periodontium_mm;
+  return o;
+}
+
+TEST(ImportMeshes, BoxesGiveTheirVolumesAndNoTissueIsLostAtTheJunction) {
+  const auto done = import_meshes(Blocks().write(fresh_folder()), options(0.1));
+  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), 60, 0.6);
+  EXPECT_NEAR(volume_mm3(done.tooth, k_pulp), 3, 0.06);
+  EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), 177, 1.77);
+  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel) + volume_mm3(done.tooth, k_dentin) + volume_mm3(done.tooth, k_pulp), 240, 0.5);
+  // The frame: enamel upwards, origin at the middle of the enamel's box (z 1 of the file).
+  EXPECT_EQ(done.tooth.octree.tissue_at({0, 0, 0.9}), k_enamel);
+  EXPECT_EQ(done.tooth.octree.tissue_at({0, 0, -1.5}), k_dentin);
+  EXPECT_EQ(done.tooth.octree.tissue_at({0, 0, -3.5}), k_pulp);
+}
+
+// The junction of enamel and dentin is no surface: solid runs through it. Every real face is exact.
+TEST(ImportMeshes, DistancesAreExactOnFacesAndBlindToTheJunction) {
+  const auto done = import_meshes(Blocks().write(fresh_folder()), options(0.07));
+  Octree::Cursor cursor;
+  for (double u = -1.9; u < 1.9; u += 0.037) {
+    for (const double off : {-0.06, -0.013, 0.0, 0.031, 0.06}) {
+      ASSERT_NEAR(done.tooth.octree.sample({u, 0.3, 1 + off}, cursor).distance_mm, off, 0.0012);
+      ASSERT_NEAR(done.tooth.octree.sample({3 + off, u, -3 + u}, cursor).distance_mm, off, 0.0012);
+      ASSERT_NEAR(done.tooth.octree.sample({u, u, -1 + off}, cursor).distance_mm, -0.14, 1e-6);
+    }
+    for (const double off : {-0.06, 0.0, 0.04}) ASSERT_NEAR(done.tooth.octree.sample({0.5 + off, u / 8, -3.5 + u / 4}, cursor).distance_mm, -off, 0.0012);
+  }
+}
+
+TEST(ImportMeshes, GapsAndOverlapsFollowTheRule) {
+  Blocks gap;
+  gap.enamel = box({-3, -2.5, 0.15}, {3, 2.5, 2});  // 1.5 leaves of nothing between enamel and dentin
+  const auto closed = import_meshes(gap.write(fresh_folder()), options(0.1));
+  double sum = 0;
+  for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp}) sum += volume_mm3(closed.tooth, id);
+  EXPECT_NEAR(sum, 240, 1.2);
+  EXPECT_GT(closed.gap_leaves, 0u);
+  Octree::Cursor cursor;
+  EXPECT_NEAR(closed.tooth.octree.sample({0.4, 0.3, -1.0}, cursor).distance_mm, -0.2, 1e-6) << "no seam to feel";
+
+  Blocks overlap;
+  overlap.enamel = box({-3, -2.5, -0.2}, {3, 2.5, 2});
+  const auto shared = import_meshes(overlap.write(fresh_folder()), options(0.1));
+  EXPECT_NEAR(volume_mm3(shared.tooth, k_enamel), 66, 0.7) << "enamel before dentin";
+  EXPECT_NEAR(volume_mm3(shared.tooth, k_dentin), 171, 1.7);
+  EXPECT_GT(shared.overlap_leaves, 0u);
+}
+
+// Enamel as a shell with a cavity (two nested surfaces): OpenVDB alone would fill the cavity.
+TEST(ImportMeshes, NestedBallsGiveShellsOfAnalyticVolume) {
+  const auto folder = fresh_folder();
+  TriangleMesh inner = ball({0, 0, 0}, 2.5, 60), hollow = ball({0, 0, -0.2}, 1.0, 40);
+  turn_inside_out(inner);
+  turn_inside_out(hollow);
+  const MeshPaths paths{write_obj(folder / "e.obj", together(ball({0, 0, 0}, 3.0, 60), inner)), write_obj(folder / "d.obj", together(ball({0, 0, 0}, 2.5, 60), hollow)),
+                        write_obj(folder / "p.obj", ball({0, 0, -0.2}, 1.0, 40))};
+  MeshImportOptions o = options(0.08);
+  o.frame.occlusal_axis = Vec3{0, 0, 1};
+  const auto done = import_meshes(paths, o);
+  const auto ball_mm3 = [](double r) { return 4.0 / 3.0 * M_PI * r * r * r; };
+  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), ball_mm3(3) - ball_mm3(2.5), 0.01 * (ball_mm3(3) - ball_mm3(2.5)));
+  EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), ball_mm3(2.5) - ball_mm3(1), 0.01 * (ball_mm3(2.5) - ball_mm3(1)));
+  EXPECT_NEAR(volume_mm3(done.tooth, k_pulp), ball_mm3(1), 0.02 * ball_mm3(1));
+}
+
+TEST(ImportMeshes, AnOpenMeshIsAnErrorThatNamesFileAndPlace) {
+  const auto folder = fresh_folder();
+  Blocks blocks;
+  blocks.dentin = ball({0, 0, -3}, 3, 20);
+  blocks.dentin.triangles.erase(blocks.dentin.triangles.begin() + 700);
+  const auto paths = blocks.write(folder);
+  const auto error = error_of([&] { (void)import_meshes(paths, options(0.2)); });
+  EXPECT_NE(error.find("d.obj"), std::string::npos) << error;
+  EXPECT_NE(error.find("3 open"), std::string::npos) << error;
+  EXPECT_NE(error.find("one at ("), std::string::npos) << error;
+}
+
+TEST(ImportMeshes, ExchangedLayersAreAnError) {
+  const auto right = Blocks().write(fresh_folder());
+  const auto swapped = error_of([&] { (void)import_meshes({right.dentin, right.enamel, right.pulp}, options(0.2)); });
+  EXPECT_NE(swapped.find("exchange"), std::string::npos) << swapped;
+  EXPECT_NE(swapped.find("e.obj"), std::string::npos) << swapped;
+  EXPECT_NE(error_of([&] { (void)import_meshes({right.enamel, right.pulp, right.dentin}, options(0.2)); }), "");
+  EXPECT_NE(error_of([&] { (void)import_meshes({right.pulp, right.dentin, right.enamel}, options(0.2)); }), "");
+}
+
+TEST(ImportMeshes, InwardFacesAreTurnedAndUnusedVerticesDeleted) {
+  const auto folder = fresh_folder();
+  Blocks blocks;
+  turn_inside_out(blocks.enamel);
+  blocks.enamel.vertices_mm.push_back({500, 500, 500});
+  const auto done = import_meshes(blocks.write(folder), options(0.2));
+  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), 60, 3);
+  EXPECT_NE(done.tooth.source.find("turned"), std::string::npos);
+  EXPECT_NE(done.tooth.source.find("1 unused"), std::string::npos);
+}
+
+TEST(ImportMeshes, UnusableFilesAreErrors) {
+  const auto folder = fresh_folder();
+  const auto paths = Blocks().write(folder);
+  std::ofstream(folder / "text.stl") << "this is no mesh";
+  std::ofstream(folder / "nan.obj") << "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  for (const auto& bad : {folder / "missing.stl", folder / "text.stl", folder / "nan.obj"})
+    EXPECT_NE(error_of([&] { (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2)); }).find(bad.filename().string()), std::string::npos) << bad;
+  EXPECT_NE(error_of([&] { (void)import_meshes(paths, options(0.001)); }).find("1024"), std::string::npos);
+  MeshImportOptions parallel = options(0.2);
+  parallel.frame.mesial_axis = Vec3{0, 0, 1};
+  EXPECT_NE(error_of([&] { (void)import_meshes(paths, parallel); }).find("--mesial-axis"), std::string::npos);
+}
+
+TEST(ImportMeshes, AxesAndRotationAreObeyed) {
+  const auto paths = Blocks().write(fresh_folder());
+  MeshImportOptions o = options(0.2);
+  o.frame.mesial_axis = Vec3{0, 1, 0};
+  const auto turned = import_meshes(paths, o).tooth;
+  EXPECT_EQ(turned.octree.tissue_at({2.8, 0, 0}), k_air);  // the file's y reaches 2.5 mm only
+  EXPECT_EQ(turned.octree.tissue_at({0, 2.8, 0}), k_enamel);
+  o.frame.mesial_axis.reset();
+  o.frame.rotate_deg = 90;
+  EXPECT_EQ(import_meshes(paths, o).tooth.octree.to_grid().tissue, turned.octree.to_grid().tissue);
+}
+
+// Our own export, read back by OpenMesh: closed, outward, and the volume of the leaves.
+TEST(SurfaceMesh, PassesTheChecksOfOpenMesh) {
+  const auto folder = fresh_folder();
+  MolarShape shape;
+  shape.leaf_mm = 0.1;
+  const Tooth molar = make_molar(shape);
+  for (const char* name : {"pulp.stl", "pulp.ply"}) {
+    const auto path = (folder / name).string();
+    write_mesh_file(surface_mesh(molar, "pulp"), path);
+    const ReadMesh read = read_closed_mesh(path);
+    EXPECT_TRUE(read.notes.empty());
+    EXPECT_NEAR(read.volume_mm3, volume_mm3(molar, k_pulp), 0.02 * volume_mm3(molar, k_pulp));
+  }
+}
+
+// The molar out through its surfaces and in again: the same tooth.
+TEST(ImportMeshes, TheMolarSurvivesExportAndImport) {
+  const auto folder = fresh_folder();
+  MolarShape shape;
+  shape.leaf_mm = 0.1;
+  const Tooth molar = make_molar(shape);
+  MeshPaths paths;
+  for (const auto& [name, path] : {std::pair{"enamel", &paths.enamel}, std::pair{"dentin", &paths.dentin}, std::pair{"pulp", &paths.pulp}}) {
+    *path = (folder / (std::string(name) + ".ply")).string();
+    write_mesh_file(surface_mesh(molar, name), *path);
+  }
+  MeshImportOptions o = options(0.1, 1.0);
+  o.frame.occlusal_axis = Vec3{0, 0, 1};
+  const auto again = import_meshes(paths, o);
+  for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp}) EXPECT_NEAR(volume_mm3(again.tooth, id), volume_mm3(molar, id), 0.015 * volume_mm3(molar, id));
+}
+
+}  // namespace
+}  // namespace cavum

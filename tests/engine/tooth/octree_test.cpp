@@ -1,0 +1,160 @@
+#include "engine/tooth/octree.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "engine/base/random.h"
+#include "engine/tooth/make_block.h"
+#include "tests/engine/tooth/tooth_testing.h"
+
+namespace cavum {
+namespace {
+
+/// A ball, or the hull of two equal balls, with its exact signed distance.
+struct Capsule {
+  Vec3 a, b;
+  double radius_mm;
+  double operator()(Vec3 p) const {
+    const Vec3 ab = b - a;
+    const double l2 = dot(ab, ab), t = l2 > 0 ? std::clamp(dot(p - a, ab) / l2, 0.0, 1.0) : 0.0;
+    return length(p - a - ab * t) - radius_mm;
+  }
+};
+
+/// The same carve, leaf by leaf, without any tree.
+std::uint64_t carve_dense(TissueGrid& grid, const std::vector<Tissue>& tissues, const Capsule& shape) {
+  std::uint64_t removed = 0;
+  for (std::int32_t z = 0; z < grid.size.z; ++z)
+    for (std::int32_t y = 0; y < grid.size.y; ++y)
+      for (std::int32_t x = 0; x < grid.size.x; ++x) {
+        const auto i = grid.index({x, y, z});
+        const double d = shape(grid.centre_mm({x, y, z}));
+        if (d < 0 && grid.tissue[i] != k_air) {
+          grid.tissue[i] = k_air;
+          ++removed;
+        }
+        grid.distance[i] = std::max(grid.distance[i], encode_distance(-d / grid.leaf_mm));
+      }
+  grid.make_consistent(tissues);
+  return removed;
+}
+
+Tooth small_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
+
+TEST(Octree, EqualsDenseGridAfterRandomCarves) {
+  Random random(testing_tooth::fresh_seed());
+  for (int round = 0; round < 6; ++round) {
+    Tooth tooth = small_block();
+    TissueGrid dense = tooth.octree.to_grid();
+    ASSERT_EQ(Octree(dense, tooth.tissues).to_grid().tissue, dense.tissue);
+    tooth.octree.reserve_edits(20000);
+    std::vector<RemovedLeaf> removed;
+    removed.reserve(100000);
+    std::uint64_t expected = 0;
+    for (int i = 0; i < 25; ++i) {
+      const auto point = [&] { return Vec3{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)}; };
+      Capsule shape{point(), point(), random.uniform(0.05, 0.6)};
+      if (random.below(2)) shape.b = shape.a;
+      const double r = shape.radius_mm + 0.3;
+      const Vec3 low{std::min(shape.a.x, shape.b.x) - r, std::min(shape.a.y, shape.b.y) - r, std::min(shape.a.z, shape.b.z) - r};
+      const Vec3 high{std::max(shape.a.x, shape.b.x) + r, std::max(shape.a.y, shape.b.y) + r, std::max(shape.a.z, shape.b.z) + r};
+      ASSERT_TRUE(tooth.octree.carve(low, high, shape, removed));
+      expected += carve_dense(dense, tooth.tissues, shape);
+      const TissueGrid now = tooth.octree.to_grid();
+      ASSERT_EQ(now.tissue, dense.tissue) << "carve " << i << " of round " << round;
+      ASSERT_EQ(now.distance, dense.distance) << "carve " << i << " of round " << round;
+      ASSERT_EQ(removed.size(), expected);
+    }
+    std::array<std::uint64_t, 256> count{};
+    for (const auto t : dense.tissue) count[t] += t != k_air;
+    EXPECT_EQ(tooth.octree.count_leaves(), count);
+  }
+}
+
+TEST(Octree, AnswersPointQueriesAsTheDenseGridDoes) {
+  Random random(testing_tooth::fresh_seed());
+  const Tooth tooth = small_block();
+  const TissueGrid dense = tooth.octree.to_grid();
+  Octree::Cursor cursor;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-3, 1)};
+    const IVec3 leaf = tooth.octree.leaf_at(p);
+    const auto expected = dense.inside(leaf) ? dense.tissue[dense.index(leaf)] : std::uint8_t{k_air};
+    ASSERT_EQ(tooth.octree.tissue_at(p), expected);
+    ASSERT_EQ(tooth.octree.tissue_at(p, cursor), expected);
+    const auto code = dense.inside(leaf) ? int{dense.distance[dense.index(leaf)]} : k_distance_far;
+    ASSERT_EQ(tooth.octree.distance_code(leaf), code);
+  }
+}
+
+TEST(Octree, NeverCallsABoxClearThatHoldsSolid) {
+  Random random(testing_tooth::fresh_seed());
+  const Tooth tooth = small_block();
+  const TissueGrid dense = tooth.octree.to_grid();
+  int clear = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 a{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-2.8, 0.4)};
+    const Vec3 b = a + Vec3{random.uniform(0, 0.5), random.uniform(0, 0.5), random.uniform(0, 0.5)};
+    if (!tooth.octree.is_clear(a, b)) continue;
+    ++clear;
+    const IVec3 low = tooth.octree.leaf_at(a), high = tooth.octree.leaf_at(b);
+    for (std::int32_t z = low.z; z <= high.z; ++z)
+      for (std::int32_t y = low.y; y <= high.y; ++y)
+        for (std::int32_t x = low.x; x <= high.x; ++x)
+          if (dense.inside({x, y, z})) {
+            ASSERT_FALSE(tooth.octree.is_solid(dense.tissue[dense.index({x, y, z})]));
+          }
+  }
+  EXPECT_GT(clear, 0);
+}
+
+TEST(ToothFile, SavesTheSameBytesAfterLoading) {
+  const Tooth tooth = small_block();
+  const Bytes once = save_tooth(tooth);
+  const Tooth again = load_tooth(once, "memory");
+  EXPECT_EQ(save_tooth(again), once);
+  EXPECT_EQ(tooth_hash(again), tooth_hash(tooth));
+  EXPECT_EQ(again.name, tooth.name);
+  EXPECT_EQ(again.tissues, tooth.tissues);
+  EXPECT_EQ(again.octree.to_grid().distance, tooth.octree.to_grid().distance);
+}
+
+TEST(ToothFile, EveryTruncationIsAnError) {
+  const Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
+  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
+}
+
+TEST(ToothFile, EveryFlippedBitIsAnError) {
+  Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
+    ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
+    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
+  }
+}
+
+// Behind the checksum: an octree that was damaged before it was signed must still not crash the reader.
+TEST(ToothFile, DamagedOctreeBytesNeverCrash) {
+  Random random(testing_tooth::fresh_seed());
+  const Tooth tooth = small_block();
+  ByteWriter out;
+  tooth.octree.write(out);
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Bytes bytes = out.bytes();
+    for (std::uint64_t n = 1 + random.below(3); n > 0; --n) bytes[random.below(i % 2 ? 200 : bytes.size())] ^= static_cast<std::uint8_t>(1u << random.below(8));
+    if (i % 5 == 0) bytes.resize(random.below(bytes.size()));
+    ByteReader in(bytes, "damaged");
+    try {
+      const Octree tree = Octree::read(in, tooth.tissues);
+      (void)tree.count_leaves();
+      (void)tree.tissue_at({0, 0, -1});
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace cavum

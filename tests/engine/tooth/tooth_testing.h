@@ -1,0 +1,63 @@
+// What several tests of the tooth need: fresh random seeds that are printed, and independent checks of meshes.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <random>
+#include <utility>
+
+#include "engine/tooth/surface_mesh.h"
+
+namespace cavum::testing_tooth {
+
+/// A new seed each run, printed; CAVUM_SEED=n repeats a run.
+inline std::uint64_t fresh_seed() {
+  const char* given = std::getenv("CAVUM_SEED");
+  const std::uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  std::cout << "CAVUM_SEED=" << seed << '\n';
+  return seed;
+}
+
+/// Every edge is used once in each direction: closed, 2-manifold along edges, and consistently oriented.
+inline bool is_closed_and_oriented(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+  for (const auto& [edge, uses] : edges) {
+    const auto back = edges.find({edge.second, edge.first});
+    if (uses != 1 || back == edges.end() || back->second != 1) return false;
+  }
+  return !edges.empty();
+}
+
+/// Bodies of one tissue, connected by faces.
+inline int count_bodies(const TissueGrid& grid, std::uint8_t tissue, std::int32_t from_z, std::int32_t to_z) {
+  std::vector<std::uint8_t> seen(grid.count(), 0);
+  int bodies = 0;
+  std::vector<IVec3> front;
+  const IVec3 steps[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  const auto enter = [&](IVec3 l) {
+    if (!grid.inside(l) || l.z < from_z || l.z > to_z) return false;
+    const auto i = grid.index(l);
+    if (seen[i] || grid.tissue[i] != tissue) return false;
+    seen[i] = 1;
+    front.push_back(l);
+    return true;
+  };
+  for (std::int32_t z = from_z; z <= to_z; ++z)
+    for (std::int32_t y = 0; y < grid.size.y; ++y)
+      for (std::int32_t x = 0; x < grid.size.x; ++x) {
+        if (!enter({x, y, z})) continue;
+        ++bodies;
+        while (!front.empty()) {
+          const IVec3 at = front.back();
+          front.pop_back();
+          for (const IVec3 s : steps) enter(at + s);
+        }
+      }
+  return bodies;
+}
+
+}  // namespace cavum::testing_tooth

@@ -1,0 +1,259 @@
+#include "grading/grade.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/random.h"
+#include "grading/cut_surface.h"
+#include "grading/result_json.h"
+#include "scenarios/names.h"
+#include "tests/grading/carved.h"
+
+namespace cavum {
+namespace {
+
+using testing::box_hole;
+using testing::Carved;
+using testing::chambered_block;
+using testing::dentin_block;
+using testing::round_hole;
+using testing::scenario_text;
+
+constexpr double k_pi_here = 3.14159265358979323846;
+
+std::string round_target(double radius, double depth) {
+  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + std::to_string(radius) + " }\nbottom = { kind = \"level\", z_mm = -" +
+         std::to_string(depth) + " }\n";
+}
+const char k_box_target[] =
+    "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { kind = \"level\", z_mm = -2 }\n";
+
+const Volume& zone_volume(const Result& r, Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
+const WallMeasures& wall(const Result& r, Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
+
+TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
+  Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 4, 0.05));
+  c.carve(round_hole(0, 0, 2.0, -2.5), 0);
+  const Result r = c.graded();
+  const double target = k_pi_here * 2.25 * 2, removed = k_pi_here * 4 * 2.5;
+  EXPECT_NEAR(r.volumes.target.mm3, target, 0.005 * target);
+  EXPECT_NEAR(r.volumes.removed.mm3, removed, 0.005 * removed);
+  EXPECT_NEAR(r.volumes.target.mm3, target, r.volumes.target.bound_mm3);
+  EXPECT_NEAR(r.volumes.removed.mm3, removed, r.volumes.removed.bound_mm3);
+  EXPECT_DOUBLE_EQ(r.volumes.target_removed_percent, 100);
+  EXPECT_NEAR(r.volumes.dice, 2 * target / (target + removed), 0.005);
+  double sum = 0;
+  for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
+  EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);  // every removed leaf lies in exactly one zone
+  // the ring of the leeway beside the target: 1.5 to 1.7 mm, down to the floor and the corner of its bottom
+  const double ring = k_pi_here * (1.7 * 1.7 - 1.5 * 1.5) * 2;
+  EXPECT_NEAR(zone_volume(r, Zone::leeway_sides).mm3, ring, 0.12 * ring);
+  const double under = k_pi_here * 2.25 * 0.3;
+  EXPECT_NEAR(zone_volume(r, Zone::leeway_bottom).mm3, under, 0.2 * under);
+}
+
+TEST(Grade, WallDistancesAreThoseOfTheShapesWithinTheBound) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
+  // mesial 0.30 over, distal 0.12 under, buccal 0.07 over, lingual exact, floor 0.22 over
+  c.carve(box_hole(-1.38, 1.80, -1.0, 1.07, -2.22), 0);
+  const Result r = c.graded();
+  EXPECT_NEAR(wall(r, Wall::mesial).p95_mm, 0.30, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, Wall::distal).max_under_mm, 0.12, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, Wall::buccal).mean_mm, 0.07, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, Wall::lingual).mean_mm, 0.0, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, Wall::floor).mean_mm, 0.22, r.shape.bound_mm);
+  EXPECT_NEAR(*r.shape.length_mm, 3.18, r.shape.bound_mm);
+  EXPECT_NEAR(*r.shape.width_mm, 2.07, r.shape.bound_mm);
+  EXPECT_NEAR(*r.shape.depth_mm, 2.22, r.shape.bound_mm);
+  EXPECT_NEAR(r.shape.target_length_mm, 3.0, r.shape.bound_mm);
+  EXPECT_NEAR(*r.shape.taper_deg, 0, 1);
+}
+
+TEST(Grade, SurfaceIsFoundBetweenLeaves) {
+  // a tenth of a leaf must show: the surface comes from the octree's distance, not from the raster
+  double before = -1;
+  for (const double radius : {1.500, 1.510, 1.520, 1.530, 1.540}) {
+    Carved c(scenario_text(round_target(1.5, 2)), dentin_block(3, 3, 0.05));
+    c.carve(round_hole(0, 0, radius, -2), 0);
+    const double mean = wall(c.graded(), Wall::mesial).mean_mm;
+    EXPECT_NEAR(mean, radius - 1.5, 0.02) << radius;
+    EXPECT_GT(mean, before) << radius;
+    before = mean;
+  }
+}
+
+TEST(Grade, TaperIsMeasuredToADegree) {
+  for (const double degrees : {-6.0, 3.0, 8.0, 15.0}) {
+    Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 3, 0.05));
+    const double t = std::tan(degrees * k_pi_here / 180), cosine = std::cos(degrees * k_pi_here / 180);
+    c.carve([&](Vec3 p) { return std::max((std::sqrt(p.x * p.x + p.y * p.y) - 1.5 - t * (p.z + 2)) * cosine, -2 - p.z); }, 0);
+    EXPECT_NEAR(*c.graded().shape.taper_deg, degrees, 1.0);
+  }
+}
+
+TEST(Grade, ArcTangentAgreesWithTheLibrary) {
+  for (double t = -20; t < 20; t += 0.037) EXPECT_NEAR(atan_deg(t), std::atan(t) * 180 / k_pi_here, 1e-7) << t;
+}
+
+TEST(Grade, NamesTheWallAndTheTickWhereTheLossBegan) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 100);
+  c.carve(box_hole(1.0, 2.2, -0.8, 0.8, -1.5), 2345);  // 0.7 mm into the mesial wall
+  const Result r = c.graded();
+  const auto& sides = r.criteria.at(1);
+  EXPECT_LT(sides.points, sides.max);
+  EXPECT_EQ(sides.first.tick, 2345);
+  EXPECT_NE(sides.reason.find("mesial wall"), std::string::npos) << sides.reason;
+  EXPECT_NE(sides.reason.find("tick 2345"), std::string::npos) << sides.reason;
+  EXPECT_EQ(wall(r, Wall::mesial).worst_over.tick, 2345);
+  EXPECT_EQ(r.criteria.at(0).reason, "full marks");
+}
+
+TEST(Grade, MissedTargetNamesItsWall) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
+  c.carve(box_hole(-1.0, 1.5, -1, 1, -2), 0);
+  const Result r = c.graded();
+  EXPECT_NEAR(r.volumes.missed.mm3, 0.5 * 2 * 2, 0.03);
+  EXPECT_NE(r.criteria.at(0).reason.find("distal wall"), std::string::npos) << r.criteria.at(0).reason;
+}
+
+TEST(Grade, ResultIsTheSameTwice) {
+  Carved c(scenario_text(k_box_target), chambered_block(0.1));
+  c.carve(round_hole(0.4, 0.2, 1.3, -3.4), 7);
+  EXPECT_EQ(to_json(c.graded()).dump(), to_json(c.graded()).dump());
+}
+
+TEST(Grade, MoreTargetNeverLowersAndCuttingOutsideNeverRaises) {
+  const std::uint64_t seed = 20261121;
+  Random random(seed);
+  for (int round = 0; round < 6; ++round) {
+    Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
+    double target_points = -1, sides_points = 1e9, outside_points = 1e9;
+    for (int cut = 0; cut < 8; ++cut) {
+      const double x = random.uniform(-2.5, 2.5), y = random.uniform(-2, 2), z = random.uniform(-2.5, 0), radius = random.uniform(0.2, 0.8);
+      c.carve([=](Vec3 p) { return length(p - Vec3{x, y, z}) - radius; }, cut);
+      const Result r = c.graded();
+      EXPECT_GE(r.criteria[0].points, target_points) << "seed " << seed << " round " << round;
+      EXPECT_LE(r.criteria[1].points, sides_points) << "seed " << seed << " round " << round;
+      EXPECT_LE(r.criteria[2].points, outside_points) << "seed " << seed << " round " << round;
+      target_points = r.criteria[0].points;
+      sides_points = r.criteria[1].points;
+      outside_points = r.criteria[2].points;
+    }
+  }
+}
+
+TEST(Grade, PointsRunLinearlyFromFullToZero) {
+  Result r;
+  RubricSpec rubric;
+  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}};
+  for (const auto& [time, points] : {std::pair{50.0, 10.0}, {100.0, 10.0}, {150.0, 7.5}, {200.0, 5.0}, {300.0, 0.0}, {400.0, 0.0}}) {
+    r.motion.time_s = time;
+    mark(r, rubric);
+    EXPECT_NEAR(r.points, points, 1e-12) << time;
+  }
+}
+
+TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
+  Result r;
+  r.motion.time_s = 200;
+  RubricSpec rubric;
+  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}, {"f", "f", "force_peak_n", 0, 1, 10, {}, {}}};
+  const auto verdict = [&](double pass, double band, bool compensatory) {
+    rubric.pass_percent = pass;
+    rubric.borderline_percent = band;
+    rubric.compensatory = compensatory;
+    mark(r, rubric);
+    return r.verdict;
+  };
+  EXPECT_EQ(verdict(60, 0, true), Verdict::pass);    // 15 of 20
+  EXPECT_EQ(verdict(80, 0, true), Verdict::fail);
+  EXPECT_EQ(verdict(76, 3, true), Verdict::review);
+  EXPECT_EQ(verdict(60, 0, false), Verdict::fail);   // the time alone reaches 50 %
+  EXPECT_EQ(verdict(45, 0, false), Verdict::pass);
+  rubric.criteria[0].critical_above = 150;
+  EXPECT_EQ(verdict(0, 0, true), Verdict::fail);
+}
+
+TEST(Grade, ForceAgainstTissueGoesToReview) {
+  Result r;
+  RubricSpec rubric;
+  rubric.pass_percent = 50;
+  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}};
+  r.perforation.fault.perforated = true;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::review);
+  PerforationEvent e;
+  e.fault = true;
+  r.perforation.events.push_back(e);
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+  r.perforation.fault.perforated = false;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::review);
+}
+
+TEST(Grade, WhatIsDoneAfterTheEndDoesNotCount) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 10);
+  const double before = c.graded().volumes.removed.mm3;
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -3), 20);
+  c.events.push_back({15, "finished", "{\"how\":\"time\"}"});
+  const Result r = c.graded();
+  EXPECT_DOUBLE_EQ(r.volumes.removed.mm3, before);
+  EXPECT_EQ(r.motion.late_ticks, 5);
+  EXPECT_DOUBLE_EQ(r.motion.time_s, 0.016);
+  EXPECT_EQ(r.progress.finish, "time");
+  EXPECT_FALSE(r.notes.empty());
+}
+
+TEST(Grade, DisagreementOfListAndFinalToothGoesToReview) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);
+  EXPECT_TRUE(c.graded().notes.empty());
+  c.removed.pop_back();
+  const Result r = c.graded();
+  EXPECT_EQ(r.verdict, Verdict::review);
+  EXPECT_FALSE(r.notes.empty());
+}
+
+TEST(Grade, TruthOfAPerforationIsTheFirstLeafOfAFaultTissue) {
+  Carved c(scenario_text(k_box_target), chambered_block(0.1));
+  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -2.9), 1);
+  EXPECT_FALSE(c.graded().perforation.fault.perforated);
+  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -3.2), 9);
+  const Result r = c.graded();
+  EXPECT_TRUE(r.perforation.fault.perforated);
+  EXPECT_EQ(r.perforation.fault.first.tick, 9);
+  EXPECT_EQ(r.perforation.fault.tissue, "pulp");
+  EXPECT_NEAR(r.perforation.fault.volume_mm3, 1 * 1 * 0.2, 1e-9);
+  EXPECT_NEAR(r.volumes.tissue[k_pulp].mm3, 0.2, 1e-9);
+}
+
+TEST(Grade, JsonHoldsEveryPromisedNameEvenForAnUntouchedTooth) {
+  const Carved c(scenario_text(k_box_target), dentin_block(3, 3, 0.1));
+  const auto j = to_json(c.graded());
+  for (const char* name : {"/verdict", "/score/points", "/score/max", "/criteria/0/id", "/criteria/0/metric", "/criteria/0/value", "/criteria/0/unit", "/criteria/0/points",
+                           "/criteria/0/max", "/criteria/0/reason", "/volumes/target_mm3", "/volumes/target_removed_percent", "/volumes/missed_mm3", "/volumes/removed_mm3",
+                           "/volumes/outside_mm3", "/volumes/dice", "/volumes/overcut/leeway_sides_mm3", "/volumes/overcut/leeway_bottom_mm3",
+                           "/volumes/overcut/container_sides_mm3", "/volumes/overcut/container_bottom_mm3", "/walls/mesial/mean_mm", "/walls/distal/p95_mm",
+                           "/walls/buccal/max_over_mm", "/walls/lingual/max_under_mm", "/walls/floor/mean_mm", "/perforation/detected", "/perforation/events",
+                           "/perforation/truth/perforated", "/perforation/truth/first_t_s", "/perforation/truth/volume_mm3", "/time_s", "/force/mean_n", "/force/peak_n", "/path_mm"})
+    EXPECT_TRUE(j.contains(nlohmann::ordered_json::json_pointer(name))) << name;
+  EXPECT_TRUE(j["walls"]["floor"]["mean_mm"].is_null());
+  EXPECT_TRUE(j["perforation"]["truth"]["first_t_s"].is_null());
+  EXPECT_DOUBLE_EQ(j["volumes"]["removed_mm3"].get<double>(), 0);
+  EXPECT_FALSE(to_text(c.graded()).empty());
+}
+
+TEST(Grade, EveryNamedMetricCanBeComputed) {
+  Carved c(scenario_text(k_box_target), chambered_block(0.1));
+  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -3.2), 1);
+  const Result r = c.graded();
+  for (const auto& m : k_metrics) EXPECT_NO_THROW(static_cast<void>(metric_value(r, std::string(m.name)))) << m.name;
+  EXPECT_THROW(static_cast<void>(metric_value(r, "nonsense")), Error);
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,125 @@
+#include "grading/perforation.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/random.h"
+
+namespace cavum {
+namespace {
+
+/// A made-up recording: every part adds ticks of straight motion with a force that runs to a given value.
+class Tape {
+ public:
+  explicit Tape(std::uint64_t seed, double noise_n = 0.02, double tremor_mm = 0.01) : random_(seed), noise_n_(noise_n), tremor_mm_(tremor_mm) {}
+
+  /// `ticks` of motion at `speed` (mm/s); the force goes evenly to `force_n`, pushing along -`into`.
+  Tape& run(int ticks, Vec3 speed, double force_n, bool turning = true, Vec3 into = {0, 0, -1}) {
+    const double from = force_n_;
+    for (int i = 1; i <= ticks; ++i) {
+      tip_ += speed * k_tick_s;
+      force_n_ = from + (force_n - from) * i / ticks;
+      TickInput in;
+      const Vec3 p = tip_ + Vec3{random_.normal(), random_.normal(), random_.normal()} * tremor_mm_ * 0.1;
+      in.tip_nm = {static_cast<int>(p.x * 1e6), static_cast<int>(p.y * 1e6), static_cast<int>(p.z * 1e6)};
+      in.flags = k_stylus_fresh | k_pedal_fresh;
+      in.pedal_q16 = turning ? 60000 : 0;
+      TickRecord r;
+      const Vec3 f = into * -(force_n_ > 0 ? force_n_ + noise_n_ * random_.normal() : 0.0);
+      r.rendered_un = {static_cast<int>(f.x * 1e6), static_cast<int>(f.y * 1e6), static_cast<int>(f.z * 1e6)};
+      r.rpm = turning ? 180000 : 0;
+      inputs_.push_back(in);
+      records_.push_back(r);
+    }
+    return *this;
+  }
+  [[nodiscard]] std::int64_t now() const { return static_cast<std::int64_t>(inputs_.size()); }
+  [[nodiscard]] std::vector<PerforationEvent> events() const { return detect_breakthroughs(inputs_, records_); }
+
+ private:
+  Random random_;
+  double noise_n_, tremor_mm_;
+  Vec3 tip_{0, 0, 1};
+  double force_n_ = 0;
+  std::vector<TickInput> inputs_;
+  std::vector<TickRecord> records_;
+};
+
+/// In air, contact, and a second and a half of steady cutting downwards.
+Tape cutting(std::uint64_t seed, double force_n = 0.9, double feed_mm_s = 0.25) {
+  Tape t(seed);
+  t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, force_n).run(1500, {0, 0, -feed_mm_s}, force_n);
+  return t;
+}
+
+TEST(Detector, SeesABreakthroughAndDatesItToItsOnset) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Random random(seed);
+    Tape t = cutting(seed, random.uniform(0.4, 2.0), random.uniform(0.1, 0.5));
+    const std::int64_t truth = t.now();
+    t.run(static_cast<int>(random.uniform(30, 250)), {0, 0, -3}, 0.05).run(400, {0, 0, 0}, 0.02).run(200, {0, 0, 5}, 0);
+    const auto events = t.events();
+    ASSERT_EQ(events.size(), 1u) << "seed " << seed;
+    EXPECT_NEAR(static_cast<double>(events[0].tick), static_cast<double>(truth), 50) << "seed " << seed;
+    EXPECT_GT(events[0].force_before_n, events[0].force_after_n) << "seed " << seed;
+    EXPECT_GE(events[0].seen_tick, events[0].tick);
+  }
+}
+
+TEST(Detector, IsSilentInSteadyCutting) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed);
+    t.run(3000, {0, 0, -0.25}, 0.7).run(3000, {0, 0, -0.2}, 1.3);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Detector, IsSilentWhenThePointIsLiftedOff) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed);
+    t.run(80, {0, 0, 4}, 0).run(500, {0, 0, 2}, 0);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Detector, IsSilentWhenThePedalIsReleased) {
+  Tape t = cutting(3);
+  t.run(150, {0, 0, -0.2}, 0.05, false).run(500, {0, 0, -2}, 0, false);
+  EXPECT_TRUE(t.events().empty());
+}
+
+TEST(Detector, IsSilentWhenThePointSlipsSideways) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed);
+    t.run(80, {8, 0, -1}, 0.02).run(400, {2, 0, 0}, 0);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Detector, IsSilentBetweenEnamelAndDentin) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed, 1.0);
+    t.run(300, {0, 0, -0.4}, 0.7).run(1000, {0, 0, -0.4}, 0.7);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Detector, RemembersWhereTheTipHasBeen) {
+  // down into a hole and out; later, cutting a thin wall aside, the point falls back into that hole
+  Tape t(5);
+  t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(2000, {0, 0, -0.5}, 0.9).run(500, {0, 0, 4}, 0);
+  t.run(100, {0, 0, -4}, 0.0).run(100, {0, 0, -3}, 0.9).run(800, {0, 0, -0.05}, 0.9).run(80, {0, 0, -5}, 0.02).run(300, {0, 0, 0}, 0.02);
+  EXPECT_TRUE(t.events().empty());
+}
+
+TEST(Detector, SeesTheSecondBreakthroughToo) {
+  Tape t = cutting(9);
+  t.run(100, {0, 0, -4}, 0.03).run(600, {0, 0, -1}, 0.0).run(100, {0, 0, -1}, 0.9).run(1500, {0, 0, -0.25}, 0.9);
+  const std::int64_t second = t.now();
+  t.run(100, {0, 0, -4}, 0.03).run(300, {0, 0, 0}, 0.0);
+  const auto events = t.events();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_NEAR(static_cast<double>(events[1].tick), static_cast<double>(second), 50);
+}
+
+}  // namespace
+}  // namespace cavum

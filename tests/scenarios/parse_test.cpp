@@ -1,0 +1,127 @@
+#include "scenarios/parse.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "scenarios/expression.h"
+#include "tests/scenarios/test_teeth.h"
+
+namespace cavum {
+namespace {
+
+const char k_ball[] = "[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 1\n";
+
+std::string good() { return testing::scenario_text(k_ball); }
+
+/// `good` with one piece of text replaced.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = good();
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Scenario, ReadsWhatItWrites) {
+  EXPECT_TRUE(check_scenario(good(), "s.toml").empty());
+  const Scenario s = parse_scenario(good(), "s.toml");
+  EXPECT_EQ(s.points, std::vector<std::string>{"round-1.0"});
+  EXPECT_EQ(s.perforation.faults.size(), 2u);
+  EXPECT_DOUBLE_EQ(s.zones.container.bottom_mm, 0.7);
+  EXPECT_EQ(s.rubric.criteria.size(), 3u);
+  EXPECT_DOUBLE_EQ(s.rubric.criteria[0].zero, 50);
+}
+
+TEST(Scenario, TemplateAndShippedScenariosAreSound) {
+  for (const auto& p : check_scenario(scenario_template(), "template")) ADD_FAILURE() << p.text();
+  for (const char* name : {"molar_access.toml", "class_1.toml"})
+    EXPECT_NO_THROW(static_cast<void>(load_scenario(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/" + name))) << name;
+}
+
+struct Broken {
+  const char *from, *to, *message;
+};
+
+class BrokenScenario : public ::testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenScenario, NamesPlaceMistakeAndRemedy) {
+  const auto problems = check_scenario(with(GetParam().from, GetParam().to), "s.toml");
+  ASSERT_FALSE(problems.empty());
+  EXPECT_EQ(problems[0].text(), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, BrokenScenario,
+    ::testing::Values(
+        Broken{"max_rpm = 200000", "max_rpm = \"fast\"", "s.toml:5:11: 'max_rpm' is a text; write a number"},
+        Broken{"time_limit_s = 10", "time_limit_s = -3", "s.toml:6:16: 'time_limit_s' is -3; use 0.001 to 36000"},
+        Broken{"title = \"Test\"", "titel = \"Test\"", "s.toml:1:1: the scenario has no 'title'; add it"},
+        Broken{"points = [\"round-1.0\"]", "points = []", "s.toml:4:10: 'points' is empty; list at least one"},
+        Broken{"99\"", "99 &&\"", "s.toml:10:17: 'complete_when' cannot be read (Unexpected end of expression at position 32); write for example "
+                                 "\"target_removed_percent >= 90 && depth_mm < 5\""},
+        Broken{"\"target_removed_percent >=", "\"target_remove_percent >=",
+               "s.toml:10:17: 'complete_when' uses the unknown quantity 'target_remove_percent'; did you mean 'target_removed_percent'?"},
+        Broken{">= 99\"", "= 99\"", "s.toml:10:17: 'complete_when' cannot be read (a single = assigns: compare with ==); write for example "
+                                    "\"target_removed_percent >= 90 && depth_mm < 5\""},
+        Broken{"target_removed_percent >= 99", "depth_mm^2 > 3",
+               "s.toml:10:17: 'complete_when' cannot be read (powers (^) are not available: multiply instead); write for example "
+               "\"target_removed_percent >= 90 && depth_mm < 5\""},
+        Broken{"faults = [\"pulp\"", "faults = [7", "s.toml:13:11: 'faults' holds a number; write a text in quotes"},
+        Broken{"aims = []", "aims = [\"pulp\"]", "s.toml:13:10: 'pulp' is both an aim and a fault; keep it in one of the two lists"},
+        Broken{"sides_mm = 0.8", "sides_mm = 0.1",
+               "s.toml:17:1: the container is narrower than the leeway; make it at least as wide: it is measured from the target too"},
+        Broken{"shape = \"ball\"", "shape = \"bal\"", "s.toml:21:9: 'shape' is \"bal\"; did you mean 'ball'?"},
+        Broken{"radius_mm = 1", "radius_mm = 1\ncolour = 3",
+               "s.toml:24:1: [[zones.target]] has an unknown key 'colour'; use one of shape, combine, at_mm, radius_mm"},
+        Broken{"at_mm = [0, 0, 0]", "at_mm = [0, 0]", "s.toml:22:9: 'at_mm' is not a list of 3 numbers within 1000 mm; write [x, y, z]"},
+        Broken{"at_mm = [0, 0, 0]", "at_mm = [0, nan, 0]", "s.toml:22:9: 'at_mm' is not a list of 3 numbers within 1000 mm; write [x, y, z]"},
+        Broken{"rule = \"compensatory\"", "rule = \"strict\"", "s.toml:26:8: 'rule' is \"strict\"; use one of compensatory, non-compensatory"},
+        Broken{"metric = \"outside_mm3\"", "metric = \"outsid_mm3\"", "s.toml:43:10: there is no measure 'outsid_mm3'; did you mean 'outside_mm3'?"},
+        Broken{"full = 100\nzero = 50", "full = 50\nzero = 50",
+               "s.toml:33:8: 'full' and 'zero' are the same value; points run linearly from one to the other: make them differ"},
+        Broken{"id = \"sides\"", "id = \"removed\"", "s.toml:35:1: two criteria are called 'removed'; give each its own id"},
+        Broken{"id = \"only\"", "id = \"Only one\"", "s.toml:8:6: 'id' is \"Only one\"; use small letters, digits, _ and -"},
+        Broken{"[zones.leeway]", "[zones.leeway", "s.toml:14:14: this is not TOML (Error while parsing table header: expected ']', saw '\\n'); correct the line"}));
+
+TEST(Scenario, NamesAllMistakesAtOnceInTheOrderOfTheFile) {
+  std::string text = with("max_rpm = 200000", "max_rpm = 1");
+  text.replace(text.find("shape = \"ball\""), 14, "shape = \"blob\"");
+  text.replace(text.find("pass_percent = 60"), 17, "pass_percent = 160");
+  const auto problems = check_scenario(text, "s.toml");
+  ASSERT_GE(problems.size(), 3u);
+  for (std::size_t i = 1; i < problems.size(); ++i) EXPECT_LE(problems[i - 1].line, problems[i].line);
+  try {
+    static_cast<void>(parse_scenario(text, "s.toml"));
+    FAIL() << "a broken scenario was accepted";
+  } catch (const Error& e) {
+    for (const auto& p : problems) EXPECT_NE(std::string(e.what()).find(p.text()), std::string::npos) << p.text();
+  }
+}
+
+TEST(Rubric, IsReadAloneOrUnderItsHeading) {
+  const std::string body = "rule = \"non-compensatory\"\npass_percent = 70\n[[CRITERIA]]\nid = \"a\"\nmetric = \"dice\"\nfull = 1\nzero = 0\npoints = 5\n";
+  std::string alone = body, under = "[rubric]\n" + body;
+  alone.replace(alone.find("CRITERIA"), 8, "criteria");
+  under.replace(under.find("CRITERIA"), 8, "rubric.criteria");
+  for (const auto& text : {alone, under}) {
+    const RubricSpec r = parse_rubric(text, "r.toml");
+    EXPECT_FALSE(r.compensatory);
+    EXPECT_DOUBLE_EQ(r.pass_percent, 70);
+    ASSERT_EQ(r.criteria.size(), 1u);
+  }
+  EXPECT_THROW(static_cast<void>(parse_rubric("pass_percent = 70", "r.toml")), Error);
+}
+
+TEST(Expression, KnowsArithmeticAndLogicOnly) {
+  std::vector<std::string> names{"a", "b"};
+  std::vector<double> values{2, 3};
+  const Expression e("a * b > 5 && min(a, b) == 2 && abs(-a) < max(a, b) ? 7 : 1", names, values);
+  EXPECT_DOUBLE_EQ(e.value(), 7);
+  values[0] = 1;
+  EXPECT_DOUBLE_EQ(e.value(), 1);
+  for (const char* text : {"sin(a)", "exp(a)", "sqrt(a)", "rnd()", "a ^ 2", "_pi", "a = 3", "c", "a +", ""})
+    EXPECT_THROW(Expression(text, names, values), std::runtime_error) << text;
+  EXPECT_DOUBLE_EQ(Expression("a / 0", names, values).value(), 0);
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,142 @@
+#include "scenarios/runner.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/test_teeth.h"
+
+namespace cavum {
+namespace {
+
+using testing::dentin_block;
+using testing::scenario_text;
+
+const char k_box[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n";
+
+struct Exam {
+  Tooth tooth = dentin_block(2, 3, 0.1);
+  Scenario scenario;
+  ZoneMap zones;
+  Runner runner;
+  RunnerState state;
+  explicit Exam(Scenario s) : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
+
+  void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t point = 0, double rpm = 0) {
+    TickInput in;
+    in.point = point;
+    TickOutput out;
+    out.rpm = rpm;
+    runner.advance(state, in, out, removed);
+  }
+  [[nodiscard]] std::vector<ExamEvent> events(ExamEventKind kind) const {
+    std::vector<ExamEvent> list;
+    for (std::uint32_t i = 0; i < state.event_count; ++i)
+      if (state.events[i].kind == kind) list.push_back(state.events[i]);
+    return list;
+  }
+  [[nodiscard]] RemovedLeaf leaf(Vec3 mm, std::uint8_t tissue = k_dentin) const {
+    const IVec3 l = tooth.octree.leaf_at(mm);
+    return {static_cast<std::int16_t>(l.x), static_cast<std::int16_t>(l.y), static_cast<std::int16_t>(l.z), tissue, 0};
+  }
+};
+
+Scenario scenario_with(const std::string& from = "", const std::string& to = "") {
+  std::string text = scenario_text(k_box);
+  if (!from.empty()) text.replace(text.find(from), from.size(), to);
+  return parse_scenario(text, "s.toml");
+}
+
+TEST(Runner, TimeLimitIsExactToTheTick) {
+  Exam exam(scenario_with());
+  EXPECT_EQ(exam.runner.limit_ticks(), 10000);
+  for (int i = 0; i < 9999; ++i) exam.tick();
+  EXPECT_EQ(exam.state.finish, Finish::running);
+  exam.tick();
+  EXPECT_EQ(exam.state.finish, Finish::time);
+  EXPECT_EQ(exam.state.ticks, 10000);
+  EXPECT_EQ(exam.events(ExamEventKind::time_limit).at(0).tick, 9999);
+}
+
+TEST(Runner, ExtraTimeIsExactToTheTick) {
+  Scenario s = scenario_with("time_limit_s = 10", "time_limit_s = 1.001");
+  s.accommodations.extra_time_percent = 25;
+  Exam exam(std::move(s));
+  EXPECT_EQ(exam.runner.limit_ticks(), 1251);
+  while (exam.state.finish == Finish::running) exam.tick();
+  EXPECT_EQ(exam.state.ticks, 1251);
+}
+
+TEST(Runner, WorkAfterTheEndDoesNotCount) {
+  Exam exam(scenario_with("time_limit_s = 10", "time_limit_s = 0.005"));
+  for (int i = 0; i < 5; ++i) exam.tick();
+  const RemovedLeaf one[] = {exam.leaf({0, 0, -0.1})};
+  exam.tick(one);
+  EXPECT_EQ(exam.state.ticks, 5);
+  EXPECT_EQ(exam.state.removed_in_zone[static_cast<std::size_t>(Zone::target)], 0u);
+}
+
+TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
+  Exam exam(scenario_with("target_removed_percent >= 99", "target_removed_percent >= 0.2 && touched_dentin > 0.0015"));
+  const RemovedLeaf one[] = {exam.leaf({0.01, 0, -0.1})}, two[] = {exam.leaf({0.01, 0.11, -0.1})};
+  exam.tick(one);
+  EXPECT_EQ(exam.state.finish, Finish::running);
+  exam.tick();
+  exam.tick(two);  // 2 of 1000 leaves of 0.001 mm3
+  EXPECT_EQ(exam.state.finish, Finish::completed);
+  EXPECT_EQ(exam.events(ExamEventKind::step_completed).at(0).tick, 2);
+  EXPECT_EQ(exam.events(ExamEventKind::finished).at(0).index, static_cast<int>(Finish::completed));
+}
+
+TEST(Runner, StepLimitsAndFailuresLeadOnOrEndTheExam) {
+  const std::string next = "complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.1\n[[steps]]\nid = \"second\"\ninstruction = \"More.\"\n"
+                           "complete_when = \"step_time_s > 1000\"\nfail_when = \"outside_mm3 > 0\"\nfailure_ends_exam = true\n";
+  Exam exam(scenario_with("complete_when = \"target_removed_percent >= 99\"\n", next));
+  for (int i = 0; i < 100; ++i) exam.tick();
+  EXPECT_EQ(exam.events(ExamEventKind::step_time_limit).at(0).tick, 99);
+  EXPECT_EQ(exam.state.step, 1);
+  EXPECT_EQ(exam.runner.instruction(exam.state), "More.");
+  const RemovedLeaf far[] = {exam.leaf({1.9, 1.9, -2.5})};
+  exam.tick(far);
+  EXPECT_EQ(exam.state.finish, Finish::failed);
+  EXPECT_EQ(exam.events(ExamEventKind::step_failed).at(0).tick, 100);
+  EXPECT_EQ(exam.runner.instruction(exam.state), "");
+}
+
+TEST(Runner, NotesForbiddenPointsAndSpeedsOnceEach) {
+  Exam exam(scenario_with());
+  exam.tick({}, 0, 1000);
+  exam.tick({}, 1, 250000);
+  exam.tick({}, 1, 250000);
+  exam.tick({}, 0, 1000);
+  exam.tick({}, 1, 250000);
+  EXPECT_EQ(exam.events(ExamEventKind::point_not_allowed).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::over_speed).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::point_not_allowed).at(0).index, 1);
+}
+
+TEST(Runner, TellsAimsFromFaultsAndWhereTheyWereFirstTouched) {
+  Scenario s = scenario_with();
+  s.perforation = {{"pulp"}, {"periodontium"}};
+  Exam exam(std::move(s));
+  const RemovedLeaf pulp[] = {exam.leaf({0, 0, -1.5}, k_pulp)}, ligament[] = {exam.leaf({0.5, 0, -2.5}, k_periodontium)};
+  exam.tick();
+  exam.tick(pulp);
+  exam.tick(pulp);
+  EXPECT_FALSE(exam.state.perforated);
+  exam.tick(ligament);
+  EXPECT_TRUE(exam.state.perforated);
+  ASSERT_EQ(exam.events(ExamEventKind::aim_reached).size(), 1u);
+  EXPECT_EQ(exam.events(ExamEventKind::aim_reached)[0].tick, 1);
+  EXPECT_EQ(exam.events(ExamEventKind::perforation).at(0).tick, 3);
+  EXPECT_EQ(exam.events(ExamEventKind::perforation).at(0).leaf[0], exam.tooth.octree.leaf_at({0.5, 0, -2.5}).x);
+}
+
+TEST(Runner, KeepsTheEndEvenWhenTheListOfEventsIsFull) {
+  Exam exam(scenario_with("time_limit_s = 10", "time_limit_s = 1"));
+  for (int i = 0; i < 1000; ++i) exam.tick({}, static_cast<std::uint8_t>(i & 1));
+  EXPECT_EQ(exam.state.finish, Finish::time);
+  EXPECT_GT(exam.state.events_dropped, 0u);
+  EXPECT_EQ(exam.state.events[exam.state.event_count - 1].kind, ExamEventKind::finished);
+}
+
+}  // namespace
+}  // namespace cavum

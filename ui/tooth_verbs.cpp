@@ -1,0 +1,295 @@
+// `cavum tooth`: make a tooth, import one, look at it, export its surface.
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/tooth/make_block.h"
+#include "engine/tooth/make_molar.h"
+#include "engine/tooth/surface_mesh.h"
+#include "engine/tooth/tooth.h"
+#include "ui/verbs.h"
+#ifdef CAVUM_WITH_IMPORT
+#include "engine/tooth/import/import_meshes.h"
+#include "engine/tooth/import/import_volume.h"
+#include "engine/tooth/import/segment.h"
+#endif
+
+namespace cavum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<double> parse_numbers(const std::string& text, const std::string& option) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    double v = 0.0;
+    const auto read = std::from_chars(part.data(), part.data() + part.size(), v);
+    if (read.ec != std::errc{} || read.ptr != part.data() + part.size() || !std::isfinite(v))
+      throw Error(option, "cannot read '" + part + "' as a number", "write numbers with commas between, such as 10,10,6");
+    numbers.push_back(v);
+  }
+  return numbers;
+}
+
+Vec3 parse_vec(const std::string& text, const std::string& option) {
+  const auto n = parse_numbers(text, option);
+  if (n.size() != 3) throw Error(option, "needs three numbers, '" + text + "' has " + std::to_string(n.size()), "write them as x,y,z");
+  return {n[0], n[1], n[2]};
+}
+
+/// Box of everything but air and periodontium, mm.
+struct Bounds {
+  Vec3 low, high;
+};
+Bounds bounds_of(const Tooth& tooth) {
+  const auto& o = tooth.octree;
+  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
+  o.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    if (t == k_periodontium) return;
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
+  });
+  if (high.x < 0) return {};
+  const auto mm = [&](IVec3 l) { return o.origin_mm() + Vec3{double(l.x), double(l.y), double(l.z)} * o.leaf_mm(); };
+  return {mm(low), mm(high)};
+}
+
+double rounded(double v, double unit) { return std::round(v / unit) * unit; }
+
+Json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
+  const auto& o = tooth.octree;
+  const auto count = o.count_leaves();
+  const Bounds b = bounds_of(tooth);
+  const auto triple = [](Vec3 v) { return Json::array({rounded(v.x, 1e-6), rounded(v.y, 1e-6), rounded(v.z, 1e-6)}); };
+  Json tissues = Json::array();
+  for (const auto& t : tooth.tissues)
+    if (count[t.id] > 0) tissues.push_back({{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
+  return {{"name", tooth.name},
+          {"source", tooth.source},
+          {"leaf_mm", o.leaf_mm()},
+          {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
+          {"tissues", tissues},
+          {"memory_bytes", o.memory_bytes()},
+          {"file_bytes", file_bytes},
+          {"hash", tooth_hash(tooth)}};
+}
+
+void print(const Json& d) {
+  std::printf("%s\n", d["name"].get<std::string>().c_str());
+  std::printf("  from    %s\n", d["source"].get<std::string>().c_str());
+  const auto& low = d["bounds_mm"]["low"];
+  const auto& high = d["bounds_mm"]["high"];
+  std::printf("  leaf    %g mm; x %.2f..%.2f  y %.2f..%.2f  z %.2f..%.2f mm\n", d["leaf_mm"].get<double>(), low[0].get<double>(), high[0].get<double>(), low[1].get<double>(),
+              high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
+  for (const auto& t : d["tissues"])
+    std::printf("  %-14s %10.3f mm3%s\n", t["name"].get<std::string>().c_str(), t["volume_mm3"].get<double>(), t["solid"].get<bool>() ? "" : "  (not solid)");
+  std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
+  std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
+}
+
+/// Saves the tooth and says what it is; `more` adds fields to the JSON.
+void finish(const Tooth& tooth, const std::string& path, bool json, const Json& more = Json::object()) {
+  save_tooth_file(tooth, path);
+  Json d = describe(tooth, std::filesystem::file_size(path));
+  if (json) {
+    d["out"] = path;
+    d.update(more);
+    std::printf("%s\n", d.dump(2).c_str());
+  } else {
+    print(d);
+    std::printf("  wrote   %s\n", path.c_str());
+  }
+}
+
+void add_make(CLI::App& tooth) {
+  auto* make = tooth.add_subcommand("make", "Build a tooth from formulae");
+  make->require_subcommand(1);
+
+  struct Common {
+    std::string out;
+    bool json = false;
+  };
+  const auto common = [](CLI::App* app) {
+    auto c = std::make_shared<Common>();
+    app->add_option("--out", c->out, "Tooth file to write (.cvt)")->required();
+    app->add_flag("--json", c->json, "One JSON object on stdout");
+    return c;
+  };
+
+  auto* molar = make->add_subcommand("molar", "A parametric lower first molar");
+  auto shape = std::make_shared<MolarShape>();
+  auto mc = common(molar);
+  molar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str();
+  molar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
+  molar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the central fossa, mm")->capture_default_str();
+  molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
+  molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
+  molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
+  molar->callback([=] { finish(make_molar(*shape), mc->out, mc->json); });
+
+  auto* block = make->add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
+  struct BlockArgs {
+    std::string size = "10,10,6", layers = "enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3";
+    double leaf_mm = 0.05;
+  };
+  auto ba = std::make_shared<BlockArgs>();
+  auto bc = common(block);
+  block->add_option("--size-mm", ba->size, "x,y,z, mm")->capture_default_str();
+  block->add_option("--layers", ba->layers, "name:thickness_mm from top to bottom")->capture_default_str();
+  block->add_option("--leaf-mm", ba->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  block->callback([=] { finish(make_block(parse_vec(ba->size, "--size-mm"), parse_layers(ba->layers), ba->leaf_mm), bc->out, bc->json); });
+
+  auto* cube = make->add_subcommand("cube", "A cube of one tissue; origin at the centre of its top face");
+  struct CubeArgs {
+    double edge_mm = 10, leaf_mm = 0.05;
+    std::string tissue = "dentin";
+  };
+  auto ca = std::make_shared<CubeArgs>();
+  auto cc = common(cube);
+  cube->add_option("--edge-mm", ca->edge_mm, "Edge, mm")->capture_default_str();
+  cube->add_option("--tissue", ca->tissue, "Tissue")->capture_default_str();
+  cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  cube->callback([=] { finish(make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm), cc->out, cc->json); });
+}
+
+struct ImportArgs {
+  std::string volume, enamel, dentin, pulp, map, spacing, occlusal, mesial, out;
+  std::optional<double> enamel_threshold, dentin_threshold;
+  double leaf_mm = 0.05, periodontium_mm = 1.0, rotate_deg = 0.0;
+  bool json = false;
+};
+
+#ifdef CAVUM_WITH_IMPORT
+void run_import(const ImportArgs& a) {
+  FrameOptions frame;
+  if (!a.occlusal.empty()) frame.occlusal_axis = parse_vec(a.occlusal, "--occlusal-axis");
+  if (!a.mesial.empty()) frame.mesial_axis = parse_vec(a.mesial, "--mesial-axis");
+  frame.rotate_deg = a.rotate_deg;
+  const bool meshes = !a.enamel.empty() || !a.dentin.empty() || !a.pulp.empty();
+  if (meshes == !a.volume.empty()) throw Error("tooth import", "needs either a VOLUME or the meshes --enamel --dentin --pulp", "give one of the two");
+  if (meshes) {
+    if (a.enamel.empty() || a.dentin.empty() || a.pulp.empty()) throw Error("tooth import", "a mesh is missing", "give all of --enamel, --dentin and --pulp");
+    if (!a.spacing.empty() || !a.map.empty() || a.enamel_threshold || a.dentin_threshold)
+      throw Error("tooth import", "spacing, map and thresholds belong to volumes", "leave them out for meshes (unit mm)");
+    const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame});
+    finish(done.tooth, a.out, a.json,
+           {{"mesh_volume_mm3", {{"enamel", done.mesh_enamel_mm3}, {"dentin", done.mesh_dentin_mm3}, {"pulp", done.mesh_pulp_mm3}}},
+            {"overlap_leaves", done.overlap_leaves},
+            {"gap_leaves", done.gap_leaves}});
+    return;
+  }
+  VolumeImportOptions options;
+  if (!a.spacing.empty()) {
+    auto n = parse_numbers(a.spacing, "--spacing-mm");
+    if (n.size() == 1) n = {n[0], n[0], n[0]};
+    if (n.size() != 3) throw Error("--spacing-mm", "needs one number or three", "write 0.125 or 0.1,0.1,0.2");
+    options.spacing_mm = Vec3{n[0], n[1], n[2]};
+  }
+  options.thresholds = {a.enamel_threshold, a.dentin_threshold};
+  if (!a.map.empty()) options.labels = parse_label_map(a.map);
+  options.leaf_mm = a.leaf_mm;
+  options.periodontium_mm = a.periodontium_mm;
+  options.frame = frame;
+  const VolumeImport done = import_volume(a.volume, options);
+  finish(done.tooth, a.out, a.json,
+         {{"spacing", done.spacing_note},
+          {"spacing_assumed", done.spacing_assumed},
+          {"native_voxels", {{"enamel", done.native_enamel}, {"dentin", done.native_dentin}, {"pulp", done.native_pulp}}},
+          {"pulp_bodies", done.pulp_bodies},
+          {"rim_percent", done.rim_percent}});
+  if (!a.json) {
+    std::printf("  voxels  enamel %llu, dentin %llu, pulp %llu (bodies: %llu); rim %.2f %%\n", static_cast<unsigned long long>(done.native_enamel),
+                static_cast<unsigned long long>(done.native_dentin), static_cast<unsigned long long>(done.native_pulp), static_cast<unsigned long long>(done.pulp_bodies),
+                done.rim_percent);
+    std::printf("  %s\n", done.spacing_note.c_str());
+  }
+}
+#else
+void run_import(const ImportArgs&) {
+  throw Error("tooth import", "this build has no import", "configure with -DCAVUM_IMPORT=ON (needs OpenVDB, OpenMesh and ITK)");
+}
+#endif
+
+void add_import(CLI::App& tooth) {
+  auto* import = tooth.add_subcommand("import", "Build a tooth from layer meshes, a CT volume or a label map");
+  auto a = std::make_shared<ImportArgs>();
+  import->add_option("VOLUME", a->volume, "MetaImage, NRRD, NIfTI, TIFF, or a folder with a DICOM series or TIFF stack");
+  import->add_option("--enamel", a->enamel, "Closed enamel surface (STL, PLY, OBJ, OFF; mm)");
+  import->add_option("--dentin", a->dentin, "Closed dentin surface");
+  import->add_option("--pulp", a->pulp, "Closed pulp surface");
+  import->add_option("--map", a->map, "VOLUME is a label map: 1=enamel,2=dentin,3=pulp");
+  import->add_option("--spacing-mm", a->spacing, "Voxel edge, one number or x,y,z; overrides the file's");
+  import->add_option("--dentin-threshold", a->dentin_threshold, "Gray above which tissue is hard (default: automatic)");
+  import->add_option("--enamel-threshold", a->enamel_threshold, "Gray above which hard tissue is enamel (default: automatic)");
+  import->add_option("--occlusal-axis", a->occlusal, "x,y,z in the file's frame (default: dentin centroid to enamel centroid)");
+  import->add_option("--mesial-axis", a->mesial, "x,y,z in the file's frame (default: the file's x axis)");
+  import->add_option("--rotate-deg", a->rotate_deg, "Turn about the occlusal axis, degrees")->capture_default_str();
+  import->add_option("--leaf-mm", a->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  import->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
+  import->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
+  import->add_flag("--json", a->json, "One JSON object on stdout");
+  import->callback([=] { run_import(*a); });
+}
+
+void add_info(CLI::App& tooth) {
+  auto* info = tooth.add_subcommand("info", "What a tooth file holds");
+  auto path = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  info->add_option("FILE", *path, "Tooth file (.cvt)")->required();
+  info->add_flag("--json", *json, "One JSON object on stdout");
+  info->callback([=] {
+    const Tooth t = load_tooth_file(*path);
+    const Json d = describe(t, std::filesystem::file_size(*path));
+    if (*json)
+      std::printf("%s\n", d.dump(2).c_str());
+    else
+      print(d);
+  });
+}
+
+void add_mesh(CLI::App& tooth) {
+  auto* mesh = tooth.add_subcommand("mesh", "Export the closed surface of a tissue, or of all solid tissues together");
+  struct MeshArgs {
+    std::string file, tissue = "solid", out;
+    bool json = false;
+  };
+  auto a = std::make_shared<MeshArgs>();
+  mesh->add_option("FILE", a->file, "Tooth file (.cvt)")->required();
+  mesh->add_option("--tissue", a->tissue, "Tissue by name, or solid")->capture_default_str();
+  mesh->add_option("--out", a->out, "Mesh to write (.stl or .ply), mm")->required();
+  mesh->add_flag("--json", a->json, "One JSON object on stdout");
+  mesh->callback([=] {
+    const TriangleMesh m = surface_mesh(load_tooth_file(a->file), a->tissue);
+    write_mesh_file(m, a->out);
+    const double volume = rounded(signed_volume_mm3(m), 1e-6);
+    if (a->json) {
+      const Json d{{"out", a->out}, {"tissue", a->tissue}, {"triangles", m.triangles.size()}, {"vertices", m.vertices_mm.size()}, {"volume_mm3", volume}};
+      std::printf("%s\n", d.dump(2).c_str());
+    } else {
+      std::printf("%s: %zu triangles around %.3f mm3 of %s\n", a->out.c_str(), m.triangles.size(), volume, a->tissue.c_str());
+    }
+  });
+}
+
+}  // namespace
+
+void add_tooth_verbs(CLI::App& app, int& exit_code) {
+  auto* tooth = app.add_subcommand("tooth", "Make, import, inspect and export teeth");
+  tooth->require_subcommand(1);
+  add_make(*tooth);
+  add_import(*tooth);
+  add_info(*tooth);
+  add_mesh(*tooth);
+  tooth->callback([&exit_code] { exit_code = 0; });
+}
+
+}  // namespace cavum
