@@ -69,17 +69,12 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   std::array<std::vector<Sample>, k_walls> samples;
   double lowest = 1e9, up = 0, across = 0;
   const ColumnMap surface = surface_relief(input.before);
-  const auto top_leaf = [&](int x, int y) {
-    if (x < 0 || y < 0 || x >= surface.nx || y >= surface.ny) return -1;
-    const double z = surface.value[surface.index(x, y)];
-    return z == k_no_tooth_mm ? -1 : static_cast<int>(std::floor((z - before.origin_mm().z) / leaf_mm - 1e-6));
-  };
   Extent cut, target;
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
     const Vec3 centre = zones.centre_mm(leaf);
-    if (leaf.z == top_leaf(leaf.x, leaf.y)) cut.add(leaf.x, leaf.y);
+    if (leaf.z == top_leaf(surface, before, leaf.x, leaf.y)) cut.add(leaf.x, leaf.y);
     lowest = std::min(lowest, centre.z - 0.5 * leaf_mm);
     bool beside_solid = false;
     for (const IVec3 step : k_six_neighbours) beside_solid = beside_solid || after.is_solid(after.tissue(leaf + step));
@@ -100,7 +95,7 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   }
   for (std::size_t w = 0; w < k_walls; ++w) m.wall[w] = summary(samples[w]);
   zones.for_each_target_leaf([&](IVec3 leaf) {
-    if (leaf.z == top_leaf(leaf.x, leaf.y)) target.add(leaf.x, leaf.y);
+    if (leaf.z == top_leaf(surface, before, leaf.x, leaf.y)) target.add(leaf.x, leaf.y);
   });
   if (!target.empty()) {
     m.target_length_mm = (target.high_x - target.low_x) * leaf_mm;

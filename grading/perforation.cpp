@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <map>
+#include <utility>
 
 #include "grading/motion.h"
 
@@ -81,6 +83,7 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
   std::int64_t down_since = -1, quiet_until = 0, turning_since = 0;
   bool armed = false;          // the force had a level worth falling from
   double level = 0;            // frozen while the force is down
+  std::deque<std::pair<std::int64_t, double>> levels;  // recent medians that no later one exceeds, falling
   Vec3 direction;              // of the push while the level held
   for (std::int64_t i = 0; i < n; ++i) {
     const TickRecord& r = records[at(i)];
@@ -88,6 +91,7 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
     const bool turns = r.rpm >= k_turning_rpm && (inputs[at(i)].flags & k_pedal_fresh) != 0 && inputs[at(i)].pedal() > 0.05;
     if (!turns || (i > 0 && inputs[at(i)].point != inputs[at(i - 1)].point)) {
       median.clear();
+      levels.clear();
       armed = false;
       down_since = -1;
       turning_since = i + 1;
@@ -99,8 +103,11 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
       down_since = -1;
       if (gap >= turning_since) median.add(force[at(gap)]);
       if (median.ready()) {
-        // falling back to a lower level takes as long as the median takes; a new contact builds its own
-        level = median.value();
+        const double now = median.value();
+        while (!levels.empty() && levels.back().second <= now) levels.pop_back();
+        levels.emplace_back(i, now);
+        while (levels.front().first < i - s.longest_fall_ticks) levels.pop_front();
+        level = levels.front().second;
         armed = level >= s.least_level_n;
         if (armed && force[at(i)] >= s.onset * level) direction = normalized(push[at(i)], direction);
       }
@@ -111,6 +118,7 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
     if (i - down_since + 1 > s.hold_ticks) {  // judged once; wait for the force to come back, or for a new level
       if (i - down_since > s.longest_fall_ticks) {
         median.clear();
+        levels.clear();
         armed = false;
         turning_since = i + 1;
       }
@@ -126,7 +134,7 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
     // what the tip would have gone in that time anyway
     const std::int64_t earlier = std::max<std::int64_t>(turning_since, onset - (i - onset));
     const double usual = std::max(0.0, -dot(from - tip_of(inputs[at(earlier)]), direction));
-    const bool deeper = advance >= s.least_advance_mm && advance > usual && advance >= s.straightness * length(way);
+    const bool deeper = advance >= s.least_advance_mm && advance > usual && advance >= s.straightness * length(way) && way.z <= s.withdrawal * length(way);
     if (!deeper || visits.before(to, onset - s.visited_ticks)) continue;
     PerforationEvent e;
     e.tick = onset;

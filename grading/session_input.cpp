@@ -9,12 +9,17 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   const SessionReader reader(path);
   reader.require_readable();
   if (!reader.closed()) throw Error(path, "this exam was not closed", "resume it with `cavum exam --resume`, or let it end");
+  return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
+}
+
+std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after) {
+  const std::string& path = reader.path();
   const SessionSetup setup = reader.setup();
   auto s = std::make_unique<GradedSession>();
   s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario");
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
   s->before = load_tooth(setup.tooth, path + ": tooth");
-  s->after = load_tooth(reader.final_tooth(), path + ": final tooth");
+  s->after = std::move(after);
   s->zones = build_zones(s->scenario, s->before);
   s->inputs = reader.inputs();
   s->records = reader.records();

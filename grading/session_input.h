@@ -25,5 +25,7 @@ struct GradedSession {
 
 /// Throws Error when the file is damaged, or was never closed (resume it first).
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
+/// The same for an exam that is just ending, with the tooth as it is now.
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
 
 }  // namespace cavum

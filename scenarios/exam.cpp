@@ -78,6 +78,10 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   s.tooth = read_file(options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file);
   s.force_model_toml = force_model_text(options.force_model, scenario_path);
   for (const auto& name : scenario.points) s.points_toml.push_back(read_text_file(find_data_file("points", name + ".toml", scenario_path)));
+  if (!options.rubric_file.empty()) {
+    s.rubric_toml = read_text_file(options.rubric_file);
+    static_cast<void>(parse_rubric(s.rubric_toml, options.rubric_file));
+  }
   ServoConfig config;
   config.max_rpm = scenario.max_rpm;
   s.servo_toml = to_toml(config);

@@ -27,6 +27,7 @@ struct ExamOptions {
   std::string device;                  ///< name of what gives the input
   std::string tooth_file;              ///< empty: the scenario's
   std::string force_model = "consistent";  ///< name of data/materials/NAME.toml, or a path ending in .toml
+  std::string rubric_file;             ///< empty: the scenario's own rubric counts
   std::vector<std::pair<std::string, std::string>> notes;  ///< recorded as they are
 };
 

@@ -140,10 +140,16 @@ ColumnMap surface_relief(const Tooth& tooth) {
       const int z = top[map.index(x, y)];
       if (z < 0) continue;
       // the distance at the topmost leaf says how far above its centre the surface lies
-      const double above = std::clamp(-decode_distance(tree.distance_code({x, y, z})), 0.0, 1.0);
+      const double above = std::clamp(-decode_distance(tree.distance_code({x, y, z})), 0.02, 0.98);
       map.value[map.index(x, y)] = tree.centre_mm({x, y, z}).z + above * tree.leaf_mm();
     }
   return map;
+}
+
+int top_leaf(const ColumnMap& surface, const Octree& tree, int x, int y) noexcept {
+  if (x < 0 || y < 0 || x >= surface.nx || y >= surface.ny) return -1;
+  const double z = surface.value[surface.index(x, y)];
+  return z == k_no_tooth_mm ? -1 : static_cast<int>(std::floor((z - tree.origin_mm().z) / tree.leaf_mm() - 0.5));
 }
 
 TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const std::string& where) {

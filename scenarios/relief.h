@@ -37,6 +37,8 @@ struct TissueRelief {
 /// Height of the tooth's solid surface per column; columns without tooth hold k_no_tooth_mm.
 inline constexpr double k_no_tooth_mm = -1e6;
 [[nodiscard]] ColumnMap surface_relief(const Tooth& tooth);
+/// z of the highest solid leaf of a column of that relief; -1 without tooth.
+[[nodiscard]] int top_leaf(const ColumnMap& surface, const Octree& tree, int x, int y) noexcept;
 
 /// Throws Error when the tooth has no such tissue or no leaf of it. `where` names the asker.
 [[nodiscard]] TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const std::string& where);

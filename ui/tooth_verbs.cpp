@@ -71,15 +71,13 @@ Json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
   const auto triple = [](Vec3 v) { return Json::array({rounded(v.x, 1e-6), rounded(v.y, 1e-6), rounded(v.z, 1e-6)}); };
   Json tissues = Json::array();
   for (const auto& t : tooth.tissues)
-    if (count[t.id] > 0) tissues.push_back({{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
-  return {{"name", tooth.name},
-          {"source", tooth.source},
-          {"leaf_mm", o.leaf_mm()},
-          {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
-          {"tissues", tissues},
-          {"memory_bytes", o.memory_bytes()},
-          {"file_bytes", file_bytes},
-          {"hash", tooth_hash(tooth)}};
+    if (count[t.id] > 0)
+      tissues.push_back(
+          {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
+  return {{"name", tooth.name},       {"source", tooth.source},
+          {"leaf_mm", o.leaf_mm()},   {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
+          {"tissues", tissues},       {"memory_bytes", o.memory_bytes()},
+          {"file_bytes", file_bytes}, {"hash", tooth_hash(tooth)}};
 }
 
 void print(const Json& d) {
@@ -87,10 +85,11 @@ void print(const Json& d) {
   std::printf("  from    %s\n", d["source"].get<std::string>().c_str());
   const auto& low = d["bounds_mm"]["low"];
   const auto& high = d["bounds_mm"]["high"];
-  std::printf("  leaf    %g mm; x %.2f..%.2f  y %.2f..%.2f  z %.2f..%.2f mm\n", d["leaf_mm"].get<double>(), low[0].get<double>(), high[0].get<double>(), low[1].get<double>(),
-              high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
+  std::printf("  leaf    %g mm; x %.2f..%.2f  y %.2f..%.2f  z %.2f..%.2f mm\n", d["leaf_mm"].get<double>(), low[0].get<double>(),
+              high[0].get<double>(), low[1].get<double>(), high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
   for (const auto& t : d["tissues"])
-    std::printf("  %-14s %10.3f mm3%s\n", t["name"].get<std::string>().c_str(), t["volume_mm3"].get<double>(), t["solid"].get<bool>() ? "" : "  (not solid)");
+    std::printf("  %-14s %10.3f mm3%s\n", t["name"].get<std::string>().c_str(), t["volume_mm3"].get<double>(),
+                t["solid"].get<bool>() ? "" : "  (not solid)");
   std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
   std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
 }
@@ -177,7 +176,8 @@ void run_import(const ImportArgs& a) {
   const bool meshes = !a.enamel.empty() || !a.dentin.empty() || !a.pulp.empty();
   if (meshes == !a.volume.empty()) throw Error("tooth import", "needs either a VOLUME or the meshes --enamel --dentin --pulp", "give one of the two");
   if (meshes) {
-    if (a.enamel.empty() || a.dentin.empty() || a.pulp.empty()) throw Error("tooth import", "a mesh is missing", "give all of --enamel, --dentin and --pulp");
+    if (a.enamel.empty() || a.dentin.empty() || a.pulp.empty())
+      throw Error("tooth import", "a mesh is missing", "give all of --enamel, --dentin and --pulp");
     if (!a.spacing.empty() || !a.map.empty() || a.enamel_threshold || a.dentin_threshold)
       throw Error("tooth import", "spacing, map and thresholds belong to volumes", "leave them out for meshes (unit mm)");
     const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame});
@@ -208,8 +208,8 @@ void run_import(const ImportArgs& a) {
           {"rim_percent", done.rim_percent}});
   if (!a.json) {
     std::printf("  voxels  enamel %llu, dentin %llu, pulp %llu (bodies: %llu); rim %.2f %%\n", static_cast<unsigned long long>(done.native_enamel),
-                static_cast<unsigned long long>(done.native_dentin), static_cast<unsigned long long>(done.native_pulp), static_cast<unsigned long long>(done.pulp_bodies),
-                done.rim_percent);
+                static_cast<unsigned long long>(done.native_dentin), static_cast<unsigned long long>(done.native_pulp),
+                static_cast<unsigned long long>(done.pulp_bodies), done.rim_percent);
     std::printf("  %s\n", done.spacing_note.c_str());
   }
 }
@@ -237,8 +237,9 @@ void add_import(CLI::App& tooth) {
   import->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
   import->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
   import->add_flag("--json", a->json, "One JSON object on stdout");
-  import->callback([=] { run_import(*a); });
-}
+  import->callback([=] { run_import(*a);
+});
+}  // namespace
 
 void add_info(CLI::App& tooth) {
   auto* info = tooth.add_subcommand("info", "What a tooth file holds");
@@ -272,7 +273,8 @@ void add_mesh(CLI::App& tooth) {
     write_mesh_file(m, a->out);
     const double volume = rounded(signed_volume_mm3(m), 1e-6);
     if (a->json) {
-      const Json d{{"out", a->out}, {"tissue", a->tissue}, {"triangles", m.triangles.size()}, {"vertices", m.vertices_mm.size()}, {"volume_mm3", volume}};
+      const Json d{
+          {"out", a->out}, {"tissue", a->tissue}, {"triangles", m.triangles.size()}, {"vertices", m.vertices_mm.size()}, {"volume_mm3", volume}};
       std::printf("%s\n", d.dump(2).c_str());
     } else {
       std::printf("%s: %zu triangles around %.3f mm3 of %s\n", a->out.c_str(), m.triangles.size(), volume, a->tissue.c_str());
@@ -280,7 +282,7 @@ void add_mesh(CLI::App& tooth) {
   });
 }
 
-}  // namespace
+}  // namespace cavum
 
 void add_tooth_verbs(CLI::App& app, int& exit_code) {
   auto* tooth = app.add_subcommand("tooth", "Make, import, inspect and export teeth");

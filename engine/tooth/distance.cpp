@@ -92,7 +92,8 @@ void BandDistance::add(const TriangleMesh& mesh, const AcceptSurface& accept) {
     const int z0 = low_leaf(std::min({a.z, b.z, c.z}) - k_band, size_.z), z1 = high_leaf(std::max({a.z, b.z, c.z}) + k_band, size_.z);
     for (int z = z0; z <= z1; ++z)
       for (int y = y0; y <= y1; ++y) {
-        float* row = leaves_.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(size_.x);
+        float* row = leaves_.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(y)) *
+                                          static_cast<std::size_t>(size_.x);
         for (int x = x0; x <= x1; ++x) {
           const Vec3 p{double(x), double(y), double(z)};
           const double best = std::min(row[x], k_band);
@@ -115,17 +116,19 @@ void BandDistance::encode(TissueGrid& grid, const std::vector<Tissue>& tissues) 
   for (std::size_t i = 0; i < solid.size(); ++i) {
     double d = k_distance_band_leaves;
     if (squared[i] != 255) {
-      // All centres nearer than `other` are of this leaf's kind: the surface lies within half a leaf's diagonal of it.
+      // The surface parts this centre from the nearest of the other kind, so it is no farther. And a ball of one leaf's
+      // diagonal just behind the surface holds a centre of the other kind, so it is at most that diagonal nearer.
       const double other = std::sqrt(static_cast<double>(squared[i]));
       const double known = leaves_[i];
-      d = known >= k_no_surface ? std::max(other - 0.5, 0.0) : std::clamp(known, std::max(other - 0.9, 0.0), other);
+      d = known >= k_no_surface ? std::max(other - 0.5, 0.0) : std::clamp(known, std::max(other - 1.75, 0.0), other);
     }
     grid.distance[i] = encode_distance(solid[i] ? -d : d);
   }
   grid.make_consistent(tissues);
 }
 
-void set_surface_from_field(TissueGrid& grid, const std::vector<Tissue>& tissues, std::span<const float> field, const std::function<double(Vec3)>& exact) {
+void set_surface_from_field(TissueGrid& grid, const std::vector<Tissue>& tissues, std::span<const float> field,
+                            const std::function<double(Vec3)>& exact) {
   std::vector<std::uint8_t> inside(field.size());
   for (std::size_t i = 0; i < field.size(); ++i) inside[i] = field[i] < 0;
   const Vec3 first = grid.centre_mm({0, 0, 0});

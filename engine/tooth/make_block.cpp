@@ -122,7 +122,8 @@ std::vector<Layer> parse_layers(const std::string& text) {
     const char* end = part.data() + part.size();
     const char* from = colon == std::string::npos ? end : part.data() + colon + 1;
     const auto read = std::from_chars(from, end, layer.thickness_mm);
-    if (read.ec != std::errc{} || read.ptr != end) throw Error("--layers", "cannot read '" + part + "'", "write name:thickness, such as enamel:1.2,dentin:2.0");
+    if (read.ec != std::errc{} || read.ptr != end)
+      throw Error("--layers", "cannot read '" + part + "'", "write name:thickness, such as enamel:1.2,dentin:2.0");
     layers.push_back(layer);
   }
   if (layers.empty()) throw Error("--layers", "no layer given", "write name:thickness, such as enamel:1.2,dentin:2.0");

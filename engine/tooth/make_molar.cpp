@@ -113,10 +113,10 @@ double occlusal_height(double x, double y, double slope, double roundness) {
 
 /// Depth of the fissures: a central one with a mesial and a distal pit, and arms between the cusps.
 double fissure_depth(double x, double y) {
-  const double main = std::min({segment_distance(x, y, 3.1, 0.05, 0.7, 0.2), segment_distance(x, y, 0.7, 0.2, -1.2, -0.25),
-                                segment_distance(x, y, -1.2, -0.25, -3.3, -0.3)});
-  const double arms = std::min({segment_distance(x, y, 0.7, 0.2, 0.95, 2.6), segment_distance(x, y, -1.5, -0.2, -2.75, 2.0),
-                                segment_distance(x, y, 0.2, 0.0, 0.25, -2.6)});
+  const double main = std::min(
+      {segment_distance(x, y, 3.1, 0.05, 0.7, 0.2), segment_distance(x, y, 0.7, 0.2, -1.2, -0.25), segment_distance(x, y, -1.2, -0.25, -3.3, -0.3)});
+  const double arms = std::min(
+      {segment_distance(x, y, 0.7, 0.2, 0.95, 2.6), segment_distance(x, y, -1.5, -0.2, -2.75, 2.0), segment_distance(x, y, 0.2, 0.0, 0.25, -2.6)});
   return 0.42 * bell(main, 0.22) + 0.25 * bell(arms, 0.24);
 }
 
@@ -177,7 +177,8 @@ double canal_distance(Vec3 p, const Canal& c, double floor_z) {
 std::span<const Canal> canals_of(int count) {
   static constexpr std::array<Canal, 2> two{{{true, 0.0, 0.42, 0.16}, {false, 0.0, 0.45, 0.17}}};
   static constexpr std::array<Canal, 3> three{{{true, 1.45, 0.34, 0.14}, {true, -1.4, 0.34, 0.14}, {false, 0.0, 0.46, 0.17}}};
-  static constexpr std::array<Canal, 4> four{{{true, 1.45, 0.33, 0.14}, {true, -1.4, 0.33, 0.14}, {false, 1.15, 0.34, 0.15}, {false, -1.15, 0.34, 0.15}}};
+  static constexpr std::array<Canal, 4> four{
+      {{true, 1.45, 0.33, 0.14}, {true, -1.4, 0.33, 0.14}, {false, 1.15, 0.34, 0.15}, {false, -1.15, 0.34, 0.15}}};
   if (count == 2) return two;
   if (count == 4) return four;
   return three;

@@ -56,7 +56,8 @@ TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::sp
         const auto crossing = [&](int p, int q) {  // p inside, q outside
           const int low = std::min(p, q), direction = p ^ q;
           const IVec3 l = at(low);
-          auto& slot = edges[static_cast<std::size_t>(l.z & 1)][(static_cast<std::size_t>(l.y) * nx + static_cast<std::size_t>(l.x)) * 8 + static_cast<std::size_t>(direction)];
+          auto& slot = edges[static_cast<std::size_t>(l.z & 1)]
+                            [(static_cast<std::size_t>(l.y) * nx + static_cast<std::size_t>(l.x)) * 8 + static_cast<std::size_t>(direction)];
           if (slot == ~0u) {
             slot = static_cast<std::uint32_t>(mesh.vertices_mm.size());
             const IVec3 a = at(p), b = at(q);
@@ -68,15 +69,20 @@ TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::sp
         };
         for (auto t : marching::k_tetrahedra) {
           switch (marching::inside_first(t, in)) {
-            case 1: mesh.triangles.push_back({crossing(t[0], t[1]), crossing(t[0], t[2]), crossing(t[0], t[3])}); break;
+            case 1:
+              mesh.triangles.push_back({crossing(t[0], t[1]), crossing(t[0], t[2]), crossing(t[0], t[3])});
+              break;
             case 2: {
               const std::array<std::uint32_t, 4> q{crossing(t[0], t[2]), crossing(t[0], t[3]), crossing(t[1], t[3]), crossing(t[1], t[2])};
               mesh.triangles.push_back({q[0], q[1], q[2]});
               mesh.triangles.push_back({q[0], q[2], q[3]});
               break;
             }
-            case 3: mesh.triangles.push_back({crossing(t[0], t[3]), crossing(t[1], t[3]), crossing(t[2], t[3])}); break;
-            default: break;
+            case 3:
+              mesh.triangles.push_back({crossing(t[0], t[3]), crossing(t[1], t[3]), crossing(t[2], t[3])});
+              break;
+            default:
+              break;
           }
         }
       }

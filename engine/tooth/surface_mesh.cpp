@@ -24,7 +24,8 @@ Body body_of(const Octree& octree, const std::array<bool, 256>& wanted) {
   Body body;
   if (high.x < 0) return body;
   low = low - IVec3{2, 2, 2};
-  body.grid.allocate(high - low + IVec3{2, 2, 2}, octree.leaf_mm(), octree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * octree.leaf_mm());
+  body.grid.allocate(high - low + IVec3{2, 2, 2}, octree.leaf_mm(),
+                     octree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * octree.leaf_mm());
   body.inside.resize(body.grid.count());
   for (std::int32_t z = 0; z < body.grid.size.z; ++z)
     for (std::int32_t y = 0; y < body.grid.size.y; ++y)
@@ -72,7 +73,8 @@ TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue) {
     wanted[tooth.tissue_id(tissue)] = true;
   }
   const Body body = body_of(tooth.octree, wanted);
-  if (body.inside.empty()) throw Error("tooth '" + tooth.name + "'", "holds no " + tissue, "choose a tissue that `cavum tooth info` shows a volume for");
+  if (body.inside.empty())
+    throw Error("tooth '" + tooth.name + "'", "holds no " + tissue, "choose a tissue that `cavum tooth info` shows a volume for");
   const auto fraction = [&](IVec3 a, IVec3 b) {
     const auto ia = body.grid.index(a), ib = body.grid.index(b);
     const double da = body.grid.distance[ia], db = body.grid.distance[ib];
@@ -100,9 +102,9 @@ Bytes to_stl(const TriangleMesh& mesh) {
 
 Bytes to_ply(const TriangleMesh& mesh) {
   ByteWriter out;
-  const std::string header = "ply\nformat binary_little_endian 1.0\ncomment Cavum surface, mm\nelement vertex " + std::to_string(mesh.vertices_mm.size()) +
-                             "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(mesh.triangles.size()) +
-                             "\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string header = "ply\nformat binary_little_endian 1.0\ncomment Cavum surface, mm\nelement vertex " +
+                             std::to_string(mesh.vertices_mm.size()) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                             std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const char c : header) out.put(c);
   for (const Vec3 v : mesh.vertices_mm) put_vec(out, v);
   for (const auto& t : mesh.triangles) {

@@ -28,7 +28,8 @@ struct TriangleMesh {
 /// lattice's outermost points must be outside. `fraction(a, b)` places the crossing between a (inside) and
 /// b (outside), 0 at a, 1 at b, exclusive. Point (i,j,k) lies at first_mm + step_mm·(i,j,k).
 template <class Fraction>
-[[nodiscard]] TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside, const Fraction& fraction);
+[[nodiscard]] TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside,
+                                            const Fraction& fraction);
 
 /// Surface of one tissue by name, or of "solid" (all solid tissues together). Always closed and outward.
 /// Throws Error when the tooth has no such tissue or none of it is left.

@@ -37,7 +37,9 @@ ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOpti
   const auto turn = det_sincos(options.rotate_deg * k_pi / 180.0);
   if (!std::isfinite(options.rotate_deg) || std::fabs(options.rotate_deg) > 3600) throw Error("--rotate-deg", "is not an angle", "give degrees");
   x = normalized(x * turn.cos + cross(z, x) * turn.sin);
-  out.note += options.mesial_axis ? ", mesial axis given " : x_is_upright ? ", mesial axis assumed along the file's y " : ", mesial axis assumed along the file's x ";
+  out.note += options.mesial_axis ? ", mesial axis given "
+              : x_is_upright      ? ", mesial axis assumed along the file's y "
+                                  : ", mesial axis assumed along the file's x ";
   out.note += text(x);
   out.axes = {x, cross(z, x), z};
   return out;

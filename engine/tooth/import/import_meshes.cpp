@@ -125,7 +125,8 @@ void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
   const auto all = touched[k_air] + touched[k_enamel] + touched[k_dentin];
   if (all == 0) throw Error(paths.pulp, "the pulp is smaller than a leaf", "check the unit (mm), or use a smaller --leaf-mm");
   if (touched[k_enamel] > touched[k_dentin] && touched[k_enamel] >= touched[k_air])
-    throw Error(paths.enamel + ", " + paths.dentin, "enamel and dentin look exchanged: the pulp lies in the enamel", "exchange --enamel and --dentin");
+    throw Error(paths.enamel + ", " + paths.dentin, "enamel and dentin look exchanged: the pulp lies in the enamel",
+                "exchange --enamel and --dentin");
   if (touched[k_air] * 5 > all)
     throw Error(paths.pulp, "the pulp is not enclosed by the dentin: " + std::to_string(100 * touched[k_air] / all) + " % of its surface is bare",
                 "check which file is enamel, dentin and pulp, and that all share one frame");
@@ -179,8 +180,9 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
 
   const auto file = [](const std::string& p) { return std::filesystem::path(p).filename().string(); };
   std::ostringstream source;
-  source << "import of meshes " << file(paths.enamel) << ", " << file(paths.dentin) << ", " << file(paths.pulp) << "; unit assumed mm; leaf " << options.leaf_mm << " mm; "
-         << frame.note << "; overlaps (pulp, enamel, dentin) " << out.overlap_leaves << " leaves, gaps to the nearer hard tissue " << out.gap_leaves << " leaves; ";
+  source << "import of meshes " << file(paths.enamel) << ", " << file(paths.dentin) << ", " << file(paths.pulp) << "; unit assumed mm; leaf "
+         << options.leaf_mm << " mm; " << frame.note << "; overlaps (pulp, enamel, dentin) " << out.overlap_leaves
+         << " leaves, gaps to the nearer hard tissue " << out.gap_leaves << " leaves; ";
   if (out.periodontium_leaves > 0)
     source << "periodontium " << options.periodontium_mm << " mm added around the roots";
   else

@@ -29,7 +29,8 @@ class Field {
 
   [[nodiscard]] float at(IVec3 v) const noexcept {
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= size_.x || v.y >= size_.y || v.z >= size_.z) return outside_;
-    return values_[(static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(v.y)) * static_cast<std::size_t>(size_.x) +
+    return values_[(static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(v.y)) *
+                       static_cast<std::size_t>(size_.x) +
                    static_cast<std::size_t>(v.x)];
   }
   [[nodiscard]] double linear(Vec3 p) const noexcept {
@@ -102,7 +103,8 @@ void for_voxels(const Segmentation& s, const Visit& visit) {
         if (s.tissue[i] != k_air) visit(Vec3{double(x), double(y), double(z)}, s.tissue[i]);
 }
 
-TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin, const Extent& box, double leaf_mm, const std::string& where) {
+TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin, const Extent& box, double leaf_mm,
+                    const std::string& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", "the leaf must be larger than 0 mm", "give 0.05, for example");
   const double reach = std::max({volume.spacing_mm[0], volume.spacing_mm[1], volume.spacing_mm[2]});
   const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor((v - reach) / leaf_mm), -1e8, 1e8)) - 4; };
@@ -166,7 +168,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
     if (t == k_dentin) dentin.add(volume.place_mm(v));
   });
   if ((enamel.n == 0 || dentin.n == 0) && !options.frame.occlusal_axis)
-    throw Error(path, std::string("holds no ") + (enamel.n == 0 ? "enamel" : "dentin") + ", so there is no occlusal direction", "give --occlusal-axis x,y,z");
+    throw Error(path, std::string("holds no ") + (enamel.n == 0 ? "enamel" : "dentin") + ", so there is no occlusal direction",
+                "give --occlusal-axis x,y,z");
   const ToothAxes frame = tooth_axes(dentin.centroid(), enamel.centroid(), options.frame);
   Extent crown, all;
   for_voxels(s, [&](Vec3 v, std::uint8_t t) {
@@ -179,7 +182,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   all.high = all.high - origin;
   const Vec3 extent = all.high - all.low;
   if (const double longest = std::max({extent.x, extent.y, extent.z}); volume.spacing_assumed && !(longest > 4 && longest < 45))
-    throw Error(path, "the file gives no spacing, and the assumed 0.125 mm would make a tooth of " + std::to_string(longest) + " mm", "give --spacing-mm");
+    throw Error(path, "the file gives no spacing, and the assumed 0.125 mm would make a tooth of " + std::to_string(longest) + " mm",
+                "give --spacing-mm");
 
   VolumeImport out;
   TissueGrid grid = resample(volume, s, frame.axes, origin, all, options.leaf_mm, path);
@@ -194,7 +198,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   out.rim_percent = s.rim_percent;
   std::ostringstream source;
   const auto file = std::filesystem::path(path).filename().string();
-  source << "import of " << (file.empty() ? path : file) << ", " << how << "; " << volume.spacing_note << "; leaf " << options.leaf_mm << " mm; " << frame.note << "; ";
+  source << "import of " << (file.empty() ? path : file) << ", " << how << "; " << volume.spacing_note << "; leaf " << options.leaf_mm << " mm; "
+         << frame.note << "; ";
   if (around > 0)
     source << "periodontium " << options.periodontium_mm << " mm added around the roots";
   else

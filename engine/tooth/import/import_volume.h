@@ -18,7 +18,7 @@ struct VolumeImportOptions {
   ThresholdOptions thresholds;         ///< CT only; automatic where empty
   std::map<int, std::uint8_t> labels;  ///< not empty: the file is a label map, and this is what it means
   double leaf_mm = 0.05;
-  double periodontium_mm = 1.0;        ///< 0 = none
+  double periodontium_mm = 1.0;  ///< 0 = none
   FrameOptions frame;
 };
 

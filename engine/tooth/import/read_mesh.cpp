@@ -93,7 +93,8 @@ ReadMesh read_closed_mesh(const std::string& path) {
   for (const auto v : surface.vertices()) {
     if (surface.is_isolated(v)) continue;
     const Vec3 p = point(surface, v);
-    if (!is_finite(p) || length(p) > 1e6) throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
+    if (!is_finite(p) || length(p) > 1e6)
+      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
     pinched += !surface.is_manifold(v);
     renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(out.mesh.vertices_mm.size());
     out.mesh.vertices_mm.push_back(p);

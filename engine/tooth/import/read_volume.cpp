@@ -121,8 +121,8 @@ double slice_spacing_mm(const std::vector<std::string>& files, const std::string
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (!(std::fabs(gaps[i] - usual) <= 0.02 * usual + 1e-4)) {
       std::ostringstream what;
-      what << "the DICOM series has a hole or uneven slices: " << gaps[i] << " mm between " << slices[i].file << " and " << slices[i + 1].file << ", " << usual
-           << " mm elsewhere";
+      what << "the DICOM series has a hole or uneven slices: " << gaps[i] << " mm between " << slices[i].file << " and " << slices[i + 1].file << ", "
+           << usual << " mm elsewhere";
       throw Error(folder, what.str(), "export the complete series again");
     }
   return usual;
@@ -149,7 +149,8 @@ Volume read_folder(const std::string& folder) {
   names->SetUseSeriesDetails(false);
   names->SetDirectory(folder);
   const auto series = names->GetSeriesUIDs();
-  if (series.size() > 1) throw Error(folder, std::to_string(series.size()) + " DICOM series in one folder", "put the one to import into a folder of its own");
+  if (series.size() > 1)
+    throw Error(folder, std::to_string(series.size()) + " DICOM series in one folder", "put the one to import into a folder of its own");
   if (series.size() == 1) return read_dicom(folder, series[0], names->GetFileNames(series[0]));
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -193,7 +194,8 @@ Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_m
   } catch (const fs::filesystem_error& e) {
     throw Error(path, e.code().message(), "check the path and its permissions");
   }
-  if (v.size.x < 4 || v.size.y < 4 || v.size.z < 4) throw Error(path, "not a volume: fewer than 4 voxels along an axis", "give all slices of the volume");
+  if (v.size.x < 4 || v.size.y < 4 || v.size.z < 4)
+    throw Error(path, "not a volume: fewer than 4 voxels along an axis", "give all slices of the volume");
   for (std::size_t i = 0; i < v.gray.size(); ++i)
     if (!std::isfinite(v.gray[i])) throw Error(path, "voxel " + std::to_string(i) + " is not a number", "export the volume again");
 

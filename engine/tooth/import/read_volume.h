@@ -14,13 +14,13 @@ namespace cavum {
 
 /// A volume in the file's physical frame: see place_mm.
 struct Volume {
-  IVec3 size;                                    ///< voxels
-  std::array<double, 3> spacing_mm{1, 1, 1};     ///< > 0
+  IVec3 size;                                                             ///< voxels
+  std::array<double, 3> spacing_mm{1, 1, 1};                              ///< > 0
   std::array<Vec3, 3> axis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< unit directions of i, j, k
-  Vec3 origin_mm;                                ///< centre of voxel (0,0,0)
-  std::vector<float> gray;                       ///< x fastest
-  std::string spacing_note;                      ///< for Tooth::source: where the spacing comes from
-  bool spacing_assumed = false;                  ///< neither the file nor the user gave one
+  Vec3 origin_mm;                                                         ///< centre of voxel (0,0,0)
+  std::vector<float> gray;                                                ///< x fastest
+  std::string spacing_note;                                               ///< for Tooth::source: where the spacing comes from
+  bool spacing_assumed = false;                                           ///< neither the file nor the user gave one
 
   [[nodiscard]] std::size_t index(IVec3 v) const noexcept {
     return (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(v.y)) * static_cast<std::size_t>(size.x) +

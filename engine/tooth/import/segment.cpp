@@ -170,7 +170,8 @@ Segmentation segment(const Volume& volume, const GrayLevels& levels, const std::
   for (std::size_t i = 0; i < n; ++i) hard[i] = volume.gray[i] > levels.hard;
   const Bodies found = bodies_of(volume.size, hard);
   if (found.voxels.size() < 2 || found.voxels[found.largest()] < 100)
-    throw Error(where, "no tooth found: nothing larger than 100 voxels is brighter than " + std::to_string(levels.hard), "check the volume or --dentin-threshold");
+    throw Error(where, "no tooth found: nothing larger than 100 voxels is brighter than " + std::to_string(levels.hard),
+                "check the volume or --dentin-threshold");
   const auto tooth = found.largest();
   for (std::size_t i = 0; i < n; ++i) hard[i] = found.number[i] == tooth;
 
@@ -220,7 +221,8 @@ Segmentation segment(const Volume& volume, const GrayLevels& levels, const std::
   s.rim_percent = measure_rim_percent(s, volume, air);
 
   // The surface lies half way between the grays of the two sides, so the level depends on who meets whom.
-  const auto enamel_share = smoothed_indicator(s, k_enamel), dentin_share = smoothed_indicator(s, k_dentin), pulp_share = smoothed_indicator(s, k_pulp);
+  const auto enamel_share = smoothed_indicator(s, k_enamel), dentin_share = smoothed_indicator(s, k_dentin),
+             pulp_share = smoothed_indicator(s, k_pulp);
   std::vector<float> level(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double hard_share = enamel_share[i] + dentin_share[i];
@@ -253,7 +255,8 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
   std::set<int> unknown;
   for (std::size_t i = 0; i < s.tissue.size(); ++i) {
     const double value = labels.gray[i];
-    if (value != std::floor(value) || std::fabs(value) > 1e6) throw Error(where, "not a label map: voxel " + std::to_string(i) + " is no whole number", "leave out --map to import a CT volume");
+    if (value != std::floor(value) || std::fabs(value) > 1e6)
+      throw Error(where, "not a label map: voxel " + std::to_string(i) + " is no whole number", "leave out --map to import a CT volume");
     const int label = static_cast<int>(value);
     const auto it = meaning.find(label);
     if (it != meaning.end())
@@ -266,7 +269,8 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
     int shown = 0;
     for (const int u : unknown)
       if (++shown <= 20) list += (list.empty() ? "" : ", ") + std::to_string(u);
-    throw Error(where, "labels without a meaning: " + list + (unknown.size() > 20 ? ", ..." : ""), "name them in --map, as N=enamel, N=dentin, N=pulp or N=air");
+    throw Error(where, "labels without a meaning: " + list + (unknown.size() > 20 ? ", ..." : ""),
+                "name them in --map, as N=enamel, N=dentin, N=pulp or N=air");
   }
   count(s);
   if (s.voxels[k_enamel] + s.voxels[k_dentin] == 0) throw Error(where, "no voxel is enamel or dentin", "check --map");

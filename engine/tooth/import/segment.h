@@ -21,17 +21,17 @@
 
 namespace cavum {
 
-inline constexpr double k_cap_mm = 0.55;     ///< radius: wider than a canal, narrower than the space between roots
+inline constexpr double k_cap_mm = 0.55;  ///< radius: wider than a canal, narrower than the space between roots
 inline constexpr double k_rim_voxels = 2.5;
 
 /// Tissues at the voxels, and smooth fields between them.
 struct Segmentation {
   IVec3 size;
-  std::vector<std::uint8_t> tissue;             ///< TissueId per voxel
-  std::vector<float> solid;                     ///< > 0 in enamel and dentin; its zero is the solid surface
-  std::array<std::uint64_t, 256> voxels{};      ///< per tissue
-  std::uint64_t pulp_bodies = 0;                ///< connected bodies of pulp
-  double rim_percent = 0.0;                     ///< share of the enamel's outer voxels that a dentin voxel covers
+  std::vector<std::uint8_t> tissue;         ///< TissueId per voxel
+  std::vector<float> solid;                 ///< > 0 in enamel and dentin; its zero is the solid surface
+  std::array<std::uint64_t, 256> voxels{};  ///< per tissue
+  std::uint64_t pulp_bodies = 0;            ///< connected bodies of pulp
+  double rim_percent = 0.0;                 ///< share of the enamel's outer voxels that a dentin voxel covers
   std::string note;
 };
 

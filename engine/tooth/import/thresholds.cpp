@@ -62,7 +62,9 @@ std::vector<Peak> clear_peaks(const std::vector<double>& h) {
         merged = true;
       }
     }
-    if (merged) tops.erase(tops.begin() + static_cast<std::ptrdiff_t>(h[static_cast<std::size_t>(tops[worst])] < h[static_cast<std::size_t>(tops[worst + 1])] ? worst : worst + 1));
+    if (merged)
+      tops.erase(tops.begin() + static_cast<std::ptrdiff_t>(
+                                    h[static_cast<std::size_t>(tops[worst])] < h[static_cast<std::size_t>(tops[worst + 1])] ? worst : worst + 1));
   }
   std::vector<Peak> peaks;
   for (std::size_t i = 0; i < tops.size(); ++i) {
@@ -117,25 +119,30 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
   const auto peaks = clear_peaks(smoothed(histogram));
   const auto gray = [&](const Peak& p) { return low + (p.bin + 0.5) * bin_width; };
   const double border = medium_gray(volume);
-  const auto medium = std::min_element(peaks.begin(), peaks.end(), [&](const Peak& a, const Peak& b) { return std::fabs(gray(a) - border) < std::fabs(gray(b) - border); });
+  const auto medium = std::min_element(peaks.begin(), peaks.end(),
+                                       [&](const Peak& a, const Peak& b) { return std::fabs(gray(a) - border) < std::fabs(gray(b) - border); });
   const auto hard_peaks = peaks.end() - medium - 1;
   if (peaks.empty() || hard_peaks < 2)
-    throw Error(where, "no tooth found: fewer than two tissues stand out brighter than the medium (gray " + std::to_string(static_cast<int>(border)) + ")",
+    throw Error(where,
+                "no tooth found: fewer than two tissues stand out brighter than the medium (gray " + std::to_string(static_cast<int>(border)) + ")",
                 "check the volume, or give --dentin-threshold and --enamel-threshold");
   const Peak& enamel = peaks.back();
   const auto dentin = std::max_element(medium + 1, peaks.end() - 1, [](const Peak& a, const Peak& b) { return a.mass < b.mass; });
   // The pulp's own gray, where it is darker than the medium (dry teeth); otherwise it looks like the medium.
-  const double pulp = medium != peaks.begin() ? gray(*std::max_element(peaks.begin(), medium, [](const Peak& a, const Peak& b) { return a.mass < b.mass; })) : gray(*medium);
+  const double pulp = medium != peaks.begin()
+                          ? gray(*std::max_element(peaks.begin(), medium, [](const Peak& a, const Peak& b) { return a.mass < b.mass; }))
+                          : gray(*medium);
   out.hard = options.dentin.value_or((gray(*medium) + gray(*dentin)) / 2);
   out.enamel = options.enamel.value_or((gray(*dentin) + gray(enamel)) / 2);
-  if (!(out.hard < out.enamel)) throw Error("--enamel-threshold", "is not above the dentin threshold " + std::to_string(out.hard), "enamel is the brighter tissue");
+  if (!(out.hard < out.enamel))
+    throw Error("--enamel-threshold", "is not above the dentin threshold " + std::to_string(out.hard), "enamel is the brighter tissue");
   out.enamel_surface = options.dentin ? out.hard : (gray(*medium) + gray(enamel)) / 2;
   out.pulp_surface = options.dentin ? out.hard : (pulp + gray(*dentin)) / 2;
   if (medium != peaks.begin()) out.dark = (pulp + gray(*medium)) / 2;
   const auto whole = [](double v) { return std::lround(v); };
-  note << "gray levels found: medium " << whole(gray(*medium)) << ", pulp " << whole(pulp) << ", dentin " << whole(gray(*dentin)) << ", enamel " << whole(gray(enamel))
-       << "; thresholds " << (options.dentin ? "given" : "automatic") << " dentin " << whole(out.hard) << ", " << (options.enamel ? "given" : "automatic") << " enamel "
-       << whole(out.enamel);
+  note << "gray levels found: medium " << whole(gray(*medium)) << ", pulp " << whole(pulp) << ", dentin " << whole(gray(*dentin)) << ", enamel "
+       << whole(gray(enamel)) << "; thresholds " << (options.dentin ? "given" : "automatic") << " dentin " << whole(out.hard) << ", "
+       << (options.enamel ? "given" : "automatic") << " enamel " << whole(out.enamel);
   out.note = note.str();
   return out;
 }

@@ -63,10 +63,11 @@ std::uint64_t bytes_of_type(std::string type) {
   type = lower(type);
   if (type.starts_with("met_")) type = type.substr(4);
   static const std::map<std::string, std::uint64_t> known{
-      {"char", 1}, {"uchar", 1}, {"signed char", 1}, {"unsigned char", 1}, {"int8", 1}, {"uint8", 1}, {"int8_t", 1}, {"uint8_t", 1},
-      {"short", 2}, {"ushort", 2}, {"short int", 2}, {"unsigned short", 2}, {"signed short", 2}, {"int16", 2}, {"uint16", 2}, {"int16_t", 2}, {"uint16_t", 2},
-      {"int", 4}, {"uint", 4}, {"unsigned int", 4}, {"signed int", 4}, {"int32", 4}, {"uint32", 4}, {"int32_t", 4}, {"uint32_t", 4}, {"float", 4},
-      {"double", 8}, {"long", 4}, {"ulong", 4}, {"int64", 8}, {"uint64", 8}, {"long_long", 8}, {"ulong_long", 8}, {"longlong", 8}};
+      {"char", 1},    {"uchar", 1},   {"signed char", 1}, {"unsigned char", 1}, {"int8", 1},           {"uint8", 1},        {"int8_t", 1},
+      {"uint8_t", 1}, {"short", 2},   {"ushort", 2},      {"short int", 2},     {"unsigned short", 2}, {"signed short", 2}, {"int16", 2},
+      {"uint16", 2},  {"int16_t", 2}, {"uint16_t", 2},    {"int", 4},           {"uint", 4},           {"unsigned int", 4}, {"signed int", 4},
+      {"int32", 4},   {"uint32", 4},  {"int32_t", 4},     {"uint32_t", 4},      {"float", 4},          {"double", 8},       {"long", 4},
+      {"ulong", 4},   {"int64", 8},   {"uint64", 8},      {"long_long", 8},     {"ulong_long", 8},     {"longlong", 8}};
   const auto it = known.find(type);
   return it == known.end() ? 0 : it->second;
 }
@@ -75,7 +76,9 @@ void compare(const std::string& header, const std::string& data, std::uint64_t s
   if (!fs::is_regular_file(data)) throw Error(header, "its data file '" + data + "' is missing", "put it beside the header");
   const auto held = static_cast<std::uint64_t>(fs::file_size(data));
   if (held < skip + needed)
-    throw Error(data, "truncated: " + header + " promises " + std::to_string(needed) + " bytes of data, " + std::to_string(held > skip ? held - skip : 0) + " are there",
+    throw Error(data,
+                "truncated: " + header + " promises " + std::to_string(needed) + " bytes of data, " + std::to_string(held > skip ? held - skip : 0) +
+                    " are there",
                 "use a complete copy");
 }
 
@@ -129,7 +132,8 @@ void check_nifti(const std::string& path) {
   std::memcpy(dim, b.data() + 40, sizeof dim);
   std::memcpy(&bits, b.data() + 72, 2);
   std::memcpy(&offset, b.data() + 108, 4);
-  if (dim[0] < 1 || dim[0] > 7 || bits < 1 || !(offset >= 0 && offset < 1e9f)) throw Error(path, "impossible values in the NIfTI header", "use an intact file");
+  if (dim[0] < 1 || dim[0] > 7 || bits < 1 || !(offset >= 0 && offset < 1e9f))
+    throw Error(path, "impossible values in the NIfTI header", "use an intact file");
   std::uint64_t needed = static_cast<std::uint64_t>(bits);
   for (int i = 1; i <= dim[0]; ++i) needed *= static_cast<std::uint64_t>(std::max<std::int16_t>(dim[i], 1));
   compare(path, path, static_cast<std::uint64_t>(offset), needed / 8);

@@ -24,7 +24,9 @@ const Tooth& molar() {
   return tooth;
 }
 
-double volume_mm3(const Tooth& tooth, std::uint8_t id) { return static_cast<double>(tooth.octree.count_leaves()[id]) * tooth.octree.leaf_volume_mm3(); }
+double volume_mm3(const Tooth& tooth, std::uint8_t id) {
+  return static_cast<double>(tooth.octree.count_leaves()[id]) * tooth.octree.leaf_volume_mm3();
+}
 
 struct Range {
   double low = 1e9, high = -1e9;

@@ -142,7 +142,8 @@ TEST(ToothFile, DamagedOctreeBytesNeverCrash) {
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
     Bytes bytes = out.bytes();
-    for (std::uint64_t n = 1 + random.below(3); n > 0; --n) bytes[random.below(i % 2 ? 200 : bytes.size())] ^= static_cast<std::uint8_t>(1u << random.below(8));
+    for (std::uint64_t n = 1 + random.below(3); n > 0; --n)
+      bytes[random.below(i % 2 ? 200 : bytes.size())] ^= static_cast<std::uint8_t>(1u << random.below(8));
     if (i % 5 == 0) bytes.resize(random.below(bytes.size()));
     ByteReader in(bytes, "damaged");
     try {

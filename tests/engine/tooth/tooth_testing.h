@@ -1,12 +1,12 @@
 // What several tests of the tooth need: fresh random seeds that are printed, and independent checks of meshes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
-#include <map>
 #include <random>
-#include <utility>
+#include <vector>
 
 #include "engine/tooth/surface_mesh.h"
 
@@ -22,14 +22,12 @@ inline std::uint64_t fresh_seed() {
 
 /// Every edge is used once in each direction: closed, 2-manifold along edges, and consistently oriented.
 inline bool is_closed_and_oriented(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  std::vector<std::uint64_t> edges;
   for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
-  for (const auto& [edge, uses] : edges) {
-    const auto back = edges.find({edge.second, edge.first});
-    if (uses != 1 || back == edges.end() || back->second != 1) return false;
-  }
-  return !edges.empty();
+    for (std::size_t i = 0; i < 3; ++i) edges.push_back(std::uint64_t{t[i]} << 32 | t[(i + 1) % 3]);
+  std::sort(edges.begin(), edges.end());
+  if (edges.empty() || std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
+  return std::all_of(edges.begin(), edges.end(), [&](std::uint64_t e) { return std::binary_search(edges.begin(), edges.end(), e << 32 | e >> 32); });
 }
 
 /// Bodies of one tissue, connected by faces.

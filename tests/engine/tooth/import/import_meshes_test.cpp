@@ -50,7 +50,8 @@ TEST(ImportMeshes, DistancesAreExactOnFacesAndBlindToTheJunction) {
       ASSERT_NEAR(done.tooth.octree.sample({3 + off, u, -3 + u}, cursor).distance_mm, off, 0.0012);
       ASSERT_NEAR(done.tooth.octree.sample({u, u, -1 + off}, cursor).distance_mm, -0.14, 1e-6);
     }
-    for (const double off : {-0.06, 0.0, 0.04}) ASSERT_NEAR(done.tooth.octree.sample({0.5 + off, u / 8, -3.5 + u / 4}, cursor).distance_mm, -off, 0.0012);
+    for (const double off : {-0.06, 0.0, 0.04})
+      ASSERT_NEAR(done.tooth.octree.sample({0.5 + off, u / 8, -3.5 + u / 4}, cursor).distance_mm, -off, 0.0012);
   }
 }
 
@@ -79,7 +80,8 @@ TEST(ImportMeshes, NestedBallsGiveShellsOfAnalyticVolume) {
   TriangleMesh inner = ball({0, 0, 0}, 2.5, 60), hollow = ball({0, 0, -0.2}, 1.0, 40);
   turn_inside_out(inner);
   turn_inside_out(hollow);
-  const MeshPaths paths{write_obj(folder / "e.obj", together(ball({0, 0, 0}, 3.0, 60), inner)), write_obj(folder / "d.obj", together(ball({0, 0, 0}, 2.5, 60), hollow)),
+  const MeshPaths paths{write_obj(folder / "e.obj", together(ball({0, 0, 0}, 3.0, 60), inner)),
+                        write_obj(folder / "d.obj", together(ball({0, 0, 0}, 2.5, 60), hollow)),
                         write_obj(folder / "p.obj", ball({0, 0, -0.2}, 1.0, 40))};
   MeshImportOptions o = options(0.08);
   o.frame.occlusal_axis = Vec3{0, 0, 1};
@@ -128,7 +130,11 @@ TEST(ImportMeshes, UnusableFilesAreErrors) {
   std::ofstream(folder / "text.stl") << "this is no mesh";
   std::ofstream(folder / "nan.obj") << "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   for (const auto& bad : {folder / "missing.stl", folder / "text.stl", folder / "nan.obj"})
-    EXPECT_NE(error_of([&] { (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2)); }).find(bad.filename().string()), std::string::npos) << bad;
+    EXPECT_NE(error_of([&] {
+                (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2));
+              }).find(bad.filename().string()),
+              std::string::npos)
+        << bad;
   EXPECT_NE(error_of([&] { (void)import_meshes(paths, options(0.001)); }).find("1024"), std::string::npos);
   MeshImportOptions parallel = options(0.2);
   parallel.frame.mesial_axis = Vec3{0, 0, 1};
@@ -176,7 +182,8 @@ TEST(ImportMeshes, TheMolarSurvivesExportAndImport) {
   MeshImportOptions o = options(0.1, 1.0);
   o.frame.occlusal_axis = Vec3{0, 0, 1};
   const auto again = import_meshes(paths, o);
-  for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp}) EXPECT_NEAR(volume_mm3(again.tooth, id), volume_mm3(molar, id), 0.015 * volume_mm3(molar, id));
+  for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp})
+    EXPECT_NEAR(volume_mm3(again.tooth, id), volume_mm3(molar, id), 0.015 * volume_mm3(molar, id));
 }
 
 }  // namespace

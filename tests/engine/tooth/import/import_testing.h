@@ -114,7 +114,10 @@ struct Voxels {
   int nx, ny, nz;
   double spacing_mm;
   std::vector<std::uint8_t> gray;
-  [[nodiscard]] std::size_t index(int x, int y, int z) const { return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x); }
+  [[nodiscard]] std::size_t index(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(nx) +
+           static_cast<std::size_t>(x);
+  }
 };
 
 inline void write_bytes(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
@@ -133,8 +136,9 @@ inline std::string write_mhd(const fs::path& folder, const Voxels& v, const std:
 inline std::string write_nrrd(const fs::path& path, const Voxels& v) {
   std::ofstream out(path, std::ios::binary);
   const double s = v.spacing_mm;
-  out << "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: " << v.nx << ' ' << v.ny << ' ' << v.nz << "\nspace directions: (" << -s
-      << ",0,0) (0," << -s << ",0) (0,0," << s << ")\nkinds: domain domain domain\nencoding: raw\nspace origin: (10,20,30)\n\n";
+  out << "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: " << v.nx << ' ' << v.ny << ' ' << v.nz
+      << "\nspace directions: (" << -s << ",0,0) (0," << -s << ",0) (0,0," << s
+      << ")\nkinds: domain domain domain\nencoding: raw\nspace origin: (10,20,30)\n\n";
   out.write(reinterpret_cast<const char*>(v.gray.data()), static_cast<std::streamsize>(v.gray.size()));
   return path.string();
 }
@@ -190,7 +194,8 @@ inline void write_dicom_slice(const fs::path& path, const Voxels& v, int z) {
   };
   const auto text = [](const std::string& s) { return std::vector<std::uint8_t>(s.begin(), s.end()); };
   const auto us = [](int n) { return std::vector<std::uint8_t>{static_cast<std::uint8_t>(n & 255), static_cast<std::uint8_t>(n >> 8)}; };
-  const std::string instance = "1.2.826.0.1.3680043.9.9999.1." + std::to_string(z + 1), ct = "1.2.840.10008.5.1.4.1.1.2", s = std::to_string(v.spacing_mm);
+  const std::string instance = "1.2.826.0.1.3680043.9.9999.1." + std::to_string(z + 1), ct = "1.2.840.10008.5.1.4.1.1.2",
+                    s = std::to_string(v.spacing_mm);
   std::vector<std::uint8_t> meta;
   element(meta, 2, 1, "OB", {0, 1});
   element(meta, 2, 2, "UI", text(ct));

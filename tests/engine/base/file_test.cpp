@@ -1,0 +1,68 @@
+#include "engine/base/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "tests/engine/support/engine_testing.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_engine;
+
+TEST(File, WritesAndReadsBackEveryByte) {
+  const Folder folder;
+  Bytes bytes(200000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 7 + i / 251);
+  write_file(folder.file("a"), bytes);
+  EXPECT_EQ(read_file(folder.file("a")), bytes);
+  write_text_file(folder.file("a"), "short");
+  EXPECT_EQ(read_text_file(folder.file("a")), "short");
+  write_file(folder.file("empty"), {});
+  EXPECT_TRUE(read_file(folder.file("empty")).empty());
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.part")));
+}
+
+TEST(File, MissingFileAndFolderAreErrorsThatNameThem) {
+  const Folder folder;
+  EXPECT_EQ(error_of([&] { (void)read_file(folder.file("none")); }).rfind(folder.file("none") + ": ", 0), 0u);
+  EXPECT_EQ(error_of([&] { (void)read_file(folder.path().string()); }).rfind(folder.path().string() + ": is a folder", 0), 0u);
+}
+
+TEST(File, FolderThatCannotBeWrittenLeavesTheOldFileIntact) {
+  const Folder folder;
+  EXPECT_NE(error_of([&] { write_text_file(folder.file("no/such/folder/a"), "new"); }), "");
+  write_text_file(folder.file("a"), "old");
+  if (::geteuid() == 0) {
+    // root may write everywhere: a folder in the place of the temporary file stops it as well
+    std::filesystem::create_directory(folder.file("a.part"));
+  } else {
+    std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  }
+  EXPECT_EQ(error_of([&] { write_text_file(folder.file("a"), "new"); }).rfind(folder.file("a") + ": ", 0), 0u);
+  EXPECT_EQ(read_text_file(folder.file("a")), "old");
+}
+
+TEST(File, RunningOutOfRoomLeavesTheOldFileIntact) {
+  const Folder folder;
+  write_text_file(folder.file("a"), "old");
+  // The largest file this process may write stands in for a full disk: write() fails half way.
+  struct rlimit was {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &was), 0);
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  struct rlimit small = was;
+  small.rlim_cur = 4096;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string error = error_of([&] { write_file(folder.file("a"), Bytes(100000)); });
+  ::setrlimit(RLIMIT_FSIZE, &was);
+  std::signal(SIGXFSZ, ignored);
+  EXPECT_EQ(error.rfind(folder.file("a") + ": ", 0), 0u) << error;
+  EXPECT_EQ(read_text_file(folder.file("a")), "old");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.part"))) << "half a file was left behind";
+}
+
+}  // namespace
+}  // namespace cavum

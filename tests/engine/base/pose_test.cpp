@@ -1,0 +1,64 @@
+#include "engine/base/pose.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/support/engine_testing.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_engine;
+
+void expect_near(Vec3 a, Vec3 b, double tolerance) { EXPECT_LE(length(a - b), tolerance); }
+
+/// v turned by unit quaternion q as q v q*, multiplied out: a second way to the same rotation.
+Vec3 sandwich(Quat q, Vec3 v) {
+  const Vec3 u{q.x, q.y, q.z};
+  const Vec3 t = cross(u, v) * 2.0;
+  return v + t * q.w + cross(u, t);
+}
+
+TEST(Pose, RotationMatricesAreOrthonormalAndRightHanded) {
+  Random random(drawn_seed("Pose.RotationMatricesAreOrthonormalAndRightHanded"));
+  for (int i = 0; i < 2000; ++i) {
+    const Mat3 m = rotation(random_rotation(random));
+    for (const Vec3 row : {m.row_x, m.row_y, m.row_z}) EXPECT_NEAR(length(row), 1.0, 1e-14);
+    EXPECT_NEAR(dot(m.row_x, m.row_y), 0, 1e-14);
+    EXPECT_NEAR(dot(m.row_y, m.row_z), 0, 1e-14);
+    EXPECT_NEAR(dot(m.row_z, m.row_x), 0, 1e-14);
+    expect_near(cross(m.row_x, m.row_y), m.row_z, 1e-14);
+    const Vec3 v = random_direction(random);
+    expect_near(m.transposed(m * v), v, 1e-14);
+  }
+}
+
+TEST(Pose, MatrixTurnsAsTheQuaternionDoes) {
+  Random random(drawn_seed("Pose.MatrixTurnsAsTheQuaternionDoes"));
+  for (int i = 0; i < 2000; ++i) {
+    const Quat q = random_rotation(random);
+    const Vec3 v = random_direction(random);
+    expect_near(rotation(q) * v, sandwich(q, v), 1e-14);
+  }
+  const double h = std::sqrt(0.5);  // a quarter turn about z carries x to y
+  expect_near(rotation({h, 0, 0, h}) * Vec3{1, 0, 0}, {0, 1, 0}, 1e-15);
+}
+
+TEST(Pose, RotationBetweenCarriesOneDirectionOntoTheOther) {
+  Random random(drawn_seed("Pose.RotationBetweenCarriesOneDirectionOntoTheOther"));
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 from = random_direction(random), to = random_direction(random);
+    expect_near(rotation(rotation_between(from, to)) * from, to, 1e-9);
+  }
+  for (const Vec3 from : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    expect_near(rotation(rotation_between(from, -from)) * from, -from, 1e-12);
+    expect_near(rotation(rotation_between(from, from)) * from, from, 1e-15);
+  }
+}
+
+TEST(Pose, ShortQuaternionBecomesNoRotation) {
+  EXPECT_EQ(normalized(Quat{0, 0, 0, 0}), Quat{});
+  EXPECT_EQ(normalized(Quat{NAN, 0, 0, 0}), Quat{});
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,191 @@
+// What the tests of the engine's rooms share: seeds that are drawn anew and printed, the shipped points and
+// materials, teeth made from a closed-form signed distance, and a testing rig that turns poses into ticks.
+#pragma once
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/random.h"
+#include "engine/servo/servo.h"
+
+namespace cavum::testing_engine {
+
+/// Seed drawn anew in every run, or taken from CAVUM_TEST_SEED; prints it.
+inline std::uint64_t drawn_seed(const char* test) {
+  const char* fixed = std::getenv("CAVUM_TEST_SEED");
+  std::random_device device;
+  const std::uint64_t seed = fixed != nullptr ? std::strtoull(fixed, nullptr, 10) : static_cast<std::uint64_t>(device()) << 32 | device();
+  std::printf("%s: CAVUM_TEST_SEED=%llu\n", test, static_cast<unsigned long long>(seed));
+  return seed;
+}
+
+/// The text of the Error that `action` throws; empty when it throws none.
+template <class Action>
+std::string error_of(const Action& action) {
+  try {
+    action();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+/// A folder that goes away with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "cavum-test-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Path of a file in data/.
+inline std::string data_path(const std::string& name) {
+#ifdef CAVUM_SOURCE_DIR
+  return std::string(CAVUM_SOURCE_DIR) + "/data/" + name;
+#else
+  return (std::filesystem::path(__FILE__).parent_path() / "../../../data" / name).string();
+#endif
+}
+
+inline std::string point_text(const std::string& name) { return read_text_file(data_path("points/" + name + ".toml")); }
+inline DiamondPoint diamond_point(const std::string& name) { return parse_diamond_point(point_text(name), name + ".toml"); }
+
+/// Names of the shipped diamond points, sorted.
+inline std::vector<std::string> point_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(data_path("points")))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+inline ForceModel shipped_model(const std::string& name) { return parse_force_model(read_text_file(data_path("materials/" + name + ".toml")), name + ".toml"); }
+
+/// One k, c and τ for enamel and dentin; pulp stays a cavity.
+inline ForceModel hard_model(double k_n_per_mm, double c_n_s_per_mm, double tau_s = 2.02) {
+  ForceModel model = shipped_model("paper");
+  for (const char* name : {"enamel", "dentin"}) model.materials.find(name)->second = {{k_n_per_mm, c_n_s_per_mm}, tau_s};
+  return model;
+}
+
+inline Vec3 random_direction(Random& random) {
+  for (;;) {
+    const Vec3 v{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const double n = length(v);
+    if (n > 0.1 && n <= 1) return v / n;
+  }
+}
+inline Quat random_rotation(Random& random) {
+  for (;;) {
+    const Quat q{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const double n2 = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    if (n2 > 0.01 && n2 <= 1) return normalized(q);
+  }
+}
+
+/// Solid tissue where `distance_mm` (exact, negative inside) is negative, in a grid around low..high.
+inline Tooth tooth_of(const std::function<double(Vec3)>& distance_mm, Vec3 low, Vec3 high, double leaf_mm,
+                      const std::function<std::uint8_t(Vec3)>& tissue = [](Vec3) { return k_enamel; }) {
+  Tooth tooth;
+  TissueGrid grid;
+  const auto leaves = [&](double mm) { return static_cast<std::int32_t>(std::ceil(mm / leaf_mm - 1e-9)); };
+  grid.allocate({leaves(high.x - low.x), leaves(high.y - low.y), leaves(high.z - low.z)}, leaf_mm, low);
+  for (std::int32_t z = 0; z < grid.size.z; ++z)
+    for (std::int32_t y = 0; y < grid.size.y; ++y)
+      for (std::int32_t x = 0; x < grid.size.x; ++x) {
+        const Vec3 at = grid.centre_mm({x, y, z});
+        const double d = distance_mm(at);
+        const auto i = grid.index({x, y, z});
+        if (d < 0) grid.tissue[i] = tissue(at);
+        grid.distance[i] = encode_distance(d / leaf_mm);
+      }
+  grid.make_consistent(tooth.tissues);
+  tooth.octree = Octree(grid, tooth.tissues);
+  tooth.name = "test body";
+  return tooth;
+}
+
+/// Half space below the plane through `on_it` with outward `normal`, cut to a cube of 2·`half_mm`.
+inline Tooth half_space_tooth(Vec3 normal, Vec3 on_it, double half_mm, double leaf_mm) {
+  const Vec3 h{half_mm, half_mm, half_mm};
+  return tooth_of([=](Vec3 p) { return dot(p - on_it, normal); }, -h, h, leaf_mm);
+}
+
+/// A candidate's hands without a hand: the pose goes straight into the tick.
+struct Rig {
+  ServoModel model;
+  ServoState state;
+  TickInput input;
+  double tick_s = k_tick_s;
+
+  Rig(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force, Vec3 first_tip_mm, double dt_s = k_tick_s) : tick_s(dt_s) {
+    ServoConfig config;
+    config.tick_s = dt_s;
+    model = make_servo_model(tooth, tray, force, config);
+    state = make_servo_state(model, tooth, first_tip_mm);
+  }
+  TickOutput tick(Vec3 tip_mm, double pedal, Quat rotation = {}, std::uint16_t flags = k_stylus_fresh | k_pedal_fresh) {
+    input = make_tick_input({tip_mm, rotation}, pedal, flags, input.point, input);
+    return step(model, state, input);
+  }
+  /// Straight from `from` to `to` at `speed_mm_s`; returns the last output.
+  TickOutput travel(Vec3 from, Vec3 to, double speed_mm_s, double pedal = 0, Quat rotation = {}) {
+    const int n = std::max(1, static_cast<int>(length(to - from) / (speed_mm_s * tick_s) + 0.5));
+    TickOutput out;
+    for (int i = 1; i <= n; ++i) out = tick(from + (to - from) * (static_cast<double>(i) / n), pedal, rotation);
+    return out;
+  }
+  /// Handpiece turning at full speed, out of contact.
+  void spin_up(Vec3 tip_mm, Quat rotation = {}) {
+    for (double t = 0; t < 2.0; t += tick_s) (void)tick(tip_mm, 1.0, rotation);
+  }
+};
+
+/// Volume removed between two states of a tooth, mm³, counted leaf by leaf.
+inline double removed_mm3(const Octree& before, const Octree& after) {
+  const auto a = before.count_leaves(), b = after.count_leaves();
+  double leaves = 0;
+  for (std::size_t i = 1; i < a.size(); ++i) leaves += static_cast<double>(a[i]) - static_cast<double>(b[i]);
+  return leaves * before.leaf_volume_mm3();
+}
+
+/// Signed distance, mm, from the whole point at a pose to the plane {p: dot(p, normal) = height}: the least height of
+/// its profile over the plane, found on a dense walk of the profile (closed form around the axis).
+inline double height_over_plane_mm(const DiamondPoint& point, Vec3 tip_mm, Quat rotation_q, Vec3 normal, double plane_mm) {
+  const Vec3 axis = rotation(rotation_q) * Vec3{0, 0, 1};
+  const double along = dot(axis, normal), across = std::sqrt(std::max(0.0, 1 - along * along));
+  double least = 0;  // the tip
+  for (const auto& p : point.profile.walk(0.001, point.profile.length_mm())) least = std::min(least, p.at.z_mm * along - p.at.r_mm * across);
+  // walk() leaves out the ends of the pieces, which is where sharp edges are
+  for (const auto& s : point.profile.segments()) least = std::min(least, s.end.z_mm * along - s.end.r_mm * across);
+  return dot(tip_mm, normal) - plane_mm + least;
+}
+
+}  // namespace cavum::testing_engine

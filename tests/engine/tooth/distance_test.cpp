@@ -1,0 +1,79 @@
+#include "engine/tooth/distance.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "engine/base/random.h"
+#include "tests/engine/tooth/tooth_testing.h"
+
+namespace cavum {
+namespace {
+
+// Planes at any slope and offset, also a hair's breadth from a leaf's centre, where labels alone say least.
+TEST(SurfaceFromField, PlanesOfAnySlopeAreWithinOneMicrometre) {
+  Random random(testing_tooth::fresh_seed());
+  for (int round = 0; round < 60; ++round) {
+    Vec3 n = normalized({random.normal(), random.normal(), random.normal()});
+    if (round % 6 == 0) n = {0, 0, 1};
+    const double offset = round % 12 == 0 ? 0.025 + random.uniform(-0.001, 0.001) : random.uniform(-0.05, 0.05);
+    TissueGrid grid;
+    grid.allocate({30, 30, 30}, 0.05, {-0.75, -0.75, -0.75});
+    std::vector<float> field(grid.count());
+    const auto inner = [](std::int32_t v) { return v >= 1 && v < 29; };
+    for (std::int32_t z = 0; z < 30; ++z)
+      for (std::int32_t y = 0; y < 30; ++y)
+        for (std::int32_t x = 0; x < 30; ++x) {
+          const auto i = grid.index({x, y, z});
+          const double d = dot(n, grid.centre_mm({x, y, z})) - offset;
+          field[i] = static_cast<float>(inner(x) && inner(y) && inner(z) ? d : std::max(d, 0.01));
+          if (field[i] < 0) grid.tissue[i] = k_dentin;
+        }
+    set_surface_from_field(grid, standard_tissues(), field);
+    for (std::int32_t z = 8; z < 22; ++z)
+      for (std::int32_t y = 8; y < 22; ++y)
+        for (std::int32_t x = 8; x < 22; ++x) {
+          const double d = dot(n, grid.centre_mm({x, y, z})) - offset;
+          if (std::fabs(d) < 0.099) {
+            ASSERT_NEAR(decode_distance(grid.distance[grid.index({x, y, z})]) * 0.05, d, 0.001) << "round " << round;
+          }
+        }
+  }
+}
+
+TEST(CheckLattice, RefusesWhatTheOctreeCannotHold) {
+  EXPECT_NO_THROW(check_lattice({1024, 1, 1}, 0.05, "test"));
+  EXPECT_THROW(check_lattice({1025, 1, 1}, 0.05, "test"), Error);
+  EXPECT_THROW(check_lattice({10, 0, 1}, 0.05, "test"), Error);
+  EXPECT_THROW(check_lattice({10, 10, 10}, -0.05, "test"), Error);
+}
+
+TEST(NearestMarked, AgreesWithBruteForce) {
+  Random random(testing_tooth::fresh_seed());
+  for (int round = 0; round < 20; ++round) {
+    const IVec3 size{static_cast<std::int32_t>(3 + random.below(30)), static_cast<std::int32_t>(3 + random.below(12)),
+                     static_cast<std::int32_t>(3 + random.below(12))};
+    std::vector<std::uint8_t> marked(static_cast<std::size_t>(size.x * size.y * size.z));
+    const auto rarity = 1 + random.below(200);
+    for (auto& m : marked) m = random.below(rarity) == 0;
+    const double radius = round % 2 ? 1e3 : random.uniform(1, 8);
+    const auto nearest = nearest_marked(size, marked, radius);
+    const auto place = [&](std::size_t i) {
+      const auto n = static_cast<std::int32_t>(i);
+      return IVec3{n % size.x, n / size.x % size.y, n / (size.x * size.y)};
+    };
+    const auto squared = [&](std::size_t a, std::size_t b) {
+      const IVec3 d = place(a) - place(b);
+      return d.x * d.x + d.y * d.y + d.z * d.z;
+    };
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+      int best = -1;
+      for (std::size_t j = 0; j < marked.size(); ++j)
+        if (marked[j] && (best < 0 || squared(i, j) < best)) best = squared(i, j);
+      if (best > radius * radius) best = -1;
+      ASSERT_EQ(nearest[i] < 0 ? -1 : squared(i, static_cast<std::size_t>(nearest[i])), best);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cavum

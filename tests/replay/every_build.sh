@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# every_build.sh CAVUM SOURCE_DIR REPLAYER...
+# Records the three simulated candidates with CAVUM, takes the recorded exams in tests/replay/sessions too, and
+# lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All must verify and
+# print the same lines.
+set -euo pipefail
+cavum=$1 source=$2
+shift 2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export CAVUM_HOME=$work/home
+for who in expert novice perforator; do
+  "$cavum" exam "$source/data/scenarios/molar_access.toml" --candidate replay --operator "$who" --out "$work/$who.cavum" --quiet >/dev/null
+done
+cp "$source"/tests/replay/sessions/*.cavum "$work/"
+cd "$work"
+failed=0
+for replayer in "$@"; do
+  echo "== ${replayer##*/build/}"
+  "$replayer" ./*.cavum >"$work/lines" || { failed=1; cat "$work/lines"; }
+  if [ -f "$work/first" ]; then
+    diff "$work/first" "$work/lines" || { echo "this build gives other bits"; failed=1; }
+  else
+    cp "$work/lines" "$work/first"
+    cat "$work/first"
+  fi
+done
+exit $failed

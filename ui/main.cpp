@@ -1,0 +1,36 @@
+// The one binary: `cavum VERB ...`. Exit 0 done, 1 done and the answer is no, 2 usage or unreadable input.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "engine/servo/servo.h"
+#include "ui/verbs.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
+  app.set_version_flag("--version", std::string("cavum ") + CAVUM_VERSION + ", physics " + std::to_string(cavum::k_physics_version));
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+  int exit_code = 0;
+  cavum::add_tooth_verbs(app, exit_code);
+  cavum::add_scenario_verbs(app, exit_code);
+  cavum::add_exam_verbs(app, exit_code);
+  cavum::add_replay_verbs(app, exit_code);
+  cavum::add_grade_verbs(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& e) {
+    return app.exit(e);
+  } catch (const CLI::CallForAllHelp& e) {
+    return app.exit(e);
+  } catch (const CLI::CallForVersion& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "cavum: command line: %s; see `cavum --help` or `cavum VERB --help`\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "cavum: %s\n", e.what());
+    return 2;
+  }
+  return exit_code;
+}
