@@ -22,7 +22,9 @@ std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
 }
 
 std::string wall_text(std::size_t wall) {
-  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal opening" : wall == static_cast<std::size_t>(Wall::floor) ? "the floor" : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
+  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal opening"
+         : wall == static_cast<std::size_t>(Wall::floor) ? "the floor"
+                                                         : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
 }
 
 struct Loss {
@@ -54,7 +56,8 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = figure(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) + " at " + wall_text(wall) + " (" + figure(most, 2) + " mm3)";
+  loss.text = figure(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) +
+              " at " + wall_text(wall) + " (" + figure(most, 2) + " mm3)";
   if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
   return loss;
 }
@@ -71,7 +74,8 @@ Loss at_walls(const Result& r, std::size_t first, std::size_t end, bool over) {
   const WallMeasures& m = r.shape.wall[worst];
   const Trace& t = over ? m.worst_over : m.worst_under;
   Loss loss{{}, t};
-  loss.text = over ? wall_text(worst) + " overcut by up to " + figure(m.max_over_mm, 2) + " mm" : wall_text(worst) + " left up to " + figure(m.max_under_mm, 2) + " mm thick";
+  loss.text = over ? wall_text(worst) + " overcut by up to " + figure(m.max_over_mm, 2) + " mm"
+                   : wall_text(worst) + " left up to " + figure(m.max_under_mm, 2) + " mm thick";
   if (t.tick >= 0) loss.text += ", at " + place(t.site_mm) + ", cut at " + when(t);
   return loss;
 }
@@ -106,10 +110,12 @@ Loss loss_of(const Result& r, const std::string& metric) {
     return {"no faulty breakthrough seen in the force", {}};
   }
   if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
-  if (metric == "force_peak_n") return {"pressed hardest at " + when(r.motion.force_peak) + " at " + place(r.motion.force_peak.site_mm), r.motion.force_peak};
+  if (metric == "force_peak_n")
+    return {"pressed hardest at " + when(r.motion.force_peak) + " at " + place(r.motion.force_peak.site_mm), r.motion.force_peak};
   if (metric == "force_over_limit_s" && r.motion.first_over_limit.tick >= 0)
     return {"above the limit first at " + when(r.motion.first_over_limit), r.motion.first_over_limit};
-  if (metric == "violations" && r.progress.first_violation.tick >= 0) return {"first at " + when(r.progress.first_violation), r.progress.first_violation};
+  if (metric == "violations" && r.progress.first_violation.tick >= 0)
+    return {"first at " + when(r.progress.first_violation), r.progress.first_violation};
   if (metric == "depth_error_mm" && r.shape.depth_mm)
     return {"depth " + figure(*r.shape.depth_mm, 2) + " mm instead of " + figure(r.shape.target_depth_mm, 2) + " mm", {}};
   if (metric == "outline_width_error_mm" && r.shape.width_mm)
@@ -136,7 +142,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
     return out;
   }
   const double share = std::clamp((*v.value - c.zero) / (c.full - c.zero), 0.0, 1.0);
-  out.points = c.points * share;
+  out.points = c.points * share + 0.0;  // never -0
   out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
   if (share >= 1.0 && !out.critical_failed) {
     out.reason = "full marks";

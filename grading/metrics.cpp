@@ -68,7 +68,8 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   if (metric == "removed_mm3") return of_volume(r.volumes.removed);
   if (metric == "outside_mm3") return zone(Zone::none);
   if (metric == "protected_mm3") return zone(Zone::protected_);
-  if (metric == "dice") return {r.volumes.dice, (r.volumes.removed.bound_mm3 + r.volumes.target.bound_mm3) / (r.volumes.removed.mm3 + r.volumes.target.mm3)};
+  if (metric == "dice")
+    return {r.volumes.dice, (r.volumes.removed.bound_mm3 + r.volumes.target.bound_mm3) / (r.volumes.removed.mm3 + r.volumes.target.mm3)};
   if (metric == "leeway_sides_mm3") return zone(Zone::leeway_sides);
   if (metric == "leeway_bottom_mm3") return zone(Zone::leeway_bottom);
   if (metric == "container_sides_mm3") return zone(Zone::container_sides);

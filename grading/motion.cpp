@@ -5,9 +5,7 @@
 
 namespace cavum {
 
-double force_n(const TickRecord& r) noexcept {
-  return length({r.rendered_un[0] * 1e-6, r.rendered_un[1] * 1e-6, r.rendered_un[2] * 1e-6});
-}
+double force_n(const TickRecord& r) noexcept { return length({r.rendered_un[0] * 1e-6, r.rendered_un[1] * 1e-6, r.rendered_un[2] * 1e-6}); }
 
 MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks) {
   MotionMeasures m;

@@ -58,7 +58,8 @@ Vec3 tip_of(const TickInput& in) { return {in.tip_nm[0] * 1e-6, in.tip_nm[1] * 1
 
 }  // namespace
 
-std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> inputs, std::span<const TickRecord> records, const DetectorSettings& s) {
+std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> inputs, std::span<const TickRecord> records,
+                                                   const DetectorSettings& s) {
   std::vector<PerforationEvent> events;
   const auto n = static_cast<std::int64_t>(inputs.size());
   const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
@@ -81,10 +82,10 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
   Visits visits(s.visited_mm);
   RunningMedian median(at(s.level_ticks));
   std::int64_t down_since = -1, quiet_until = 0, turning_since = 0;
-  bool armed = false;          // the force had a level worth falling from
-  double level = 0;            // frozen while the force is down
+  bool armed = false;                                  // the force had a level worth falling from
+  double level = 0;                                    // frozen while the force is down
   std::deque<std::pair<std::int64_t, double>> levels;  // recent medians that no later one exceeds, falling
-  Vec3 direction;              // of the push while the level held
+  Vec3 direction;                                      // of the push while the level held
   for (std::int64_t i = 0; i < n; ++i) {
     const TickRecord& r = records[at(i)];
     visits.note(tip_of(inputs[at(i)]), i);
@@ -134,7 +135,8 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
     // what the tip would have gone in that time anyway
     const std::int64_t earlier = std::max<std::int64_t>(turning_since, onset - (i - onset));
     const double usual = std::max(0.0, -dot(from - tip_of(inputs[at(earlier)]), direction));
-    const bool deeper = advance >= s.least_advance_mm && advance > usual && advance >= s.straightness * length(way) && way.z <= s.withdrawal * length(way);
+    const bool deeper = advance >= s.least_advance_mm && advance >= s.keeps_up * usual && advance >= s.straightness * length(way) &&
+                        way.z <= s.withdrawal * length(way);
     if (!deeper || visits.before(to, onset - s.visited_ticks)) continue;
     PerforationEvent e;
     e.tick = onset;

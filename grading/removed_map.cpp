@@ -19,7 +19,8 @@ RemovedMap::RemovedMap(std::span<const RemovedAt> removed, std::int64_t last_tic
   for (const auto& r : removed) {
     if (r.tick > last_tick) continue;
     const IVec3 l = r.leaf.leaf() - low_;
-    auto& t = tick_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
+    auto& t = tick_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
+                        static_cast<std::size_t>(size_.x) +
                     static_cast<std::size_t>(l.x)];
     if (t >= 0) continue;  // listed twice: the first time counts
     t = static_cast<std::int32_t>(r.tick);

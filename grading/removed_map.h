@@ -19,7 +19,8 @@ class RemovedMap {
   [[nodiscard]] std::int64_t tick(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
     if (l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return -1;
-    return tick_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
+    return tick_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
+                     static_cast<std::size_t>(size_.x) +
                  static_cast<std::size_t>(l.x)];
   }
   [[nodiscard]] bool has(IVec3 leaf) const noexcept { return tick(leaf) >= 0; }

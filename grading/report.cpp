@@ -16,14 +16,19 @@ std::string fixed(double v, int digits) {
 std::string cell(const std::string& text, const char* kind = "") { return "<td" + std::string(kind) + ">" + text + "</td>"; }
 std::string number_cell(const std::string& text) { return cell(text, " class='n'"); }
 
+std::string unit_text(const std::string& unit) { return unit == "mm3" ? "mm&sup3;" : xml_text(unit); }
+
 constexpr const char* k_style = R"(
 body{font:14px/1.45 system-ui,sans-serif;color:#1a1a1a;max-width:1060px;margin:24px auto;padding:0 16px;background:#fff}
 h1{font-size:22px;margin:0 0 2px}h2{font-size:16px;margin:22px 0 6px;border-bottom:1px solid #ccc;padding-bottom:3px}
-.facts{color:#555;margin:0 0 14px}.verdict{display:flex;gap:18px;align-items:center;border:2px solid;border-radius:6px;padding:10px 16px;margin:10px 0}
+.facts{color:#555;margin:0 0 14px}
+.verdict{display:flex;gap:18px;align-items:center;border:2px solid;border-radius:6px;padding:10px 16px;margin:10px 0}
 .verdict b{font-size:24px}.pass{border-color:#0072b2}.fail{border-color:#d55e00}.review{border-color:#8a6d00}
-.verdict ul{margin:0;padding-left:18px}table{border-collapse:collapse;width:100%}td,th{padding:4px 8px;border-bottom:1px solid #e3e3e3;text-align:left;vertical-align:top}
-th{font-weight:600;color:#444}.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}.pictures{display:flex;flex-wrap:wrap;gap:12px;align-items:flex-end}
-.pictures svg{max-width:100%;height:auto;border:1px solid #ddd}.two{display:grid;grid-template-columns:1fr 1fr;gap:26px}.small{color:#555;font-size:12.5px}
+.verdict ul{margin:0;padding-left:18px}table{border-collapse:collapse;width:100%}
+td,th{padding:4px 8px;border-bottom:1px solid #e3e3e3;text-align:left;vertical-align:top}th{font-weight:600;color:#444}
+.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.pictures{display:flex;flex-wrap:wrap;gap:12px;align-items:flex-end}.pictures svg{max-width:100%;height:auto;border:1px solid #ddd}
+.two{display:grid;grid-template-columns:1fr 1fr;gap:26px}.small{color:#555;font-size:12.5px}
 @media(max-width:760px){.two{grid-template-columns:1fr}}@media print{body{margin:0;font-size:11px}.pictures svg{max-width:32%}}
 )";
 
@@ -31,12 +36,13 @@ th{font-weight:600;color:#444}.n{text-align:right;font-variant-numeric:tabular-n
 
 std::string report_html(const Result& r, const GradeInput& input, const ReportFacts& facts) {
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
-  std::string h = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><meta name='viewport' content='width=device-width,initial-scale=1'>\n<title>" +
-                  xml_text(r.scenario_title) + "</title>\n<style>" + k_style + "</style></head><body>\n";
-  h += "<h1>" + xml_text(r.scenario_title) + "</h1>\n<p class='facts'>Candidate " + xml_text(facts.candidate) + " &middot; " + xml_text(facts.created) + " &middot; " +
-       xml_text(r.tooth_name) + " &middot; " + xml_text(facts.device) + "</p>\n";
-  h += "<div class='verdict " + std::string(verdict_name(r.verdict)) + "'><div><b>" + verdict_name(r.verdict) + "</b><br>" + fixed(r.points, 1) + " of " +
-       fixed(r.max_points, 1) + " points</div><ul>";
+  std::string h =
+      "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><meta name='viewport' content='width=device-width,initial-scale=1'>\n<title>" +
+      xml_text(r.scenario_title) + "</title>\n<style>" + k_style + "</style></head><body>\n";
+  h += "<h1>" + xml_text(r.scenario_title) + "</h1>\n<p class='facts'>Candidate " + xml_text(facts.candidate) + " &middot; " +
+       xml_text(facts.created) + " &middot; " + xml_text(r.tooth_name) + " &middot; " + xml_text(facts.device) + "</p>\n";
+  h += "<div class='verdict " + std::string(verdict_name(r.verdict)) + "'><div><b>" + verdict_name(r.verdict) + "</b><br>" + fixed(r.points, 1) +
+       " of " + fixed(r.max_points, 1) + " points</div><ul>";
   for (const auto& reason : r.verdict_reasons) h += "<li>" + xml_text(reason) + "</li>";
   h += "</ul></div>\n";
 
@@ -52,7 +58,8 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
 
   h += "<h2>Criteria</h2>\n<table><tr><th>Criterion</th><th class='n'>Value</th><th class='n'>Points</th><th>Why</th></tr>\n";
   for (const auto& c : r.criteria)
-    h += "<tr>" + cell(xml_text(c.title)) + number_cell(c.value ? fixed(*c.value, 2) + (c.bound > 0 ? " &plusmn; " + fixed(c.bound, 2) : "") + " " + xml_text(c.unit) : "&ndash;") +
+    h += "<tr>" + cell(xml_text(c.title)) +
+         number_cell(c.value ? fixed(*c.value, 2) + (c.bound > 0 ? " &plusmn; " + fixed(c.bound, 2) : "") + " " + unit_text(c.unit) : "&ndash;") +
          number_cell(fixed(c.points, 1) + " / " + fixed(c.max, 1)) + cell(xml_text(c.reason)) + "</tr>\n";
   h += "</table>\n<div class='two'><div><h2>Volumes</h2>\n<table>";
   const auto volume = [&](const std::string& name, const Volume& v) {
@@ -64,7 +71,8 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
   volume("removed in all", r.volumes.removed);
   for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none})
     volume("removed, " + std::string(zone_name(z)), zone(z));
-  h += "<tr>" + cell("agreement (Dice)") + number_cell(fixed(r.volumes.dice, 3)) + "</tr></table></div>\n<div><h2>Walls</h2>\n<table><tr><th>mm, + = overcut</th>"
+  h += "<tr>" + cell("agreement (Dice)") + number_cell(fixed(r.volumes.dice, 3)) +
+       "</tr></table></div>\n<div><h2>Walls</h2>\n<table><tr><th>mm, + = overcut</th>"
        "<th class='n'>mean</th><th class='n'>p95</th><th class='n'>over</th><th class='n'>under</th></tr>\n";
   for (std::size_t w = 0; w < k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
@@ -79,23 +87,29 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
   shape("length", r.shape.length_mm, r.shape.target_length_mm);
   shape("width", r.shape.width_mm, r.shape.target_width_mm);
   shape("depth", r.shape.depth_mm, r.shape.target_depth_mm);
-  h += "<tr>" + cell("wall taper") + number_cell(r.shape.taper_deg ? fixed(*r.shape.taper_deg, 1) + "&deg;" : "&ndash;") + "<td></td></tr></table></div></div>\n";
+  h += "<tr>" + cell("wall taper") + number_cell(r.shape.taper_deg ? fixed(*r.shape.taper_deg, 1) + "&deg;" : "&ndash;") +
+       "<td></td></tr></table></div></div>\n";
 
   h += "<h2>Perforation</h2>\n<table><tr><th>Source</th><th>Kind</th><th class='n'>Time</th><th>Place, mm</th><th>What</th></tr>\n";
   const auto place = [](Vec3 p) { return fixed(p.x, 2) + ", " + fixed(p.y, 2) + ", " + fixed(p.z, 2); };
   for (const auto& e : r.perforation.events)
-    h += "<tr>" + cell("force") + cell(e.fault ? "fault" : "aim") + number_cell(fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s") + cell(place(e.site_mm)) +
-         cell(fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N; " + (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")) + "</tr>\n";
+    h += "<tr>" + cell("force") + cell(e.fault ? "fault" : "aim") + number_cell(fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s") +
+         cell(place(e.site_mm)) +
+         cell(fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N; " +
+              (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")) +
+         "</tr>\n";
   for (const auto& [kind, t] : {std::pair{"fault", &r.perforation.fault}, std::pair{"aim", &r.perforation.aim}})
-    h += "<tr>" + cell("tissue") + cell(kind) + number_cell(t->perforated ? fixed(t->first.t_s(), 3) + " s" : "&ndash;") + cell(t->perforated ? place(t->first.site_mm) : "") +
+    h += "<tr>" + cell("tissue") + cell(kind) + number_cell(t->perforated ? fixed(t->first.t_s(), 3) + " s" : "&ndash;") +
+         cell(t->perforated ? place(t->first.site_mm) : "") +
          cell(t->perforated ? xml_text(t->tissue) + " touched, " + fixed(t->volume_mm3, 3) + " mm&sup3;" : "not touched") + "</tr>\n";
-  h += "</table>\n<h2>Work</h2>\n<p>Time " + fixed(r.motion.time_s, 1) + " s, handpiece turning " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
-       " s. Way of the tip " + fixed(r.motion.path_mm, 0) + " mm. Force " + fixed(r.motion.force_mean_n, 2) + " N on average while cutting, " + fixed(r.motion.force_peak_n, 2) +
-       " N at most. Steps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + " completed, " + std::to_string(r.progress.violations) +
-       " violations; the exam ended: " + xml_text(r.progress.finish) + ".</p>\n";
+  h += "</table>\n<h2>Work</h2>\n<p>Time " + fixed(r.motion.time_s, 1) + " s, handpiece turning " + fixed(r.motion.handpiece_time_s, 1) +
+       " s, idle " + fixed(r.motion.idle_s, 1) + " s. Way of the tip " + fixed(r.motion.path_mm, 0) + " mm. Force " +
+       fixed(r.motion.force_mean_n, 2) + " N on average while cutting, " + fixed(r.motion.force_peak_n, 2) + " N at most. Steps " +
+       std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + " completed, " +
+       std::to_string(r.progress.violations) + " violations; the exam ended: " + xml_text(r.progress.finish) + ".</p>\n";
   for (const auto& note : r.notes) h += "<p><b>Note:</b> " + xml_text(note) + "</p>\n";
-  h += "<p class='small'>Session " + xml_text(facts.session_file) + ", tooth " + xml_text(facts.tooth_hash.substr(0, 16)) + ", leaf " + fixed(r.leaf_mm, 3) +
-       " mm. Definitions: grading/README.md of Cavum " CAVUM_VERSION ".</p>\n</body></html>\n";
+  h += "<p class='small'>Session " + xml_text(facts.session_file) + ", tooth " + xml_text(facts.tooth_hash.substr(0, 16)) + ", leaf " +
+       fixed(r.leaf_mm, 3) + " mm. Definitions: grading/README.md of Cavum " CAVUM_VERSION ".</p>\n</body></html>\n";
   return h;
 }
 

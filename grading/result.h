@@ -37,34 +37,34 @@ struct VolumeMeasures {
   Volume target, removed, missed;
   double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
   double dice = 0.0;
-  std::array<ZoneVolume, k_zones> zone;           ///< by Zone; none = outside
+  std::array<ZoneVolume, k_zones> zone;  ///< by Zone; none = outside
   std::array<double, k_walls + 1> missed_by_wall_mm3{};
-  std::array<Volume, 256> tissue;                 ///< removed, by tissue id
+  std::array<Volume, 256> tissue;  ///< removed, by tissue id
 };
 
 /// Signed distance of the cut surface from the target's, mm, + = overcut. Meaningless when samples == 0.
 struct WallMeasures {
-  std::size_t samples = 0;        ///< leaves of cut surface
+  std::size_t samples = 0;  ///< leaves of cut surface
   double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
   Trace worst_over, worst_under;
 };
 
 struct ShapeMeasures {
   std::array<WallMeasures, k_walls> wall;
-  double bound_mm = 0.0;                          ///< of every distance here
+  double bound_mm = 0.0;                                           ///< of every distance here
   std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
   double target_length_mm = 0.0, target_width_mm = 0.0, target_depth_mm = 0.0;
 };
 
 /// A breakthrough seen in the force.
 struct PerforationEvent {
-  std::int64_t tick = 0;          ///< onset of the drop
-  std::int64_t seen_tick = 0;     ///< when the detector could say so
-  Vec3 site_mm;                   ///< tip
+  std::int64_t tick = 0;       ///< onset of the drop
+  std::int64_t seen_tick = 0;  ///< when the detector could say so
+  Vec3 site_mm;                ///< tip
   double force_before_n = 0.0, force_after_n = 0.0;
-  double advance_mm = 0.0;        ///< of the tip, against the force, while it dropped
-  bool fault = false;             ///< by the place: outside target and leeway, or no aim in this scenario
-  bool confirmed = false;         ///< tissue of that kind was removed within 100 ms
+  double advance_mm = 0.0;  ///< of the tip, against the force, while it dropped
+  bool fault = false;       ///< by the place: outside target and leeway, or no aim in this scenario
+  bool confirmed = false;   ///< tissue of that kind was removed within 100 ms
 };
 
 struct PerforationTruth {
@@ -90,7 +90,7 @@ struct MotionMeasures {
   double time_s = 0.0, handpiece_time_s = 0.0, idle_s = 0.0, path_mm = 0.0;
   double force_mean_n = 0.0, force_peak_n = 0.0, force_over_limit_s = 0.0;
   Trace force_peak, first_over_limit;
-  std::int64_t late_ticks = 0;            ///< recorded after the exam was over; they count nowhere
+  std::int64_t late_ticks = 0;  ///< recorded after the exam was over; they count nowhere
 };
 
 struct ProgressMeasures {
@@ -101,11 +101,11 @@ struct ProgressMeasures {
 
 struct CriterionResult {
   std::string id, title, metric, unit, reason;
-  std::optional<double> value;            ///< none when the metric cannot be measured on this cavity
+  std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
   double bound = 0.0;
   double points = 0.0, max = 0.0;
   bool critical_failed = false;
-  Trace first;                            ///< where the loss began
+  Trace first;  ///< where the loss began
 };
 
 enum class Verdict { pass, fail, review };
@@ -125,7 +125,7 @@ struct Result {
   MotionMeasures motion;
   ProgressMeasures progress;
   double extra_time_percent = 0.0;
-  std::vector<std::string> notes;         ///< what a reader must know: disagreement in the record, late ticks
+  std::vector<std::string> notes;  ///< what a reader must know: disagreement in the record, late ticks
   std::vector<Tissue> tissues;
 };
 

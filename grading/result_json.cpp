@@ -18,15 +18,25 @@ Json place_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : point(t.site
 Json tick_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(t.tick); }
 
 Json truth_json(const PerforationTruth& t) {
-  return {{"perforated", t.perforated}, {"first_t_s", time_of(t.first)}, {"first_tick", tick_of(t.first)}, {"site_mm", place_of(t.first)},
-          {"tissue", t.perforated ? Json(t.tissue) : Json(nullptr)}, {"volume_mm3", rounded(t.volume_mm3)}};
+  return {{"perforated", t.perforated},
+          {"first_t_s", time_of(t.first)},
+          {"first_tick", tick_of(t.first)},
+          {"site_mm", place_of(t.first)},
+          {"tissue", t.perforated ? Json(t.tissue) : Json(nullptr)},
+          {"volume_mm3", rounded(t.volume_mm3)}};
 }
 
 Json wall_json(const WallMeasures& w) {
   const auto figure = [&](double v) { return w.samples == 0 ? Json(nullptr) : Json(rounded(v)); };
-  return {{"mean_mm", figure(w.mean_mm)}, {"p95_mm", figure(w.p95_mm)}, {"max_over_mm", figure(w.max_over_mm)}, {"max_under_mm", figure(w.max_under_mm)},
-          {"samples", w.samples}, {"max_over_site_mm", place_of(w.worst_over)}, {"max_over_tick", tick_of(w.worst_over)},
-          {"max_under_site_mm", place_of(w.worst_under)}, {"max_under_tick", tick_of(w.worst_under)}};
+  return {{"mean_mm", figure(w.mean_mm)},
+          {"p95_mm", figure(w.p95_mm)},
+          {"max_over_mm", figure(w.max_over_mm)},
+          {"max_under_mm", figure(w.max_under_mm)},
+          {"samples", w.samples},
+          {"max_over_site_mm", place_of(w.worst_over)},
+          {"max_over_tick", tick_of(w.worst_over)},
+          {"max_under_site_mm", place_of(w.worst_under)},
+          {"max_under_tick", tick_of(w.worst_under)}};
 }
 
 std::string fixed(double v, int digits) {
@@ -50,13 +60,25 @@ Json to_json(const Result& r) {
   j["leaf_mm"] = r.leaf_mm;
   j["verdict"] = verdict_name(r.verdict);
   j["verdict_reasons"] = r.verdict_reasons;
-  j["score"] = {{"points", rounded(r.points)}, {"max", rounded(r.max_points)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
-                {"pass_percent", r.pass_percent}, {"borderline_percent", r.borderline_percent}};
+  j["score"] = {{"points", rounded(r.points)},
+                {"max", rounded(r.max_points)},
+                {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
+                {"pass_percent", r.pass_percent},
+                {"borderline_percent", r.borderline_percent}};
   j["criteria"] = Json::array();
   for (const auto& c : r.criteria)
-    j["criteria"].push_back({{"id", c.id}, {"title", c.title}, {"metric", c.metric}, {"value", optional(c.value)}, {"unit", c.unit}, {"bound", rounded(c.bound)},
-                             {"points", rounded(c.points)}, {"max", rounded(c.max)}, {"critical_failed", c.critical_failed}, {"reason", c.reason},
-                             {"first_tick", tick_of(c.first)}, {"first_t_s", time_of(c.first)}});
+    j["criteria"].push_back({{"id", c.id},
+                             {"title", c.title},
+                             {"metric", c.metric},
+                             {"value", optional(c.value)},
+                             {"unit", c.unit},
+                             {"bound", rounded(c.bound)},
+                             {"points", rounded(c.points)},
+                             {"max", rounded(c.max)},
+                             {"critical_failed", c.critical_failed},
+                             {"reason", c.reason},
+                             {"first_tick", tick_of(c.first)},
+                             {"first_t_s", time_of(c.first)}});
   Json tissues = Json::object();
   for (const auto& t : r.tissues) tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
   const auto mm3 = [&](Zone z) { return rounded(zone(z).removed.mm3); };
@@ -68,30 +90,54 @@ Json to_json(const Result& r) {
                   {"outside_mm3", mm3(Zone::none)},
                   {"protected_mm3", mm3(Zone::protected_)},
                   {"dice", rounded(r.volumes.dice)},
-                  {"overcut", {{"leeway_sides_mm3", mm3(Zone::leeway_sides)}, {"leeway_bottom_mm3", mm3(Zone::leeway_bottom)},
-                               {"container_sides_mm3", mm3(Zone::container_sides)}, {"container_bottom_mm3", mm3(Zone::container_bottom)}}},
+                  {"overcut",
+                   {{"leeway_sides_mm3", mm3(Zone::leeway_sides)},
+                    {"leeway_bottom_mm3", mm3(Zone::leeway_bottom)},
+                    {"container_sides_mm3", mm3(Zone::container_sides)},
+                    {"container_bottom_mm3", mm3(Zone::container_bottom)}}},
                   {"tissue_mm3", tissues},
-                  {"bounds", {{"target_mm3", rounded(r.volumes.target.bound_mm3)}, {"target_removed_percent", rounded(r.volumes.target_removed_bound_percent)},
-                              {"missed_mm3", rounded(r.volumes.missed.bound_mm3)}, {"removed_mm3", rounded(r.volumes.removed.bound_mm3)},
-                              {"outside_mm3", bound(Zone::none)}, {"protected_mm3", bound(Zone::protected_)},
-                              {"leeway_sides_mm3", bound(Zone::leeway_sides)}, {"leeway_bottom_mm3", bound(Zone::leeway_bottom)},
-                              {"container_sides_mm3", bound(Zone::container_sides)}, {"container_bottom_mm3", bound(Zone::container_bottom)}}}};
+                  {"bounds",
+                   {{"target_mm3", rounded(r.volumes.target.bound_mm3)},
+                    {"target_removed_percent", rounded(r.volumes.target_removed_bound_percent)},
+                    {"missed_mm3", rounded(r.volumes.missed.bound_mm3)},
+                    {"removed_mm3", rounded(r.volumes.removed.bound_mm3)},
+                    {"outside_mm3", bound(Zone::none)},
+                    {"protected_mm3", bound(Zone::protected_)},
+                    {"leeway_sides_mm3", bound(Zone::leeway_sides)},
+                    {"leeway_bottom_mm3", bound(Zone::leeway_bottom)},
+                    {"container_sides_mm3", bound(Zone::container_sides)},
+                    {"container_bottom_mm3", bound(Zone::container_bottom)}}}};
   j["walls"] = Json::object();
   for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w]);
-  j["shape"] = {{"outline_length_mm", optional(r.shape.length_mm)}, {"outline_width_mm", optional(r.shape.width_mm)}, {"depth_mm", optional(r.shape.depth_mm)},
-                {"taper_deg", optional(r.shape.taper_deg)}, {"target_length_mm", rounded(r.shape.target_length_mm)}, {"target_width_mm", rounded(r.shape.target_width_mm)},
-                {"target_depth_mm", rounded(r.shape.target_depth_mm)}, {"bound_mm", rounded(r.shape.bound_mm)}};
+  j["shape"] = {{"outline_length_mm", optional(r.shape.length_mm)},
+                {"outline_width_mm", optional(r.shape.width_mm)},
+                {"depth_mm", optional(r.shape.depth_mm)},
+                {"taper_deg", optional(r.shape.taper_deg)},
+                {"target_length_mm", rounded(r.shape.target_length_mm)},
+                {"target_width_mm", rounded(r.shape.target_width_mm)},
+                {"target_depth_mm", rounded(r.shape.target_depth_mm)},
+                {"bound_mm", rounded(r.shape.bound_mm)}};
   Json events = Json::array();
   for (const auto& e : r.perforation.events)
-    events.push_back({{"t_s", rounded(static_cast<double>(e.tick) * k_tick_s)}, {"tick", e.tick}, {"seen_t_s", rounded(static_cast<double>(e.seen_tick) * k_tick_s)},
-                      {"site_mm", point(e.site_mm)}, {"force_before_n", rounded(e.force_before_n)}, {"force_after_n", rounded(e.force_after_n)},
-                      {"advance_mm", rounded(e.advance_mm)}, {"kind", e.fault ? "fault" : "aim"}, {"confirmed", e.confirmed}});
-  j["perforation"] = {{"detected", r.perforation.detected()}, {"events", events}, {"truth", truth_json(r.perforation.fault)},
-                      {"aim", truth_json(r.perforation.aim)}, {"agree", r.perforation.agree()}};
+    events.push_back({{"t_s", rounded(static_cast<double>(e.tick) * k_tick_s)},
+                      {"tick", e.tick},
+                      {"seen_t_s", rounded(static_cast<double>(e.seen_tick) * k_tick_s)},
+                      {"site_mm", point(e.site_mm)},
+                      {"force_before_n", rounded(e.force_before_n)},
+                      {"force_after_n", rounded(e.force_after_n)},
+                      {"advance_mm", rounded(e.advance_mm)},
+                      {"kind", e.fault ? "fault" : "aim"},
+                      {"confirmed", e.confirmed}});
+  j["perforation"] = {{"detected", r.perforation.detected()},
+                      {"events", events},
+                      {"truth", truth_json(r.perforation.fault)},
+                      {"aim", truth_json(r.perforation.aim)},
+                      {"agree", r.perforation.agree()}};
   j["time_s"] = rounded(r.motion.time_s);
   j["handpiece_time_s"] = rounded(r.motion.handpiece_time_s);
   j["idle_s"] = rounded(r.motion.idle_s);
-  j["force"] = {{"mean_n", rounded(r.motion.force_mean_n)}, {"peak_n", rounded(r.motion.force_peak_n)}, {"over_limit_s", rounded(r.motion.force_over_limit_s)}};
+  j["force"] = {
+      {"mean_n", rounded(r.motion.force_mean_n)}, {"peak_n", rounded(r.motion.force_peak_n)}, {"over_limit_s", rounded(r.motion.force_over_limit_s)}};
   j["path_mm"] = rounded(r.motion.path_mm);
   j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
   j["violations"] = r.progress.violations;
@@ -107,18 +153,22 @@ std::string to_text(const Result& r) {
   s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points\n";
   for (const auto& reason : r.verdict_reasons) s += "  " + reason + "\n";
   s += "\n";
-  for (const auto& c : r.criteria)
-    s += "  " + padded(c.id, 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + c.reason + "\n";
+  for (const auto& c : r.criteria) s += "  " + padded(c.id, 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + c.reason + "\n";
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
-  const auto volume = [&](const std::string& name, const Volume& v) { return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n"; };
+  const auto volume = [&](const std::string& name, const Volume& v) {
+    return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";
+  };
   s += "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) + fixed(r.volumes.target_removed_percent, 1) + " ± " +
        fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" + volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
-  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}) s += volume(zone_name(z), zone(z));
-  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + "\n\nwalls, mm (+ = overcut, ± " + fixed(r.shape.bound_mm, 2) + ")   mean    p95   over  under\n";
+  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none})
+    s += volume(zone_name(z), zone(z));
+  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + "\n\nwalls, mm (+ = overcut, ± " + fixed(r.shape.bound_mm, 2) +
+       ")   mean    p95   over  under\n";
   for (std::size_t w = 0; w < k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
     s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
-    if (m.samples == 0) s += "not cut\n";
+    if (m.samples == 0)
+      s += "not cut\n";
     else {
       char line[80];
       std::snprintf(line, sizeof line, "%6.2f %6.2f %6.2f %6.2f\n", m.mean_mm, m.p95_mm, m.max_over_mm, m.max_under_mm);
@@ -128,16 +178,20 @@ std::string to_text(const Result& r) {
   s += "\nperforation\n";
   if (r.perforation.events.empty()) s += "  no breakthrough seen in the force\n";
   for (const auto& e : r.perforation.events)
-    s += "  force: " + std::string(e.fault ? "fault" : "aim") + " at " + fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s, " + fixed(e.force_before_n, 2) + " N to " +
-         fixed(e.force_after_n, 2) + " N, " + (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue") + "\n";
+    s += "  force: " + std::string(e.fault ? "fault" : "aim") + " at " + fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s, " +
+         fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N, " +
+         (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue") + "\n";
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    s += "  tissue: " + std::string(kind) + (t.perforated ? ", " + t.tissue + " first touched at " + fixed(t.first.t_s(), 3) + " s, " + fixed(t.volume_mm3, 3) + " mm3\n" : " not touched\n");
+    s += "  tissue: " + std::string(kind) +
+         (t.perforated ? ", " + t.tissue + " first touched at " + fixed(t.first.t_s(), 3) + " s, " + fixed(t.volume_mm3, 3) + " mm3\n"
+                       : " not touched\n");
   };
   truth("fault", r.perforation.fault);
   truth("aim", r.perforation.aim);
-  s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) + " s), way " +
-       fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) + " N peak\nsteps " +
-       std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " + std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
+  s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
+       " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
+       " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +
+       std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
   for (const auto& note : r.notes) s += "note: " + note + "\n";
   return s;
 }

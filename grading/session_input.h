@@ -12,7 +12,7 @@ namespace cavum {
 
 struct GradedSession {
   Scenario scenario;
-  RubricSpec rubric;          ///< of the session: its own, else the scenario's
+  RubricSpec rubric;  ///< of the session: its own, else the scenario's
   Tooth before, after;
   ZoneMap zones;
   std::vector<TickInput> inputs;

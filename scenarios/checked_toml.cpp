@@ -143,8 +143,10 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
     return list;
   }
   for (const auto& item : *array) {
-    if (item.is_string()) list.push_back(item.value<std::string>().value_or(""));
-    else problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write a text in quotes");
+    if (item.is_string())
+      list.push_back(item.value<std::string>().value_or(""));
+    else
+      problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write a text in quotes");
   }
   if (required && array->empty()) problem(key, "'" + std::string(key) + "' is empty", "list at least one");
   return list;
@@ -172,7 +174,8 @@ Vec3 CheckedTable::vector(std::string_view key, std::size_t count, Vec3 fallback
   if (node == nullptr) return fallback;
   Vec3 v = fallback;
   if (!read_vector(*node, count, v))
-    problem(key, "'" + std::string(key) + "' is not a list of " + std::to_string(count) + " numbers within 1000 mm", count == 2 ? "write [x, y]" : "write [x, y, z]");
+    problem(key, "'" + std::string(key) + "' is not a list of " + std::to_string(count) + " numbers within 1000 mm",
+            count == 2 ? "write [x, y]" : "write [x, y, z]");
   return v;
 }
 
@@ -187,8 +190,10 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
   }
   for (const auto& item : *array) {
     Vec3 v;
-    if (read_vector(item, 2, v)) list.push_back(v);
-    else problems_.add(item.source(), "a point of '" + std::string(key) + "' is not two numbers within 1000 mm", "write [x, y]");
+    if (read_vector(item, 2, v))
+      list.push_back(v);
+    else
+      problems_.add(item.source(), "a point of '" + std::string(key) + "' is not two numbers within 1000 mm", "write [x, y]");
   }
   return list;
 }
@@ -211,8 +216,10 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
     return list;
   }
   for (const auto& item : *array) {
-    if (const auto* t = item.as_table()) list.push_back(t);
-    else problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write tables, [[" + std::string(key) + "]]");
+    if (const auto* t = item.as_table())
+      list.push_back(t);
+    else
+      problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write tables, [[" + std::string(key) + "]]");
   }
   if (required && list.empty()) problem(key, "'" + std::string(key) + "' is empty", "add at least one");
   return list;

@@ -2,10 +2,11 @@
 // with its place and a harmless default returned, and what was never asked for is an unknown key.
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <functional>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
 
 #include "engine/base/vec.h"

@@ -178,18 +178,19 @@ class Way {
 ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, double margin_mm) {
   const Vec3 low = zones.target_low_mm(), high = zones.target_high_mm();
   ReachMap map;
-  map.step_mm = std::max(0.1, 2 * zones.leaf_mm());
-  constexpr int k_border = 12;  // columns around the target: tooth that the shank could meet
-  const int nx = static_cast<int>((high.x - low.x) / map.step_mm) + 2 + 2 * k_border, ny = static_cast<int>((high.y - low.y) / map.step_mm) + 2 + 2 * k_border;
+  const double plan_area = (high.x - low.x) * (high.y - low.y);
+  map.step_mm = std::max(plan_area < 16.0 ? 0.05 : 0.1, zones.leaf_mm());  // a small target is worth a closer look
+  const int border = static_cast<int>(1.2 / map.step_mm);  // columns around the target: tooth that the shank could meet
+  const int nx = static_cast<int>((high.x - low.x) / map.step_mm) + 2 + 2 * border, ny = static_cast<int>((high.y - low.y) / map.step_mm) + 2 + 2 * border;
   const double top = tooth.octree.origin_mm().z + tooth.octree.size().z * tooth.octree.leaf_mm();
   map.nx = nx;
   map.ny = ny;
-  map.origin_mm = {low.x - k_border * map.step_mm, low.y - k_border * map.step_mm, top};
+  map.origin_mm = {low.x - border * map.step_mm, low.y - border * map.step_mm, top};
   const auto columns = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
   map.lowest_mm.assign(columns, ReachMap::k_unreachable);
 
   // For every height the free radius around each column: an upright body of revolution fits where no slice is wider.
-  const double dz = map.step_mm, base = low.z - 0.3;
+  const double dz = 0.1, base = low.z - 0.3;
   const int slices = static_cast<int>((top - base) / dz) + 1;
   std::vector<float> free_mm(columns * static_cast<std::size_t>(slices));
   std::vector<std::uint8_t> forbidden(columns);
@@ -231,7 +232,7 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
 }
 
 double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
-  const double low_z = zones.target_low_mm().z, high_z = zones.target_high_mm().z, dz = map.step_mm;
+  const double low_z = zones.target_low_mm().z, high_z = zones.target_high_mm().z, dz = 0.1;
   const auto slices = static_cast<std::size_t>((high_z - low_z) / dz) + 1;
   const auto columns = map.lowest_mm.size();
   std::vector<std::uint8_t> covered(columns * slices);

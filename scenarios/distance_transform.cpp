@@ -9,10 +9,10 @@ constexpr std::int32_t k_none = -1;  // squared distances stay below 3·1024², 
 
 /// Along one axis: the winner of line cell i is the seed that the cell at argmin_j (i-j)² + cost(j) holds.
 struct LinePass {
-  std::vector<std::int32_t> cost;        // squared distance so far, k_none = no seed
-  std::vector<std::int32_t> seed;        // nearest seed so far
-  std::vector<std::int32_t> vertex;      // parabolas of the lower envelope
-  std::vector<std::int32_t> from;        // first cell where each is lowest
+  std::vector<std::int32_t> cost;    // squared distance so far, k_none = no seed
+  std::vector<std::int32_t> seed;    // nearest seed so far
+  std::vector<std::int32_t> vertex;  // parabolas of the lower envelope
+  std::vector<std::int32_t> from;    // first cell where each is lowest
 
   explicit LinePass(std::size_t longest) : cost(longest), seed(longest), vertex(longest), from(longest) {}
 

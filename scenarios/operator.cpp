@@ -11,6 +11,8 @@ namespace {
 constexpr double k_free_speed_mm_s = 5.0;  // through the air near the tooth
 constexpr double k_arrived_mm = 0.04;      // cutting; ways through the air need not end that exactly
 constexpr double k_lead_rate_mm_s = 15.0;   // how fast the hand builds up its push
+constexpr double k_correction = 4.0;       // of an error across the way ...
+constexpr double k_most_correction_mm = 0.8;  // ... up to this
 constexpr double k_gentle_bend = 0.7;      // cosine between two pieces of the way
 constexpr double k_give_up_s = 1.5;         // without getting nearer
 
@@ -83,18 +85,20 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   const Sight sight = delayed(seen, dt_s);
   if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, true};
   const Waypoint* goal = &way_[next_];
-  Vec3 along = goal->tip_mm - from_mm_;
-  double whole = length(along);
-  // The eye follows the point on its way; what is seen late is made up for by what the hand knows it did.
-  double done = whole > 0 ? std::clamp(dot(seen.proxy_mm - from_mm_, along) / whole, 0.0, whole) : whole;
-  const double left = whole - done;
+  // The eye sees the point where it is now; a free way is judged along it, a cut by how near the point came.
+  const Vec3 whole = goal->tip_mm - from_mm_;
+  const auto left_to = [&seen](const Waypoint& w, Vec3 along) {
+    const Vec3 rest = w.tip_mm - seen.proxy_mm;
+    return w.cut ? length(rest) : std::max(0.0, dot(rest, normalized(along)));
+  };
+  double left = left_to(*goal, whole);
   stuck_s_ += dt_s;
   if (left < best_mm_ - 0.01) {
     best_mm_ = left;
     stuck_s_ = 0;
   }
-  const bool through = next_ + 1 < way_.size() && dot(normalized(way_[next_ + 1].tip_mm - goal->tip_mm), normalized(along)) > k_gentle_bend;
-  const double arrived_mm = !goal->cut ? 0.2 : through ? 0.1 : k_arrived_mm;
+  const bool through = next_ + 1 < way_.size() && dot(normalized(way_[next_ + 1].tip_mm - goal->tip_mm), normalized(whole)) > k_gentle_bend;
+  const double arrived_mm = !goal->cut ? 0.2 : through ? 0.06 : k_arrived_mm;
   if (stuck_s_ > k_give_up_s && goal->cut) {
     retreat(seen.proxy_mm);
     return {seen.proxy_mm, 0.0, false};
@@ -107,15 +111,17 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
     stuck_s_ = 0;
     if (next_ >= way_.size()) return {goal->tip_mm, 0.0, true};
     goal = &way_[next_];
-    along = goal->tip_mm - from_mm_;
-    whole = length(along);
-    done = 0;
+    left = left_to(*goal, goal->tip_mm - from_mm_);
   }
-  const Vec3 direction = whole > 0 ? along / whole : Vec3{0, 0, 1};
+  const Vec3 direction = normalized(goal->tip_mm - seen.proxy_mm), line = normalized(goal->tip_mm - from_mm_);
+  // Across the way the hand corrects more than it sees, or the friction of the joints would keep the error.
+  const Vec3 anchor = from_mm_ + line * std::clamp(dot(seen.proxy_mm - from_mm_, line), 0.0, length(goal->tip_mm - from_mm_));
+  Vec3 correction = (anchor - seen.proxy_mm) * k_correction;
+  if (const double c = length(correction); c > k_most_correction_mm) correction = correction * (k_most_correction_mm / c);
 
   // Push until the penetration felt is the one aimed at; where nothing resists, move at a quiet speed.
   const double wanted_mm = goal->cut ? (goal->careful ? skill_.careful_press_mm : skill_.press_mm) : 0.3;
-  const double slow_down = through ? 1.0 : std::clamp((whole - done) / 0.25, 0.4, 1.0);
+  const double slow_down = through ? 1.0 : std::clamp(left / 0.25, 0.4, 1.0);
   const double free_lead = k_free_speed_mm_s * (skill_.hand.damping_n_s_per_mm / skill_.hand.stiffness_n_per_mm) * (goal->careful ? 0.4 : 1.0);
   if (sight.contact && sight.penetration_mm > 0.02) {
     const double error = std::clamp((wanted_mm * slow_down - sight.penetration_mm) / wanted_mm, -1.0, 1.0);
@@ -131,7 +137,7 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
 
   const double pedal = goal->cut ? 1.0 : 0.0;
   pedal_ += std::clamp(pedal - pedal_, -dt_s / 0.15, dt_s / 0.15);  // a foot takes 150 ms
-  Vec3 tip = from_mm_ + direction * (done + lead_mm_) + tremor_mm_;
+  Vec3 tip = seen.proxy_mm + correction + direction * lead_mm_ + tremor_mm_;
   if (goal->cut && pedal_ < 0.95 && !sight.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
   return {tip, pedal_, false};
 }
@@ -161,9 +167,13 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       bool present = false;
       for (const auto& t : tooth.tissues) present = present || t.name == fault;
       if (!present) continue;
-      const auto deeper = plan_perforation(zones, tooth, best_map, tooth.tissue_id(fault));
+      auto deeper = plan_perforation(zones, tooth, best_map, tooth.tissue_id(fault));
+      if (deeper.empty()) continue;
+      // with the foot on the pedal all the way, for the exam may end where it is released
+      if (!way.empty()) way.back().cut = true;
+      deeper.front().cut = true;
       way.insert(way.end(), deeper.begin(), deeper.end());
-      if (!deeper.empty()) break;
+      break;
     }
   return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(best)};
 }

@@ -92,7 +92,8 @@ class Shadow final : public Outline {
         const auto other = in[i] != 0 ? to_out[i] : to_in[i];
         if (other < 0) continue;
         const double dx = other % map_.nx - x, dy = other / map_.nx - y;
-        const double d = std::sqrt(dx * dx + dy * dy) * map_.leaf_mm - std::min(std::fabs(before.value[static_cast<std::size_t>(other)]), map_.leaf_mm);
+        const double d =
+            std::sqrt(dx * dx + dy * dy) * map_.leaf_mm - std::min(std::fabs(before.value[static_cast<std::size_t>(other)]), map_.leaf_mm);
         map_.value[i] = in[i] != 0 ? -std::max(d, 0.0) : std::max(d, 0.0);
         if (std::fabs(before.value[i]) < 1.5 * map_.leaf_mm) map_.value[i] = before.value[i];
       }
@@ -113,10 +114,14 @@ std::unique_ptr<Outline> make_outline(const OutlineSpec& spec, Vec3 centre, cons
   std::vector<Vec3> points = spec.points_mm;
   for (auto& p : points) p += Vec3{centre.x, centre.y, 0};
   switch (spec.kind) {
-    case OutlineSpec::Kind::circle: return std::make_unique<Circle>(centre, spec.radius_mm + spec.offset_mm);
-    case OutlineSpec::Kind::stroke: return std::make_unique<Stroke>(std::move(points), 0.5 * spec.width_mm + spec.offset_mm);
-    case OutlineSpec::Kind::polygon: return std::make_unique<Polygon>(std::move(points), spec.offset_mm);
-    case OutlineSpec::Kind::projection: break;
+    case OutlineSpec::Kind::circle:
+      return std::make_unique<Circle>(centre, spec.radius_mm + spec.offset_mm);
+    case OutlineSpec::Kind::stroke:
+      return std::make_unique<Stroke>(std::move(points), 0.5 * spec.width_mm + spec.offset_mm);
+    case OutlineSpec::Kind::polygon:
+      return std::make_unique<Polygon>(std::move(points), spec.offset_mm);
+    case OutlineSpec::Kind::projection:
+      break;
   }
   return std::make_unique<Shadow>(*shadow, spec.offset_mm, spec.rounding_mm);
 }

@@ -15,7 +15,8 @@ namespace cavum {
 namespace {
 
 bool good_id(const std::string& id) {
-  return !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-'; });
+  return !id.empty() &&
+         std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-'; });
 }
 
 std::string read_id(CheckedTable& t, const std::string& fallback) {
@@ -41,7 +42,8 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
     const Expression compiled(text, known, values);
     static_cast<void>(compiled);
   } catch (const std::runtime_error& e) {
-    t.problem(key, "'" + std::string(key) + "' cannot be read (" + e.what() + ")", "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
+    t.problem(key, "'" + std::string(key) + "' cannot be read (" + e.what() + ")",
+              "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
   }
 }
 
@@ -56,8 +58,10 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, ProblemList& problems) 
     check_condition(t, "complete_when", s.complete_when);
     s.fail_when = t.text("fail_when", "");
     check_condition(t, "fail_when", s.fail_when);
-    if (t.has("time_limit_s")) s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 60);
-    else t.number("time_limit_s", 0, 0, 0);
+    if (t.has("time_limit_s"))
+      s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 60);
+    else
+      t.number("time_limit_s", 0, 0, 0);
     s.failure_ends_exam = t.truth("failure_ends_exam", false);
     t.finish();
     for (const auto& other : steps)
@@ -82,10 +86,14 @@ CriterionSpec read_criterion(const toml::table& table, ProblemList& problems) {
   if (t.has("full") && t.has("zero") && c.full == c.zero)
     t.problem("zero", "'full' and 'zero' are the same value", "points run linearly from one to the other: make them differ");
   c.points = t.number("points", 0, 1000, 1, true);
-  if (t.has("critical_above")) c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
-  else t.number("critical_above", 0, 0, 0);
-  if (t.has("critical_below")) c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
-  else t.number("critical_below", 0, 0, 0);
+  if (t.has("critical_above"))
+    c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
+  else
+    t.number("critical_above", 0, 0, 0);
+  if (t.has("critical_below"))
+    c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
+  else
+    t.number("critical_below", 0, 0, 0);
   t.finish();
   return c;
 }
@@ -126,7 +134,8 @@ Scenario read_scenario(const toml::table& table, const std::string& path, Proble
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
       t.problem("points", "'" + s.points[i] + "' is no name of a diamond point", "use names of data/points, such as round-1.0");
-    else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) != s.points.begin() + static_cast<std::ptrdiff_t>(i))
+    else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
+             s.points.begin() + static_cast<std::ptrdiff_t>(i))
       t.problem("points", "'" + s.points[i] + "' is listed twice", "list each point once");
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);

@@ -18,8 +18,12 @@ OutlineSpec read_outline(const toml::table& table, const std::string& name, Prob
   o.kind = static_cast<Kind>(kind);
   o.offset_mm = t.number("offset_mm", -5, 5, 0);
   switch (o.kind) {
-    case Kind::circle: o.radius_mm = t.number("radius_mm", 0.05, 20, 1, true); break;
-    case Kind::polygon: o.points_mm = t.points("points_mm", 3, true); break;
+    case Kind::circle:
+      o.radius_mm = t.number("radius_mm", 0.05, 20, 1, true);
+      break;
+    case Kind::polygon:
+      o.points_mm = t.points("points_mm", 3, true);
+      break;
     case Kind::stroke:
       o.points_mm = t.points("points_mm", 2, true);
       o.width_mm = t.number("width_mm", 0.1, 20, 1, true);
@@ -46,10 +50,14 @@ BottomSpec read_bottom(const toml::table& table, const std::string& name, Proble
   if (kind == CheckedTable::k_wrong) return b;
   b.kind = static_cast<Kind>(kind);
   switch (b.kind) {
-    case Kind::level: b.z_mm = t.number("z_mm", -k_largest_mm, k_largest_mm, 0, true); break;
+    case Kind::level:
+      b.z_mm = t.number("z_mm", -k_largest_mm, k_largest_mm, 0, true);
+      break;
     case Kind::below_surface:
     case Kind::below_lowest:
-    case Kind::below_mean: b.depth_mm = t.number("depth_mm", 0.05, 30, 1, true); break;
+    case Kind::below_mean:
+      b.depth_mm = t.number("depth_mm", 0.05, 30, 1, true);
+      break;
     default:
       b.tissue = t.text("tissue", "pulp");
       b.part = read_part(t);

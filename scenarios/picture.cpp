@@ -37,11 +37,16 @@ std::string number(double v) {
 
 const char* tissue_colour(std::uint8_t t) {
   switch (t) {
-    case k_enamel: return k_enamel_colour;
-    case k_dentin: return k_dentin_colour;
-    case k_pulp: return k_pulp_colour;
-    case k_periodontium: return k_periodontium_colour;
-    default: return k_other_colour;
+    case k_enamel:
+      return k_enamel_colour;
+    case k_dentin:
+      return k_dentin_colour;
+    case k_pulp:
+      return k_pulp_colour;
+    case k_periodontium:
+      return k_periodontium_colour;
+    default:
+      return k_other_colour;
   }
 }
 
@@ -54,9 +59,12 @@ struct Window {
 
   [[nodiscard]] IVec3 leaf(int column, int row) const {  // row counts upwards
     switch (view) {
-      case View::mesio_distal: return {low.x + column, depth, low.z + row};
-      case View::bucco_lingual: return {depth, low.y + column, low.z + row};
-      default: return {low.x + column, low.y + row, depth};
+      case View::mesio_distal:
+        return {low.x + column, depth, low.z + row};
+      case View::bucco_lingual:
+        return {depth, low.y + column, low.z + row};
+      default:
+        return {low.x + column, low.y + row, depth};
     }
   }
 };
@@ -96,7 +104,8 @@ std::string contour(int width, int height, const Field& field, double level) {
       cross(c, d, x + 1, y + 1, x, y + 1);
       cross(d, a, x, y + 1, x, y);
       for (int k = 0; k + 1 < n; k += 2)
-        segment(at[static_cast<std::size_t>(k)].first, at[static_cast<std::size_t>(k)].second, at[static_cast<std::size_t>(k + 1)].first, at[static_cast<std::size_t>(k + 1)].second);
+        segment(at[static_cast<std::size_t>(k)].first, at[static_cast<std::size_t>(k)].second, at[static_cast<std::size_t>(k + 1)].first,
+                at[static_cast<std::size_t>(k + 1)].second);
     }
   }
   return path;
@@ -119,10 +128,13 @@ int top_of(const Octree& tree, int x, int y) {
 
 const char* finding_colour(Zone zone) {
   switch (zone) {
-    case Zone::target: return k_removed_colour;
+    case Zone::target:
+      return k_removed_colour;
     case Zone::leeway_sides:
-    case Zone::leeway_bottom: return k_leeway_colour;
-    default: return k_overcut_colour;
+    case Zone::leeway_bottom:
+      return k_leeway_colour;
+    default:
+      return k_overcut_colour;
   }
 }
 
@@ -131,12 +143,23 @@ const char* finding_colour(Zone zone) {
 std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }
@@ -146,7 +169,7 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   const double leaf = tree.leaf_mm();
   Window w{spec.view, {0, 0, 0}, tree.size(), 0, 0, 0};
   // the crown and what lies around the target; the tips of the roots are not needed
-  w.low.z = std::max(0, tree.leaf_at(zones.target_low_mm() - Vec3{0, 0, 3.0}).z);
+  w.low.z = std::max(0, tree.leaf_at(zones.target_low_mm() - Vec3{0, 0, 4.0}).z);
   w.high.z = std::min(w.high.z, tree.leaf_at(zones.target_high_mm() + Vec3{0, 0, 0.8}).z + 1);
   const IVec3 probe = tree.leaf_at({spec.at_mm, spec.at_mm, spec.at_mm});
   w.depth = spec.view == View::mesio_distal ? probe.y : spec.view == View::bucco_lingual ? probe.x : probe.z;
@@ -155,15 +178,17 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
 
   const double px = spec.scale_px_per_mm * leaf;
   const double title_px = spec.title.empty() ? 0 : 22, width_px = w.width * px, height_px = w.height * px;
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width_px) + "' height='" + number(height_px + title_px) + "' viewBox='0 0 " +
-                    number(width_px) + " " + number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" + xml_text(spec.title) + "</title>\n" +
-                    "<rect width='100%' height='100%' fill='#ffffff'/>\n";
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width_px) + "' height='" + number(height_px + title_px) +
+                    "' viewBox='0 0 " + number(width_px) + " " + number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" +
+                    xml_text(spec.title) + "</title>\n" + "<rect width='100%' height='100%' fill='#ffffff'/>\n";
   if (title_px > 0) svg += "<text x='4' y='15' font-size='13' fill='#222222'>" + xml_text(spec.title) + "</text>\n";
   svg += "<g transform='translate(0 " + number(title_px) + ") scale(" + number(px) + ")'>\n";
 
   // For the view from above each column shows its highest leaf.
   std::vector<int> top, top_after;
-  const auto flat = [&](int column, int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(w.width) + static_cast<std::size_t>(column); };
+  const auto flat = [&](int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(w.width) + static_cast<std::size_t>(column);
+  };
   if (spec.view == View::occlusal)
     for (int row = 0; row < w.height; ++row)
       for (int column = 0; column < w.width; ++column) {
@@ -221,7 +246,8 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   }
   for (const auto& [fill, path] : tissue.path) svg += "<path shape-rendering='crispEdges' fill='" + fill + "' d='" + path + "'/>\n";
   for (const auto& [fill, path] : removed.path)
-    svg += "<path shape-rendering='crispEdges' fill='" + fill + "'" + (spec.view == View::occlusal ? " fill-opacity='0.75'" : "") + " d='" + path + "'/>\n";
+    svg += "<path shape-rendering='crispEdges' fill='" + fill + "'" + (spec.view == View::occlusal ? " fill-opacity='0.75'" : "") + " d='" + path +
+           "'/>\n";
   for (const auto& [fill, path] : shade.path)
     svg += "<path shape-rendering='crispEdges' fill='" + fill.substr(0, 7) + "' fill-opacity='" + fill.substr(8) + "' d='" + path + "'/>\n";
 
@@ -239,8 +265,8 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   };
   const auto distance = [&](int c, int r) {
     const IVec3 at = place(c, r);
-    if (spec.view == View::occlusal && top[flat(c, r)] < 0) return 9.0;
-    return zones.distance_mm(at);
+    const bool air = spec.view == View::occlusal ? top[flat(c, r)] < 0 : tree.tissue(at) == k_air;
+    return air ? std::max(zones.distance_mm(at), 0.5 * leaf) : zones.distance_mm(at);
   };
   // leeway and container end where the zone changes; the target's own line is smooth
   const auto in_zones = [&](std::initializer_list<Zone> list) {
@@ -249,7 +275,8 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
       return std::find(list.begin(), list.end(), z) != list.end() ? -1.0 : 1.0;
     };
   };
-  svg += line(contour(w.width, w.height, in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}), 0.0),
+  svg += line(contour(w.width, w.height,
+                      in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}), 0.0),
               k_container_line, px, 1.0, "");
   svg += line(contour(w.width, w.height, in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), 0.0), k_leeway_line, px, 1.0, "");
   svg += line(contour(w.width, w.height, distance, 0.0), k_target_line, px, 1.8, "");
@@ -305,8 +332,9 @@ std::string legend_svg(bool with_removed) {
     const char *colour, *text;
     bool is_line;
   };
-  std::vector<Entry> entries{{k_enamel_colour, "enamel", false}, {k_dentin_colour, "dentin", false}, {k_pulp_colour, "pulp", false},
-                             {k_periodontium_colour, "periodontium", false}, {k_target_line, "target", true}, {k_leeway_line, "leeway", true},
+  std::vector<Entry> entries{{k_enamel_colour, "enamel", false},   {k_dentin_colour, "dentin", false},
+                             {k_pulp_colour, "pulp", false},       {k_periodontium_colour, "periodontium", false},
+                             {k_target_line, "target", true},      {k_leeway_line, "leeway", true},
                              {k_container_line, "container", true}};
   if (with_removed) {
     entries.push_back({k_removed_colour, "removed, target", false});
@@ -316,12 +344,15 @@ std::string legend_svg(bool with_removed) {
   std::string svg, items;
   double x = 4;
   for (const auto& e : entries) {
-    if (e.is_line) items += "<path d='M" + number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
-    else items += "<rect x='" + number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
+    if (e.is_line)
+      items += "<path d='M" + number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
+    else
+      items += "<rect x='" + number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
     items += "<text x='" + number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + std::string(e.text) + "</text>";
     x += 34 + 6.6 * static_cast<double>(std::string(e.text).size());
   }
-  svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(x) + "' height='22' viewBox='0 0 " + number(x) + " 22' font-family='sans-serif'>" + items + "</svg>\n";
+  svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(x) + "' height='22' viewBox='0 0 " + number(x) + " 22' font-family='sans-serif'>" +
+        items + "</svg>\n";
   return svg;
 }
 

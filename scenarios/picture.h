@@ -19,7 +19,7 @@ enum class View : std::uint8_t {
 
 struct PictureSpec {
   View view = View::mesio_distal;
-  double at_mm = 0.0;                 ///< where the section is cut, along the axis looked at
+  double at_mm = 0.0;  ///< where the section is cut, along the axis looked at
   double scale_px_per_mm = 24.0;
   std::string title;
 };

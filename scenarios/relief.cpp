@@ -10,15 +10,16 @@ namespace cavum {
 namespace {
 
 // The floor of a chamber, from slices one leaf high, going down from the widest.
-constexpr double k_narrow = 0.35;       // of the widest slice's area: from here on it is a canal
-constexpr double k_branch = 0.04;       // of the widest slice's area: what counts as a canal of its own
-constexpr double k_persist_mm = 0.3;    // a split must last this deep, or it is a ripple
+constexpr double k_narrow = 0.35;     // of the widest slice's area: from here on it is a canal
+constexpr double k_branch = 0.04;     // of the widest slice's area: what counts as a canal of its own
+constexpr double k_persist_mm = 0.3;  // a split must last this deep, or it is a ripple
 
 struct Slices {
-  IVec3 low, size;                      // of the tissue's box, leaves
-  std::vector<std::uint8_t> leaf;       // x fastest
+  IVec3 low, size;                 // of the tissue's box, leaves
+  std::vector<std::uint8_t> leaf;  // x fastest
   [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(size.x) +
+           static_cast<std::size_t>(x);
   }
 };
 
@@ -43,8 +44,8 @@ Slices slices_of(const Tooth& tooth, std::uint8_t tissue) {
 }
 
 struct SliceShape {
-  int area = 0;        // leaves
-  int branches = 0;    // connected pieces of at least `least` leaves
+  int area = 0;      // leaves
+  int branches = 0;  // connected pieces of at least `least` leaves
 };
 
 SliceShape shape_of(const Slices& s, int z, int least) {
@@ -88,8 +89,10 @@ int chamber_floor(const Slices& s, double leaf_mm) {
   for (int z = widest; z >= 0; --z) {
     const SliceShape shape = shape_of(s, z, least);
     if (shape.area < k_narrow * largest) return split_since >= 0 ? split_since + 1 : z + 1;
-    if (shape.branches < 2) split_since = -1;
-    else if (split_since < 0) split_since = z;
+    if (shape.branches < 2)
+      split_since = -1;
+    else if (split_since < 0)
+      split_since = z;
     if (split_since >= 0 && split_since - z >= persist) return split_since + 1;
   }
   return 0;
@@ -98,7 +101,8 @@ int chamber_floor(const Slices& s, double leaf_mm) {
 }  // namespace
 
 double ColumnMap::at(double x_mm, double y_mm) const noexcept {
-  const double px = std::clamp((x_mm - origin_mm.x) / leaf_mm - 0.5, 0.0, nx - 1.0), py = std::clamp((y_mm - origin_mm.y) / leaf_mm - 0.5, 0.0, ny - 1.0);
+  const double px = std::clamp((x_mm - origin_mm.x) / leaf_mm - 0.5, 0.0, nx - 1.0),
+               py = std::clamp((y_mm - origin_mm.y) / leaf_mm - 0.5, 0.0, ny - 1.0);
   const int x = std::min(static_cast<int>(px), std::max(0, nx - 2)), y = std::min(static_cast<int>(py), std::max(0, ny - 2));
   const int x1 = std::min(x + 1, nx - 1), y1 = std::min(y + 1, ny - 1);
   const double fx = px - x, fy = py - y;

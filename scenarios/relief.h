@@ -15,10 +15,12 @@ namespace cavum {
 struct ColumnMap {
   int nx = 0, ny = 0;
   double leaf_mm = 0.05;
-  Vec3 origin_mm;                 ///< corner of column (0,0); z unused
+  Vec3 origin_mm;  ///< corner of column (0,0); z unused
   std::vector<double> value;
 
-  [[nodiscard]] std::size_t index(int x, int y) const noexcept { return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x); }
+  [[nodiscard]] std::size_t index(int x, int y) const noexcept {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
+  }
   /// Clamped to the map at its border.
   [[nodiscard]] double at(double x_mm, double y_mm) const noexcept;
   /// `rounds` passes of a 3x3 mean.
@@ -27,11 +29,11 @@ struct ColumnMap {
 
 /// Part of a tissue, column by column. Heights are those of leaf faces, mm.
 struct TissueRelief {
-  ColumnMap roof_mm, floor_mm;          ///< of the part; outside its shadow those of the nearest column, smoothed
-  std::vector<std::uint8_t> shadow;     ///< 1 where the part lies below this column
-  double lowest_mm = 0.0;               ///< level where the part ends (the chamber: its floor)
+  ColumnMap roof_mm, floor_mm;       ///< of the part; outside its shadow those of the nearest column, smoothed
+  std::vector<std::uint8_t> shadow;  ///< 1 where the part lies below this column
+  double lowest_mm = 0.0;            ///< level where the part ends (the chamber: its floor)
   double highest_mm = 0.0;
-  Vec3 middle_mm;                       ///< centre of gravity
+  Vec3 middle_mm;  ///< centre of gravity
 };
 
 /// Height of the tooth's solid surface per column; columns without tooth hold k_no_tooth_mm.

@@ -8,8 +8,8 @@
 namespace cavum {
 
 const char* event_name(ExamEventKind kind) noexcept {
-  constexpr const char* k_names[] = {"step_started", "step_completed", "step_failed", "step_time_limit", "time_limit",
-                                     "point_not_allowed", "over_speed", "aim_reached", "perforation", "finished"};
+  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed", "step_time_limit", "time_limit",
+                                     "point_not_allowed", "over_speed",     "aim_reached", "perforation",     "finished"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -163,8 +163,10 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
       next_step(state);
     }
   }
-  if (end) finish(state, Finish::failed);
-  else if (static_cast<std::size_t>(state.step) >= steps_.size()) finish(state, Finish::completed);
+  if (end)
+    finish(state, Finish::failed);
+  else if (static_cast<std::size_t>(state.step) >= steps_.size())
+    finish(state, Finish::completed);
   else if (state.ticks + 1 >= limit_ticks_) {
     emit(state, ExamEventKind::time_limit, 0);
     finish(state, Finish::time);

@@ -33,10 +33,10 @@ enum class ExamEventKind : std::uint8_t {
 [[nodiscard]] const char* event_name(ExamEventKind kind) noexcept;
 
 struct ExamEvent {
-  std::int64_t tick = 0;              ///< 0 is the first tick of the exam
+  std::int64_t tick = 0;  ///< 0 is the first tick of the exam
   ExamEventKind kind{};
   std::int32_t index = 0;
-  std::array<std::int32_t, 3> leaf{}; ///< aim_reached and perforation: the leaf; otherwise 0
+  std::array<std::int32_t, 3> leaf{};  ///< aim_reached and perforation: the leaf; otherwise 0
   friend bool operator==(const ExamEvent&, const ExamEvent&) = default;
 };
 
@@ -46,13 +46,13 @@ enum class Finish : std::uint8_t { running, completed, failed, time, ended };
 /// Everything that changes during an exam, outside the servo.
 struct RunnerState {
   static constexpr std::size_t k_most_events = 256;
-  std::int64_t ticks = 0;                ///< done so far
+  std::int64_t ticks = 0;  ///< done so far
   std::int64_t step_start = 0;
   std::int32_t step = 0;
   Finish finish = Finish::running;
   std::array<std::uint64_t, k_zones> removed_in_zone{};  ///< leaves; index Zone::none = outside
   std::array<std::uint64_t, 256> removed_of_tissue{};    ///< leaves, by tissue id
-  double depth_mm = 0.0;                 ///< deepest so far below the opening
+  double depth_mm = 0.0;                                 ///< deepest so far below the opening
   double peak_force_n = 0.0;
   std::int32_t last_point = -1;
   bool over_speed = false;
@@ -97,10 +97,10 @@ class Runner {
   const ZoneMap& zones_;
   std::vector<std::string> names_;
   std::vector<double> values_;
-  std::vector<std::uint8_t> touched_ids_;   // tissue of names_[k_live_quantities.size() + i]
+  std::vector<std::uint8_t> touched_ids_;  // tissue of names_[k_live_quantities.size() + i]
   std::vector<CompiledStep> steps_;
-  std::array<std::uint8_t, 256> role_{};    // 1 aim, 2 fault, by tissue id
-  std::array<bool, 256> allowed_{};         // by point of the tray
+  std::array<std::uint8_t, 256> role_{};  // 1 aim, 2 fault, by tissue id
+  std::array<bool, 256> allowed_{};       // by point of the tray
   std::int64_t limit_ticks_ = 0;
 };
 

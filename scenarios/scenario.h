@@ -20,26 +20,26 @@ enum class TissuePart { all, chamber };
 struct OutlineSpec {
   enum class Kind { circle, polygon, stroke, projection };
   Kind kind = Kind::circle;
-  Vec3 centre_mm;                    ///< added to every point; z unused
-  bool from_chamber = false;         ///< centre counted from the middle of the pulp chamber instead of the tooth's origin
-  double radius_mm = 0.0;            ///< circle
-  std::vector<Vec3> points_mm;       ///< polygon corners, or the path of a stroke
-  double width_mm = 0.0;             ///< of a stroke
-  std::string tissue = "pulp";       ///< projection: seen from above, the shadow of this tissue
+  Vec3 centre_mm;               ///< added to every point; z unused
+  bool from_chamber = false;    ///< centre counted from the middle of the pulp chamber instead of the tooth's origin
+  double radius_mm = 0.0;       ///< circle
+  std::vector<Vec3> points_mm;  ///< polygon corners, or the path of a stroke
+  double width_mm = 0.0;        ///< of a stroke
+  std::string tissue = "pulp";  ///< projection: seen from above, the shadow of this tissue
   TissuePart part = TissuePart::all;
-  double offset_mm = 0.0;            ///< moves the outline outwards (negative: inwards)
-  double rounding_mm = 0.0;          ///< projection: no notch and no corner sharper than this radius
+  double offset_mm = 0.0;    ///< moves the outline outwards (negative: inwards)
+  double rounding_mm = 0.0;  ///< projection: no notch and no corner sharper than this radius
 };
 
 /// Where a column ends.
 struct BottomSpec {
   enum class Kind { level, below_surface, below_lowest, below_mean, tissue_roof, tissue_floor };
   Kind kind = Kind::level;
-  double z_mm = 0.0;                 ///< level: height in the tooth frame
-  double depth_mm = 0.0;             ///< below the surface (everywhere, or its lowest or mean height inside the outline)
+  double z_mm = 0.0;      ///< level: height in the tooth frame
+  double depth_mm = 0.0;  ///< below the surface (everywhere, or its lowest or mean height inside the outline)
   std::string tissue = "pulp";
   TissuePart part = TissuePart::all;
-  double deeper_mm = 0.0;            ///< moves a tissue's roof or floor down
+  double deeper_mm = 0.0;  ///< moves a tissue's roof or floor down
 };
 
 /// A body in the tooth frame, or one relative to a tissue. Bodies of a list are combined in their order.
@@ -48,18 +48,18 @@ struct ShapeSpec {
   enum class Combine { add, subtract, intersect };
   Kind kind = Kind::box;
   Combine combine = Combine::add;
-  Vec3 at_mm;                        ///< centre of a box or ball; middle of the lower face of the others
-  Vec3 axis{0, 0, 1};                ///< from the lower face upwards, unit
-  double turn_deg = 0.0;             ///< about the axis
-  Vec3 size_mm;                      ///< box
+  Vec3 at_mm;             ///< centre of a box or ball; middle of the lower face of the others
+  Vec3 axis{0, 0, 1};     ///< from the lower face upwards, unit
+  double turn_deg = 0.0;  ///< about the axis
+  Vec3 size_mm;           ///< box
   double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;
-  OutlineSpec outline;               ///< prism, column
-  BottomSpec bottom;                 ///< column
-  double taper_deg = 0.0;            ///< column: its walls open by this angle towards the occlusal side
-  std::string tissue = "pulp";       ///< tissue: the leaves of this tissue ...
+  OutlineSpec outline;          ///< prism, column
+  BottomSpec bottom;            ///< column
+  double taper_deg = 0.0;       ///< column: its walls open by this angle towards the occlusal side
+  std::string tissue = "pulp";  ///< tissue: the leaves of this tissue ...
   TissuePart part = TissuePart::all;
-  double offset_mm = 0.0;            ///< ... grown by this much
-  int line = 0;                      ///< in the scenario file, for messages
+  double offset_mm = 0.0;  ///< ... grown by this much
+  int line = 0;            ///< in the scenario file, for messages
 };
 
 /// Width of a zone beside and below the target, mm, measured from the target's surface.
@@ -76,9 +76,9 @@ struct ZoneSpec {
 
 struct StepSpec {
   std::string id, instruction;
-  std::string complete_when;                ///< expression over live quantities
-  std::string fail_when;                    ///< may be empty
-  std::optional<double> time_limit_s;       ///< of this step; when it passes, the step has failed
+  std::string complete_when;           ///< expression over live quantities
+  std::string fail_when;               ///< may be empty
+  std::optional<double> time_limit_s;  ///< of this step; when it passes, the step has failed
   bool failure_ends_exam = false;
 };
 
@@ -89,15 +89,15 @@ struct PerforationSpec {
 
 struct CriterionSpec {
   std::string id, title, metric;
-  double full = 0.0, zero = 0.0;            ///< metric value for full and for no points; linear between
+  double full = 0.0, zero = 0.0;  ///< metric value for full and for no points; linear between
   double points = 0.0;
   std::optional<double> critical_above, critical_below;  ///< beyond it the exam is failed whatever the sum
 };
 
 struct RubricSpec {
-  bool compensatory = true;                 ///< points of one criterion may make up for another
-  double pass_percent = 60.0;               ///< of all points (non-compensatory: of each criterion's)
-  double borderline_percent = 0.0;          ///< this close to the pass mark a person decides
+  bool compensatory = true;         ///< points of one criterion may make up for another
+  double pass_percent = 60.0;       ///< of all points (non-compensatory: of each criterion's)
+  double borderline_percent = 0.0;  ///< this close to the pass mark a person decides
   std::vector<CriterionSpec> criteria;
 };
 
@@ -110,12 +110,12 @@ struct Accommodations {
 
 struct Scenario {
   std::string id, title, description;
-  std::string path;                         ///< file it was read from
-  std::string tooth_file;                   ///< as written
-  std::vector<std::string> points;          ///< allowed diamond points, names of data/points/NAME.toml; the first is mounted
+  std::string path;                 ///< file it was read from
+  std::string tooth_file;           ///< as written
+  std::vector<std::string> points;  ///< allowed diamond points, names of data/points/NAME.toml; the first is mounted
   double max_rpm = 200000.0;
   double time_limit_s = 0.0;
-  double force_limit_n = 0.0;               ///< pressing harder than this counts as force over limit; 0 = no limit
+  double force_limit_n = 0.0;  ///< pressing harder than this counts as force over limit; 0 = no limit
   Accommodations accommodations;
   std::vector<StepSpec> steps;
   ZoneSpec zones;

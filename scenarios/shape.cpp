@@ -169,7 +169,8 @@ class TissueBody final : public Shape {
 
  private:
   [[nodiscard]] std::size_t index(IVec3 i) const noexcept {
-    return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(i.x);
+    return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size_.x) +
+           static_cast<std::size_t>(i.x);
   }
   double offset_mm_, leaf_mm_ = 0.05;
   IVec3 size_;
@@ -185,9 +186,15 @@ class Combined final : public Shape {
     for (const auto& [how, shape] : parts_) {
       const double s = shape->distance_mm(p);
       switch (how) {
-        case ShapeSpec::Combine::add: d = std::min(d, s); break;
-        case ShapeSpec::Combine::subtract: d = std::max(d, -s); break;
-        case ShapeSpec::Combine::intersect: d = std::max(d, s); break;
+        case ShapeSpec::Combine::add:
+          d = std::min(d, s);
+          break;
+        case ShapeSpec::Combine::subtract:
+          d = std::max(d, -s);
+          break;
+        case ShapeSpec::Combine::intersect:
+          d = std::max(d, s);
+          break;
       }
     }
     return d;
@@ -227,16 +234,23 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
     return found->second;
   };
   switch (spec.kind) {
-    case ShapeSpec::Kind::box: return std::make_unique<Box>(spec);
-    case ShapeSpec::Kind::ball: return std::make_unique<Ball>(spec);
-    case ShapeSpec::Kind::cylinder: return std::make_unique<Frustum>(spec, spec.radius_mm);
-    case ShapeSpec::Kind::cone: return std::make_unique<Frustum>(spec, spec.top_radius_mm);
-    case ShapeSpec::Kind::prism: return std::make_unique<Prism>(spec);
+    case ShapeSpec::Kind::box:
+      return std::make_unique<Box>(spec);
+    case ShapeSpec::Kind::ball:
+      return std::make_unique<Ball>(spec);
+    case ShapeSpec::Kind::cylinder:
+      return std::make_unique<Frustum>(spec, spec.radius_mm);
+    case ShapeSpec::Kind::cone:
+      return std::make_unique<Frustum>(spec, spec.top_radius_mm);
+    case ShapeSpec::Kind::prism:
+      return std::make_unique<Prism>(spec);
     case ShapeSpec::Kind::tissue: {
       const TissueRelief& relief = relief_of(spec.tissue, spec.part);  // also tells whether the tissue is there at all
-      return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? relief.lowest_mm : -1e9, spec.offset_mm);
+      return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? relief.lowest_mm : -1e9,
+                                          spec.offset_mm);
     }
-    case ShapeSpec::Kind::column: break;
+    case ShapeSpec::Kind::column:
+      break;
   }
   const OutlineSpec& o = spec.outline;
   Vec3 centre = o.centre_mm;

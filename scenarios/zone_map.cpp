@@ -70,14 +70,17 @@ double ZoneMap::distance_mm(Vec3 p) const noexcept {
   const double fx = c.x - i.x, fy = c.y - i.y, fz = c.z - i.z;
   double sum = 0;
   for (int k = 0; k < 8; ++k) {
-    const IVec3 leaf = low_ + IVec3{std::min(i.x + (k & 1), size_.x - 1), std::min(i.y + (k >> 1 & 1), size_.y - 1), std::min(i.z + (k >> 2), size_.z - 1)};
-    sum += static_cast<double>(distance_mm_[index(leaf)]) * ((k & 1) != 0 ? fx : 1 - fx) * ((k >> 1 & 1) != 0 ? fy : 1 - fy) * ((k >> 2) != 0 ? fz : 1 - fz);
+    const IVec3 leaf =
+        low_ + IVec3{std::min(i.x + (k & 1), size_.x - 1), std::min(i.y + (k >> 1 & 1), size_.y - 1), std::min(i.z + (k >> 2), size_.z - 1)};
+    sum += static_cast<double>(distance_mm_[index(leaf)]) * ((k & 1) != 0 ? fx : 1 - fx) * ((k >> 1 & 1) != 0 ? fy : 1 - fy) *
+           ((k >> 2) != 0 ? fz : 1 - fz);
   }
   return sum + length(q - c) * leaf_mm_;
 }
 
 Wall ZoneMap::wall(IVec3 leaf) const noexcept {
-  const IVec3 in{std::clamp(leaf.x, low_.x, low_.x + size_.x - 1), std::clamp(leaf.y, low_.y, low_.y + size_.y - 1), std::clamp(leaf.z, low_.z, low_.z + size_.z - 1)};
+  const IVec3 in{std::clamp(leaf.x, low_.x, low_.x + size_.x - 1), std::clamp(leaf.y, low_.y, low_.y + size_.y - 1),
+                 std::clamp(leaf.z, low_.z, low_.z + size_.z - 1)};
   return static_cast<Wall>(wall_[index(in)]);
 }
 
@@ -157,7 +160,8 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
         const std::int32_t other = inside[i] != 0 ? to_outside[i] : to_inside[i];
         if (other < 0) continue;  // the target fills the whole box: no surface anywhere
         const auto o = static_cast<std::size_t>(other);
-        const Vec3 here{double(x), double(y), double(z)}, there{static_cast<double>(o % sy), static_cast<double>(o % sz / sy), static_cast<double>(o / sz)};
+        const Vec3 here{double(x), double(y), double(z)},
+            there{static_cast<double>(o % sy), static_cast<double>(o % sz / sy), static_cast<double>(o / sz)};
         Place place = on_surface(there);
         if (!place.found) place.at = there;
         const Place foot = on_surface(here - place.normal * dot(here - place.at, place.normal));
@@ -227,10 +231,14 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
         const double d = static_cast<double>(map.distance_mm_[i]);
         const bool bottom = static_cast<Wall>(map.wall_[i]) == Wall::floor;
         Zone zone = Zone::none;
-        if (inside[i] != 0) zone = Zone::target;
-        else if (guard != nullptr && guard->distance_mm(map.centre_mm(at)) < 0) zone = Zone::protected_;
-        else if (d <= (bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm)) zone = bottom ? Zone::leeway_bottom : Zone::leeway_sides;
-        else if (d <= (bottom ? spec.container.bottom_mm : spec.container.sides_mm)) zone = bottom ? Zone::container_bottom : Zone::container_sides;
+        if (inside[i] != 0)
+          zone = Zone::target;
+        else if (guard != nullptr && guard->distance_mm(map.centre_mm(at)) < 0)
+          zone = Zone::protected_;
+        else if (d <= (bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm))
+          zone = bottom ? Zone::leeway_bottom : Zone::leeway_sides;
+        else if (d <= (bottom ? spec.container.bottom_mm : spec.container.sides_mm))
+          zone = bottom ? Zone::container_bottom : Zone::container_sides;
         map.zone_[i] = static_cast<std::uint8_t>(zone);
         ++map.counts_[static_cast<std::size_t>(zone)];
         if (zone != Zone::target) continue;

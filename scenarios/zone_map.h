@@ -81,11 +81,12 @@ class ZoneMap {
   friend ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth);
   [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(l.x);
+    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
+           static_cast<std::size_t>(l.x);
   }
 
   double leaf_mm_ = 0.05;
-  Vec3 origin_mm_;             // of leaf (0,0,0) of the tooth
+  Vec3 origin_mm_;  // of leaf (0,0,0) of the tooth
   IVec3 low_, size_;
   std::vector<std::uint8_t> zone_, wall_;
   std::vector<float> distance_mm_;

@@ -26,12 +26,15 @@ Result result_of(const GradedSession& session, const Options& o) {
 void run_grade(const Options& o) {
   const auto session = load_for_grading(o.session);
   const Result result = result_of(*session, o);
-  if (o.json) std::cout << to_json(result).dump(2) << "\n";
-  else std::cout << to_text(result);
+  if (o.json)
+    std::cout << to_json(result).dump(2) << "\n";
+  else
+    std::cout << to_text(result);
 }
 
 void run_report(const Options& o) {
-  if (o.out.ends_with(".pdf")) throw Error(o.out, "this version writes reports as HTML only", "use a name ending in .html and print it as PDF from a browser");
+  if (o.out.ends_with(".pdf"))
+    throw Error(o.out, "this version writes reports as HTML only", "use a name ending in .html and print it as PDF from a browser");
   if (!o.out.ends_with(".html")) throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html");
   const auto session = load_for_grading(o.session);
   const Result result = result_of(*session, o);

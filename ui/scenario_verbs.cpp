@@ -54,12 +54,14 @@ int show(const Options& o) {
   write_text_file(o.out, svg);
   const double leaf = zones.leaf_volume_mm3();
   if (o.json) {
-    nlohmann::ordered_json j{{"out", o.out}, {"tooth", tooth.name}, {"opening_z_mm", zones.opening_z_mm()}, {"zones_mm3", nlohmann::ordered_json::object()}};
+    nlohmann::ordered_json j{
+        {"out", o.out}, {"tooth", tooth.name}, {"opening_z_mm", zones.opening_z_mm()}, {"zones_mm3", nlohmann::ordered_json::object()}};
     for (std::size_t z = 1; z < k_zones; ++z) j["zones_mm3"][zone_name(static_cast<Zone>(z))] = static_cast<double>(zones.counts()[z]) * leaf;
     std::cout << j.dump(2) << "\n";
     return 0;
   }
-  for (std::size_t z = 1; z < k_zones; ++z) std::cout << zone_name(static_cast<Zone>(z)) << ": " << static_cast<double>(zones.counts()[z]) * leaf << " mm3\n";
+  for (std::size_t z = 1; z < k_zones; ++z)
+    std::cout << zone_name(static_cast<Zone>(z)) << ": " << static_cast<double>(zones.counts()[z]) * leaf << " mm3\n";
   std::cout << "drawn: " << o.out << "\n";
   return 0;
 }

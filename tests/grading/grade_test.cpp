@@ -23,11 +23,12 @@ using testing::scenario_text;
 constexpr double k_pi_here = 3.14159265358979323846;
 
 std::string round_target(double radius, double depth) {
-  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + std::to_string(radius) + " }\nbottom = { kind = \"level\", z_mm = -" +
-         std::to_string(depth) + " }\n";
+  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + std::to_string(radius) +
+         " }\nbottom = { kind = \"level\", z_mm = -" + std::to_string(depth) + " }\n";
 }
 const char k_box_target[] =
-    "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { kind = \"level\", z_mm = -2 }\n";
+    "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
+    "kind = \"level\", z_mm = -2 }\n";
 
 const Volume& zone_volume(const Result& r, Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
 const WallMeasures& wall(const Result& r, Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
@@ -167,10 +168,10 @@ TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
     mark(r, rubric);
     return r.verdict;
   };
-  EXPECT_EQ(verdict(60, 0, true), Verdict::pass);    // 15 of 20
+  EXPECT_EQ(verdict(60, 0, true), Verdict::pass);  // 15 of 20
   EXPECT_EQ(verdict(80, 0, true), Verdict::fail);
   EXPECT_EQ(verdict(76, 3, true), Verdict::review);
-  EXPECT_EQ(verdict(60, 0, false), Verdict::fail);   // the time alone reaches 50 %
+  EXPECT_EQ(verdict(60, 0, false), Verdict::fail);  // the time alone reaches 50 %
   EXPECT_EQ(verdict(45, 0, false), Verdict::pass);
   rubric.criteria[0].critical_above = 150;
   EXPECT_EQ(verdict(0, 0, true), Verdict::fail);
@@ -234,12 +235,40 @@ TEST(Grade, TruthOfAPerforationIsTheFirstLeafOfAFaultTissue) {
 TEST(Grade, JsonHoldsEveryPromisedNameEvenForAnUntouchedTooth) {
   const Carved c(scenario_text(k_box_target), dentin_block(3, 3, 0.1));
   const auto j = to_json(c.graded());
-  for (const char* name : {"/verdict", "/score/points", "/score/max", "/criteria/0/id", "/criteria/0/metric", "/criteria/0/value", "/criteria/0/unit", "/criteria/0/points",
-                           "/criteria/0/max", "/criteria/0/reason", "/volumes/target_mm3", "/volumes/target_removed_percent", "/volumes/missed_mm3", "/volumes/removed_mm3",
-                           "/volumes/outside_mm3", "/volumes/dice", "/volumes/overcut/leeway_sides_mm3", "/volumes/overcut/leeway_bottom_mm3",
-                           "/volumes/overcut/container_sides_mm3", "/volumes/overcut/container_bottom_mm3", "/walls/mesial/mean_mm", "/walls/distal/p95_mm",
-                           "/walls/buccal/max_over_mm", "/walls/lingual/max_under_mm", "/walls/floor/mean_mm", "/perforation/detected", "/perforation/events",
-                           "/perforation/truth/perforated", "/perforation/truth/first_t_s", "/perforation/truth/volume_mm3", "/time_s", "/force/mean_n", "/force/peak_n", "/path_mm"})
+  for (const char* name : {"/verdict",
+                           "/score/points",
+                           "/score/max",
+                           "/criteria/0/id",
+                           "/criteria/0/metric",
+                           "/criteria/0/value",
+                           "/criteria/0/unit",
+                           "/criteria/0/points",
+                           "/criteria/0/max",
+                           "/criteria/0/reason",
+                           "/volumes/target_mm3",
+                           "/volumes/target_removed_percent",
+                           "/volumes/missed_mm3",
+                           "/volumes/removed_mm3",
+                           "/volumes/outside_mm3",
+                           "/volumes/dice",
+                           "/volumes/overcut/leeway_sides_mm3",
+                           "/volumes/overcut/leeway_bottom_mm3",
+                           "/volumes/overcut/container_sides_mm3",
+                           "/volumes/overcut/container_bottom_mm3",
+                           "/walls/mesial/mean_mm",
+                           "/walls/distal/p95_mm",
+                           "/walls/buccal/max_over_mm",
+                           "/walls/lingual/max_under_mm",
+                           "/walls/floor/mean_mm",
+                           "/perforation/detected",
+                           "/perforation/events",
+                           "/perforation/truth/perforated",
+                           "/perforation/truth/first_t_s",
+                           "/perforation/truth/volume_mm3",
+                           "/time_s",
+                           "/force/mean_n",
+                           "/force/peak_n",
+                           "/path_mm"})
     EXPECT_TRUE(j.contains(nlohmann::ordered_json::json_pointer(name))) << name;
   EXPECT_TRUE(j["walls"]["floor"]["mean_mm"].is_null());
   EXPECT_TRUE(j["perforation"]["truth"]["first_t_s"].is_null());

@@ -103,6 +103,26 @@ TEST(Detector, IsSilentBetweenEnamelAndDentin) {
   }
 }
 
+TEST(Detector, IsSilentWhenTheHandEasesOff) {
+  // the force of a spring of 0.8 N/mm falls because the tip comes back
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed, 1.0);
+    t.run(400, {0, 0, 0.9 / 0.8 / 0.4 - 0.25}, 0.1).run(1000, {0, 0, -0.05}, 0.1);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Detector, SeesABreakthroughUnderAHandThatKeepsItsPace) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed, 0.95, 0.5);
+    const std::int64_t truth = t.now();
+    t.run(400, {0, 0, -0.5}, 0.2).run(400, {0, 0, -0.3}, 0.05);
+    const auto events = t.events();
+    ASSERT_EQ(events.size(), 1u) << "seed " << seed;
+    EXPECT_NEAR(static_cast<double>(events[0].tick), static_cast<double>(truth), 60) << "seed " << seed;
+  }
+}
+
 TEST(Detector, RemembersWhereTheTipHasBeen) {
   // down into a hole and out; later, cutting a thin wall aside, the point falls back into that hole
   Tape t(5);

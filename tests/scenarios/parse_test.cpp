@@ -56,12 +56,14 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"time_limit_s = 10", "time_limit_s = -3", "s.toml:6:16: 'time_limit_s' is -3; use 0.001 to 36000"},
         Broken{"title = \"Test\"", "titel = \"Test\"", "s.toml:1:1: the scenario has no 'title'; add it"},
         Broken{"points = [\"round-1.0\"]", "points = []", "s.toml:4:10: 'points' is empty; list at least one"},
-        Broken{"99\"", "99 &&\"", "s.toml:10:17: 'complete_when' cannot be read (Unexpected end of expression at position 32); write for example "
-                                 "\"target_removed_percent >= 90 && depth_mm < 5\""},
+        Broken{"99\"", "99 &&\"",
+               "s.toml:10:17: 'complete_when' cannot be read (Unexpected end of expression at position 32); write for example "
+               "\"target_removed_percent >= 90 && depth_mm < 5\""},
         Broken{"\"target_removed_percent >=", "\"target_remove_percent >=",
                "s.toml:10:17: 'complete_when' uses the unknown quantity 'target_remove_percent'; did you mean 'target_removed_percent'?"},
-        Broken{">= 99\"", "= 99\"", "s.toml:10:17: 'complete_when' cannot be read (a single = assigns: compare with ==); write for example "
-                                    "\"target_removed_percent >= 90 && depth_mm < 5\""},
+        Broken{">= 99\"", "= 99\"",
+               "s.toml:10:17: 'complete_when' cannot be read (a single = assigns: compare with ==); write for example "
+               "\"target_removed_percent >= 90 && depth_mm < 5\""},
         Broken{"target_removed_percent >= 99", "depth_mm^2 > 3",
                "s.toml:10:17: 'complete_when' cannot be read (powers (^) are not available: multiply instead); write for example "
                "\"target_removed_percent >= 90 && depth_mm < 5\""},
@@ -80,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
                "s.toml:33:8: 'full' and 'zero' are the same value; points run linearly from one to the other: make them differ"},
         Broken{"id = \"sides\"", "id = \"removed\"", "s.toml:35:1: two criteria are called 'removed'; give each its own id"},
         Broken{"id = \"only\"", "id = \"Only one\"", "s.toml:8:6: 'id' is \"Only one\"; use small letters, digits, _ and -"},
-        Broken{"[zones.leeway]", "[zones.leeway", "s.toml:14:14: this is not TOML (Error while parsing table header: expected ']', saw '\\n'); correct the line"}));
+        Broken{"[zones.leeway]", "[zones.leeway",
+               "s.toml:14:14: this is not TOML (Error while parsing table header: expected ']', saw '\\n'); correct the line"}));
 
 TEST(Scenario, NamesAllMistakesAtOnceInTheOrderOfTheFile) {
   std::string text = with("max_rpm = 200000", "max_rpm = 1");
@@ -98,7 +101,8 @@ TEST(Scenario, NamesAllMistakesAtOnceInTheOrderOfTheFile) {
 }
 
 TEST(Rubric, IsReadAloneOrUnderItsHeading) {
-  const std::string body = "rule = \"non-compensatory\"\npass_percent = 70\n[[CRITERIA]]\nid = \"a\"\nmetric = \"dice\"\nfull = 1\nzero = 0\npoints = 5\n";
+  const std::string body =
+      "rule = \"non-compensatory\"\npass_percent = 70\n[[CRITERIA]]\nid = \"a\"\nmetric = \"dice\"\nfull = 1\nzero = 0\npoints = 5\n";
   std::string alone = body, under = "[rubric]\n" + body;
   alone.replace(alone.find("CRITERIA"), 8, "criteria");
   under.replace(under.find("CRITERIA"), 8, "rubric.criteria");

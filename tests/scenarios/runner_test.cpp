@@ -18,7 +18,8 @@ struct Exam {
   ZoneMap zones;
   Runner runner;
   RunnerState state;
-  explicit Exam(Scenario s) : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
+  explicit Exam(Scenario s)
+      : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
 
   void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t point = 0, double rpm = 0) {
     TickInput in;
@@ -87,8 +88,9 @@ TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
 }
 
 TEST(Runner, StepLimitsAndFailuresLeadOnOrEndTheExam) {
-  const std::string next = "complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.1\n[[steps]]\nid = \"second\"\ninstruction = \"More.\"\n"
-                           "complete_when = \"step_time_s > 1000\"\nfail_when = \"outside_mm3 > 0\"\nfailure_ends_exam = true\n";
+  const std::string next =
+      "complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.1\n[[steps]]\nid = \"second\"\ninstruction = \"More.\"\n"
+      "complete_when = \"step_time_s > 1000\"\nfail_when = \"outside_mm3 > 0\"\nfailure_ends_exam = true\n";
   Exam exam(scenario_with("complete_when = \"target_removed_percent >= 99\"\n", next));
   for (int i = 0; i < 100; ++i) exam.tick();
   EXPECT_EQ(exam.events(ExamEventKind::step_time_limit).at(0).tick, 99);

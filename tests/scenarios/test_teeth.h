@@ -31,17 +31,21 @@ Tooth make_tooth(Vec3 low_mm, Vec3 high_mm, double leaf_mm, const Label& label, 
 
 /// A block of dentin, top at z = 0, `half_mm` wide to every side, `depth_mm` deep, with a millimetre of air above.
 inline Tooth dentin_block(double half_mm, double depth_mm, double leaf_mm) {
-  return make_tooth({-half_mm, -half_mm, -depth_mm}, {half_mm, half_mm, 1.0}, leaf_mm, [](Vec3 p) { return p.z < 0 ? k_dentin : k_air; },
-                    [](Vec3 p) { return p.z; });
+  return make_tooth(
+      {-half_mm, -half_mm, -depth_mm}, {half_mm, half_mm, 1.0}, leaf_mm, [](Vec3 p) { return p.z < 0 ? k_dentin : k_air; },
+      [](Vec3 p) { return p.z; });
 }
 
 /// A block with a flat pulp chamber (box 3 x 2 x 1.5 mm, its floor at z = -4.5), two horns on its roof, two canals below it, and
 /// periodontium under z = -6.5.
 inline Tooth chambered_block(double leaf_mm) {
-  const auto in_box = [](Vec3 p, Vec3 low, Vec3 high) { return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y && p.z < high.z; };
+  const auto in_box = [](Vec3 p, Vec3 low, Vec3 high) {
+    return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y && p.z < high.z;
+  };
   const auto pulp = [in_box](Vec3 p) {
-    return in_box(p, {-1.5, -1, -4.5}, {1.5, 1, -3}) || in_box(p, {-1.4, -0.3, -3}, {-0.9, 0.3, -2.5}) || in_box(p, {0.9, -0.3, -3}, {1.4, 0.3, -2.5}) ||
-           in_box(p, {-1.2, -0.3, -6.5}, {-0.8, 0.3, -4.5}) || in_box(p, {0.8, -0.3, -6.5}, {1.2, 0.3, -4.5});
+    return in_box(p, {-1.5, -1, -4.5}, {1.5, 1, -3}) || in_box(p, {-1.4, -0.3, -3}, {-0.9, 0.3, -2.5}) ||
+           in_box(p, {0.9, -0.3, -3}, {1.4, 0.3, -2.5}) || in_box(p, {-1.2, -0.3, -6.5}, {-0.8, 0.3, -4.5}) ||
+           in_box(p, {0.8, -0.3, -6.5}, {1.2, 0.3, -4.5});
   };
   return make_tooth(
       {-4, -3.5, -7.5}, {4, 3.5, 0.5}, leaf_mm,
@@ -50,7 +54,9 @@ inline Tooth chambered_block(double leaf_mm) {
         if (p.z < -6.5) return k_periodontium;
         return pulp(p) ? k_pulp : p.z > -1.5 ? k_enamel : k_dentin;
       },
-      [pulp](Vec3 p) { return p.z > 0 ? p.z : p.z < -6.5 ? -6.5 - p.z : pulp(p) ? 0.1 : p.z > -0.15 ? p.z : p.z < -6.35 ? -6.5 - p.z : -0.1; });
+      [pulp](Vec3 p) {
+        return p.z > 0 ? p.z : p.z < -6.5 ? -6.5 - p.z : pulp(p) ? 0.1 : p.z > -0.15 ? p.z : p.z < -6.35 ? -6.5 - p.z : -0.1;
+      });
 }
 
 /// A whole scenario around the given [[zones.target]] text.
@@ -74,7 +80,8 @@ bottom_mm = 0.3
 [zones.container]
 sides_mm = 0.8
 bottom_mm = 0.7
-)" + target + R"(
+)" + target +
+         R"(
 [rubric]
 rule = "compensatory"
 pass_percent = 60

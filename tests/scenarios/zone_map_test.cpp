@@ -22,7 +22,8 @@ constexpr double k_pi_here = 3.14159265358979323846;
 ZoneMap zones_of(const Tooth& tooth, const std::string& target) { return build_zones(parse_scenario(scenario_text(target), "test.toml"), tooth); }
 
 std::string cylinder(double radius, double depth) {
-  return "[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0.011, -0.017, " + std::to_string(-depth) + "]\nradius_mm = " + std::to_string(radius) + "\nheight_mm = 5\n";
+  return "[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0.011, -0.017, " + std::to_string(-depth) + "]\nradius_mm = " + std::to_string(radius) +
+         "\nheight_mm = 5\n";
 }
 
 TEST(DistanceTransform, FindsTheNearestSeedLikeBruteForce) {
@@ -59,22 +60,27 @@ TEST(ZoneMap, VolumesOfKnownShapesAreWithinHalfAPercent) {
   EXPECT_NEAR(zones_of(block, cylinder(1.5, 3)).target_mm3(), k_pi_here * 1.5 * 1.5 * 3, 0.005 * k_pi_here * 1.5 * 1.5 * 3);
   const auto box = zones_of(block, "[[zones.target]]\nshape = \"box\"\nat_mm = [0.01, 0.02, -1]\nsize_mm = [3, 2, 4]\nturn_deg = 30\n");
   EXPECT_NEAR(box.target_mm3(), 3 * 2 * 3, 0.005 * 18);
-  const auto cone = zones_of(block, "[[zones.target]]\nshape = \"cone\"\nat_mm = [0.01, 0, -3]\nradius_mm = 0.8\ntop_radius_mm = 1.6\nheight_mm = 3\n");
+  const auto cone =
+      zones_of(block, "[[zones.target]]\nshape = \"cone\"\nat_mm = [0.01, 0, -3]\nradius_mm = 0.8\ntop_radius_mm = 1.6\nheight_mm = 3\n");
   const double cone_mm3 = k_pi_here * 3 / 3 * (0.8 * 0.8 + 0.8 * 1.6 + 1.6 * 1.6);
   EXPECT_NEAR(cone.target_mm3(), cone_mm3, 0.005 * cone_mm3);
   const auto ball = zones_of(block, "[[zones.target]]\nshape = \"ball\"\nat_mm = [0.013, 0.007, -2.5]\nradius_mm = 1.5\n");
   const double ball_mm3 = 4.0 / 3 * k_pi_here * 1.5 * 1.5 * 1.5;
   EXPECT_NEAR(ball.target_mm3(), ball_mm3, 0.005 * ball_mm3);
-  const auto stroke = zones_of(block, "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"stroke\", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }\n"
-                                      "bottom = { kind = \"below_lowest\", depth_mm = 1.8 }\n");
+  const auto stroke =
+      zones_of(block,
+               "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"stroke\", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }\n"
+               "bottom = { kind = \"below_lowest\", depth_mm = 1.8 }\n");
   const double stroke_mm3 = (3 * 1.4 + k_pi_here * 0.49) * 1.8;
   EXPECT_NEAR(stroke.target_mm3(), stroke_mm3, 0.005 * stroke_mm3);
 }
 
 TEST(ZoneMap, TaperWidensTheColumnTowardsTheOpening) {
   const Tooth block = dentin_block(4, 5, 0.05);
-  const auto z = zones_of(block, "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"
-                                 "taper_deg = 10\n");
+  const auto z =
+      zones_of(block,
+               "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"
+               "taper_deg = 10\n");
   const double top = 1 + 2 * std::tan(10 * k_pi_here / 180), want = k_pi_here * 2 / 3 * (1 + top + top * top);
   EXPECT_NEAR(z.target_mm3(), want, 0.005 * want);
 }
@@ -137,7 +143,8 @@ TEST(ZoneMap, ProtectedLeavesStayProtectedInsideLeewayAndContainer) {
 
 TEST(ZoneMap, ShapesAreAddedSubtractedAndIntersectedInOrder) {
   const Tooth block = dentin_block(4, 5, 0.05);
-  const auto z = zones_of(block, cylinder(1.5, 3) + "[[zones.target]]\ncombine = \"subtract\"\nshape = \"box\"\nat_mm = [0, 0, -1.5]\nsize_mm = [0.5, 0.5, 4]\n" +
+  const auto z = zones_of(block, cylinder(1.5, 3) +
+                                     "[[zones.target]]\ncombine = \"subtract\"\nshape = \"box\"\nat_mm = [0, 0, -1.5]\nsize_mm = [0.5, 0.5, 4]\n" +
                                      "[[zones.target]]\ncombine = \"intersect\"\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [8, 8, 4]\n");
   const double want = (k_pi_here * 2.25 - 0.25) * 2;
   EXPECT_NEAR(z.target_mm3(), want, 0.005 * want);
@@ -155,9 +162,10 @@ TEST(Relief, FindsTheChamberAboveTheCanals) {
 
 TEST(ZoneMap, ColumnOverTheChamberFollowsItsShadowDownToItsFloor) {
   const Tooth tooth = chambered_block(0.05);
-  const auto z = zones_of(tooth,
-                          "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1 }\n"
-                          "bottom = { kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }\n");
+  const auto z =
+      zones_of(tooth,
+               "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1 }\n"
+               "bottom = { kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }\n");
   const double area = 3 * 2 + 2 * 0.1 * 5 + k_pi_here * 0.01, want = area * 4.5;
   EXPECT_NEAR(z.target_mm3(), want, 0.02 * want);  // a shadow is known to half a leaf
   EXPECT_EQ(z.zone(tooth.octree.leaf_at({0, 0, -4.4})), Zone::target);

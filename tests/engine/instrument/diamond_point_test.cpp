@@ -61,8 +61,12 @@ TEST(DiamondPoint, WidestHeightsBoundWhereTheHeadNarrows) {
     double before = 0;
     for (double z = 0; z < p.cutting_length_mm; z += 0.001) {
       const double r = p.profile.radius_mm(z);
-      if (z < p.widest_to_mm - 0.005) EXPECT_GE(r, before - 1e-9) << name << ": narrows at " << z << " below widest_to";
-      if (z > p.widest_from_mm + 0.005) EXPECT_LE(r, before + 1e-9) << name << ": widens at " << z << " above widest_from";
+      if (z < p.widest_to_mm - 0.005) {
+        EXPECT_GE(r, before - 1e-9) << name << ": narrows at " << z << " below widest_to";
+      }
+      if (z > p.widest_from_mm + 0.005) {
+        EXPECT_LE(r, before + 1e-9) << name << ": widens at " << z << " above widest_from";
+      }
       before = r;
     }
   }

@@ -1,0 +1,124 @@
+#include "engine/device/motion_file.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/det_math.h"
+#include "tests/engine/support/engine_testing.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_engine;
+
+const std::string k_header = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n";
+
+std::string error_in(const std::string& text) {
+  return error_of([&] { (void)parse_motion(text, "m.csv"); });
+}
+/// The error begins with file, this line, and names `what`.
+void expect_error(const std::string& text, int line, const std::string& what) {
+  const std::string error = error_in(text);
+  EXPECT_EQ(error.rfind("m.csv:" + std::to_string(line) + ": ", 0), 0u) << "'" << error << "' for " << what;
+  EXPECT_NE(error.find(what), std::string::npos) << "'" << error << "' does not name " << what;
+  EXPECT_NE(error.find("; "), std::string::npos) << "'" << error << "' does not say what to do";
+}
+
+TEST(MotionFile, ReadsColumnsInAnyOrderWithPointButtonsAndComments) {
+  const Motion m = parse_motion(
+      "# made by hand\r\n# point = round-1.0\r\n\r\npedal,point,b2,b1,qz,qy,qx,qw,z_mm,y_mm,x_mm,t_s\r\n"
+      "0.5,2,1,0,0,0,0,1,3,2,1,10\r\n"
+      " 1 , 0, 0, 1, 0,0,0,-1, 6,4,2, 10.5\r\n",
+      "m.csv");
+  EXPECT_EQ(m.point, "round-1.0");
+  ASSERT_EQ(m.samples.size(), 2u);
+  EXPECT_EQ(m.samples[0].pose.tip_mm, (Vec3{1, 2, 3}));
+  EXPECT_EQ(m.samples[0].pedal, 0.5);
+  EXPECT_EQ(m.samples[0].point, 2);
+  EXPECT_FALSE(m.samples[0].button_1);
+  EXPECT_TRUE(m.samples[0].button_2);
+  EXPECT_TRUE(m.samples[1].button_1);
+  EXPECT_DOUBLE_EQ(m.duration_s(), 0.5);
+}
+
+TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
+  const std::string good = "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n";
+  ASSERT_EQ(error_in(k_header + good), "");
+  expect_error("# c\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n" + good, 2, "'pedal' is missing");
+  expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,colour\n" + good, 1, "'colour' is not known");
+  expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,x_mm\n" + good, 1, "'x_mm' stands twice");
+  expect_error("t_s,x_m,y_mm,z_mm,qw,qx,qy,qz,pedal\n" + good, 1, "'x_m' has another unit");
+  expect_error("t_ms,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n" + good, 1, "'t_ms' has another unit");
+  expect_error(good, 1, "not known");  // no header at all
+  expect_error(k_header + good + "\n# c\n2,nan,0,0,1,0,0,0,0\n", 6, "x_mm is nan");
+  expect_error(k_header + good + "2,0,0,inf,1,0,0,0,0\n", 4, "z_mm is inf");
+  expect_error(k_header + good + "2,0,0,0,1,0,0,nan,0\n", 4, "qz is nan");
+  expect_error(k_header + good + "nan,0,0,0,1,0,0,0,0\n", 4, "t_s is nan");
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0,nan\n", 4, "pedal is nan");
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0,1.01\n", 4, "pedal is 1.01");
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0,-0.01\n", 4, "pedal is -0.01");
+  expect_error(k_header + good + "1,0,0,0,1,0,0,0,0\n", 4, "t_s does not grow");
+  expect_error(k_header + good + "0.5,0,0,0,1,0,0,0,0\n", 4, "t_s does not grow");
+  expect_error(k_header + good + "2,0,0,0,0,0,0,0,0\n", 4, "rotation");
+  expect_error(k_header + good + "2,0,0,0,3,0,0,0,0\n", 4, "rotation");
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0\n", 4, "has 8 values for 9 columns");
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0,0,0\n", 4, "has 10 values for 9 columns");
+  expect_error(k_header + good + "2,0,0,zero,1,0,0,0,0\n", 4, "'zero' in column z_mm");
+  expect_error(k_header + good + "2,0,,0,1,0,0,0,0\n", 4, "'' in column y_mm");
+  expect_error(k_header + good + "2,\"0\",0,0,1,0,0,0,0\n", 4, "not a number");
+  expect_error(k_header + good + "2,0,0,501,1,0,0,0,0\n", 4, "z_mm is further than 500 mm");
+  for (const char* point : {"0.5", "256", "-2"})
+    expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,0,1,0,0,0,0,0\n1,1,0,0,1,0,0,0,0," + std::string(point) + "\n", 3, "point");
+}
+
+TEST(MotionFile, FaultsOfTheWholeFileNameTheFile) {
+  EXPECT_EQ(error_in("").rfind("m.csv: holds fewer than two rows", 0), 0u);
+  EXPECT_EQ(error_in(k_header + "0,0,0,0,1,0,0,0,0\n").rfind("m.csv: holds fewer than two rows", 0), 0u);
+  // a way of 10 mm written in metres
+  const std::string metres = error_in(k_header + "0,0,0,0,1,0,0,0,0\n1,0.01,0,0,1,0,0,0,0\n");
+  EXPECT_EQ(metres.rfind("m.csv: moves less than 0.05 mm", 0), 0u) << metres;
+  EXPECT_EQ(error_in(k_header + "0,5,0,0,1,0,0,0,0\n1,5,0,0,1,0,0,0,1\n"), "") << "standing still is no fault";
+}
+
+TEST(MotionFile, NoTruncationOrOddByteCrashesTheReader) {
+  Random random(drawn_seed("MotionFile.NoTruncationOrOddByteCrashesTheReader"));
+  const std::string good = "# point = round-1.0\n" + k_header + "0,0.5,-1e-3,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0.25\n";
+  for (std::size_t n = 0; n < good.size(); ++n) (void)error_in(good.substr(0, n));
+  for (int i = 0; i < 3000; ++i) {
+    std::string bad = good;
+    for (auto n = 1 + random.below(3); n > 0; --n) bad[random.below(bad.size())] = static_cast<char>(random.below(256));
+    (void)error_in(bad);
+  }
+}
+
+TEST(MotionFile, PlaysLinearlyBetweenRowsAndHoldsTheEnds) {
+  const Motion m = parse_motion(k_header + "5,0,0,0,1,0,0,0,0\n7,4,-2,1,1,0,0,0,1\n8,4,-2,1,1,0,0,0,0.5\n", "m.csv");
+  const MotionSample half = m.at(0.5);
+  EXPECT_LE(length(half.pose.tip_mm - Vec3{1, -0.5, 0.25}), 1e-12);
+  EXPECT_NEAR(half.pedal, 0.25, 1e-12);
+  EXPECT_NEAR(m.at(2.5).pedal, 0.75, 1e-12);
+  EXPECT_EQ(m.at(-1).pose.tip_mm, (Vec3{0, 0, 0}));
+  EXPECT_EQ(m.at(99).pose.tip_mm, (Vec3{4, -2, 1}));
+  EXPECT_EQ(m.at(99).pedal, 0.5);
+  EXPECT_EQ(m.at(2).pose.tip_mm, (Vec3{4, -2, 1})) << "a row itself is met exactly";
+}
+
+TEST(MotionFile, TurnsTheShorterWayRound) {
+  // q and -q are one rotation: a quarter turn about x, written with the other sign, passes through an eighth
+  const double h = std::sqrt(0.5);
+  const Motion m = parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0," + std::to_string(-h) + "," + std::to_string(-h) + ",0,0,0\n", "m.csv");
+  const Vec3 turned = rotation(m.at(0.5).pose.rotation) * Vec3{0, 1, 0};
+  EXPECT_LE(length(turned - Vec3{0, std::cos(k_pi / 4), std::sin(k_pi / 4)}), 1e-6);
+}
+
+TEST(MotionFile, ButtonsAndPointHoldUntilTheNextRow) {
+  const Motion m = parse_motion("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n0,0,0,0,1,0,0,0,0,1,0,3\n1,1,0,0,1,0,0,0,0,0,1,4\n", "m.csv");
+  EXPECT_TRUE(m.at(0.999).button_1);
+  EXPECT_EQ(m.at(0.999).point, 3);
+  EXPECT_FALSE(m.at(1.0).button_1);
+  EXPECT_TRUE(m.at(1.0).button_2);
+  EXPECT_EQ(m.at(1.0).point, 4);
+  EXPECT_EQ(parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n", "m.csv").at(0).point, -1);
+}
+
+}  // namespace
+}  // namespace cavum
