@@ -101,7 +101,7 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   const double arrived_mm = !goal->cut ? 0.2 : through ? 0.06 : k_arrived_mm;
   if (stuck_s_ > k_give_up_s && goal->cut) {
     retreat(seen.proxy_mm);
-    return {seen.proxy_mm, 0.0, false};
+    return {seen.proxy_mm, pedal_, false};
   }
   if (left < arrived_mm || stuck_s_ > k_give_up_s) {
     if (!through) lead_mm_ *= 0.5;  // into a corner the hand yields, along a gentle bend it goes on
@@ -135,7 +135,7 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   const double kick = skill_.tremor_mm * std::sqrt(2 * dt_s / k_tremor_s);
   tremor_mm_ = tremor_mm_ * (1 - dt_s / k_tremor_s) + Vec3{random_.normal(), random_.normal(), random_.normal()} * kick;
 
-  const double pedal = goal->cut ? 1.0 : 0.0;
+  const double pedal = goal->cut || skill_.perforates ? 1.0 : 0.0;  // who perforates never lifts the foot, for the exam may end there
   pedal_ += std::clamp(pedal - pedal_, -dt_s / 0.15, dt_s / 0.15);  // a foot takes 150 ms
   Vec3 tip = seen.proxy_mm + correction + direction * lead_mm_ + tremor_mm_;
   if (goal->cut && pedal_ < 0.95 && !sight.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
@@ -169,9 +169,6 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       if (!present) continue;
       auto deeper = plan_perforation(zones, tooth, best_map, tooth.tissue_id(fault));
       if (deeper.empty()) continue;
-      // with the foot on the pedal all the way, for the exam may end where it is released
-      if (!way.empty()) way.back().cut = true;
-      deeper.front().cut = true;
       way.insert(way.end(), deeper.begin(), deeper.end());
       break;
     }

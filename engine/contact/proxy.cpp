@@ -122,7 +122,8 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       const Vec3 rest = device.tip_mm - state.proxy_mm;
       const double rest_mm = length(rest);
       gather(tooth, tool, std::min(rest_mm, stride) + 0.02 * leaf, state);
-      const Vec3 wanted = rest_mm > stride ? rest * (stride / rest_mm) : rest;
+      // the whole way is projected, and what is left of it shortened: a deep push must not hold back a slide
+      const Vec3 wanted = rest;
       // the half spaces stand about the place where they were gathered: so do the steps
       const Vec3 since = state.proxy_mm - state.gathered_mm;
       auto solution = nearest_step(since + wanted, state.half_spaces);
@@ -175,7 +176,7 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const T
   TouchedMeans& means = state.means;
   means = {};
   const double leaf = tooth.leaf_mm();
-  const double touch_mm = 0.5 * leaf, before_mm = 0.75 * leaf;
+  const double touch_mm = 0.5 * leaf, before_mm = 0.9 * leaf;
   double solid_area = 0, void_area = 0;
   for (std::size_t p = 0; p < tool.patches.size(); ++p) {
     const auto& patch = tool.patches[p];
@@ -186,7 +187,7 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const T
       const double seen = -dot(state.rotation * s.normal, state.normal);
       if (seen <= 0) continue;
       const Vec3 at = state.proxy_mm + state.rotation * s.at_mm;
-      const std::uint8_t label = tooth.tissue_at(at + state.rotation * s.normal * before_mm, state.cursor);
+      const std::uint8_t label = tooth.tissue_at(at - state.normal * before_mm, state.cursor);
       if (label == k_air) continue;
       double area = s.area_mm2 * seen;
       if (tooth.is_solid(label)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/pose.h"
+#include "engine/base/reserved_vector.h"
 #include "engine/contact/contact_tool.h"
 #include "engine/contact/half_spaces.h"
 #include "engine/tooth/octree.h"
@@ -36,7 +37,7 @@ struct ContactState {
   double tool_clear_until_mm = 0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;  ///< in units of travel
   double turned_mm = 0;  ///< part of the travel that came from rotation
-  std::vector<HalfSpace> half_spaces;  ///< about `gathered_mm`; room for one of each sample
+  ReservedVector<HalfSpace> half_spaces;  ///< about `gathered_mm`; room for one of each sample
   Vec3 gathered_mm;      ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
   double gathered_turned_mm = -1, gathered_reach_mm = 0;
   std::uint64_t gathered_edit = 0;
@@ -60,7 +61,7 @@ struct ContactResult {
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
 /// A sample touches solid tissue within half a leaf, fading out linearly, and void tissue where that lies
-/// 0.75 leaf before its surface; so k and c change continuously across every border. `tissue` has 256 entries.
+/// 0.9 leaf before its surface along the contact normal; so k and c change continuously across every border. `tissue` has 256 entries.
 [[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const TissueConstants* tissue, ContactState& state) noexcept;
 
 }  // namespace cavum

@@ -14,6 +14,7 @@ struct HeadShape {
   bool only_leading = false;
   Vec3 way{};            // of the tip since the last carve, tool frame
   double across_mm = 0;  // its part across the axis
+  double band_mm = 0;    // leaves inside the head change too, as far as distances are kept
 
   double operator()(Vec3 mm) const noexcept { return point.head_distance_mm(rotation.transposed(mm - tip_mm)); }
 
@@ -24,8 +25,8 @@ struct HeadShape {
     if (!only_leading) return false;
     const Vec3 c = rotation.transposed(centre_mm - tip_mm);
     if (across_mm > 0 && c.x * way.x + c.y * way.y + radius_mm * across_mm > 0) return false;
-    if (way.z < 0 && c.z - radius_mm < point.widest_from_mm) return false;
-    if (way.z > 0 && c.z + radius_mm > point.widest_to_mm) return false;
+    if (way.z < 0 && c.z - radius_mm < point.widest_from_mm + band_mm) return false;
+    if (way.z > 0 && c.z + radius_mm > point.widest_to_mm - band_mm) return false;
     return true;
   }
 };
@@ -45,6 +46,7 @@ bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm,
   HeadShape shape{head, tip_mm, rotation};
   if (last.point == point && same(last.rotation, rotation)) {
     shape.only_leading = true;
+    shape.band_mm = (k_distance_band_leaves + 0.25) * leaf;
     shape.way = rotation.transposed(tip_mm - last.tip_mm);
     shape.across_mm = std::sqrt(shape.way.x * shape.way.x + shape.way.y * shape.way.y);
   }

@@ -16,11 +16,11 @@ double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderSt
     state.branch_n = 0.0;
     return 0.0;
   }
-  const double c = tissue.damping_n_s_per_mm;
+  // the small damper on the filtered speed is taken out of c, so that both together make the Voigt law
+  const double calm = std::min(model.filtered_damping_n_s_per_mm, tissue.damping_n_s_per_mm);
+  const double c = tissue.damping_n_s_per_mm - calm;
   // implicit Euler: z = (z + Kvc·dX) / (1 + Kvc·dt/c), written so that c = 0 gives 0
   state.branch_n = c > 0.0 ? (state.branch_n + model.kvc_n_per_mm * approach_mm) * (c / (c + model.kvc_n_per_mm * dt_s)) : 0.0;
-  // the small damper serves the device, not the tissue: where there is no stiffness it has nothing to calm
-  const double calm = std::min(model.filtered_damping_n_s_per_mm, c);
   return std::max(0.0, tissue.stiffness_n_per_mm * depth_mm + state.branch_n + calm * state.speed_mm_s);
 }
 

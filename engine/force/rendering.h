@@ -22,7 +22,7 @@ struct RenderState {
 /// Filtered approach speed after the tip moved `approach_mm` deeper in a tick of `dt_s`; 0 out of contact.
 void update_speed(const RenderingModel& model, RenderState& state, bool touching, double approach_mm, double dt_s) noexcept;
 
-/// Rendered force, N, never pulling: F = k·X + z + b·V, z' = Kvc·V − (Kvc/c)·z integrated implicitly.
+/// Rendered force, N, never pulling: F = k·X + z + b·V, z' = Kvc·V − (Kvc/(c−b))·z integrated implicitly, b ≤ c.
 [[nodiscard]] double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm,
                                     double approach_mm, double dt_s) noexcept;
 

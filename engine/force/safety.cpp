@@ -32,7 +32,8 @@ Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bo
   }
   const Vec3 change = wanted_n - state.force_n;
   const double most = limits.slew_n_per_s * dt_s, step = length(change);
-  if (step > most) {
+  const bool fading = state.silent_s > limits.watchdog_s;  // nothing may hold the force up when the stylus is silent
+  if (step > most && !fading) {
     wanted_n = state.force_n + change * (most / step);
     notices |= k_notice_slew_limited;
   }

@@ -33,14 +33,14 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   try {
     point.profile = Profile(std::move(segments));
   } catch (const Error& e) {
-    throw Error(where, e.what(), "correct the profile");
+    in.fail("profile", e.what(), "correct it");
   }
   point.head = point.profile.below(point.cutting_length_mm);
   ProfilePoint facing{0, -1};
   for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm)) {
     // carving relies on it: see carve_head
     if (facing.r_mm * p.normal.z_mm - facing.z_mm * p.normal.r_mm < -1e-6)
-      throw Error(where, "the coated head is hollow at a height of " + std::to_string(p.at.z_mm) + " mm", "make the profile convex up to cutting_length_mm");
+      in.fail("profile", "is hollow at a height of " + std::to_string(p.at.z_mm) + " mm", "make it convex up to cutting_length_mm");
     facing = p.normal;
     point.head_radius_mm = std::max(point.head_radius_mm, p.at.r_mm);
     if (p.normal.z_mm < -1e-9) point.widest_from_mm = p.at.z_mm;  // still facing down

@@ -22,10 +22,11 @@ Profile::Profile(std::vector<ProfileSegment> segments) : segments_(std::move(seg
   for (const auto& s : segments_) {
     if (!(s.end.r_mm >= 0) || !std::isfinite(s.end.r_mm) || !std::isfinite(s.end.z_mm)) fail("a radius is negative or not a number");
     if (s.end.z_mm < a.z_mm) fail("the heights fall");
+    if (s.end.z_mm == a.z_mm && s.end.r_mm == a.r_mm) fail("a piece has no length");
     if (s.arc) {
       const double one = std::sqrt(squared(a.r_mm - s.centre.r_mm) + squared(a.z_mm - s.centre.z_mm));
       const double two = std::sqrt(squared(s.end.r_mm - s.centre.r_mm) + squared(s.end.z_mm - s.centre.z_mm));
-      if (std::fabs(one - two) > 1e-6 || one <= 0) fail("an arc's ends are not equally far from its centre");
+      if (!(std::fabs(one - two) <= 1e-6) || !(one > 0)) fail("an arc's ends are not equally far from its centre");
     }
     a = s.end;
   }

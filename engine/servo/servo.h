@@ -57,7 +57,7 @@ struct ServoState {
   double swept_mm = 0.0;           ///< way of the head since the last carve
   CarvedHead carved;               ///< pose of the last carve
   std::uint64_t trace_hash = 0;    ///< over every output so far
-  std::vector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
+  ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
 };
 [[nodiscard]] ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 first_tip_mm);
 

@@ -24,30 +24,6 @@ Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
   bricks_.items.shrink_to_fit();
 }
 
-Octree& Octree::operator=(const Octree& other) {
-  if (this == &other) return *this;
-  leaf_mm_ = other.leaf_mm_;
-  origin_mm_ = other.origin_mm_;
-  size_ = other.size_;
-  levels_ = other.levels_;
-  solid_ = other.solid_;
-  root_ = other.root_;
-  edit_hash_ = other.edit_hash_;
-  version_ = other.version_;
-  const auto copy = [](auto& to, const auto& from) {
-    to.items.clear();
-    to.items.reserve(from.items.capacity());
-    to.items.insert(to.items.end(), from.items.begin(), from.items.end());
-    to.free.clear();
-    to.free.reserve(from.free.capacity());
-    to.free.insert(to.free.end(), from.free.begin(), from.free.end());
-  };
-  copy(nodes_, other.nodes_);
-  copy(labels_, other.labels_);
-  copy(bricks_, other.bricks_);
-  return *this;
-}
-
 std::uint32_t Octree::canonical(const FullBrick& brick) {
   bool one_tissue = true, far = true;
   for (std::size_t i = 0; i < k_brick_leaves; ++i) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/bytes.h"
+#include "engine/base/reserved_vector.h"
 #include "engine/base/vec.h"
 #include "engine/tooth/tissue_grid.h"
 
@@ -39,13 +40,6 @@ class Octree {
   Octree() = default;
   /// Builds from a dense grid. Throws Error when the grid is empty or wider than 1024 leaves.
   Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues);
-
-  // Copies keep the spare capacity that `reserve_edits` made, for the servo edits its own copy.
-  Octree(const Octree& other) { *this = other; }
-  Octree& operator=(const Octree& other);
-  Octree(Octree&&) = default;
-  Octree& operator=(Octree&&) = default;
-  ~Octree() = default;
 
   [[nodiscard]] double leaf_mm() const noexcept { return leaf_mm_; }
   [[nodiscard]] Vec3 origin_mm() const noexcept { return origin_mm_; }
@@ -84,7 +78,7 @@ class Octree {
   /// false for an empty box, never true for one that is not.
   [[nodiscard]] bool is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept;
 
-  /// Room for `bricks` more bricks, so that carving needs no allocation. Untouched room costs no memory.
+  /// Room for `bricks` more bricks, so that carving needs no allocation; copies keep it. Untouched room costs no memory.
   void reserve_edits(std::size_t bricks);
   /// Removes what lies inside a shape: `shape(mm)` is its signed distance, mm, negative inside, never
   /// changing faster than 1 mm per mm. Only leaves in the box are looked at; the box must hold the shape
@@ -129,8 +123,8 @@ class Octree {
   /// Pool with a free list; `items` never grows past its capacity during edits.
   template <class T>
   struct Pool {
-    std::vector<T> items;
-    std::vector<std::uint32_t> free;
+    ReservedVector<T> items;
+    ReservedVector<std::uint32_t> free;
     [[nodiscard]] bool full() const noexcept { return free.empty() && items.size() == items.capacity(); }
     [[nodiscard]] std::size_t used() const noexcept { return items.size() - free.size(); }
     std::uint32_t add(const T& item) {

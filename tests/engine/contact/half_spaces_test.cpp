@@ -55,7 +55,7 @@ TEST(HalfSpaces, StepIsTheNearestAllowedOneOfAllCandidates) {
     const Vec3 allowed = random_direction(random) * random.uniform(0, 0.05);
     for (auto n = 1 + random.below(12); n > 0; --n) {
       const Vec3 normal = random_direction(random) * random.uniform(0.9, 1.1);
-      set.push_back({normal, std::max(random.uniform(-0.02, 0.05), -dot(normal, allowed))});  // keeps `allowed` allowed
+      set.push_back({normal, std::max(random.uniform(-0.02, 0.05), 1e-5 - dot(normal, allowed))});  // keeps `allowed` allowed, and 10 nm around it
     }
     const Vec3 wanted = random_direction(random) * random.uniform(0, 0.1);
     const auto solution = nearest_step(wanted, set);

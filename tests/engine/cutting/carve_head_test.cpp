@@ -28,7 +28,7 @@ TEST(CarveHead, RemovesExactlyTheLeavesWhoseCentreTheHeadHeld) {
     std::vector<Pose> poses;
     CarvedHead last;
     Quat turned = random_rotation(random);
-    Vec3 tip{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 0.5)}, way = random_direction(random) * 0.02;
+    Vec3 tip{random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-1.5, -0.5)}, way = random_direction(random) * 0.02;
     for (int i = 0; i < 40; ++i) {  // straight runs with one rotation, now and then a turn: the leading side alone is carved
       if (random.below(8) == 0) way = random_direction(random) * 0.02;
       if (random.below(12) == 0) turned = random_rotation(random);
@@ -45,7 +45,7 @@ TEST(CarveHead, RemovesExactlyTheLeavesWhoseCentreTheHeadHeld) {
           double nearest = 1e9;
           for (const auto& p : poses) nearest = std::min(nearest, point.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
           if (std::fabs(nearest) < 1e-9) continue;
-          ASSERT_EQ(after.tissue[i], nearest < 0 ? k_air : before.tissue[i]) << name << " leaf " << x << ' ' << y << ' ' << z << " distance " << nearest;
+          ASSERT_EQ(after.tissue[i], nearest < 0 ? std::uint8_t{k_air} : before.tissue[i]) << name << " leaf " << x << ' ' << y << ' ' << z << " distance " << nearest;
           gone += before.tissue[i] != after.tissue[i];
         }
     EXPECT_EQ(gone, removed.size()) << name << ": every removed leaf is listed once";
@@ -74,7 +74,7 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheSameToothAsTheWholeHead) {
       }
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
-      ASSERT_EQ(a.distance, b.distance) << name;
+      for (std::size_t i = 0; i < a.distance.size(); ++i) ASSERT_EQ(a.distance[i], b.distance[i]) << name << " at leaf index " << i << " (127 codes are 2 leaves)";
     }
 }
 

@@ -75,7 +75,7 @@ TEST(Cutting, RemovalDoesNotDependOnTheLengthOfATick) {
   const Plunge a = plunge(0.8, 0.05, 0.002, 6.0);
   for (const double dt : {0.001, 0.0005, 0.00025}) {
     const Plunge b = plunge(0.8, 0.05, dt, 6.0);
-    EXPECT_NEAR(b.removed_mm3 / a.removed_mm3, 1.0, 0.01) << dt;
+    EXPECT_NEAR(b.removed_mm3, a.removed_mm3, 1.2 * k_pi * 0.25 * 0.25 * 0.05) << dt << ": the last quarter of a leaf may not be carved yet";
     EXPECT_NEAR(b.mean_x / a.mean_x, 1.0, 0.01) << dt;
   }
 }

@@ -182,7 +182,7 @@ inline double height_over_plane_mm(const DiamondPoint& point, Vec3 tip_mm, Quat 
   const Vec3 axis = rotation(rotation_q) * Vec3{0, 0, 1};
   const double along = dot(axis, normal), across = std::sqrt(std::max(0.0, 1 - along * along));
   double least = 0;  // the tip
-  for (const auto& p : point.profile.walk(0.001, point.profile.length_mm())) least = std::min(least, p.at.z_mm * along - p.at.r_mm * across);
+  for (const auto& p : point.profile.walk(0.004, point.profile.length_mm())) least = std::min(least, p.at.z_mm * along - p.at.r_mm * across);
   // walk() leaves out the ends of the pieces, which is where sharp edges are
   for (const auto& s : point.profile.segments()) least = std::min(least, s.end.z_mm * along - s.end.r_mm * across);
   return dot(tip_mm, normal) - plane_mm + least;
