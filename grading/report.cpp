@@ -1,5 +1,9 @@
 #include "grading/report.h"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include "scenarios/picture.h"
@@ -32,7 +36,48 @@ td,th{padding:4px 8px;border-bottom:1px solid #e3e3e3;text-align:left;vertical-a
 @media(max-width:760px){.two{grid-template-columns:1fr}}@media print{body{margin:0;font-size:11px}.pictures svg{max-width:32%}}
 )";
 
+/// Three sections through the middle of the target, moved to the place of a perforation when there is one.
+std::array<std::string, 3> sections(const Result& r, const GradeInput& input) {
+  const Vec3 low = input.zones.target_low_mm(), high = input.zones.target_high_mm();
+  const Vec3 at = r.perforation.fault.perforated ? r.perforation.fault.first.site_mm : (low + high) * 0.5;
+  const double across = low.z + 0.35 * (high.z - low.z);
+  const auto draw = [&](View view, double at_mm, const char* name) {
+    return section_svg(input.before, &input.after, input.zones, {view, at_mm, 25, name + fixed(at_mm, 2) + " mm"});
+  };
+  return {draw(View::mesio_distal, at.y, "mesial-distal, y = "), draw(View::bucco_lingual, at.x, "buccal-lingual, x = "),
+          draw(View::horizontal, across, "across, z = ")};
+}
+
+/// The number behind the first `key` of an SVG element, px.
+double svg_px(const std::string& svg, const std::string& key) {
+  double px = 0;
+  const char* from = svg.data() + svg.find(key) + key.size();
+  std::from_chars(from, svg.data() + svg.size(), px);
+  return px;
+}
+
 }  // namespace
+
+std::string sections_svg(const Result& r, const GradeInput& input) {
+  constexpr double k_margin_px = 10, k_text_px = 30;
+  const auto group = [](double x, double y, const std::string& content) {
+    return "<g transform='translate(" + fixed(x, 0) + " " + fixed(y, 2) + ")'>" + content + "</g>\n";
+  };
+  const auto pictures = sections(r, input);
+  const std::string legend = legend_svg(true);
+  double height = 0, x = k_margin_px;
+  for (const auto& p : pictures) height = std::max(height, svg_px(p, "height='"));
+  std::string body;
+  for (const auto& p : pictures) {  // standing on one line
+    body += group(x, k_text_px + height - svg_px(p, "height='"), p);
+    x += std::ceil(svg_px(p, "width='")) + k_margin_px;
+  }
+  const double width = std::max(x, svg_px(legend, "width='") + 2 * k_margin_px), all = height + 2 * k_text_px + k_margin_px;
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(width, 0) + "' height='" + fixed(all, 0) + "' viewBox='0 0 " + fixed(width, 0) +
+         " " + fixed(all, 0) + "' font-family='sans-serif'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='20' font-size='15'>" +
+         xml_text(r.scenario_title + ": " + fixed(r.volumes.target_removed_percent, 1) + " % of the target removed") + "</text>\n" + body +
+         group(k_margin_px, all - k_text_px, legend) + "</svg>\n";
+}
 
 std::string report_html(const Result& r, const GradeInput& input, const ReportFacts& facts) {
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
@@ -46,14 +91,8 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
   for (const auto& reason : r.verdict_reasons) h += "<li>" + xml_text(reason) + "</li>";
   h += "</ul></div>\n";
 
-  // sections through the middle of the target, moved to the place of a perforation when there is one
-  Vec3 middle = (input.zones.target_low_mm() + input.zones.target_high_mm()) * 0.5;
-  if (r.perforation.fault.perforated) middle = r.perforation.fault.first.site_mm;
-  const double across = input.zones.target_low_mm().z + 0.35 * (input.zones.target_high_mm().z - input.zones.target_low_mm().z);
   h += "<h2>Removed against target</h2>\n<div class='pictures'>\n";
-  h += section_svg(input.before, &input.after, input.zones, {View::mesio_distal, middle.y, 25, "mesial-distal, y = " + fixed(middle.y, 2) + " mm"});
-  h += section_svg(input.before, &input.after, input.zones, {View::bucco_lingual, middle.x, 25, "buccal-lingual, x = " + fixed(middle.x, 2) + " mm"});
-  h += section_svg(input.before, &input.after, input.zones, {View::horizontal, across, 25, "across, z = " + fixed(across, 2) + " mm"});
+  for (const auto& section : sections(r, input)) h += section;
   h += "</div>\n" + legend_svg(true);
 
   h += "<h2>Criteria</h2>\n<table><tr><th>Criterion</th><th class='n'>Value</th><th class='n'>Points</th><th>Why</th></tr>\n";

@@ -35,10 +35,12 @@ void run_grade(const Options& o) {
 void run_report(const Options& o) {
   if (o.out.ends_with(".pdf"))
     throw Error(o.out, "this version writes reports as HTML only", "use a name ending in .html and print it as PDF from a browser");
-  if (!o.out.ends_with(".html")) throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html");
+  const bool picture = o.out.ends_with(".svg");
+  if (!picture && !o.out.ends_with(".html"))
+    throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html, or in .svg for the sections alone");
   const auto session = load_for_grading(o.session);
   const Result result = result_of(*session, o);
-  write_text_file(o.out, report_html(result, session->input(), session->facts));
+  write_text_file(o.out, picture ? sections_svg(result, session->input()) : report_html(result, session->input(), session->facts));
   std::cout << "written: " << o.out << " (" << verdict_name(result.verdict) << ")\n";
 }
 
@@ -55,9 +57,9 @@ void add_grade_verbs(CLI::App& app, int& exit_code) {
     exit_code = 0;
   });
 
-  auto* reports = app.add_subcommand("report", "Write the report of a recorded exam");
+  auto* reports = app.add_subcommand("report", "Write the report of a recorded exam, or its sections as a picture");
   reports->add_option("session", o->session, "session file (.cavum)")->required();
-  reports->add_option("--out", o->out, "HTML file")->required();
+  reports->add_option("--out", o->out, "file to write: .html for the report, .svg for the three sections")->required();
   reports->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the session's own");
   reports->callback([o, &exit_code] {
     run_report(*o);

@@ -176,7 +176,7 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const T
   TouchedMeans& means = state.means;
   means = {};
   const double leaf = tooth.leaf_mm();
-  const double touch_mm = 0.5 * leaf, before_mm = 0.9 * leaf;
+  const double touch_mm = 0.5 * leaf, before_mm = 0.9 * leaf, reached_mm = 0.1 * leaf;
   double solid_area = 0, void_area = 0;
   for (std::size_t p = 0; p < tool.patches.size(); ++p) {
     const auto& patch = tool.patches[p];
@@ -187,8 +187,12 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const T
       const double seen = -dot(state.rotation * s.normal, state.normal);
       if (seen <= 0) continue;
       const Vec3 at = state.proxy_mm + state.rotation * s.at_mm;
-      const std::uint8_t label = tooth.tissue_at(at - state.normal * before_mm, state.cursor);
+      std::uint8_t label = tooth.tissue_at(at - state.normal * before_mm, state.cursor);
       if (label == k_air) continue;
+      if (!tooth.is_solid(label)) {  // void tissue counts from where the surface reaches it, not from behind the last solid leaf
+        const std::uint8_t nearer = tooth.tissue_at(at - state.normal * reached_mm, state.cursor);
+        if (tooth.is_solid(nearer)) label = nearer;
+      }
       double area = s.area_mm2 * seen;
       if (tooth.is_solid(label)) {
         const double gap = state.sample_clear_until_mm[i] - state.travel_mm;  // as the proxy's search left it

@@ -60,8 +60,8 @@ struct ContactResult {
 /// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
-/// A sample touches solid tissue within half a leaf, fading out linearly, and void tissue where that lies
-/// 0.9 leaf before its surface along the contact normal; so k and c change continuously across every border. `tissue` has 256 entries.
+/// A sample touches solid tissue within half a leaf, fading out linearly, and void tissue where its
+/// surface has reached it; so k and c change continuously across every border. `tissue` has 256 entries.
 [[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const TissueConstants* tissue, ContactState& state) noexcept;
 
 }  // namespace cavum

@@ -35,7 +35,7 @@ bool same(const Mat3& a, const Mat3& b) noexcept { return a.row_x == b.row_x && 
 
 }  // namespace
 
-bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, CarvedHead& last,
+bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, double ease_mm, CarvedHead& last,
                 std::vector<RemovedLeaf>& removed) noexcept {
   const double leaf = tooth.leaf_mm();
   // The head's box: the capsule around its axis, and the band of distances that changes around it.
@@ -44,14 +44,14 @@ bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm,
   const Vec3 low{std::min(tip_mm.x, end.x) - r, std::min(tip_mm.y, end.y) - r, std::min(tip_mm.z, end.z) - r};
   const Vec3 high{std::max(tip_mm.x, end.x) + r, std::max(tip_mm.y, end.y) + r, std::max(tip_mm.z, end.z) + r};
   HeadShape shape{head, tip_mm, rotation};
-  if (last.point == point && same(last.rotation, rotation)) {
+  if (last.point == point && ease_mm == 0.0 && same(last.rotation, rotation)) {
     shape.only_leading = true;
     shape.band_mm = (k_distance_band_leaves + 0.25) * leaf;
     shape.way = rotation.transposed(tip_mm - last.tip_mm);
     shape.across_mm = std::sqrt(shape.way.x * shape.way.x + shape.way.y * shape.way.y);
   }
   // Trilinear interpolation of a hollow of radius R lies leaf²/(8R) a direction inside it, rounding of the codes adds 0.01 leaf.
-  const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm);
+  const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm) + ease_mm;
   const bool complete = tooth.carve(low, high, shape, removed, clearance_mm);
   last = {tip_mm, rotation, complete ? point : -1};
   return complete;

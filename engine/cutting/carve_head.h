@@ -20,8 +20,9 @@ struct CarvedHead {
 /// Turns every leaf inside the head to air and raises the surface distance around it. Appends to `removed`
 /// within its capacity; `last` is brought up to date. Returns false when room ran out (then part of the head was
 /// not carved). A head that only moved on since `last` is carved on its leading side alone: behind it nothing
-/// can change, for all heads are convex.
-bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, CarvedHead& last,
+/// can change, for all heads are convex. `ease_mm` widens the distance field (not the labels) around the whole head,
+/// for one that is clamped in its hole.
+bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, double ease_mm, CarvedHead& last,
                 std::vector<RemovedLeaf>& removed) noexcept;
 
 }  // namespace cavum

@@ -32,8 +32,7 @@ Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bo
   }
   const Vec3 change = wanted_n - state.force_n;
   const double most = limits.slew_n_per_s * dt_s, step = length(change);
-  const bool fading = state.silent_s > limits.watchdog_s;  // nothing may hold the force up when the stylus is silent
-  if (step > most && !fading) {
+  if (step > most) {
     wanted_n = state.force_n + change * (most / step);
     notices |= k_notice_slew_limited;
   }

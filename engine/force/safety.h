@@ -12,7 +12,7 @@ namespace cavum {
 struct SafetyLimits {
   double peak_n = 3.3;
   double continuous_n = 0.88;          ///< may be rendered without end
-  double slew_n_per_s = 600.0;         ///< fastest change of the force
+  double slew_n_per_s = 700.0;         ///< fastest change of the force; at least peak_n / watchdog_s, or the fade could not keep its time
   double sustained_budget_n_s = 30.0;  ///< force above the continuous rating times its duration, refilled when below
   double watchdog_s = 0.005;           ///< without a fresh pose for longer, the force fades to zero in as long again
 };

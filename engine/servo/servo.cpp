@@ -11,6 +11,8 @@ namespace {
 
 constexpr double k_carve_step_leaves = 0.25; // recession is gathered up to this before the octree is edited
 constexpr double k_sweep_step_leaves = 1.0;     // way through void tissue between two carves
+constexpr double k_clamped_leaves = 0.5;          // recession owed by a head that is clamped in its hole
+constexpr double k_ease = 0.1;                    // of that recession
 constexpr double k_still_share = 0.01;            // of the full speed: below it the handpiece stands still
 constexpr std::size_t k_edit_room = 1 << 17;      // bricks; untouched room costs no memory
 constexpr std::size_t k_removed_room = 1 << 16;   // leaves a tick
@@ -55,7 +57,9 @@ void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, co
     const Vec3 tip_way = at - state.carved.tip_mm, top_way = tip_way + turned * top - state.carved.rotation * top;
     if (length(tip_way) + length(top_way) < k_carve_step_leaves * leaf) return;
   }
-  if (!carve_head(state.tooth, tool.point, input_point, at, turned, state.carved, state.removed)) out.notices |= k_notice_tooth_full;
+  // A recession that the proxy does not follow means a head clamped by the rounding between leaves: ease it by a few micrometres.
+  const double ease_mm = ahead > k_clamped_leaves * leaf ? k_ease * ahead : 0.0;
+  if (!carve_head(state.tooth, tool.point, input_point, at, turned, ease_mm, state.carved, state.removed)) out.notices |= k_notice_tooth_full;
   state.swept_mm = 0.0;
 }
 

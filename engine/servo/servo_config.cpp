@@ -29,6 +29,8 @@ ServoConfig parse_servo_config(const std::string& text, const std::string& where
   c.limits.slew_n_per_s = l.number("slew_n_per_s", 1, 1e6);
   c.limits.sustained_budget_n_s = l.number("sustained_budget_n_s", 0.1, 1e6);
   c.limits.watchdog_s = l.number("watchdog_s", 0.001, 1);
+  if (c.limits.slew_n_per_s * c.limits.watchdog_s < c.limits.peak_n)
+    l.fail("slew_n_per_s", "is too slow for the force to fade within watchdog_s", "raise it to at least peak_n / watchdog_s");
   l.finish();
   in.finish();
   return c;

@@ -34,7 +34,7 @@ TEST(CarveHead, RemovesExactlyTheLeavesWhoseCentreTheHeadHeld) {
       if (random.below(12) == 0) turned = random_rotation(random);
       tip += way;
       poses.push_back({tip, turned});
-      ASSERT_TRUE(carve_head(tooth.octree, point, 0, tip, rotation(turned), last, removed));
+      ASSERT_TRUE(carve_head(tooth.octree, point, 0, tip, rotation(turned), 0.0, last, removed));
     }
     const TissueGrid after = tooth.octree.to_grid();
     std::size_t gone = 0;
@@ -68,9 +68,9 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheSameToothAsTheWholeHead) {
       Vec3 tip{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1.5, 0.3)};
       for (int i = 0; i < 30; ++i) {
         tip += random_direction(random) * random.uniform(0.002, 0.05);
-        ASSERT_TRUE(carve_head(one.octree, point, 0, tip, turned, last, removed_one));
+        ASSERT_TRUE(carve_head(one.octree, point, 0, tip, turned, 0.0, last, removed_one));
         CarvedHead none;
-        ASSERT_TRUE(carve_head(two.octree, point, 0, tip, turned, none, removed_two));
+        ASSERT_TRUE(carve_head(two.octree, point, 0, tip, turned, 0.0, none, removed_two));
       }
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
@@ -85,12 +85,12 @@ TEST(CarveHead, FullRoomIsToldAndTheNextCarveMakesUpForIt) {
   std::vector<RemovedLeaf> little;
   little.reserve(10);
   CarvedHead last;
-  EXPECT_FALSE(carve_head(tooth.octree, point, 0, {0, 0, -0.5}, Mat3{}, last, little));
+  EXPECT_FALSE(carve_head(tooth.octree, point, 0, {0, 0, -0.5}, Mat3{}, 0.0, last, little));
   EXPECT_LE(little.size(), little.capacity());
   EXPECT_EQ(little.capacity(), 10u) << "it grew";
   EXPECT_EQ(last.point, -1) << "an unfinished carve must not count as done";
   auto removed = room();
-  EXPECT_TRUE(carve_head(tooth.octree, point, 0, {0, 0, -0.5}, Mat3{}, last, removed));
+  EXPECT_TRUE(carve_head(tooth.octree, point, 0, {0, 0, -0.5}, Mat3{}, 0.0, last, removed));
   const double expected = 2.0 / 3.0 * k_pi * 0.125;  // half a ball
   EXPECT_NEAR(static_cast<double>(removed.size() + little.size()) * 1.25e-4 / expected, 1.0, 0.02);
 }

@@ -1,0 +1,194 @@
+// The program as a user runs it: complete exams by the three simulated candidates on the shipped molar, kills and
+// resumes, and bad input, which must end with exit 2 and one line that names file and place.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "engine/base/file.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data";
+const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+
+struct Ran {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// A folder of its own for each test, with a station key in it.
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "cavum-ui-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    setenv("CAVUM_HOME", (folder_ + "/home").c_str(), 1);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] Ran run(const std::string& arguments) const {
+    const int status = std::system((std::string(CAVUM_BINARY) + " " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
+  }
+  [[nodiscard]] json exam(const std::string& scenario, const std::string& who, const std::string& more = "") const {
+    const Ran r = run("exam " + scenario + " --candidate test --operator " + who + " --out " + path(who + ".cavum") + " --json " + more);
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return json::parse(r.out, nullptr, false);
+  }
+  /// One line on stderr that holds all of `parts`, and exit 2.
+  void expect_refused(const std::string& arguments, const std::vector<std::string>& parts) const {
+    const Ran r = run(arguments);
+    EXPECT_EQ(r.exit_code, 2) << arguments << "\n" << r.out << r.err;
+    EXPECT_TRUE(r.err.starts_with("cavum: ")) << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    for (const auto& p : parts) EXPECT_NE(r.err.find(p), std::string::npos) << "'" << p << "' is missing in: " << r.err;
+  }
+
+  std::string folder_;
+};
+
+double best_gap_s(const json& result) {
+  const auto& p = result["perforation"];
+  double best = 1e9;
+  for (const auto& e : p["events"])
+    if (p["truth"]["first_t_s"].is_number()) best = std::min(best, std::fabs(e["t_s"].get<double>() - p["truth"]["first_t_s"].get<double>()));
+  return best;
+}
+
+std::string reasons(const json& result) {
+  std::string all;
+  for (const auto& c : result["criteria"]) all += c["reason"].get<std::string>() + "\n";
+  return all;
+}
+
+TEST_F(CommandLine, ExpertPassesTheAccessExamAndItsReplayVerifies) {
+  const json result = exam(k_data + "/scenarios/molar_access.toml", "expert", "--report " + path("r.html"));
+  EXPECT_EQ(result["verdict"], "pass");
+  EXPECT_GT(result["volumes"]["target_removed_percent"], 90);
+  EXPECT_FALSE(result["perforation"]["truth"]["perforated"]);
+  const Ran replay = run("replay " + path("expert.cavum") + " --verify --json");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  const json r = json::parse(replay.out);
+  EXPECT_TRUE(r["verified"]);
+  EXPECT_TRUE(r["first_divergence"].is_null());
+  std::printf("replayed %lld ticks at %.0f times real time\n", r["ticks"].get<long long>(), r["speed_x_realtime"].get<double>());
+  const Ran graded = run("grade " + path("expert.cavum") + " --json");
+  EXPECT_EQ(json::parse(graded.out)["score"], result["score"]) << "a grade from the file equals the one at the end of the exam";
+  EXPECT_NE(read_text_file(path("r.html")).find("<svg"), std::string::npos);
+}
+
+TEST_F(CommandLine, NoviceLosesPointsWithTheWallNamed) {
+  const json result = exam(k_data + "/scenarios/molar_access.toml", "novice");
+  EXPECT_NE(result["verdict"], "pass");
+  EXPECT_LT(result["score"]["points"], 0.8 * result["score"]["max"].get<double>());
+  EXPECT_NE(reasons(result).find("wall"), std::string::npos);
+}
+
+TEST_F(CommandLine, PerforatorFailsAndForceAndTissueAgreeWithin100Milliseconds) {
+  const json result = exam(k_data + "/scenarios/molar_access.toml", "perforator");
+  EXPECT_EQ(result["verdict"], "fail");
+  EXPECT_TRUE(result["perforation"]["detected"]);
+  EXPECT_TRUE(result["perforation"]["truth"]["perforated"]);
+  EXPECT_LE(best_gap_s(result), 0.1);
+}
+
+TEST_F(CommandLine, RealMolarTakesTheSameExam) {
+  const fs::path shared = fs::path(CAVUM_SOURCE_DIR) / ".." / "shared" / "teeth" / "openmandible";
+  if (!fs::exists(shared)) GTEST_SKIP() << "no shared/ folder beside the repository: the real molar is not examined";
+  const Ran help = run("tooth import --help");
+  if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("without import") != std::string::npos) GTEST_SKIP() << "built without import";
+  const std::string m = shared.string() + "/Tooth_L6_";
+  const Ran import = run("tooth import --enamel " + m + "Enamel.stl --dentin " + m + "Dentin.stl --pulp " + m + "Pulp.stl --leaf-mm 0.05 --out " + path("l6.cvt"));
+  ASSERT_EQ(import.exit_code, 0) << import.err;
+  const std::string scenario = k_data + "/scenarios/molar_access.toml", tooth = "--tooth " + path("l6.cvt");
+  EXPECT_EQ(exam(scenario, "expert", tooth)["verdict"], "pass");
+  const json novice = exam(scenario, "novice", tooth);
+  EXPECT_NE(novice["verdict"], "pass");
+  EXPECT_NE(reasons(novice).find("wall"), std::string::npos);
+  const json perforator = exam(scenario, "perforator", tooth);
+  EXPECT_EQ(perforator["verdict"], "fail");
+  EXPECT_LE(best_gap_s(perforator), 0.1);
+  const Ran replay = run("replay " + folder_ + " --verify --json --junit " + path("j.xml"));
+  EXPECT_EQ(replay.exit_code, 0) << replay.out;
+  EXPECT_NE(read_text_file(path("j.xml")).find("tests=\"3\""), std::string::npos);
+}
+
+TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
+  const char* given = std::getenv("CAVUM_TEST_SEED");
+  const auto seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  std::printf("CAVUM_TEST_SEED=%llu\n", static_cast<unsigned long long>(seed));
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < 20; ++i) {
+    const std::string session = path("killed" + std::to_string(i) + ".cavum");
+    const pid_t child = fork();
+    if (child == 0) {
+      std::freopen("/dev/null", "w", stdout);
+      execl(CAVUM_BINARY, CAVUM_BINARY, "exam", k_block.c_str(), "--candidate", "killed", "--operator", "expert", "--out", session.c_str(), "--quiet", nullptr);
+      _exit(127);
+    }
+    usleep(static_cast<useconds_t>(20'000 + random() % 900'000));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (!fs::exists(session)) continue;  // killed before the exam began: nothing to lose
+    if (WIFEXITED(status)) continue;     // was done before the kill
+    const Ran resumed = run("exam --resume --out " + session + " --json");
+    if (resumed.exit_code == 2 && resumed.err.find("is closed") != std::string::npos) continue;
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    const Ran replay = run("replay " + session + " --verify --json");
+    EXPECT_EQ(replay.exit_code, 0) << replay.out;
+  }
+}
+
+TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
+  const std::string out = " --candidate c --out " + path("x.cavum");
+  expect_refused("grade " + path("nothing.cavum"), {"nothing.cavum"});
+  expect_refused("exam " + path("nothing.toml") + " --operator expert" + out, {"nothing.toml", "cannot be opened"});
+  expect_refused("exam " + k_block + " --operator wizard" + out, {"wizard"});
+  expect_refused("exam " + k_block + out, {"--motion", "--operator"});
+  expect_refused("tooth info " + k_block, {"block_cavity.toml", "not a Cavum tooth file"});
+  expect_refused("nonsense", {"nonsense"});
+  const auto motion = [&](const std::string& text) {
+    write_text_file(path("m.csv"), text);
+    return "exam " + k_block + " --motion " + path("m.csv") + out;
+  };
+  const std::string head = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n";
+  expect_refused(motion(head + "1,nan,0,0,1,0,0,0,0\n"), {"m.csv:3", "x_mm"});
+  expect_refused(motion(head + "1,0,0,0,1,0,0,0,1.5\n"), {"m.csv:3", "pedal"});
+  expect_refused(motion("t_s,x_m,y_m,z_m,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n"), {"m.csv:1", "x_m", "x_mm"});
+  expect_refused(motion(head + "1,0.01,0,5,1,0,0,0,0\n"), {"m.csv", "metres"});
+  expect_refused(motion("# point = chisel\n" + head + "1,0,0,0,1,0,0,0,0\n"), {"chisel"});
+  EXPECT_FALSE(fs::exists(path("x.cavum"))) << "nothing was begun";
+}
+
+TEST_F(CommandLine, AMotionFileDrillsAndAnExistingSessionIsNotOverwritten) {
+  std::ostringstream csv;
+  csv << "# point = round-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,1,1,0,0,0,1\n2,0,0,0.1,1,0,0,0,1\n8,0,0,-1.4,1,0,0,0,1\n9,0,0,2,1,0,0,0,0\n";
+  write_text_file(path("m.csv"), csv.str());
+  const std::string call = "exam " + k_block + " --motion " + path("m.csv") + " --candidate c --out " + path("m.cavum") + " --json";
+  const Ran first = run(call);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_GT(json::parse(first.out)["volumes"]["removed_mm3"], 0.3);
+  expect_refused(call, {"m.cavum"});
+  EXPECT_EQ(run("replay " + path("m.cavum") + " --verify").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace cavum
