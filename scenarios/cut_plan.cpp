@@ -8,7 +8,7 @@
 namespace cavum {
 namespace {
 
-constexpr double k_above_mm = 1.0;     // height of the ways through the air over the tooth
+constexpr double k_above_mm = 1.0;      // height of the ways through the air over the tooth
 constexpr double k_lift_over_mm = 0.6;  // a longer gap between two loops is crossed in the air
 
 /// A set of columns with the distance of each to its edge.
@@ -17,7 +17,8 @@ struct Region {
   std::vector<std::uint8_t> inside;
   std::vector<double> depth;  ///< columns to the edge, 0.5 at a border column
   [[nodiscard]] bool has(int x, int y) const noexcept {
-    return x >= 0 && y >= 0 && x < nx && y < ny && inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] != 0;
+    return x >= 0 && y >= 0 && x < nx && y < ny &&
+           inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] != 0;
   }
 };
 
@@ -27,7 +28,8 @@ Region region_of(int nx, int ny, const std::vector<std::uint8_t>& inside) {
   const int px = nx + 2, py = ny + 2;
   std::vector<std::uint8_t> outside(static_cast<std::size_t>(px) * static_cast<std::size_t>(py), 1);
   for (int y = 0; y < ny; ++y)
-    for (int x = 0; x < nx; ++x) outside[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)] = !r.has(x, y);
+    for (int x = 0; x < nx; ++x)
+      outside[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)] = !r.has(x, y);
   const auto nearest = nearest_seed({px, py, 1}, outside);
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x) {
@@ -180,8 +182,9 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
   ReachMap map;
   const double plan_area = (high.x - low.x) * (high.y - low.y);
   map.step_mm = std::max(plan_area < 16.0 ? 0.05 : 0.1, zones.leaf_mm());  // a small target is worth a closer look
-  const int border = static_cast<int>(1.2 / map.step_mm);  // columns around the target: tooth that the shank could meet
-  const int nx = static_cast<int>((high.x - low.x) / map.step_mm) + 2 + 2 * border, ny = static_cast<int>((high.y - low.y) / map.step_mm) + 2 + 2 * border;
+  const int border = static_cast<int>(1.2 / map.step_mm);                  // columns around the target: tooth that the shank could meet
+  const int nx = static_cast<int>((high.x - low.x) / map.step_mm) + 2 + 2 * border,
+            ny = static_cast<int>((high.y - low.y) / map.step_mm) + 2 + 2 * border;
   const double top = tooth.octree.origin_mm().z + tooth.octree.size().z * tooth.octree.leaf_mm();
   map.nx = nx;
   map.ny = ny;

@@ -22,18 +22,20 @@ struct PlanOptions {
   double spacing_mm = 0.7;          ///< between the loops of a layer
   double finish_spacing_mm = 0.35;  ///< between the loops of the floor pass
   double tolerance_mm = 0.02;       ///< of the loops' corners
-  double margin_mm = 0.03;   ///< how far the point may reach beyond the target's surface
+  double margin_mm = 0.03;          ///< how far the point may reach beyond the target's surface
 };
 
 /// Columns of the target seen from above, and how low the tip may go in each.
 struct ReachMap {
   int nx = 0, ny = 0;
   double step_mm = 0.1;
-  Vec3 origin_mm;                  ///< centre of column (0,0); z = height to start from, above the tooth
-  std::vector<double> lowest_mm;   ///< lowest tip height; k_unreachable where the point does not fit at all
+  Vec3 origin_mm;                 ///< centre of column (0,0); z = height to start from, above the tooth
+  std::vector<double> lowest_mm;  ///< lowest tip height; k_unreachable where the point does not fit at all
 
   static constexpr double k_unreachable = 1e9;
-  [[nodiscard]] std::size_t index(int x, int y) const noexcept { return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x); }
+  [[nodiscard]] std::size_t index(int x, int y) const noexcept {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
+  }
   [[nodiscard]] Vec3 at(int x, int y, double z) const noexcept { return {origin_mm.x + x * step_mm, origin_mm.y + y * step_mm, z}; }
 };
 [[nodiscard]] ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, double margin_mm);

@@ -21,7 +21,9 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
     case ExamEventKind::step_time_limit:
       detail["step"] = index < setup.scenario.steps.size() ? setup.scenario.steps[index].id : "";
       break;
-    case ExamEventKind::point_not_allowed: detail["point"] = event.index; break;
+    case ExamEventKind::point_not_allowed:
+      detail["point"] = event.index;
+      break;
     case ExamEventKind::aim_reached:
     case ExamEventKind::perforation: {
       detail["tissue"] = setup.tooth.tissue_name(static_cast<std::uint8_t>(event.index));
@@ -29,8 +31,11 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
       detail["site_mm"] = {at.x, at.y, at.z};
       break;
     }
-    case ExamEventKind::finished: detail["how"] = finish_name(static_cast<Finish>(event.index)); break;
-    default: break;
+    case ExamEventKind::finished:
+      detail["how"] = finish_name(static_cast<Finish>(event.index));
+      break;
+    default:
+      break;
   }
   return detail.dump();
 }

@@ -23,11 +23,11 @@ namespace cavum {
 
 /// What may be chosen beside the scenario itself.
 struct ExamOptions {
-  std::string candidate;               ///< pseudonym
-  std::string device;                  ///< name of what gives the input
-  std::string tooth_file;              ///< empty: the scenario's
-  std::string force_model = "consistent";  ///< name of data/materials/NAME.toml, or a path ending in .toml
-  std::string rubric_file;             ///< empty: the scenario's own rubric counts
+  std::string candidate;                                   ///< pseudonym
+  std::string device;                                      ///< name of what gives the input
+  std::string tooth_file;                                  ///< empty: the scenario's
+  std::string force_model = "consistent";                  ///< name of data/materials/NAME.toml, or a path ending in .toml
+  std::string rubric_file;                                 ///< empty: the scenario's own rubric counts
   std::vector<std::pair<std::string, std::string>> notes;  ///< recorded as they are
 };
 

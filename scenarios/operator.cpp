@@ -8,13 +8,15 @@
 namespace cavum {
 namespace {
 
-constexpr double k_free_speed_mm_s = 5.0;  // through the air near the tooth
-constexpr double k_arrived_mm = 0.04;      // cutting; ways through the air need not end that exactly
-constexpr double k_lead_rate_mm_s = 15.0;   // how fast the hand builds up its push
-constexpr double k_correction = 4.0;       // of an error across the way ...
+constexpr double k_free_speed_mm_s = 5.0;     // through the air near the tooth
+constexpr double k_arrived_mm = 0.04;         // cutting; ways through the air need not end that exactly
+constexpr double k_lead_rate_mm_s = 15.0;     // how fast the hand builds up its push
+constexpr double k_correction = 2.0;          // of an error across the way ...
 constexpr double k_most_correction_mm = 0.8;  // ... up to this
-constexpr double k_gentle_bend = 0.7;      // cosine between two pieces of the way
-constexpr double k_give_up_s = 1.5;         // without getting nearer
+constexpr double k_friction_n = 0.26;         // of the device's joints: a practised hand knows it
+constexpr double k_intention_s = 0.025;
+constexpr double k_gentle_bend = 0.7;  // cosine between two pieces of the way
+constexpr double k_give_up_s = 1.5;    // without getting nearer
 
 }  // namespace
 
@@ -57,7 +59,7 @@ Operator::Operator(Skill skill, std::vector<Waypoint> way, std::uint64_t seed) :
   }
   memory_.resize(static_cast<std::size_t>(skill_.reaction_s / k_tick_s) + 1);
   for (auto& m : memory_) m.proxy_mm = start_mm();
-  from_mm_ = start_mm();
+  from_mm_ = intended_mm_ = start_mm();
   way_.reserve(2 * way_.size() + 16);  // retreats add to it
 }
 
@@ -68,8 +70,8 @@ Operator::Sight Operator::delayed(const TickOutput& seen, double dt_s) noexcept 
   return memory_[now_];
 }
 
-void Operator::retreat(Vec3 from_mm) noexcept {
-  if (next_ + 1 >= way_.size() || way_.size() == way_.capacity()) return;
+bool Operator::retreat(Vec3 from_mm) noexcept {
+  if (next_ + 1 >= way_.size() || way_.size() == way_.capacity()) return false;
   // held up: out of the cavity, and in again above the place after the next
   const Vec3 to = way_[next_ + 1].tip_mm;
   const double air_z = start_mm().z;
@@ -79,6 +81,7 @@ void Operator::retreat(Vec3 from_mm) noexcept {
   best_mm_ = 1e9;
   stuck_s_ = 0;
   lead_mm_ = 0;
+  return true;
 }
 
 Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
@@ -99,9 +102,8 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   }
   const bool through = next_ + 1 < way_.size() && dot(normalized(way_[next_ + 1].tip_mm - goal->tip_mm), normalized(whole)) > k_gentle_bend;
   const double arrived_mm = !goal->cut ? 0.2 : through ? 0.06 : k_arrived_mm;
-  if (stuck_s_ > k_give_up_s && goal->cut) {
-    retreat(seen.proxy_mm);
-    return {seen.proxy_mm, pedal_, false};
+  if (stuck_s_ > k_give_up_s && goal->cut && retreat(seen.proxy_mm)) {
+    return {intended_mm_, pedal_, false};
   }
   if (left < arrived_mm || stuck_s_ > k_give_up_s) {
     if (!through) lead_mm_ *= 0.5;  // into a corner the hand yields, along a gentle bend it goes on
@@ -122,7 +124,8 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   // Push until the penetration felt is the one aimed at; where nothing resists, move at a quiet speed.
   const double wanted_mm = goal->cut ? (goal->careful ? skill_.careful_press_mm : skill_.press_mm) : 0.3;
   const double slow_down = through ? 1.0 : std::clamp(left / 0.25, 0.4, 1.0);
-  const double free_lead = k_free_speed_mm_s * (skill_.hand.damping_n_s_per_mm / skill_.hand.stiffness_n_per_mm) * (goal->careful ? 0.4 : 1.0);
+  const double free_n = k_free_speed_mm_s * (goal->careful ? 0.4 : 1.0) * skill_.hand.damping_n_s_per_mm + k_friction_n;
+  const double free_lead = free_n / skill_.hand.stiffness_n_per_mm;
   if (sight.contact && sight.penetration_mm > 0.02) {
     const double error = std::clamp((wanted_mm * slow_down - sight.penetration_mm) / wanted_mm, -1.0, 1.0);
     lead_mm_ = std::clamp(lead_mm_ + k_lead_rate_mm_s * error * dt_s, 0.05, 4.0);
@@ -139,11 +142,13 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   pedal_ += std::clamp(pedal - pedal_, -dt_s / 0.15, dt_s / 0.15);  // a foot takes 150 ms
   Vec3 tip = seen.proxy_mm + correction + direction * lead_mm_ + tremor_mm_;
   if (goal->cut && pedal_ < 0.95 && !sight.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
-  return {tip, pedal_, false};
+  // an intention has no corners: the hand follows it within some 25 ms
+  intended_mm_ += (tip - intended_mm_) * (dt_s / (k_intention_s + dt_s));
+  return {intended_mm_, pedal_, false};
 }
 
-Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray,
-                         std::uint64_t seed) {
+Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
+                         const std::vector<ContactTool>& tray, std::uint64_t seed) {
   const Skill skill = make_skill(skill_name, seed);
   // The point that reaches most of the target's columns at their full depth; of equals the first one allowed.
   std::size_t best = tray.size();
@@ -160,7 +165,8 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       best_map = std::move(map);
     }
   }
-  if (best == tray.size()) throw Error(scenario.path.empty() ? "scenario" : scenario.path, "no allowed diamond point fits into the target", "allow a thinner one");
+  if (best == tray.size())
+    throw Error(scenario.path.empty() ? "scenario" : scenario.path, "no allowed diamond point fits into the target", "allow a thinner one");
   auto way = plan_cut(best_map, zones, tooth, PlanOptions{});
   if (skill.perforates)
     for (const auto& fault : scenario.perforation.faults) {

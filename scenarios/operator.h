@@ -56,7 +56,7 @@ class Operator {
     double penetration_mm = 0;
     bool contact = false;
   };
-  void retreat(Vec3 from_mm) noexcept;
+  bool retreat(Vec3 from_mm) noexcept;
   [[nodiscard]] Sight delayed(const TickOutput& seen, double dt_s) noexcept;
 
   Skill skill_;
@@ -65,7 +65,7 @@ class Operator {
   std::vector<Sight> memory_;  // ring of the last sights
   std::size_t now_ = 0;
   std::size_t next_ = 1;
-  Vec3 from_mm_, tremor_mm_;
+  Vec3 from_mm_, tremor_mm_, intended_mm_;
   double lead_mm_ = 0, stuck_s_ = 0, best_mm_ = 1e9, pedal_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 
 #include "engine/base/error.h"
@@ -219,7 +220,10 @@ std::string find_tooth_file(const Scenario& scenario) {
   namespace fs = std::filesystem;
   const fs::path written(scenario.tooth_file), folder = fs::path(scenario.path).parent_path();
   if (written.is_absolute() && fs::exists(written)) return written.string();
-  for (const fs::path& candidate : {folder / written, folder / ".." / "teeth" / written, fs::path("data/teeth") / written})
+  std::vector<fs::path> places{folder / written, folder / ".." / "teeth" / written, fs::path("data/teeth") / written};
+  if (const char* data = std::getenv("CAVUM_DATA")) places.push_back(fs::path(data) / "teeth" / written);
+  places.push_back(fs::path(CAVUM_DATA_DIR) / "teeth" / written);
+  for (const fs::path& candidate : places)
     if (fs::exists(candidate)) return candidate.lexically_normal().string();
   throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",
               "put it beside the scenario or in data/teeth, or name another with --tooth");

@@ -19,7 +19,8 @@ bool SimulatedCandidate::next(const TickOutput& last, const TickInput& previous,
 PlayedMotion::PlayedMotion(Motion motion, const std::vector<std::string>& point_names, const std::string& where) : motion_(std::move(motion)) {
   if (!motion_.point.empty()) {
     const auto found = std::find(point_names.begin(), point_names.end(), motion_.point);
-    if (found == point_names.end()) throw Error(where, "names the diamond point '" + motion_.point + "', which this scenario does not allow", "use one of its points");
+    if (found == point_names.end())
+      throw Error(where, "names the diamond point '" + motion_.point + "', which this scenario does not allow", "use one of its points");
     point_ = static_cast<std::uint8_t>(found - point_names.begin());
   }
 }

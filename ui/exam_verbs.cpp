@@ -75,7 +75,7 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
 }
 
 /// Grades what was recorded, seals the session with it, prints it.
-void finish(const Options& o, const ExamSetup& setup, Exam& exam) {
+void finish(const Options& o, Exam& exam) {
   exam.recorder().flush();
   const auto graded = load_for_grading(SessionReader(o.out), exam.tooth_now());
   const Result result = grade(graded->input(), graded->rubric);
@@ -86,13 +86,14 @@ void finish(const Options& o, const ExamSetup& setup, Exam& exam) {
     j["session"] = o.out;
     std::cout << j.dump(2) << "\n";
   } else {
-    std::cout << setup.scenario.title << "\n" << to_text(result) << "recorded: " << o.out << "\n";
+    std::cout << to_text(result) << "recorded: " << o.out << "\n";
     if (!o.report.empty()) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
   }
 }
 
 void run_new(const Options& o) {
-  if (o.motion.empty() == o.operator_name.empty()) throw Error("cavum exam", "needs one source of motion", "give either --motion F.csv or --operator NAME");
+  if (o.motion.empty() == o.operator_name.empty())
+    throw Error("cavum exam", "needs one source of motion", "give either --motion F.csv or --operator NAME");
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
   const auto exam = Exam::start(*setup, o.out, source->start_mm());
@@ -100,7 +101,7 @@ void run_new(const Options& o) {
     ProgressBar bar(!o.json && !o.quiet);
     run_exam(*exam, *source, [&bar](const Exam& e, double progress) { bar.show(e, progress); });
   }
-  finish(o, *setup, *exam);
+  finish(o, *exam);
 }
 
 /// Takes up a killed exam: the hand is gone, so it ends where it was, unless more motion is given.
@@ -118,7 +119,7 @@ void run_resumed(const Options& o) {
   } else if (!exam->over()) {
     exam->end();
   }
-  finish(o, *setup, *exam);
+  finish(o, *exam);
 }
 
 }  // namespace
@@ -144,8 +145,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
   exam->add_flag("--quiet", o->quiet, "no progress bar");
   exam->callback([o, &exit_code] {
-    if (!o->device.empty())
-      throw Error("--device " + o->device, "no haptic device is driven by this version", "use --operator or --motion");
+    if (!o->device.empty()) throw Error("--device " + o->device, "no haptic device is driven by this version", "use --operator or --motion");
     if (o->resume) {
       run_resumed(*o);
     } else {

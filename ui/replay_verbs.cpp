@@ -61,8 +61,7 @@ std::vector<std::string> sessions_in(const std::string& folder) {
 
 json to_json(const VerifyReport& r) {
   json divergence = nullptr;
-  if (const auto& d = r.first_divergence)
-    divergence = {{"tick", d->tick}, {"what", d->what}, {"recorded", d->recorded}, {"replayed", d->replayed}};
+  if (const auto& d = r.first_divergence) divergence = {{"tick", d->tick}, {"what", d->what}, {"recorded", d->recorded}, {"replayed", d->replayed}};
   return {{"file", r.file},
           {"verified", r.verified},
           {"closed", r.closed},
@@ -108,12 +107,23 @@ std::string xml(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\n': out += "&#10;"; break;
-      default: out += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;  // damaged files hold anything
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;  // damaged files hold anything
     }
   }
   return out;
@@ -160,8 +170,7 @@ void print(const Outcome& o) {
 int run(const Options& options) {
   const bool folder = std::filesystem::is_directory(options.path);
   std::vector<Outcome> outcomes;
-  for (const auto& path : folder ? sessions_in(options.path) : std::vector{options.path})
-    outcomes.push_back(verify_timed(path, options.station_key));
+  for (const auto& path : folder ? sessions_in(options.path) : std::vector{options.path}) outcomes.push_back(verify_timed(path, options.station_key));
   if (!options.junit.empty()) write_text_file(options.junit, to_junit(outcomes));  // CI wants its file whatever happened
   if (!folder && !outcomes[0].readable()) std::rethrow_exception(outcomes[0].unreadable);
   if (options.as_json) {

@@ -41,9 +41,7 @@ class ByteWriter {
     }
     bytes_.push_back(static_cast<std::uint8_t>(v));
   }
-  void put_signed_varint(std::int64_t v) {
-    put_varint((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
-  }
+  void put_signed_varint(std::int64_t v) { put_varint((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63)); }
   [[nodiscard]] const Bytes& bytes() const noexcept { return bytes_; }
   [[nodiscard]] Bytes take() noexcept { return std::move(bytes_); }
 
@@ -88,9 +86,7 @@ class ByteReader {
     return static_cast<std::int64_t>(v >> 1) ^ -static_cast<std::int64_t>(v & 1);
   }
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - at_; }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(where_, what, "the file is damaged or incomplete: use an intact copy");
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(where_, what, "the file is damaged or incomplete: use an intact copy"); }
 
  private:
   std::span<const std::uint8_t> bytes_;

@@ -27,7 +27,7 @@ std::string reason() { return std::strerror(errno); }
 Bytes read_file(const std::string& path) {
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) throw Error(path, "cannot be opened (" + reason() + ")", "check the path and its permissions");
-  struct stat info{};
+  struct stat info {};
   if (::fstat(file.fd, &info) == 0 && S_ISDIR(info.st_mode)) throw Error(path, "is a folder", "name a file");
   Bytes bytes;
   std::uint8_t block[1 << 16];

@@ -24,9 +24,7 @@ struct Vec3 {
 };
 
 [[nodiscard]] constexpr double dot(Vec3 a, Vec3 b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-[[nodiscard]] constexpr Vec3 cross(Vec3 a, Vec3 b) noexcept {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+[[nodiscard]] constexpr Vec3 cross(Vec3 a, Vec3 b) noexcept { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 /// sqrt is correctly rounded everywhere, so length is reproducible.
 [[nodiscard]] inline double length(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
 /// Unit vector along `a`; `fallback` when `a` is shorter than 1e-12.
@@ -34,9 +32,7 @@ struct Vec3 {
   const double n = length(a);
   return n > 1e-12 ? a / n : fallback;
 }
-[[nodiscard]] inline bool is_finite(Vec3 a) noexcept {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
+[[nodiscard]] inline bool is_finite(Vec3 a) noexcept { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 /// Integer leaf coordinates.
 struct IVec3 {

@@ -13,13 +13,14 @@ void round_edges(const std::vector<Profile::Corner>& corners, Profile::SurfacePo
   for (const auto& c : corners) {
     const double bend = c.normal_before.r_mm * c.normal_after.z_mm - c.normal_before.z_mm * c.normal_after.r_mm;
     const double along = c.normal_before.r_mm * c.normal_after.r_mm + c.normal_before.z_mm * c.normal_after.z_mm;
-    if (bend <= 0) continue;  // hollow
+    if (bend <= 0) continue;                                       // hollow
     const double tangent = k_edge_radius_mm * bend / (1 + along);  // radius · tan(half the turn)
     const double dr = p.at.r_mm - c.at.r_mm, dz = p.at.z_mm - c.at.z_mm;
     if (dr * dr + dz * dz > tangent * tangent) continue;
     // the fillet's centre lies one radius inside both sides
     const double inward = k_edge_radius_mm / (1 + along);
-    const ProfilePoint centre{c.at.r_mm - inward * (c.normal_before.r_mm + c.normal_after.r_mm), c.at.z_mm - inward * (c.normal_before.z_mm + c.normal_after.z_mm)};
+    const ProfilePoint centre{c.at.r_mm - inward * (c.normal_before.r_mm + c.normal_after.r_mm),
+                              c.at.z_mm - inward * (c.normal_before.z_mm + c.normal_after.z_mm)};
     const double vr = p.at.r_mm - centre.r_mm, vz = p.at.z_mm - centre.z_mm, v = std::sqrt(vr * vr + vz * vz);
     p.normal = {vr / v, vz / v};
     p.at = {centre.r_mm + k_edge_radius_mm * vr / v, centre.z_mm + k_edge_radius_mm * vz / v};
@@ -57,14 +58,16 @@ void spread(const Profile& profile, double low_z, double high_z, double spacing,
     auto p = rings[ring].place;
     round_edges(corners, p);
     const auto turn = det_sincos(i * golden_rad);
-    out.push_back({{p.at.r_mm * turn.cos, p.at.r_mm * turn.sin, p.at.z_mm}, {p.normal.r_mm * turn.cos, p.normal.r_mm * turn.sin, p.normal.z_mm}, total / n});
+    out.push_back(
+        {{p.at.r_mm * turn.cos, p.at.r_mm * turn.sin, p.at.z_mm}, {p.normal.r_mm * turn.cos, p.normal.r_mm * turn.sin, p.normal.z_mm}, total / n});
   }
 }
 
 /// Groups samples [first, end) into cubes of `edge`, each a patch.
 void group(ContactTool& tool, std::size_t first, double edge) {
   const auto cell = [edge](const ToolSample& s) {
-    return IVec3{static_cast<int>(std::floor(s.at_mm.x / edge)), static_cast<int>(std::floor(s.at_mm.y / edge)), static_cast<int>(std::floor(s.at_mm.z / edge))};
+    return IVec3{static_cast<int>(std::floor(s.at_mm.x / edge)), static_cast<int>(std::floor(s.at_mm.y / edge)),
+                 static_cast<int>(std::floor(s.at_mm.z / edge))};
   };
   std::stable_sort(tool.samples.begin() + static_cast<std::ptrdiff_t>(first), tool.samples.end(),
                    [&](const ToolSample& a, const ToolSample& b) { return cell(a) < cell(b); });

@@ -11,8 +11,8 @@ namespace cavum {
 /// A place on the surface in the tool frame.
 struct ToolSample {
   Vec3 at_mm;
-  Vec3 normal;           ///< unit, outwards
-  double area_mm2 = 0;   ///< of the surface it stands for
+  Vec3 normal;          ///< unit, outwards
+  double area_mm2 = 0;  ///< of the surface it stands for
 };
 
 /// Neighbouring samples with a ball around them.

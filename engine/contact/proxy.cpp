@@ -6,12 +6,12 @@
 namespace cavum {
 namespace {
 
-constexpr int k_max_steps = 12;         // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
+constexpr int k_max_steps = 12;          // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
-constexpr double k_linear_leaves = 0.1;   // so far a half space stands in for the curved surface
+constexpr double k_linear_leaves = 0.1;  // so far a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
-constexpr double k_settled_mm = 2e-5;   // a smaller step ends the search
-constexpr double k_resting_stride = 0.1; // leaves: first stride of a tool that was already in contact
+constexpr double k_settled_mm = 2e-5;     // a smaller step ends the search
+constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
 
 /// Furthest that any sample moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
 double turn_bound_mm(const Mat3& a, const Mat3& b, double reach_mm) noexcept {
@@ -110,7 +110,8 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   const double leaf = tooth.leaf_mm();
   const Vec3 way = device.tip_mm - state.proxy_mm;
   const double way_mm = length(way);
-  if (state.tool_clear_until_mm <= state.travel_mm + way_mm) state.tool_clear_until_mm = state.travel_mm + tool_clearance_mm(tooth, tool, turned, state.proxy_mm);
+  if (state.tool_clear_until_mm <= state.travel_mm + way_mm)
+    state.tool_clear_until_mm = state.travel_mm + tool_clearance_mm(tooth, tool, turned, state.proxy_mm);
   bool blocked = false;
   if (state.travel_mm + way_mm < state.tool_clear_until_mm) {
     state.proxy_mm = device.tip_mm;
@@ -167,7 +168,8 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const T
   const Vec3 swung = state.normal - state.means_normal;
   const Vec3 moved = state.proxy_mm - state.means_proxy_mm;
   const double same_mm = 0.5 * k_linear_leaves * tooth.leaf_mm();
-  if (state.means_turned_mm == state.turned_mm && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2 && dot(moved, moved) < same_mm * same_mm)
+  if (state.means_turned_mm == state.turned_mm && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2 &&
+      dot(moved, moved) < same_mm * same_mm)
     return state.means;
   state.means_turned_mm = state.turned_mm;
   state.means_proxy_mm = state.proxy_mm;

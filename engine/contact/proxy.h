@@ -21,8 +21,8 @@ struct TissueConstants {
 
 /// Means over the area touched, weighted by the area seen along the contact normal.
 struct TouchedMeans {
-  TissueConstants of;      ///< recession over the solid part only, where the coated head touches it
-  bool touching = false;   ///< false: nothing touched, `of` is zero
+  TissueConstants of;        ///< recession over the solid part only, where the coated head touches it
+  bool touching = false;     ///< false: nothing touched, `of` is zero
   bool void_tissue = false;  ///< pulp or another void tissue lies before the head
 };
 
@@ -30,18 +30,18 @@ struct TouchedMeans {
 struct ContactState {
   Vec3 proxy_mm;
   Mat3 rotation;
-  Vec3 normal;            ///< last contact normal, out of the tooth; zero before the first contact
+  Vec3 normal;  ///< last contact normal, out of the tooth; zero before the first contact
   bool touching = false;
-  int point = -1;         ///< diamond point that the arrays belong to
-  double travel_mm = 0;   ///< how far any part of the tool has moved so far, an upper bound
+  int point = -1;        ///< diamond point that the arrays belong to
+  double travel_mm = 0;  ///< how far any part of the tool has moved so far, an upper bound
   double tool_clear_until_mm = 0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;  ///< in units of travel
-  double turned_mm = 0;  ///< part of the travel that came from rotation
-  ReservedVector<HalfSpace> half_spaces;  ///< about `gathered_mm`; room for one of each sample
-  Vec3 gathered_mm;      ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
+  double turned_mm = 0;                                                                  ///< part of the travel that came from rotation
+  ReservedVector<HalfSpace> half_spaces;                                                 ///< about `gathered_mm`; room for one of each sample
+  Vec3 gathered_mm;  ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
   double gathered_turned_mm = -1, gathered_reach_mm = 0;
   std::uint64_t gathered_edit = 0;
-  TouchedMeans means;                  ///< as long as neither tool, tooth nor normal changed much
+  TouchedMeans means;  ///< as long as neither tool, tooth nor normal changed much
   double means_turned_mm = -1;
   std::uint64_t means_edit = 0;
   Vec3 means_proxy_mm, means_normal;
@@ -52,9 +52,9 @@ struct ContactState {
 /// What one tick of contact found.
 struct ContactResult {
   bool touching = false;
-  Vec3 normal;              ///< out of the tooth, from the device to the proxy
+  Vec3 normal;                ///< out of the tooth, from the device to the proxy
   double penetration_mm = 0;  ///< X, before any recession that the cutting still owes
-  Vec3 moved_mm;            ///< how far the proxy moved
+  Vec3 moved_mm;              ///< how far the proxy moved
 };
 
 /// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. Rotation follows the device.

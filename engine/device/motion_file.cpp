@@ -61,7 +61,8 @@ std::vector<std::size_t> read_header(const Reader& in, std::string_view header) 
     if (found == k_columns.end()) {
       for (const std::string_view axis : {"t", "x", "y", "z"})
         if (name == axis || name.starts_with(std::string(axis) + "_"))
-          in.fail("column '" + std::string(name) + "' has another unit or none", "convert it to '" + std::string(axis) + (axis == "t" ? "_s" : "_mm") + "'");
+          in.fail("column '" + std::string(name) + "' has another unit or none",
+                  "convert it to '" + std::string(axis) + (axis == "t" ? "_s" : "_mm") + "'");
       in.fail("column '" + std::string(name) + "' is not known", "use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point");
     }
     const auto c = static_cast<std::size_t>(found - k_columns.begin());
@@ -84,12 +85,15 @@ MotionSample read_row(const Reader& in, std::string_view line, const std::vector
     double& value = v[column_of[i]];
     const auto name = std::string(k_columns[column_of[i]]);
     const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), value);
-    if (error != std::errc{} || end != cells[i].data() + cells[i].size()) in.fail("'" + std::string(cells[i]) + "' in column " + name + " is not a number", "write a number with a point");
+    if (error != std::errc{} || end != cells[i].data() + cells[i].size())
+      in.fail("'" + std::string(cells[i]) + "' in column " + name + " is not a number", "write a number with a point");
     if (!std::isfinite(value)) in.fail("column " + name + " is " + std::string(cells[i]), "repair or cut out this row");
   }
   if (v[8] < 0 || v[8] > 1) in.fail("pedal is " + std::to_string(v[8]) + ", outside 0 .. 1", "scale it: 0 released, 1 pressed to the floor");
   for (int axis = 1; axis <= 3; ++axis)
-    if (std::fabs(v[static_cast<std::size_t>(axis)]) > 500) in.fail(std::string(k_columns[static_cast<std::size_t>(axis)]) + " is further than 500 mm from the tooth", "give millimetres in the tooth frame");
+    if (std::fabs(v[static_cast<std::size_t>(axis)]) > 500)
+      in.fail(std::string(k_columns[static_cast<std::size_t>(axis)]) + " is further than 500 mm from the tooth",
+              "give millimetres in the tooth frame");
   const double n2 = v[4] * v[4] + v[5] * v[5] + v[6] * v[6] + v[7] * v[7];
   if (n2 < 0.5 || n2 > 2) in.fail("the rotation qw,qx,qy,qz is not of unit length", "give a unit quaternion, 1,0,0,0 for an upright handpiece");
   if (v[11] != std::floor(v[11]) || v[11] < -1 || v[11] > 255) in.fail("point is not a number of the tray", "write 0 for the first diamond point");
@@ -141,7 +145,8 @@ MotionSample Motion::at(double t_s) const noexcept {
   s.pose.tip_mm = a.pose.tip_mm + (b.pose.tip_mm - a.pose.tip_mm) * f;
   const Quat p = a.pose.rotation, q = b.pose.rotation;
   const double side = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0 ? -1.0 : 1.0;  // the shorter way round
-  s.pose.rotation = normalized(Quat{p.w + (side * q.w - p.w) * f, p.x + (side * q.x - p.x) * f, p.y + (side * q.y - p.y) * f, p.z + (side * q.z - p.z) * f});
+  s.pose.rotation =
+      normalized(Quat{p.w + (side * q.w - p.w) * f, p.x + (side * q.x - p.x) * f, p.y + (side * q.y - p.y) * f, p.z + (side * q.z - p.z) * f});
   s.pedal = a.pedal + (b.pedal - a.pedal) * f;
   return s;
 }

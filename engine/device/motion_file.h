@@ -15,7 +15,7 @@ struct MotionSample {
   Pose pose;         ///< tip and rotation (tool to tooth), tooth frame
   double pedal = 0;  ///< 0..1
   bool button_1 = false, button_2 = false;
-  int point = -1;    ///< number in the tray; -1 = the one already mounted
+  int point = -1;  ///< number in the tray; -1 = the one already mounted
 };
 
 struct Motion {

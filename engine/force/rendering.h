@@ -9,9 +9,9 @@ namespace cavum {
 
 /// Source of the defaults: PHYSICS.md section 3, force sd 0.008-0.018 N in a closed-loop press.
 struct RenderingModel {
-  double kvc_n_per_mm = 0.7;                    ///< spring of the Maxwell branch
-  double filtered_damping_n_s_per_mm = 0.002;   ///< on the filtered speed, for the device's own ringing
-  double speed_filter_s = 0.005;                ///< time constant of the speed estimate
+  double kvc_n_per_mm = 0.7;                   ///< spring of the Maxwell branch
+  double filtered_damping_n_s_per_mm = 0.002;  ///< on the filtered speed, for the device's own ringing
+  double speed_filter_s = 0.005;               ///< time constant of the speed estimate
 };
 
 struct RenderState {

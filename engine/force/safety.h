@@ -18,9 +18,9 @@ struct SafetyLimits {
 };
 
 struct SafetyState {
-  Vec3 force_n;               ///< last one given out
+  Vec3 force_n;  ///< last one given out
   double used_budget_n_s = 0;
-  double silent_s = 0;        ///< since the last fresh pose
+  double silent_s = 0;  ///< since the last fresh pose
 };
 
 /// The force that may go to the device. Sets bits of TickNotice in `notices`.

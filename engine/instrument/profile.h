@@ -81,7 +81,8 @@ inline double Profile::distance_to(const Piece& p, double r, double z) noexcept 
     if (p.turn * profile_cross(p.a.r_mm - p.centre.r_mm, p.a.z_mm - p.centre.z_mm, vr, vz) >= 0 &&
         p.turn * profile_cross(vr, vz, p.b.r_mm - p.centre.r_mm, p.b.z_mm - p.centre.z_mm) >= 0)
       return std::fabs(std::sqrt(vr * vr + vz * vz) - p.radius);
-    return std::sqrt(std::min(profile_squared(r - p.a.r_mm) + profile_squared(z - p.a.z_mm), profile_squared(r - p.b.r_mm) + profile_squared(z - p.b.z_mm)));
+    return std::sqrt(
+        std::min(profile_squared(r - p.a.r_mm) + profile_squared(z - p.a.z_mm), profile_squared(r - p.b.r_mm) + profile_squared(z - p.b.z_mm)));
   }
   const double dr = p.b.r_mm - p.a.r_mm, dz = p.b.z_mm - p.a.z_mm;
   const double along = (r - p.a.r_mm) * dr + (z - p.a.z_mm) * dz;

@@ -9,13 +9,13 @@
 namespace cavum {
 namespace {
 
-constexpr double k_carve_step_leaves = 0.25; // recession is gathered up to this before the octree is edited
-constexpr double k_sweep_step_leaves = 1.0;     // way through void tissue between two carves
-constexpr double k_clamped_leaves = 0.5;          // recession owed by a head that is clamped in its hole
-constexpr double k_ease = 0.1;                    // of that recession
-constexpr double k_still_share = 0.01;            // of the full speed: below it the handpiece stands still
-constexpr std::size_t k_edit_room = 1 << 17;      // bricks; untouched room costs no memory
-constexpr std::size_t k_removed_room = 1 << 16;   // leaves a tick
+constexpr double k_carve_step_leaves = 0.25;     // recession is gathered up to this before the octree is edited
+constexpr double k_sweep_step_leaves = 1.0;      // way through void tissue between two carves
+constexpr double k_clamped_leaves = 0.5;         // recession owed by a head that is clamped in its hole
+constexpr double k_ease = 0.1;                   // of that recession
+constexpr double k_still_share = 0.01;           // of the full speed: below it the handpiece stands still
+constexpr std::size_t k_edit_room = 1 << 17;     // bricks; untouched room costs no memory
+constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick
 
 std::int32_t to_whole(double value) noexcept {
   if (!(value > -2147483647.0)) return -2147483647;
@@ -178,17 +178,22 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   ++state.tick;
   const TickRecord record = make_tick_record(out);
   state.trace_hash = fast_hash(record.rendered_un.data(), sizeof record.rendered_un, state.trace_hash);
-  const std::array<std::int64_t, 8> rest{record.model_un, record.penetration_nm, record.proxy_nm[0], record.proxy_nm[1],
-                                         record.proxy_nm[2], record.rpm, record.removed, record.notices};
+  const std::array<std::int64_t, 8> rest{record.model_un, record.penetration_nm, record.proxy_nm[0], record.proxy_nm[1], record.proxy_nm[2],
+                                         record.rpm,      record.removed,        record.notices};
   state.trace_hash = fast_hash(rest.data(), sizeof rest, state.trace_hash);
   return out;
 }
 
 std::uint64_t state_hash(const ServoState& s) noexcept {
   const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash()};
-  const std::array<double, 16> parts{s.contact.proxy_mm.x, s.contact.proxy_mm.y, s.contact.proxy_mm.z, s.contact.normal.x,   s.contact.normal.y, s.contact.normal.z,
-                                     s.render.branch_n,    s.render.speed_mm_s,  s.safety.force_n.x,   s.safety.force_n.y,   s.safety.force_n.z, s.safety.used_budget_n_s,
-                                     s.safety.silent_s,    s.rpm,                s.recession_mm,       s.swept_mm};
+  const std::array<double, 16> parts{s.contact.proxy_mm.x, s.contact.proxy_mm.y,
+                                     s.contact.proxy_mm.z, s.contact.normal.x,
+                                     s.contact.normal.y,   s.contact.normal.z,
+                                     s.render.branch_n,    s.render.speed_mm_s,
+                                     s.safety.force_n.x,   s.safety.force_n.y,
+                                     s.safety.force_n.z,   s.safety.used_budget_n_s,
+                                     s.safety.silent_s,    s.rpm,
+                                     s.recession_mm,       s.swept_mm};
   return fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version));
 }
 

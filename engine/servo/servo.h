@@ -25,9 +25,9 @@ inline constexpr int k_physics_version = 1;
 /// Settings of the handpiece, the device and the tick. TOML text in a session: see `to_toml`.
 struct ServoConfig {
   double tick_s = k_tick_s;
-  double max_rpm = 200000.0;     ///< speed at a pedal pressed to the floor
-  double spin_up_s = 0.15;       ///< time constant of the handpiece's speed
-  SafetyLimits limits;           ///< of the haptic device
+  double max_rpm = 200000.0;  ///< speed at a pedal pressed to the floor
+  double spin_up_s = 0.15;    ///< time constant of the handpiece's speed
+  SafetyLimits limits;        ///< of the haptic device
 };
 [[nodiscard]] std::string to_toml(const ServoConfig& config);
 /// Throws Error(where, ...) on anything missing, unknown or out of range.
@@ -37,8 +37,8 @@ struct ServoConfig {
 struct ServoModel {
   ServoConfig config;
   ForceModel force;
-  std::vector<ContactTool> tray;                    ///< diamond points ready for contact
-  std::array<TissueConstants, 256> tissue{};        ///< by tissue id
+  std::vector<ContactTool> tray;              ///< diamond points ready for contact
+  std::array<TissueConstants, 256> tissue{};  ///< by tissue id
 };
 /// Throws Error when a solid tissue has no material in the force model or the tray is empty.
 [[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force,
@@ -53,10 +53,10 @@ struct ServoState {
   SafetyState safety;
   Vec3 last_tip_mm;
   double rpm = 0.0;
-  double recession_mm = 0.0;       ///< surface receded along the contact but not yet carved
-  double swept_mm = 0.0;           ///< way of the head since the last carve
-  CarvedHead carved;               ///< pose of the last carve
-  std::uint64_t trace_hash = 0;    ///< over every output so far
+  double recession_mm = 0.0;            ///< surface receded along the contact but not yet carved
+  double swept_mm = 0.0;                ///< way of the head since the last carve
+  CarvedHead carved;                    ///< pose of the last carve
+  std::uint64_t trace_hash = 0;         ///< over every output so far
   ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
 };
 [[nodiscard]] ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 first_tip_mm);

@@ -26,11 +26,11 @@ enum TickFlag : std::uint16_t {
 
 /// The recorded input of one tick, exactly as the step consumes it.
 struct TickInput {
-  std::array<std::int32_t, 3> tip_nm{};              ///< tip of the diamond point in the tooth frame, nm
+  std::array<std::int32_t, 3> tip_nm{};                        ///< tip of the diamond point in the tooth frame, nm
   std::array<std::int32_t, 4> rotation_q30{1 << 30, 0, 0, 0};  ///< w, x, y, z of tool-to-tooth, 2^30 = 1
-  std::uint16_t pedal_q16 = 0;                       ///< 0 = released, 65535 = pressed to the floor
-  std::uint16_t flags = 0;                           ///< bits of TickFlag
-  std::uint8_t point = 0;                            ///< which diamond point of the tray is mounted
+  std::uint16_t pedal_q16 = 0;                                 ///< 0 = released, 65535 = pressed to the floor
+  std::uint16_t flags = 0;                                     ///< bits of TickFlag
+  std::uint8_t point = 0;                                      ///< which diamond point of the tray is mounted
   friend bool operator==(const TickInput&, const TickInput&) = default;
 
   [[nodiscard]] Pose pose() const noexcept {
@@ -43,21 +43,20 @@ struct TickInput {
 
 /// Quantises a device's reading. A pose that is not finite, further than 2 m away or without direction
 /// gives `previous` with k_stylus_fault and without k_stylus_fresh; a pedal outside 0..1 or NaN is unknown.
-[[nodiscard]] TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t point,
-                                        const TickInput& previous) noexcept;
+[[nodiscard]] TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t point, const TickInput& previous) noexcept;
 
 /// The result of one tick. `removed` lists the leaves turned to air in this tick.
 struct TickOutput {
-  Vec3 rendered_force_n;        ///< on the hand, tooth frame, after rendering and safety
-  double model_force_n = 0.0;   ///< F = k X + c V and further terms, along the contact normal, >= 0
-  double penetration_mm = 0.0;  ///< X >= 0
-  double approach_mm_s = 0.0;   ///< V, positive = deeper
+  Vec3 rendered_force_n;            ///< on the hand, tooth frame, after rendering and safety
+  double model_force_n = 0.0;       ///< F = k X + c V and further terms, along the contact normal, >= 0
+  double penetration_mm = 0.0;      ///< X >= 0
+  double approach_mm_s = 0.0;       ///< V, positive = deeper
   double stiffness_n_per_mm = 0.0;  ///< k of the tissues touched
-  Vec3 proxy_mm;                ///< tip of the diamond point as the tooth allows it
-  Vec3 normal;                  ///< contact normal, out of the tooth; zero out of contact
+  Vec3 proxy_mm;                    ///< tip of the diamond point as the tooth allows it
+  Vec3 normal;                      ///< contact normal, out of the tooth; zero out of contact
   double rpm = 0.0;
   bool contact = false;
-  bool cutting = false;         ///< turning, in contact and pedal known
+  bool cutting = false;  ///< turning, in contact and pedal known
   std::uint16_t notices = 0;
   std::uint32_t removed_count = 0;
 };
@@ -69,7 +68,7 @@ struct TickRecord {
   std::int32_t penetration_nm = 0;
   std::array<std::int32_t, 3> proxy_nm{};
   std::int32_t rpm = 0;
-  std::uint32_t removed = 0;                  ///< leaves removed in this tick
+  std::uint32_t removed = 0;  ///< leaves removed in this tick
   std::uint16_t notices = 0;
   friend bool operator==(const TickRecord&, const TickRecord&) = default;
 };

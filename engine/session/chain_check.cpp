@@ -75,8 +75,8 @@ void check_seal(const SessionReader& session, Findings& findings) {
   say(is_signed_by(seal.public_key, seal_message(seal), seal.signature),
       "table seal: the signature does not hold (hash, count, clock or key was changed)");
   say(seal.chain_sha256 == end, "table seal: the chain does not end where the session was closed");
-  say(seal.chunks == static_cast<std::int64_t>(session.chunks().size()), "table chunk: " + std::to_string(session.chunks().size()) +
-                                                                               " chunks, closed with " + std::to_string(seal.chunks));
+  say(seal.chunks == static_cast<std::int64_t>(session.chunks().size()),
+      "table chunk: " + std::to_string(session.chunks().size()) + " chunks, closed with " + std::to_string(seal.chunks));
   say(seal.ticks == session.ticks(), "table chunk: " + std::to_string(session.ticks()) + " ticks, closed with " + std::to_string(seal.ticks));
   say(seal.events == static_cast<std::int64_t>(session.event_rows().size()),
       "table event: " + std::to_string(session.event_rows().size()) + " events, closed with " + std::to_string(seal.events));

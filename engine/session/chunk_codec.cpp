@@ -31,8 +31,16 @@ T narrow(std::uint32_t v, const std::string& where) {
 }
 
 InputWords to_words(const TickInput& in) {
-  return {word(in.tip_nm[0]),       word(in.tip_nm[1]),       word(in.tip_nm[2]),       word(in.rotation_q30[0]), word(in.rotation_q30[1]),
-          word(in.rotation_q30[2]), word(in.rotation_q30[3]), in.pedal_q16,             in.flags,                 in.point};
+  return {word(in.tip_nm[0]),
+          word(in.tip_nm[1]),
+          word(in.tip_nm[2]),
+          word(in.rotation_q30[0]),
+          word(in.rotation_q30[1]),
+          word(in.rotation_q30[2]),
+          word(in.rotation_q30[3]),
+          in.pedal_q16,
+          in.flags,
+          in.point};
 }
 
 TickInput from_words(const InputWords& w, const std::string& where) {
@@ -46,8 +54,17 @@ TickInput from_words(const InputWords& w, const std::string& where) {
 }
 
 RecordWords to_words(const TickRecord& r) {
-  return {word(r.rendered_un[0]), word(r.rendered_un[1]), word(r.rendered_un[2]), word(r.model_un), word(r.penetration_nm), word(r.proxy_nm[0]),
-          word(r.proxy_nm[1]),    word(r.proxy_nm[2]),    word(r.rpm),            r.removed,        r.notices};
+  return {word(r.rendered_un[0]),
+          word(r.rendered_un[1]),
+          word(r.rendered_un[2]),
+          word(r.model_un),
+          word(r.penetration_nm),
+          word(r.proxy_nm[0]),
+          word(r.proxy_nm[1]),
+          word(r.proxy_nm[2]),
+          word(r.rpm),
+          r.removed,
+          r.notices};
 }
 
 TickRecord from_words(const RecordWords& w, const std::string& where) {
@@ -125,9 +142,7 @@ std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t
   return out;
 }
 
-std::uint16_t coordinate(const RemovedLeaf& leaf, int axis) {
-  return static_cast<std::uint16_t>(axis == 0 ? leaf.x : axis == 1 ? leaf.y : leaf.z);
-}
+std::uint16_t coordinate(const RemovedLeaf& leaf, int axis) { return static_cast<std::uint16_t>(axis == 0 ? leaf.x : axis == 1 ? leaf.y : leaf.z); }
 
 }  // namespace
 

@@ -176,8 +176,10 @@ void Recorder::require_open() const {
 void Recorder::append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
   require_open();
   if (record.removed != removed.size())
-    throw Error(path_, "tick " + std::to_string(ticks_) + " lists " + std::to_string(removed.size()) + " removed leaves, its record says " +
-                           std::to_string(record.removed), "hand over state.removed of the same tick");
+    throw Error(path_,
+                "tick " + std::to_string(ticks_) + " lists " + std::to_string(removed.size()) + " removed leaves, its record says " +
+                    std::to_string(record.removed),
+                "hand over state.removed of the same tick");
   Pending& now = pending_.back();
   now.inputs.push_back(input);
   now.records.push_back(record);

@@ -25,16 +25,16 @@ inline constexpr std::int64_t k_chunk_ticks = 1000;
 /// Everything that fixes an exam before its first tick. Texts are kept as they were read, so that a
 /// recording never depends on a file outside it.
 struct SessionSetup {
-  std::string candidate;         ///< pseudonym, never a name
-  std::string device;            ///< name of the stylus, or of the simulated operator
-  std::string calibration;       ///< the device's calibration, as text
+  std::string candidate;    ///< pseudonym, never a name
+  std::string device;       ///< name of the stylus, or of the simulated operator
+  std::string calibration;  ///< the device's calibration, as text
   std::string scenario_toml;
-  std::string rubric_toml;       ///< empty when the scenario's own rubric counts
+  std::string rubric_toml;  ///< empty when the scenario's own rubric counts
   std::string force_model_toml;
-  std::string servo_toml;        ///< to_toml(ServoConfig)
-  std::vector<std::string> points_toml;  ///< diamond points in the order of the tray
-  Bytes tooth;                   ///< compact tooth file before the first tick
-  std::array<std::int32_t, 3> first_tip_nm{};  ///< where the servo state starts, tooth frame
+  std::string servo_toml;                                  ///< to_toml(ServoConfig)
+  std::vector<std::string> points_toml;                    ///< diamond points in the order of the tray
+  Bytes tooth;                                             ///< compact tooth file before the first tick
+  std::array<std::int32_t, 3> first_tip_nm{};              ///< where the servo state starts, tooth frame
   std::vector<std::pair<std::string, std::string>> notes;  ///< further facts by key (operator's seed, room …)
   std::vector<std::pair<std::string, Bytes>> attachments;  ///< files that the scenario names, by name
 

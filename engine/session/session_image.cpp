@@ -19,14 +19,14 @@ constexpr std::int64_t k_largest_file = 2'000'000'000;
 constexpr char k_magic[] = "SQLite format 3";  // 16 bytes with its zero
 
 void check_file(const std::string& path) {
-  struct stat info{};
+  struct stat info {};
   if (::stat(path.c_str(), &info) != 0) throw Error(path, std::string("cannot be opened (") + std::strerror(errno) + ")", "check the path");
   if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file", "name a session file");
   if (info.st_size > k_largest_file) throw Error(path, "is larger than any session", "name a session file");
 }
 
 std::optional<Bytes> read_beside(const std::string& path) {
-  struct stat info{};
+  struct stat info {};
   if (::stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_size == 0 || info.st_size > k_largest_file) return std::nullopt;
   return read_file(path);
 }

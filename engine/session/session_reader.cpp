@@ -126,7 +126,7 @@ SessionReader::SessionReader(const std::string& path) : path_(path) {
       "seq, chain_sha256, final_tooth_sha256, result_sha256, chunks, ticks, events, monotonic_ns, boot_ns, utc_ns, public_key, signature";
   read_table(database, "seal", seal_columns, findings_, [&](const Statement& s) {
     rising(s, 0, "seal");
-    seal_ = Seal{s.fixed_blob<32>(1), s.fixed_blob<32>(2), s.fixed_blob<32>(3), s.integer(4),         s.integer(5),
+    seal_ = Seal{s.fixed_blob<32>(1), s.fixed_blob<32>(2), s.fixed_blob<32>(3),  s.integer(4),        s.integer(5),
                  s.integer(6),        clocks_at(s, 7),     s.fixed_blob<32>(10), s.fixed_blob<64>(11)};
   });
 }

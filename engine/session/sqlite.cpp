@@ -16,7 +16,9 @@ constexpr int k_most_calls = 2000;
   std::string detail = what;
   std::string to_do = "try again; if it stays, copy the file elsewhere and report this";
   switch (code & 0xff) {
-    case SQLITE_FULL: to_do = "make room on the disk and try again: nothing recorded so far is lost"; break;
+    case SQLITE_FULL:
+      to_do = "make room on the disk and try again: nothing recorded so far is lost";
+      break;
     case SQLITE_IOERR:
       if (system_error != 0) detail += std::string(" (") + std::strerror(system_error) + ")";
       to_do = "make room on the disk, check that it is still there, and try again: nothing recorded so far is lost";
@@ -26,12 +28,19 @@ constexpr int k_most_calls = 2000;
       detail = "another program is recording into it";
       to_do = "close that program first";
       break;
-    case SQLITE_CANTOPEN: to_do = "check that the path exists and is writable"; break;
+    case SQLITE_CANTOPEN:
+      to_do = "check that the path exists and is writable";
+      break;
     case SQLITE_READONLY:
-    case SQLITE_PERM: to_do = "make the file and its folder writable"; break;
+    case SQLITE_PERM:
+      to_do = "make the file and its folder writable";
+      break;
     case SQLITE_CORRUPT:
-    case SQLITE_NOTADB: to_do = "use an intact copy"; break;
-    default: break;
+    case SQLITE_NOTADB:
+      to_do = "use an intact copy";
+      break;
+    default:
+      break;
   }
   throw DatabaseError(where, detail, to_do, code & 0xff);
 }

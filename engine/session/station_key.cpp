@@ -61,7 +61,7 @@ std::string station_key_path() {
 
 StationKey load_station_key(const std::string& path) {
   start_sodium();
-  struct stat info{};
+  struct stat info {};
   if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) make_key(path);
   if (::stat(path.c_str(), &info) == 0 && (info.st_mode & 077) != 0)
     throw Error(path, "the station's key may be read by others", "chmod 600 it, and replace it if someone may have copied it");

@@ -8,14 +8,12 @@
 
 namespace cavum {
 
-Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
-    : leaf_mm_(grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
+Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues) : leaf_mm_(grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
   const int widest = std::max({grid.size.x, grid.size.y, grid.size.z});
   const int thinnest = std::min({grid.size.x, grid.size.y, grid.size.z});
   if (thinnest < 1 || grid.tissue.size() != grid.count() || grid.distance.size() != grid.count() || !(grid.leaf_mm > 0))
     throw Error("tooth", "the tissue grid is empty", "check size and leaf of the input");
-  if (widest > k_max_edge_leaves)
-    throw Error("tooth", std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger leaf");
+  if (widest > k_max_edge_leaves) throw Error("tooth", std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger leaf");
   for (const auto& t : tissues) solid_[t.id] = t.solid;
   while ((k_brick_edge << levels_) < widest) ++levels_;
   root_ = build(grid, {0, 0, 0}, levels_);
@@ -100,18 +98,24 @@ std::uint32_t Octree::find(IVec3 brick, Cursor& cursor) const noexcept {
 int Octree::code_in(std::uint32_t ref, int leaf) const noexcept {
   const auto i = static_cast<std::size_t>(leaf);
   switch (ref & k_kind) {
-    case k_full_brick: return bricks_.items[ref & k_index].distance[i];
-    case k_label_brick: return uniform_code(labels_.items[ref & k_index].tissue[i]);
-    default: return uniform_code(static_cast<std::uint8_t>(ref & k_index));
+    case k_full_brick:
+      return bricks_.items[ref & k_index].distance[i];
+    case k_label_brick:
+      return uniform_code(labels_.items[ref & k_index].tissue[i]);
+    default:
+      return uniform_code(static_cast<std::uint8_t>(ref & k_index));
   }
 }
 
 std::uint8_t Octree::tissue_in(std::uint32_t ref, int leaf) const noexcept {
   const auto i = static_cast<std::size_t>(leaf);
   switch (ref & k_kind) {
-    case k_full_brick: return bricks_.items[ref & k_index].tissue[i];
-    case k_label_brick: return labels_.items[ref & k_index].tissue[i];
-    default: return static_cast<std::uint8_t>(ref & k_index);
+    case k_full_brick:
+      return bricks_.items[ref & k_index].tissue[i];
+    case k_label_brick:
+      return labels_.items[ref & k_index].tissue[i];
+    default:
+      return static_cast<std::uint8_t>(ref & k_index);
   }
 }
 
@@ -125,13 +129,9 @@ Octree::FullBrick Octree::expanded(std::uint32_t ref) const noexcept {
   return brick;
 }
 
-std::uint8_t Octree::tissue(IVec3 leaf) const noexcept {
-  return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf));
-}
+std::uint8_t Octree::tissue(IVec3 leaf) const noexcept { return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf)); }
 
-int Octree::distance_code(IVec3 leaf) const noexcept {
-  return code_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf));
-}
+int Octree::distance_code(IVec3 leaf) const noexcept { return code_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}), leaf_in_brick(leaf)); }
 
 std::uint8_t Octree::tissue_at(Vec3 mm, Cursor& cursor) const noexcept {
   const IVec3 leaf = leaf_at(mm);
@@ -175,7 +175,8 @@ bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IV
   if (low.x > box_high.x || low.y > box_high.y || low.z > box_high.z) return true;
   if (low.x + edge <= box_low.x || low.y + edge <= box_low.y || low.z + edge <= box_low.z) return true;
   switch (ref & k_kind) {
-    case k_uniform: return !solid_[ref & k_index];
+    case k_uniform:
+      return !solid_[ref & k_index];
     case k_node: {
       const int half = edge / 2;
       for (int i = 0; i < 8; ++i)
@@ -184,14 +185,14 @@ bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IV
           return false;
       return true;
     }
-    case k_label_brick: return !solid_[labels_.items[ref & k_index].tissue[0]];  // never mixed: a border would carry distances
-    default: return false;
+    case k_label_brick:
+      return !solid_[labels_.items[ref & k_index].tissue[0]];  // never mixed: a border would carry distances
+    default:
+      return false;
   }
 }
 
-bool Octree::is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept {
-  return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm));
-}
+bool Octree::is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept { return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm)); }
 
 void Octree::reserve_edits(std::size_t bricks) {
   bricks_.reserve(bricks);
@@ -201,7 +202,9 @@ void Octree::reserve_edits(std::size_t bricks) {
 
 std::array<std::uint64_t, 256> Octree::count_leaves() const {
   std::array<std::uint64_t, 256> count{};
-  for_each_cube([&](IVec3, int edge, std::uint8_t t) { count[t] += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge); });
+  for_each_cube([&](IVec3, int edge, std::uint8_t t) {
+    count[t] += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge);
+  });
   return count;
 }
 
@@ -242,11 +245,15 @@ void Octree::write(ByteWriter& out) const {
 void Octree::write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue, ByteWriter& distance) const {
   shape.put(static_cast<std::uint8_t>(ref >> 30));
   switch (ref & k_kind) {
-    case k_uniform: shape.put(static_cast<std::uint8_t>(ref & k_index)); break;
+    case k_uniform:
+      shape.put(static_cast<std::uint8_t>(ref & k_index));
+      break;
     case k_node:
       for (const auto c : nodes_.items[ref & k_index].child) write_ref(c, shape, tissue, distance);
       break;
-    case k_label_brick: tissue.put_bytes(labels_.items[ref & k_index].tissue); break;
+    case k_label_brick:
+      tissue.put_bytes(labels_.items[ref & k_index].tissue);
+      break;
     default: {
       const auto& b = bricks_.items[ref & k_index];
       tissue.put_bytes(b.tissue);
@@ -265,7 +272,8 @@ Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   tree.origin_mm_ = {in.get<double>(), in.get<double>(), in.get<double>()};
   tree.size_ = {in.get<std::int32_t>(), in.get<std::int32_t>(), in.get<std::int32_t>()};
   const auto usable = [](int n) { return n >= 1 && n <= k_max_edge_leaves; };
-  if (!(tree.leaf_mm_ > 1e-6 && tree.leaf_mm_ < 1e3) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) || !usable(tree.size_.y) || !usable(tree.size_.z))
+  if (!(tree.leaf_mm_ > 1e-6 && tree.leaf_mm_ < 1e3) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) || !usable(tree.size_.y) ||
+      !usable(tree.size_.z))
     in.fail("impossible leaf or size");
   for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
   while ((k_brick_edge << tree.levels_) < std::max({tree.size_.x, tree.size_.y, tree.size_.z})) ++tree.levels_;

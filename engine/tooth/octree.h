@@ -46,9 +46,7 @@ class Octree {
   /// Leaves along x, y, z of the grid it was built from.
   [[nodiscard]] IVec3 size() const noexcept { return size_; }
   [[nodiscard]] double leaf_volume_mm3() const noexcept { return leaf_mm_ * leaf_mm_ * leaf_mm_; }
-  [[nodiscard]] Vec3 centre_mm(IVec3 leaf) const noexcept {
-    return origin_mm_ + Vec3{leaf.x + 0.5, leaf.y + 0.5, leaf.z + 0.5} * leaf_mm_;
-  }
+  [[nodiscard]] Vec3 centre_mm(IVec3 leaf) const noexcept { return origin_mm_ + Vec3{leaf.x + 0.5, leaf.y + 0.5, leaf.z + 0.5} * leaf_mm_; }
   /// The leaf that holds `mm`; may lie outside `size()`, where everything is air.
   [[nodiscard]] IVec3 leaf_at(Vec3 mm) const noexcept;
   [[nodiscard]] bool is_solid(std::uint8_t tissue) const noexcept { return solid_[tissue]; }

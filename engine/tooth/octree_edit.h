@@ -85,7 +85,8 @@ void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit
       const bool removed = tool_mm < 0.0 && brick.tissue[i] != k_air;
       int code = std::max<int>(brick.distance[i], encode_distance((edit.clearance_mm - tool_mm) / leaf_mm_));
       if (removed) {
-        edit.removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
+        edit.removed.push_back(
+            {static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
         brick.tissue[i] = k_air;
       }
       code = solid_[brick.tissue[i]] ? std::min(code, -1) : std::max(code, 1);

@@ -44,11 +44,11 @@ inline constexpr int k_distance_far = 127;
 /// Dense labels and distances, x fastest. Invariant: solid leaves have a negative code, all others a
 /// positive one (`make_consistent` enforces it).
 struct TissueGrid {
-  IVec3 size;                          ///< leaves along x, y, z
-  double leaf_mm = 0.05;               ///< edge of a leaf, > 0
-  Vec3 origin_mm;                      ///< lower corner of leaf (0,0,0), tooth frame
-  std::vector<std::uint8_t> tissue;    ///< size.x·size.y·size.z labels
-  std::vector<std::int8_t> distance;   ///< codes of the signed distance at the leaf's centre
+  IVec3 size;                         ///< leaves along x, y, z
+  double leaf_mm = 0.05;              ///< edge of a leaf, > 0
+  Vec3 origin_mm;                     ///< lower corner of leaf (0,0,0), tooth frame
+  std::vector<std::uint8_t> tissue;   ///< size.x·size.y·size.z labels
+  std::vector<std::int8_t> distance;  ///< codes of the signed distance at the leaf's centre
 
   void allocate(IVec3 leaves, double leaf, Vec3 origin) {
     size = leaves;
@@ -64,9 +64,7 @@ struct TissueGrid {
     return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size.x) +
            static_cast<std::size_t>(i.x);
   }
-  [[nodiscard]] bool inside(IVec3 i) const noexcept {
-    return i.x >= 0 && i.y >= 0 && i.z >= 0 && i.x < size.x && i.y < size.y && i.z < size.z;
-  }
+  [[nodiscard]] bool inside(IVec3 i) const noexcept { return i.x >= 0 && i.y >= 0 && i.z >= 0 && i.x < size.x && i.y < size.y && i.z < size.z; }
   [[nodiscard]] Vec3 centre_mm(IVec3 i) const noexcept { return origin_mm + Vec3{i.x + 0.5, i.y + 0.5, i.z + 0.5} * leaf_mm; }
   /// Makes every code's sign agree with its label: solid at most -1, void at least +1.
   void make_consistent(const std::vector<Tissue>& tissues) {

@@ -82,9 +82,7 @@ TEST_F(EditedSession, RemovedLeafIsNamedByTick) {
   EXPECT_EQ(report.first_divergence->what, "removed_leaf");
 }
 
-TEST_F(EditedSession, EventIsNamed) {
-  expect_finding(edited("UPDATE event SET tick = tick - 1 WHERE seq = 2"), {"chunk 1", "events"});
-}
+TEST_F(EditedSession, EventIsNamed) { expect_finding(edited("UPDATE event SET tick = tick - 1 WHERE seq = 2"), {"chunk 1", "events"}); }
 TEST_F(EditedSession, EventDetailIsNamed) {
   expect_finding(edited("UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0"), {"chunk 0", "events"});
 }
@@ -112,15 +110,14 @@ TEST_F(EditedSession, ScenarioWithItsHashIsNamed) {
 TEST_F(EditedSession, CandidateIsNamed) {
   expect_finding(edited("UPDATE meta SET value = 'candidate-8' WHERE key = 'candidate'"), {"meta or artifact"});
 }
-TEST_F(EditedSession, ResultIsNamed) {
-  expect_finding(edited("UPDATE result SET json = replace(json, '83', '93')"), {"table result"});
-}
+TEST_F(EditedSession, ResultIsNamed) { expect_finding(edited("UPDATE result SET json = replace(json, '83', '93')"), {"table result"}); }
 TEST_F(EditedSession, FinalToothIsNamedByHashAndByReplay) {
   Tooth other = test::block_tooth();  // as if nothing had been drilled but one leaf
   std::vector<RemovedLeaf> removed;
   removed.reserve(10'000);
   other.octree.reserve_edits(100);
-  ASSERT_TRUE(other.octree.carve({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}, [](Vec3 p) { return length(p) - 0.05; }, removed));
+  ASSERT_TRUE(other.octree.carve(
+      {-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}, [](Vec3 p) { return length(p) - 0.05; }, removed));
   const Bytes bytes = save_tooth(other);
   const auto report = edited("UPDATE artifact SET bytes = " + blob(bytes) + ", size_bytes = " + std::to_string(bytes.size()) +
                              ", sha256 = " + blob(sha256(bytes)) + " WHERE name = 'final_tooth.cvt'");
@@ -137,12 +134,11 @@ TEST_F(EditedSession, ChunkTakenOutIsNamed) {
 TEST_F(EditedSession, EndCutOffIsNamed) {
   expect_finding(edited("DELETE FROM event WHERE chunk = 2; DELETE FROM chunk WHERE seq = 2"), {"table chunk", "2000 ticks, closed with 2600"});
 }
-TEST_F(EditedSession, SealTakenOffIsNamed) {
-  expect_finding(edited("DELETE FROM seal"), {"table seal", "missing"});
-}
+TEST_F(EditedSession, SealTakenOffIsNamed) { expect_finding(edited("DELETE FROM seal"), {"table seal", "missing"}); }
 TEST_F(EditedSession, SealAndResultTakenOffIsNotVerified) {
-  test::tamper(path_, "DELETE FROM seal; DELETE FROM result; DELETE FROM artifact WHERE name = 'final_tooth.cvt'; DELETE FROM event WHERE chunk = 2;"
-                      "DELETE FROM chunk WHERE seq = 2");
+  test::tamper(path_,
+               "DELETE FROM seal; DELETE FROM result; DELETE FROM artifact WHERE name = 'final_tooth.cvt'; DELETE FROM event WHERE chunk = 2;"
+               "DELETE FROM chunk WHERE seq = 2");
   const VerifyReport report = verify_session(path_);
   EXPECT_FALSE(report.verified) << "now it reads like an interrupted exam, and such a one is not verified";
   EXPECT_FALSE(report.closed);

@@ -113,9 +113,11 @@ TEST_F(CommandLine, RealMolarTakesTheSameExam) {
   const fs::path shared = fs::path(CAVUM_SOURCE_DIR) / ".." / "shared" / "teeth" / "openmandible";
   if (!fs::exists(shared)) GTEST_SKIP() << "no shared/ folder beside the repository: the real molar is not examined";
   const Ran help = run("tooth import --help");
-  if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("without import") != std::string::npos) GTEST_SKIP() << "built without import";
+  if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("without import") != std::string::npos)
+    GTEST_SKIP() << "built without import";
   const std::string m = shared.string() + "/Tooth_L6_";
-  const Ran import = run("tooth import --enamel " + m + "Enamel.stl --dentin " + m + "Dentin.stl --pulp " + m + "Pulp.stl --leaf-mm 0.05 --out " + path("l6.cvt"));
+  const Ran import =
+      run("tooth import --enamel " + m + "Enamel.stl --dentin " + m + "Dentin.stl --pulp " + m + "Pulp.stl --leaf-mm 0.05 --out " + path("l6.cvt"));
   ASSERT_EQ(import.exit_code, 0) << import.err;
   const std::string scenario = k_data + "/scenarios/molar_access.toml", tooth = "--tooth " + path("l6.cvt");
   EXPECT_EQ(exam(scenario, "expert", tooth)["verdict"], "pass");
@@ -140,7 +142,8 @@ TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
     const pid_t child = fork();
     if (child == 0) {
       std::freopen("/dev/null", "w", stdout);
-      execl(CAVUM_BINARY, CAVUM_BINARY, "exam", k_block.c_str(), "--candidate", "killed", "--operator", "expert", "--out", session.c_str(), "--quiet", nullptr);
+      execl(CAVUM_BINARY, CAVUM_BINARY, "exam", k_block.c_str(), "--candidate", "killed", "--operator", "expert", "--out", session.c_str(), "--quiet",
+            nullptr);
       _exit(127);
     }
     usleep(static_cast<useconds_t>(20'000 + random() % 900'000));
@@ -180,7 +183,8 @@ TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
 
 TEST_F(CommandLine, AMotionFileDrillsAndAnExistingSessionIsNotOverwritten) {
   std::ostringstream csv;
-  csv << "# point = round-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,1,1,0,0,0,1\n2,0,0,0.1,1,0,0,0,1\n8,0,0,-1.4,1,0,0,0,1\n9,0,0,2,1,0,0,0,0\n";
+  csv << "# point = "
+         "round-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,1,1,0,0,0,1\n2,0,0,0.1,1,0,0,0,1\n8,0,0,-1.4,1,0,0,0,1\n9,0,0,2,1,0,0,0,0\n";
   write_text_file(path("m.csv"), csv.str());
   const std::string call = "exam " + k_block + " --motion " + path("m.csv") + " --candidate c --out " + path("m.cavum") + " --json";
   const Ran first = run(call);

@@ -50,7 +50,8 @@ TEST(TomlReader, WhatNobodyAskedForIsAnError) {
   const auto all_but = [](const std::string& left_out) {
     return asked([&](TomlReader& in) {
       for (const char* key : {"name", "k", "count", "bad"})
-        if (key != left_out) (void)in.has(key), (void)(std::string(key) == "name" || std::string(key) == "bad" ? in.text(key) : std::to_string(in.number(key, 0, 9)));
+        if (key != left_out)
+          (void)in.has(key), (void)(std::string(key) == "name" || std::string(key) == "bad" ? in.text(key) : std::to_string(in.number(key, 0, 9)));
       if (left_out != "inner") (void)in.table("inner");
       in.finish();
     });

@@ -105,9 +105,7 @@ TEST(HalfSpaces, ContradictingHalfSpacesAreToldApart) {
   EXPECT_LE(length(s.step - Vec3{0.3, -0.2, 0.01}), 1e-9);
 }
 
-TEST(HalfSpaces, NothingInTheWayGivesTheWantedStep) {
-  EXPECT_EQ(nearest_step({1, 2, 3}, {}).step, (Vec3{1, 2, 3}));
-}
+TEST(HalfSpaces, NothingInTheWayGivesTheWantedStep) { EXPECT_EQ(nearest_step({1, 2, 3}, {}).step, (Vec3{1, 2, 3})); }
 
 }  // namespace
 }  // namespace cavum

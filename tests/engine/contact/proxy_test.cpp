@@ -33,9 +33,9 @@ double deepest_mm(const ContactTool& tool, Vec3 tip, Quat q, const Distance& dis
 }
 
 struct Figures {
-  double at_rest_percent = 0, at_rest_degrees = 0;               // after pressing
-  double depth_percent = 0, ripple_percent = 0, degrees = 0;     // while sliding
-  double dropped = 0;                                            // ticks without force although the proxy is held off by X
+  double at_rest_percent = 0, at_rest_degrees = 0;            // after pressing
+  double depth_percent = 0, ripple_percent = 0, degrees = 0;  // while sliding
+  double dropped = 0;                                         // ticks without force although the proxy is held off by X
   void grow(const Figures& f) {
     at_rest_percent = std::max(at_rest_percent, f.at_rest_percent);
     at_rest_degrees = std::max(at_rest_degrees, f.at_rest_degrees);
@@ -98,7 +98,8 @@ TEST(Proxy, DirectionLagsBehindAFasterSlideByNoMoreThanItDoesToday) {
   for (const auto& [speed, most_degrees] : {std::pair{0.5, 3.0}, {2.0, 3.6}, {10.0, 12.0}, {50.0, 30.0}}) {
     Figures worst;
     for (int i = 0; i < 6; ++i) worst.grow(press_and_slide(random, diamond_point("round-1.0"), speed));
-    std::printf("plane, round-1.0, sliding at %4.1f mm/s: X %.2f %%, ripple %.2f %%, direction %.2f deg\n", speed, worst.depth_percent, worst.ripple_percent, worst.degrees);
+    std::printf("plane, round-1.0, sliding at %4.1f mm/s: X %.2f %%, ripple %.2f %%, direction %.2f deg\n", speed, worst.depth_percent,
+                worst.ripple_percent, worst.degrees);
     EXPECT_LE(worst.degrees, most_degrees) << speed;
   }
 }
@@ -181,7 +182,8 @@ struct PushFigures {
 
 /// Pushes from the free side; the device ends where k = 0.8 N/mm gives 3.3 N. `distance` is that of the solid, `out` a way out of it.
 template <class Distance>
-PushFigures push(Random& random, const ContactTool& tool, const Octree& tooth, Vec3 start, Vec3 end, Quat turned, const Distance& distance, Vec3 out) {
+PushFigures push(Random& random, const ContactTool& tool, const Octree& tooth, Vec3 start, Vec3 end, Quat turned, const Distance& distance,
+                 Vec3 out) {
   ContactState state = make_contact_state({tool}, start);
   PushFigures f;
   const double speed = std::exp(random.uniform(std::log(2.0), std::log(200.0)));  // mm/s
@@ -298,7 +300,8 @@ TEST(Proxy, TheMeansOfTwoTissuesAreThoseOfTheAreasTouched) {
   // A flat end over a border between two tissues: k must be weighted by the share of the disc on each side.
   const double r = 0.5;
   for (const double border : {-0.6, -0.3, -0.1, 0.0, 0.2, 0.35, 0.6}) {
-    const Tooth tooth = tooth_of([](Vec3 p) { return p.z; }, {-1, -1, -1}, {1, 1, 1}, k_leaf, [&](Vec3 p) { return p.x < border ? k_enamel : k_dentin; });
+    const Tooth tooth =
+        tooth_of([](Vec3 p) { return p.z; }, {-1, -1, -1}, {1, 1, 1}, k_leaf, [&](Vec3 p) { return p.x < border ? k_enamel : k_dentin; });
     ForceModel force = hard_model(0.4, 0);
     force.materials.find("enamel")->second.voigt.stiffness_n_per_mm = 1.2;
     Rig rig(tooth, {diamond_point("cylinder-flat-1.0")}, force, {0, 0, 0.2});

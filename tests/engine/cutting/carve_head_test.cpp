@@ -43,9 +43,11 @@ TEST(CarveHead, RemovesExactlyTheLeavesWhoseCentreTheHeadHeld) {
         for (std::int32_t x = 0; x < before.size.x; ++x) {
           const auto i = before.index({x, y, z});
           double nearest = 1e9;
-          for (const auto& p : poses) nearest = std::min(nearest, point.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
+          for (const auto& p : poses)
+            nearest = std::min(nearest, point.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
           if (std::fabs(nearest) < 1e-9) continue;
-          ASSERT_EQ(after.tissue[i], nearest < 0 ? std::uint8_t{k_air} : before.tissue[i]) << name << " leaf " << x << ' ' << y << ' ' << z << " distance " << nearest;
+          ASSERT_EQ(after.tissue[i], nearest < 0 ? std::uint8_t{k_air} : before.tissue[i])
+              << name << " leaf " << x << ' ' << y << ' ' << z << " distance " << nearest;
           gone += before.tissue[i] != after.tissue[i];
         }
     EXPECT_EQ(gone, removed.size()) << name << ": every removed leaf is listed once";
@@ -74,7 +76,8 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheSameToothAsTheWholeHead) {
       }
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
-      for (std::size_t i = 0; i < a.distance.size(); ++i) ASSERT_EQ(a.distance[i], b.distance[i]) << name << " at leaf index " << i << " (127 codes are 2 leaves)";
+      for (std::size_t i = 0; i < a.distance.size(); ++i)
+        ASSERT_EQ(a.distance[i], b.distance[i]) << name << " at leaf index " << i << " (127 codes are 2 leaves)";
     }
 }
 

@@ -68,7 +68,8 @@ TEST(Cutting, SteadyPenetrationIs0_505MmWhateverStiffnessLeafAndTick) {
         volume = std::max(volume, std::fabs(p.removed_mm3 / swept - 1) * 100);
         EXPECT_NEAR(p.removed_mm3 / swept, 1.0, 0.02) << "volume; k " << k << " leaf " << leaf << " tick " << dt;
       }
-  std::printf("plunge: X %.4f .. %.4f mm in the last second, at most %.4f mm from the closed form; volume within %.2f %%\n", least, most, off, volume);
+  std::printf("plunge: X %.4f .. %.4f mm in the last second, at most %.4f mm from the closed form; volume within %.2f %%\n", least, most, off,
+              volume);
 }
 
 TEST(Cutting, RemovalDoesNotDependOnTheLengthOfATick) {
@@ -104,7 +105,8 @@ TEST(Cutting, ASlotHasTheVolumeAndTheWallsOfItsSweep) {
           ++n;
         }
       }
-    std::printf("slot, leaf %.3f mm: volume %+.2f %%, walls and floor at most %.4f mm from the sweep, %.4f mm rms\n", leaf, (removed / swept - 1) * 100, worst, std::sqrt(sum2 / n));
+    std::printf("slot, leaf %.3f mm: volume %+.2f %%, walls and floor at most %.4f mm from the sweep, %.4f mm rms\n", leaf,
+                (removed / swept - 1) * 100, worst, std::sqrt(sum2 / n));
     EXPECT_NEAR(removed / swept, 1.0, 0.02) << leaf;
     EXPECT_LE(worst, 0.5 * leaf) << "roughness of a straight cut";
   }

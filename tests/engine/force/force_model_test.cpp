@@ -17,7 +17,7 @@ TEST(ForceModel, ThePapersSetHasThePapersNumbers) {
     const Material& m = model.materials.find(hard)->second;
     EXPECT_EQ(m.voigt.stiffness_n_per_mm, 0.8);
     EXPECT_NEAR(m.voigt.damping_n_s_per_mm, 2 * std::sqrt(0.8), 1e-12);  // eq. 5 with h = 1; the paper prints 1.79
-    EXPECT_NEAR(m.tau_s, 0.505 / 0.25, 1e-12);                          // slope of eq. 6 over the crosshead's speed
+    EXPECT_NEAR(m.tau_s, 0.505 / 0.25, 1e-12);                           // slope of eq. 6 over the crosshead's speed
   }
   EXPECT_EQ(model.materials.find("pulp")->second.voigt.stiffness_n_per_mm, 0.0);
   EXPECT_EQ(model.materials.find("pulp")->second.voigt.damping_n_s_per_mm, 0.0);

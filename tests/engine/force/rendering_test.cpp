@@ -40,10 +40,11 @@ TEST(Rendering, AtRestIsTheSpringWithin1Percent) {
       for (const double x : {0.05, 0.25, 1.0}) {
         Press run{{}, tissue, dt};
         double f = 0;
-        for (double t = 0; t < 0.02; t += dt) f = run.to(x * t / 0.02);  // quickly in
+        for (double t = 0; t < 0.02; t += dt) f = run.to(x * t / 0.02);                       // quickly in
         const double settle = 0.03 + 8 * tissue.damping_n_s_per_mm / run.model.kvc_n_per_mm;  // the branch relaxes with c/Kvc
         for (double t = 0; t < settle; t += dt) f = run.to(x);
-        EXPECT_NEAR(f / (tissue.stiffness_n_per_mm * x), 1.0, 0.01) << "k " << tissue.stiffness_n_per_mm << " c " << tissue.damping_n_s_per_mm << " X " << x;
+        EXPECT_NEAR(f / (tissue.stiffness_n_per_mm * x), 1.0, 0.01)
+            << "k " << tissue.stiffness_n_per_mm << " c " << tissue.damping_n_s_per_mm << " X " << x;
       }
 }
 
@@ -64,7 +65,8 @@ TEST(Rendering, TheBranchFollowsItsClosedFormOnARamp) {  // z = c V (1 - exp(-t 
   Press run{{}, {0.0, 1.7888543819998317}, 0.001};
   run.model.filtered_damping_n_s_per_mm = 0;
   for (int i = 1; i <= 5000; ++i) {
-    const double t = i * 0.001, z = run.tissue.damping_n_s_per_mm * 0.25 * (1 - std::exp(-t * run.model.kvc_n_per_mm / run.tissue.damping_n_s_per_mm));
+    const double t = i * 0.001,
+                 z = run.tissue.damping_n_s_per_mm * 0.25 * (1 - std::exp(-t * run.model.kvc_n_per_mm / run.tissue.damping_n_s_per_mm));
     ASSERT_NEAR(run.to(0.25 * t), z, 2e-4);
   }
 }

@@ -90,7 +90,8 @@ TEST(Profile, DistanceOfEveryPointIsThatToTheNearestOfItsDenseOutline) {
       const double d = point.profile.distance_mm({r * std::cos(turn), r * std::sin(turn), z});
       // the nearest of points k_step apart is at most half a step from the foot, which may lie on an arc of 0.12 mm
       ASSERT_LE(std::fabs(d), std::sqrt(nearest2) + 1e-9) << name << " at r " << r << " z " << z;
-      ASSERT_GE(std::sqrt(d * d + k_step_mm * k_step_mm / 4 * (1 + std::fabs(d) / 0.12)) + 1e-7, std::sqrt(nearest2)) << name << " at r " << r << " z " << z;
+      ASSERT_GE(std::sqrt(d * d + k_step_mm * k_step_mm / 4 * (1 + std::fabs(d) / 0.12)) + 1e-7, std::sqrt(nearest2))
+          << name << " at r " << r << " z " << z;
       if (std::fabs(d) > 1e-4) {
         ASSERT_EQ(d < 0, inside(line, r, z)) << name << " at r " << r << " z " << z;
       }
@@ -111,7 +112,8 @@ TEST(Profile, WalkStaysOnTheOutlineWithOutwardNormals) {
     for (const auto& p : point.profile.walk(0.01, point.profile.length_mm())) {
       EXPECT_NEAR(std::hypot(p.normal.r_mm, p.normal.z_mm), 1.0, 1e-9) << name;
       EXPECT_NEAR(point.profile.distance_mm({p.at.r_mm, 0, p.at.z_mm}), 0.0, 1e-9) << name;
-      EXPECT_NEAR(point.profile.distance_mm({p.at.r_mm + 1e-3 * p.normal.r_mm, 0, p.at.z_mm + 1e-3 * p.normal.z_mm}), 1e-3, 1e-5) << name << " " << p.at.z_mm;
+      EXPECT_NEAR(point.profile.distance_mm({p.at.r_mm + 1e-3 * p.normal.r_mm, 0, p.at.z_mm + 1e-3 * p.normal.z_mm}), 1e-3, 1e-5)
+          << name << " " << p.at.z_mm;
     }
   }
 }

@@ -40,7 +40,8 @@ using namespace testing_engine;
 
 TEST(Servo, TheStepAllocatesNothingWhileDrilling) {
   const Tooth tooth = make_block({3, 3, 3}, {{"enamel", 0.8}, {"dentin", 0.7}, {"pulp", 0.5}, {"dentin", 1.0}}, 0.05);
-  Rig rig(tooth, {diamond_point("round-1.0"), diamond_point("cylinder-flat-1.0"), diamond_point("pear-1.0")}, hard_model(0.8, 1.79, 0.3), {0, 0, 0.2});
+  Rig rig(tooth, {diamond_point("round-1.0"), diamond_point("cylinder-flat-1.0"), diamond_point("pear-1.0")}, hard_model(0.8, 1.79, 0.3),
+          {0, 0, 0.2});
   long removed = 0, carving_ticks = 0, before = 0;
   t_allocations = 0;
   for (int i = 0; i < 10000; ++i) {

@@ -15,7 +15,8 @@ Tooth layered() { return make_block({2.4, 2.4, 3.0}, {{"enamel", 0.7}, {"dentin"
 /// A wild but repeatable tick: drilling, sliding, leaving, changing the point, losing pedal and stylus.
 TickInput wild(Random& random, int i, const TickInput& previous) {
   const double t = i * 1e-3;
-  const Vec3 tip{0.5 * std::sin(2.1 * t), 0.4 * std::sin(1.3 * t), 0.2 - 0.3 * t + 0.4 * std::max(0.0, std::sin(1.7 * t)) + random.uniform(-0.01, 0.01)};
+  const Vec3 tip{0.5 * std::sin(2.1 * t), 0.4 * std::sin(1.3 * t),
+                 0.2 - 0.3 * t + 0.4 * std::max(0.0, std::sin(1.7 * t)) + random.uniform(-0.01, 0.01)};
   const Quat turned = normalized(Quat{1, 0.15 * std::sin(0.7 * t), 0.1 * std::cos(0.9 * t), 0});
   std::uint16_t flags = k_stylus_fresh | k_pedal_fresh;
   if (i % 500 > 490) flags = k_pedal_fresh;
@@ -104,8 +105,9 @@ TEST(Servo, ForceFallsWhenTheTipBreaksThroughIntoThePulp) {
       after = std::min(after, out.model_force_n);
     }
   }
-  std::printf("pulp: %.3f N before the tip breaks through, %.3f N with the head in the pulp; largest change in a tick: model %.4f N, rendered %.4f N\n", before, after,
-              worst_model, worst_rendered);
+  std::printf(
+      "pulp: %.3f N before the tip breaks through, %.3f N with the head in the pulp; largest change in a tick: model %.4f N, rendered %.4f N\n",
+      before, after, worst_model, worst_rendered);
   EXPECT_GT(before, 0.6);
   EXPECT_LT(after, 0.15 * before) << "nothing is left to press on";
   EXPECT_LE(worst_rise, 0.1 * before);
@@ -183,7 +185,8 @@ TEST(Servo, NoticesTellWhatWentWrong) {
 
 TEST(Servo, BadReadingsBecomeFaultsAndNeverNumbers) {
   TickInput good = make_tick_input({{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}, 0.5, k_stylus_fresh | k_pedal_fresh, 0, {});
-  const Pose bad[] = {{{NAN, 0, 0}, {}}, {{0, INFINITY, 0}, {}}, {{0, 0, 5000}, {}}, {{0, 0, 0}, {0, 0, 0, 0}}, {{0, 0, 0}, {NAN, 0, 0, 0}}, {{0, 0, 0}, {1, INFINITY, 0, 0}}};
+  const Pose bad[] = {{{NAN, 0, 0}, {}},         {{0, INFINITY, 0}, {}},      {{0, 0, 5000}, {}},
+                      {{0, 0, 0}, {0, 0, 0, 0}}, {{0, 0, 0}, {NAN, 0, 0, 0}}, {{0, 0, 0}, {1, INFINITY, 0, 0}}};
   for (const auto& pose : bad) {
     const TickInput in = make_tick_input(pose, 0.5, k_stylus_fresh | k_pedal_fresh, 0, good);
     EXPECT_EQ(in.tip_nm, good.tip_nm);
@@ -204,7 +207,8 @@ TEST(Servo, BadReadingsBecomeFaultsAndNeverNumbers) {
     rig.input.flags = static_cast<std::uint16_t>(random.next());
     rig.input.point = static_cast<std::uint8_t>(random.below(3));
     const TickOutput out = step(rig.model, rig.state, rig.input);
-    ASSERT_TRUE(is_finite(out.rendered_force_n) && std::isfinite(out.model_force_n) && std::isfinite(out.penetration_mm) && is_finite(out.proxy_mm) && std::isfinite(out.rpm));
+    ASSERT_TRUE(is_finite(out.rendered_force_n) && std::isfinite(out.model_force_n) && std::isfinite(out.penetration_mm) && is_finite(out.proxy_mm) &&
+                std::isfinite(out.rpm));
     ASSERT_LE(length(out.rendered_force_n), 3.3 + 1e-9);
   }
 }

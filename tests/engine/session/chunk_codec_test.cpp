@@ -16,10 +16,14 @@ namespace {
 template <class T>
 T draw(Random& random, T before) {
   switch (random.below(4)) {
-    case 0: return std::numeric_limits<T>::max();
-    case 1: return std::numeric_limits<T>::min();
-    case 2: return static_cast<T>(static_cast<std::uint64_t>(before) + random.below(5) - 2);
-    default: return static_cast<T>(random.next());
+    case 0:
+      return std::numeric_limits<T>::max();
+    case 1:
+      return std::numeric_limits<T>::min();
+    case 2:
+      return static_cast<T>(static_cast<std::uint64_t>(before) + random.below(5) - 2);
+    default:
+      return static_cast<T>(random.next());
   }
 }
 

@@ -90,7 +90,7 @@ TickInput motion_at(std::int64_t tick) {
   const double tremor = 0.01 * std::sin(2 * k_pi * 9.1 * t) + 0.004 * std::sin(2 * k_pi * 23.7 * t);
   pose.tip_mm.x = 0.35 * std::sin(2 * k_pi * t / 1.7) + tremor;
   pose.tip_mm.y = 0.25 * std::sin(2 * k_pi * t / 2.9) - 0.5 * tremor;
-  const double depth = std::min(1.3, 0.45 * t);                                      // slowly through roof and pulp
+  const double depth = std::min(1.3, 0.45 * t);                                                     // slowly through roof and pulp
   pose.tip_mm.z = 0.15 - depth + 0.5 * std::max(0.0, std::sin(2 * k_pi * t / 3.7) - 0.8) + tremor;  // now and then out
   const double tilt = 0.1 * std::sin(2 * k_pi * t / 5.0);
   pose.rotation = normalized(Quat{1.0, tilt, 0.3 * tilt, 0.0});

@@ -86,7 +86,9 @@ inline std::vector<std::string> point_names() {
   return names;
 }
 
-inline ForceModel shipped_model(const std::string& name) { return parse_force_model(read_text_file(data_path("materials/" + name + ".toml")), name + ".toml"); }
+inline ForceModel shipped_model(const std::string& name) {
+  return parse_force_model(read_text_file(data_path("materials/" + name + ".toml")), name + ".toml");
+}
 
 /// One k, c and τ for enamel and dentin; pulp stays a cavity.
 inline ForceModel hard_model(double k_n_per_mm, double c_n_s_per_mm, double tau_s = 2.02) {
@@ -111,8 +113,9 @@ inline Quat random_rotation(Random& random) {
 }
 
 /// Solid tissue where `distance_mm` (exact, negative inside) is negative, in a grid around low..high.
-inline Tooth tooth_of(const std::function<double(Vec3)>& distance_mm, Vec3 low, Vec3 high, double leaf_mm,
-                      const std::function<std::uint8_t(Vec3)>& tissue = [](Vec3) { return k_enamel; }) {
+inline Tooth tooth_of(
+    const std::function<double(Vec3)>& distance_mm, Vec3 low, Vec3 high, double leaf_mm,
+    const std::function<std::uint8_t(Vec3)>& tissue = [](Vec3) { return k_enamel; }) {
   Tooth tooth;
   TissueGrid grid;
   const auto leaves = [&](double mm) { return static_cast<std::int32_t>(std::ceil(mm / leaf_mm - 1e-9)); };
