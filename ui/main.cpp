@@ -1,5 +1,6 @@
 // The one binary: `cavum VERB ...`. Exit 0 done, 1 done and the answer is no, 2 usage or unreadable input.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -17,6 +18,11 @@ int main(int argc, char** argv) {
   cavum::add_exam_verbs(app, exit_code);
   cavum::add_replay_verbs(app, exit_code);
   cavum::add_grade_verbs(app, exit_code);
+  const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == argv[1]; })) {
+    std::fprintf(stderr, "cavum: command line: there is no verb '%s'; see `cavum --help`\n", argv[1]);
+    return 2;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& e) {
