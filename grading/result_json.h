@@ -1,4 +1,4 @@
-// A result as JSON (names of DESIGN.md §8, and more detail under further names), and as text for a terminal.
+// A result as JSON (names fixed by tests, and more detail under further names), and as text for a terminal.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -9,7 +9,7 @@
 
 namespace cavum {
 
-/// The device. Source of the defaults: PHYSICS.md section 3 (mass recalled, the others from published notes).
+/// The device. Source of the defaults: published notes of several groups; the mass is (recalled).
 struct OmniModel {
   double mass_kg = 0.045;
   double coulomb_n = 0.26;           ///< back-drive friction of the joints

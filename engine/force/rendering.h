@@ -1,5 +1,5 @@
 // From the model force to one that a sampled device can render. Explicit c·V at 1 kHz is unstable for
-// the paper's c (PHYSICS.md section 3); so k·X stands in parallel to a Maxwell branch, which equals the
+// the paper's c (engine/README.md); so k·X stands in parallel to a Maxwell branch, which equals the
 // Voigt law at rest and at constant speed, and stays passive in between.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace cavum {
 
-/// Source of the defaults: PHYSICS.md section 3, force sd 0.008-0.018 N in a closed-loop press.
+/// Source of the defaults: own closed-loop press, force sd 0.008-0.018 N in a closed-loop press.
 struct RenderingModel {
   double kvc_n_per_mm = 0.7;                   ///< spring of the Maxwell branch
   double filtered_damping_n_s_per_mm = 0.002;  ///< on the filtered speed, for the device's own ringing

@@ -39,7 +39,7 @@ void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, co
   const double leaf = state.tooth.leaf_mm();
   bool carve = false;
   if (means.touching) {
-    // v = X/τ · rpm/rpm_ref (PHYSICS.md section 2)
+    // v = X/τ · rpm/rpm_ref (slope 0.505 mm of the paper’s eq. 6 over 0.25 mm/s)
     state.recession_mm += penetration_mm * means.of.recession_per_s * (state.rpm / model.force.rpm_ref) * model.config.tick_s;
     state.recession_mm = std::min(state.recession_mm, leaf);
     carve = state.recession_mm >= k_carve_step_leaves * leaf;

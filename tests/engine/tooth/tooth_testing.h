@@ -12,11 +12,11 @@
 
 namespace cavum::testing_tooth {
 
-/// A new seed each run, printed; CAVUM_SEED=n repeats a run.
+/// A new seed each run, printed; CAVUM_TEST_SEED=n repeats a run.
 inline std::uint64_t fresh_seed() {
-  const char* given = std::getenv("CAVUM_SEED");
+  const char* given = std::getenv("CAVUM_TEST_SEED");
   const std::uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
-  std::cout << "CAVUM_SEED=" << seed << '\n';
+  std::cout << "CAVUM_TEST_SEED=" << seed << '\n';
   return seed;
 }
 
