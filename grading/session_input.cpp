@@ -1,6 +1,7 @@
 #include "grading/session_input.h"
 
 #include "engine/base/error.h"
+#include "engine/session/chain_check.h"
 #include "scenarios/parse.h"
 
 namespace cavum {
@@ -9,6 +10,9 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   const SessionReader reader(path);
   reader.require_readable();
   if (!reader.closed()) throw Error(path, "this exam was not closed", "resume it with `cavum exam --resume`, or let it end");
+  // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
+  if (const auto findings = check_chain(reader); !findings.empty())
+    throw Error(path, "damaged or altered: " + findings.front(), "run `cavum replay --verify` on it and use an intact copy");
   return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
 }
 

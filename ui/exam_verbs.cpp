@@ -21,7 +21,7 @@ struct Options {
   std::string scenario, candidate, motion, operator_name, device, out, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
-  bool json = false, quiet = false, resume = false;
+  bool json = false, quiet = false, resume = false, end = false;
 };
 
 /// One line on the terminal that shows time, step and removal; nothing when the output is no terminal.
@@ -104,8 +104,10 @@ void run_new(const Options& o) {
   finish(o, *exam);
 }
 
-/// Takes up a killed exam: the hand is gone, so it ends where it was, unless more motion is given.
+/// Takes up a killed exam with new motion, or closes it as it stands.
 void run_resumed(const Options& o) {
+  if (o.motion.empty() && o.operator_name.empty() && !o.end)
+    throw Error("cavum exam --resume", "nothing to go on with", "give --motion or --operator to continue, or --end to close the exam as it stands");
   const SessionReader reader(o.out);
   reader.require_readable();
   const auto setup = prepare_exam(reader.setup());
@@ -140,8 +142,9 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
+  exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
   exam->add_option("--report", o->report, "also write the report (HTML)");
-  exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed");
+  exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed: with --motion, --operator or --end");
   exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
   exam->add_flag("--quiet", o->quiet, "no progress bar");
   exam->callback([o, &exit_code] {

@@ -152,7 +152,7 @@ TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
     waitpid(child, &status, 0);
     if (!fs::exists(session)) continue;  // killed before the exam began: nothing to lose
     if (WIFEXITED(status)) continue;     // was done before the kill
-    const Ran resumed = run("exam --resume --out " + session + " --json");
+    const Ran resumed = run("exam --resume --end --out " + session + " --json");
     if (resumed.exit_code == 2 && resumed.err.find("is closed") != std::string::npos) continue;
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     const Ran replay = run("replay " + session + " --verify --json");
@@ -168,6 +168,7 @@ TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
   expect_refused("exam " + k_block + out, {"--motion", "--operator"});
   expect_refused("tooth info " + k_block, {"block_cavity.toml", "not a Cavum tooth file"});
   expect_refused("nonsense", {"nonsense"});
+  expect_refused("exam --resume --out " + path("x.cavum"), {"--resume", "--end"});
   const auto motion = [&](const std::string& text) {
     write_text_file(path("m.csv"), text);
     return "exam " + k_block + " --motion " + path("m.csv") + out;
