@@ -73,6 +73,9 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.motion = measure_motion(input, ticks);
   r.perforation = measure_perforation(input, input.inputs.empty() ? last_tick : ticks);
   r.progress = measure_progress(input);
+  if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
+    r.notes.push_back(std::to_string(r.progress.steps - r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) +
+                      " steps were not completed; the verdict comes from the rubric alone");
   if (r.motion.late_ticks > 0)
     r.notes.push_back(std::to_string(r.motion.late_ticks) + " ticks were recorded after the exam was over; they do not count");
   compare_with_final_tooth(input, removed, r);

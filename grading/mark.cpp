@@ -1,21 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "engine/base/text.h"
 #include "grading/grade.h"
 #include "scenarios/names.h"
 
 namespace cavum {
 namespace {
 
-std::string figure(double v, int digits) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.*f", digits, v);
-  return buffer;
-}
-
-std::string when(const Trace& t) { return figure(t.t_s(), 2) + " s (tick " + std::to_string(t.tick) + ")"; }
-std::string place(Vec3 p) { return "[" + figure(p.x, 2) + ", " + figure(p.y, 2) + ", " + figure(p.z, 2) + "] mm"; }
+std::string when(const Trace& t) { return fixed(t.t_s(), 2) + " s (tick " + std::to_string(t.tick) + ")"; }
+std::string place(Vec3 p) { return "[" + fixed(p.x, 2) + ", " + fixed(p.y, 2) + ", " + fixed(p.z, 2) + "] mm"; }
 
 std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
   return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) - by_wall.begin());
@@ -34,8 +28,8 @@ struct Loss {
 
 Loss missed_target(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
-  return {figure(r.volumes.missed.mm3, 2) + " mm3 of the target left standing, most of it towards " + wall_text(w) + " (" +
-              figure(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
+  return {fixed(r.volumes.missed.mm3, 2) + " mm3 of the target left standing, most of it towards " + wall_text(w) + " (" +
+              fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
           {}};
 }
 
@@ -56,8 +50,8 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = figure(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) +
-              " at " + wall_text(wall) + " (" + figure(most, 2) + " mm3)";
+  loss.text = fixed(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) +
+              " at " + wall_text(wall) + " (" + fixed(most, 2) + " mm3)";
   if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
   return loss;
 }
@@ -74,8 +68,8 @@ Loss at_walls(const Result& r, std::size_t first, std::size_t end, bool over) {
   const WallMeasures& m = r.shape.wall[worst];
   const Trace& t = over ? m.worst_over : m.worst_under;
   Loss loss{{}, t};
-  loss.text = over ? wall_text(worst) + " overcut by up to " + figure(m.max_over_mm, 2) + " mm"
-                   : wall_text(worst) + " left up to " + figure(m.max_under_mm, 2) + " mm thick";
+  loss.text = over ? wall_text(worst) + " overcut by up to " + fixed(m.max_over_mm, 2) + " mm"
+                   : wall_text(worst) + " left up to " + fixed(m.max_under_mm, 2) + " mm thick";
   if (t.tick >= 0) loss.text += ", at " + place(t.site_mm) + ", cut at " + when(t);
   return loss;
 }
@@ -102,11 +96,11 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "perforated" || metric == "perforation_volume_mm3") {
     const PerforationTruth& t = r.perforation.fault;
     if (!t.perforated) return {"no faulty breakthrough", {}};
-    return {t.tissue + " touched at " + when(t.first) + " at " + place(t.first.site_mm) + ", " + figure(t.volume_mm3, 3) + " mm3 in all", t.first};
+    return {t.tissue + " touched at " + when(t.first) + " at " + place(t.first.site_mm) + ", " + fixed(t.volume_mm3, 3) + " mm3 in all", t.first};
   }
   if (metric == "perforation_events") {
     for (const auto& e : r.perforation.events)
-      if (e.fault) return {"a drop in force from " + figure(e.force_before_n, 2) + " N at " + when({e.tick, e.site_mm}), {e.tick, e.site_mm}};
+      if (e.fault) return {"a drop in force from " + fixed(e.force_before_n, 2) + " N at " + when({e.tick, e.site_mm}), {e.tick, e.site_mm}};
     return {"no faulty breakthrough seen in the force", {}};
   }
   if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
@@ -117,11 +111,11 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "violations" && r.progress.first_violation.tick >= 0)
     return {"first at " + when(r.progress.first_violation), r.progress.first_violation};
   if (metric == "depth_error_mm" && r.shape.depth_mm)
-    return {"depth " + figure(*r.shape.depth_mm, 2) + " mm instead of " + figure(r.shape.target_depth_mm, 2) + " mm", {}};
+    return {"depth " + fixed(*r.shape.depth_mm, 2) + " mm instead of " + fixed(r.shape.target_depth_mm, 2) + " mm", {}};
   if (metric == "outline_width_error_mm" && r.shape.width_mm)
-    return {"width " + figure(*r.shape.width_mm, 2) + " mm instead of " + figure(r.shape.target_width_mm, 2) + " mm", {}};
+    return {"width " + fixed(*r.shape.width_mm, 2) + " mm instead of " + fixed(r.shape.target_width_mm, 2) + " mm", {}};
   if (metric == "outline_length_error_mm" && r.shape.length_mm)
-    return {"length " + figure(*r.shape.length_mm, 2) + " mm instead of " + figure(r.shape.target_length_mm, 2) + " mm", {}};
+    return {"length " + fixed(*r.shape.length_mm, 2) + " mm instead of " + fixed(r.shape.target_length_mm, 2) + " mm", {}};
   return {};
 }
 
@@ -151,7 +145,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   const Loss loss = loss_of(r, c.metric);
   out.first = loss.first;
   const std::string unit = out.unit.empty() ? "" : out.unit == "%" ? " %" : " " + out.unit;
-  out.reason = figure(*v.value, 2) + unit + " where " + figure(c.full, 2) + unit + " gives full marks" + (loss.text.empty() ? "" : ": " + loss.text);
+  out.reason = fixed(*v.value, 2) + unit + " where " + fixed(c.full, 2) + unit + " gives full marks" + (loss.text.empty() ? "" : ": " + loss.text);
   if (out.critical_failed) out.reason += "; this alone fails the exam";
   return out;
 }
@@ -192,12 +186,12 @@ void mark(Result& r, const RubricSpec& rubric) {
     critical = true;
     r.verdict_reasons.push_back("critical criterion " + c.id + ": " + c.reason);
   }
-  const std::string standing = which + " reaches " + figure(lowest, 1) + " %, the pass mark is " + figure(rubric.pass_percent, 1) + " %";
+  const std::string standing = which + " reaches " + fixed(lowest, 1) + " %, the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
   const bool band = std::fabs(lowest - rubric.pass_percent) < rubric.borderline_percent;
   r.verdict = critical || lowest < rubric.pass_percent ? Verdict::fail : Verdict::pass;
   if (!critical && band) {
     r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(standing + ", which is within the borderline band of " + figure(rubric.borderline_percent, 1) + " %");
+    r.verdict_reasons.push_back(standing + ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %");
   } else {
     r.verdict_reasons.push_back(standing);
   }

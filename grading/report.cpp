@@ -4,18 +4,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
+#include "engine/base/text.h"
 #include "scenarios/picture.h"
 
 namespace cavum {
 namespace {
-
-std::string fixed(double v, int digits) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.*f", digits, v);
-  return buffer;
-}
 
 std::string cell(const std::string& text, const char* kind = "") { return "<td" + std::string(kind) + ">" + text + "</td>"; }
 std::string number_cell(const std::string& text) { return cell(text, " class='n'"); }

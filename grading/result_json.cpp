@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/text.h"
+
 namespace cavum {
 namespace {
 
@@ -37,12 +39,6 @@ Json wall_json(const WallMeasures& w) {
           {"max_over_tick", tick_of(w.worst_over)},
           {"max_under_site_mm", place_of(w.worst_under)},
           {"max_under_tick", tick_of(w.worst_under)}};
-}
-
-std::string fixed(double v, int digits) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.*f", digits, v);
-  return buffer;
 }
 
 std::string padded(std::string s, std::size_t width) {

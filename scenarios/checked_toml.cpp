@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
+
+#include "engine/base/text.h"
 
 namespace cavum {
 namespace {
@@ -48,12 +49,6 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
   std::string all = "use one of";
   for (std::size_t i = 0; i < words.size(); ++i) all += (i == 0 ? " " : ", ") + words[i];
   return all;
-}
-
-std::string plain_number(double v) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.6g", v);
-  return buffer;
 }
 
 void ProblemList::add(const toml::source_region& at, const std::string& what, const std::string& what_to_do) {

@@ -63,7 +63,5 @@ class CheckedTable {
 
 /// The word of `words` closest to `wrong`, as "did you mean 'x'?", or a list of all when none is close.
 [[nodiscard]] std::string suggestion(const std::string& wrong, const std::vector<std::string>& words);
-/// 3.5 as "3.5", 60.0 as "60".
-[[nodiscard]] std::string plain_number(double v);
 
 }  // namespace cavum

@@ -175,6 +175,19 @@ class Way {
   std::vector<Waypoint> points_;
 };
 
+/// True when the head of an upright point with its tip at `tip` would remove some of the target.
+bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const DiamondPoint& point, Vec3 tip) {
+  constexpr double k_step_mm = 0.1;
+  constexpr double k_s = 0.70710678118654752;
+  constexpr Vec3 k_around[] = {{0, 0, 0}, {1, 0, 0}, {k_s, k_s, 0}, {0, 1, 0}, {-k_s, k_s, 0}, {-1, 0, 0}, {-k_s, -k_s, 0}, {0, -1, 0}, {k_s, -k_s, 0}};
+  for (double h = k_step_mm / 2; h < point.cutting_length_mm; h += k_step_mm)
+    for (const Vec3 way : k_around) {
+      const Vec3 p = tip + way * point.profile.radius_mm(h) + Vec3{0, 0, h};
+      if (zones.distance_mm(p) < 0 && tooth.octree.tissue_at(p) != k_air) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, double margin_mm) {
@@ -229,7 +242,8 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
       if (!fits) break;
       lowest = base + k * dz;
     }
-    if (lowest > high.z) lowest = ReachMap::k_unreachable;  // never got below the opening
+    const Vec3 tip = map.at(static_cast<int>(c) % nx, static_cast<int>(c) / nx, lowest);
+    if (lowest > high.z || !cuts_target(zones, tooth, tool.point, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
   }
   return map;
 }

@@ -177,11 +177,11 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
   }
 }
 
-void throw_all(const std::vector<Problem>& problems) {
+void throw_first(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
-  std::string rest = problems[0].what_to_do;
-  for (std::size_t i = 1; i < problems.size(); ++i) rest += "\n" + problems[i].text();
-  throw Error(problems[0].where, problems[0].what, rest);
+  const auto more = problems.size() - 1;
+  const std::string rest = more == 0 ? "" : " (and " + std::to_string(more) + " more: `cavum scenario check` names every mistake of a scenario)";
+  throw Error(problems[0].where, problems[0].what, problems[0].what_to_do + rest);
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ Scenario parse_scenario(const std::string& text, const std::string& path) {
   toml::table table;
   Scenario s;
   if (read_toml(text, path, table, problems)) s = read_scenario(table, path, problems);
-  throw_all(problems.take());
+  throw_first(problems.take());
   return s;
 }
 
@@ -212,7 +212,7 @@ RubricSpec parse_rubric(const std::string& text, const std::string& path) {
     const auto* inner = table.get_as<toml::table>("rubric");
     r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", problems);
   }
-  throw_all(problems.take());
+  throw_first(problems.take());
   return r;
 }
 

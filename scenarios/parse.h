@@ -17,7 +17,7 @@ struct Problem {
 
 /// All mistakes of a scenario file, in the order of the file; empty when it is sound. `path` names the file in them.
 [[nodiscard]] std::vector<Problem> check_scenario(const std::string& text, const std::string& path);
-/// Throws Error naming every mistake.
+/// Throws Error naming the first mistake, and how many there are.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path);
 [[nodiscard]] Scenario load_scenario(const std::string& path);
 /// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]).

@@ -33,7 +33,4 @@ struct PictureSpec {
 /// The key to the colours, an `<svg>` element. `with_removed` adds what a graded section shows.
 [[nodiscard]] std::string legend_svg(bool with_removed);
 
-/// Text made safe for XML.
-[[nodiscard]] std::string xml_text(const std::string& text);
-
 }  // namespace cavum

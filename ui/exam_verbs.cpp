@@ -8,10 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/text.h"
 #include "grading/report.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/simulated_exam.h"
+#include "ui/print_json.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -84,16 +86,27 @@ void finish(const Options& o, Exam& exam) {
   if (o.json) {
     auto j = to_json(result);
     j["session"] = o.out;
-    std::cout << j.dump(2) << "\n";
+    print_json(j);
   } else {
     std::cout << to_text(result) << "recorded: " << o.out << "\n";
     if (!o.report.empty()) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
   }
 }
 
+/// What would spoil the end of an exam is said before it begins.
+void require_places(const Options& o) {
+  require_writable(o.out);
+  if (o.report.empty()) return;
+  require_writable(o.report);
+  if (std::filesystem::weakly_canonical(o.report) == std::filesystem::weakly_canonical(o.out))
+    throw Error("--report " + o.report, "is also the name of the session", "give the report a name of its own");
+}
+
 void run_new(const Options& o) {
   if (o.motion.empty() == o.operator_name.empty())
     throw Error("cavum exam", "needs one source of motion", "give either --motion F.csv or --operator NAME");
+  if (!is_plain_text(o.candidate)) throw Error("--candidate", "holds a control character or bytes that are no UTF-8", "use letters and digits");
+  require_places(o);
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
   const auto exam = Exam::start(*setup, o.out, source->start_mm());
@@ -108,6 +121,7 @@ void run_new(const Options& o) {
 void run_resumed(const Options& o) {
   if (o.motion.empty() && o.operator_name.empty() && !o.end)
     throw Error("cavum exam --resume", "nothing to go on with", "give --motion or --operator to continue, or --end to close the exam as it stands");
+  require_places(o);
   const SessionReader reader(o.out);
   reader.require_readable();
   const auto setup = prepare_exam(reader.setup());

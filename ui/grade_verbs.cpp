@@ -9,6 +9,7 @@
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/parse.h"
+#include "ui/print_json.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -27,7 +28,7 @@ void run_grade(const Options& o) {
   const auto session = load_for_grading(o.session);
   const Result result = result_of(*session, o);
   if (o.json)
-    std::cout << to_json(result).dump(2) << "\n";
+    print_json(to_json(result));
   else
     std::cout << to_text(result);
 }
@@ -38,6 +39,7 @@ void run_report(const Options& o) {
   const bool picture = o.out.ends_with(".svg");
   if (!picture && !o.out.ends_with(".html"))
     throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html, or in .svg for the sections alone");
+  require_writable(o.out);
   const auto session = load_for_grading(o.session);
   const Result result = result_of(*session, o);
   write_text_file(o.out, picture ? sections_svg(result, session->input()) : report_html(result, session->input(), session->facts));

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "engine/base/text.h"
 #include "engine/servo/servo.h"
 #include "ui/verbs.h"
 
@@ -20,7 +21,7 @@ int main(int argc, char** argv) {
   cavum::add_grade_verbs(app, exit_code);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (argc > 1 && argv[1][0] != '-' && std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == argv[1]; })) {
-    std::fprintf(stderr, "cavum: command line: there is no verb '%s'; see `cavum --help`\n", argv[1]);
+    std::fprintf(stderr, "cavum: command line: there is no verb '%s'; see `cavum --help`\n", cavum::one_line(argv[1]).c_str());
     return 2;
   }
   try {
@@ -32,10 +33,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "cavum: command line: %s; see `cavum --help` or `cavum VERB --help`\n", e.what());
+    std::fprintf(stderr, "cavum: command line: %s; see `cavum --help` or `cavum VERB --help`\n", cavum::one_line(e.what()).c_str());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "cavum: %s\n", e.what());
+    std::fprintf(stderr, "cavum: %s\n", cavum::one_line(e.what()).c_str());
     return 2;
   }
   return exit_code;

@@ -5,13 +5,16 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "engine/session/station_key.h"
 #include "engine/session/verify.h"
+#include "ui/print_json.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -20,7 +23,8 @@ namespace {
 using nlohmann::json;
 
 struct Options {
-  std::string path, junit, station_key;
+  std::string path, junit;
+  std::optional<std::string> station_key;
   bool verify = false, as_json = false;
 };
 
@@ -103,32 +107,6 @@ json to_json(const std::string& folder, const std::vector<Outcome>& outcomes) {
   return sum;
 }
 
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;  // damaged files hold anything
-    }
-  }
-  return out;
-}
-
 std::string to_junit(const std::vector<Outcome>& outcomes) {
   std::size_t failures = 0, errors = 0;
   double seconds = 0;
@@ -142,7 +120,7 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
   out << std::fixed << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"cavum replay\" tests=\"" << outcomes.size()
       << "\" failures=\"" << failures << "\" errors=\"" << errors << "\" time=\"" << seconds << "\">\n";
   for (const auto& o : outcomes) {
-    out << "  <testcase classname=\"cavum.replay\" name=\"" << xml(o.report.file) << "\" time=\"" << o.seconds << "\"";
+    out << "  <testcase classname=\"cavum.replay\" name=\"" << xml_text(o.report.file) << "\" time=\"" << o.seconds << "\"";
     if (o.report.verified) {
       out << "/>\n";
       continue;
@@ -150,8 +128,8 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
     std::string lines;
     for (const auto& f : o.report.findings) lines += f + "\n";
     const char* tag = o.readable() ? "failure" : "error";
-    out << ">\n    <" << tag << " message=\"" << xml(o.report.findings.empty() ? "not verified" : o.report.findings.front()) << "\">" << xml(lines)
-        << "</" << tag << ">\n  </testcase>\n";
+    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : o.report.findings.front()) << "\">"
+        << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
   }
   out << "</testsuite>\n</testsuites>\n";
   return out.str();
@@ -168,14 +146,15 @@ void print(const Outcome& o) {
 }
 
 int run(const Options& options) {
+  const std::string station_key = options.station_key ? parse_public_key(*options.station_key, "--station-key") : "";
+  if (!options.junit.empty()) require_writable(options.junit);
   const bool folder = std::filesystem::is_directory(options.path);
   std::vector<Outcome> outcomes;
-  for (const auto& path : folder ? sessions_in(options.path) : std::vector{options.path}) outcomes.push_back(verify_timed(path, options.station_key));
+  for (const auto& path : folder ? sessions_in(options.path) : std::vector{options.path}) outcomes.push_back(verify_timed(path, station_key));
   if (!options.junit.empty()) write_text_file(options.junit, to_junit(outcomes));  // CI wants its file whatever happened
   if (!folder && !outcomes[0].readable()) std::rethrow_exception(outcomes[0].unreadable);
   if (options.as_json) {
-    const json answer = folder ? to_json(options.path, outcomes) : to_json(outcomes[0].report);
-    std::cout << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
+    print_json(folder ? to_json(options.path, outcomes) : to_json(outcomes[0].report));
   } else {
     for (const auto& o : outcomes) print(o);
   }

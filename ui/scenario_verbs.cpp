@@ -10,6 +10,7 @@
 #include "scenarios/parse.h"
 #include "scenarios/picture.h"
 #include "scenarios/zone_map.h"
+#include "ui/print_json.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -38,7 +39,7 @@ int check(const Options& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", problems.empty()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : problems)
       j["problems"].push_back({{"where", p.where}, {"line", p.line}, {"column", p.column}, {"what", p.what}, {"what_to_do", p.what_to_do}});
-    std::cout << j.dump(2) << "\n";
+    print_json(j);
   } else {
     for (const auto& p : problems) std::cout << p.text() << "\n";
     if (problems.empty()) std::cout << o.scenario << ": sound\n";
@@ -47,6 +48,7 @@ int check(const Options& o) {
 }
 
 int show(const Options& o) {
+  require_writable(o.out);
   const Scenario s = load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
   const ZoneMap zones = build_zones(s, tooth);
@@ -57,7 +59,7 @@ int show(const Options& o) {
     nlohmann::ordered_json j{
         {"out", o.out}, {"tooth", tooth.name}, {"opening_z_mm", zones.opening_z_mm()}, {"zones_mm3", nlohmann::ordered_json::object()}};
     for (std::size_t z = 1; z < k_zones; ++z) j["zones_mm3"][zone_name(static_cast<Zone>(z))] = static_cast<double>(zones.counts()[z]) * leaf;
-    std::cout << j.dump(2) << "\n";
+    print_json(j);
     return 0;
   }
   for (std::size_t z = 1; z < k_zones; ++z)

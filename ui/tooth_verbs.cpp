@@ -1,23 +1,31 @@
 // `cavum tooth`: make a tooth, import one, look at it, export its surface.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/force/force_model.h"
 #include "engine/tooth/make_block.h"
 #include "engine/tooth/make_molar.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/tooth.h"
+#include "scenarios/checked_toml.h"
+#include "scenarios/exam.h"
+#include "ui/print_json.h"
 #include "ui/verbs.h"
 #ifdef CAVUM_WITH_IMPORT
 #include "engine/tooth/import/import_meshes.h"
 #include "engine/tooth/import/import_volume.h"
+#include "engine/tooth/import/read_mesh.h"
 #include "engine/tooth/import/segment.h"
 #endif
 
@@ -101,10 +109,37 @@ void finish(const Tooth& tooth, const std::string& path, bool json, const Json& 
   if (json) {
     d["out"] = path;
     d.update(more);
-    std::printf("%s\n", d.dump(2).c_str());
+    print_json(d);
   } else {
     print(d);
     std::printf("  wrote   %s\n", path.c_str());
+  }
+}
+
+/// Tissues that any of the shipped material sets knows; empty when the data folder is not there.
+std::vector<std::string> known_tissues() {
+  std::set<std::string> names;
+  try {
+    const auto folder = std::filesystem::path(find_data_file("materials", "consistent.toml", "")).parent_path();
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".toml")
+        for (const auto& [name, material] : parse_force_model(read_text_file(entry.path().string()), entry.path().string()).materials)
+          names.insert(name);
+  } catch (const std::exception&) {
+    return {};
+  }
+  return {names.begin(), names.end()};
+}
+
+/// A tissue of one's own is welcome, a slip of the pen is not: both are named on standard error.
+void notice_unknown_tissues(const Tooth& tooth) {
+  const auto known = known_tissues();
+  for (const auto& t : tooth.tissues) {
+    if (known.empty() || std::find(known.begin(), known.end(), t.name) != known.end()) continue;
+    const std::string hint = suggestion(t.name, known);
+    std::fprintf(stderr,
+                 "cavum: notice: no shipped material set has the tissue '%s'; %s%s a tissue of your own needs [materials.%s] in the exam's --model\n",
+                 t.name.c_str(), hint.c_str(), hint.ends_with('?') ? "" : ";", t.name.c_str());
   }
 }
 
@@ -145,7 +180,11 @@ void add_make(CLI::App& tooth) {
   block->add_option("--size-mm", ba->size, "x,y,z, mm")->capture_default_str();
   block->add_option("--layers", ba->layers, "name:thickness_mm from top to bottom")->capture_default_str();
   block->add_option("--leaf-mm", ba->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  block->callback([=] { finish(make_block(parse_vec(ba->size, "--size-mm"), parse_layers(ba->layers), ba->leaf_mm), bc->out, bc->json); });
+  block->callback([=] {
+    const Tooth made = make_block(parse_vec(ba->size, "--size-mm"), parse_layers(ba->layers), ba->leaf_mm);
+    notice_unknown_tissues(made);
+    finish(made, bc->out, bc->json);
+  });
 
   auto* cube = make->add_subcommand("cube", "A cube of one tissue; origin at the centre of its top face");
   struct CubeArgs {
@@ -157,7 +196,11 @@ void add_make(CLI::App& tooth) {
   cube->add_option("--edge-mm", ca->edge_mm, "Edge, mm")->capture_default_str();
   cube->add_option("--tissue", ca->tissue, "Tissue")->capture_default_str();
   cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  cube->callback([=] { finish(make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm), cc->out, cc->json); });
+  cube->callback([=] {
+    const Tooth made = make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm);
+    notice_unknown_tissues(made);
+    finish(made, cc->out, cc->json);
+  });
 }
 
 struct ImportArgs {
@@ -168,7 +211,23 @@ struct ImportArgs {
 };
 
 #ifdef CAVUM_WITH_IMPORT
+/// Every mesh that was named is there, and every layer was named.
+void require_meshes(const ImportArgs& a) {
+  const std::pair<const char*, const std::string*> layers[] = {{"--enamel", &a.enamel}, {"--dentin", &a.dentin}, {"--pulp", &a.pulp}};
+  std::string missing;
+  for (const auto& [option, path] : layers) {
+    if (!path->empty())
+      require_mesh_file(*path);
+    else
+      missing += (missing.empty() ? "" : " and ") + std::string(option);
+  }
+  if (!missing.empty())
+    throw Error("tooth import", missing + (missing.find(' ') == missing.npos ? " is" : " are") + " missing",
+                "give one closed surface for each of the three layers");
+}
+
 void run_import(const ImportArgs& a) {
+  require_writable(a.out);
   FrameOptions frame;
   if (!a.occlusal.empty()) frame.occlusal_axis = parse_vec(a.occlusal, "--occlusal-axis");
   if (!a.mesial.empty()) frame.mesial_axis = parse_vec(a.mesial, "--mesial-axis");
@@ -176,8 +235,7 @@ void run_import(const ImportArgs& a) {
   const bool meshes = !a.enamel.empty() || !a.dentin.empty() || !a.pulp.empty();
   if (meshes == !a.volume.empty()) throw Error("tooth import", "needs either a VOLUME or the meshes --enamel --dentin --pulp", "give one of the two");
   if (meshes) {
-    if (a.enamel.empty() || a.dentin.empty() || a.pulp.empty())
-      throw Error("tooth import", "a mesh is missing", "give all of --enamel, --dentin and --pulp");
+    require_meshes(a);
     if (!a.spacing.empty() || !a.map.empty() || a.enamel_threshold || a.dentin_threshold)
       throw Error("tooth import", "spacing, map and thresholds belong to volumes", "leave them out for meshes (unit mm)");
     const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame});
@@ -220,26 +278,25 @@ void run_import(const ImportArgs&) {
 #endif
 
 void add_import(CLI::App& tooth) {
-  auto* import = tooth.add_subcommand("import", "Build a tooth from layer meshes, a CT volume or a label map");
+  auto* verb = tooth.add_subcommand("import", "Build a tooth from layer meshes, a CT volume or a label map");
   auto a = std::make_shared<ImportArgs>();
-  import->add_option("VOLUME", a->volume, "MetaImage, NRRD, NIfTI, TIFF, or a folder with a DICOM series or TIFF stack");
-  import->add_option("--enamel", a->enamel, "Closed enamel surface (STL, PLY, OBJ, OFF; mm)");
-  import->add_option("--dentin", a->dentin, "Closed dentin surface");
-  import->add_option("--pulp", a->pulp, "Closed pulp surface");
-  import->add_option("--map", a->map, "VOLUME is a label map: 1=enamel,2=dentin,3=pulp");
-  import->add_option("--spacing-mm", a->spacing, "Voxel edge, one number or x,y,z; overrides the file's");
-  import->add_option("--dentin-threshold", a->dentin_threshold, "Gray above which tissue is hard (default: automatic)");
-  import->add_option("--enamel-threshold", a->enamel_threshold, "Gray above which hard tissue is enamel (default: automatic)");
-  import->add_option("--occlusal-axis", a->occlusal, "x,y,z in the file's frame (default: dentin centroid to enamel centroid)");
-  import->add_option("--mesial-axis", a->mesial, "x,y,z in the file's frame (default: the file's x axis)");
-  import->add_option("--rotate-deg", a->rotate_deg, "Turn about the occlusal axis, degrees")->capture_default_str();
-  import->add_option("--leaf-mm", a->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  import->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
-  import->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
-  import->add_flag("--json", a->json, "One JSON object on stdout");
-  import->callback([=] { run_import(*a);
-});
-}  // namespace
+  verb->add_option("VOLUME", a->volume, "MetaImage, NRRD, NIfTI, TIFF, or a folder with a DICOM series or TIFF stack");
+  verb->add_option("--enamel", a->enamel, "Closed enamel surface (STL, PLY, OBJ, OFF; mm)");
+  verb->add_option("--dentin", a->dentin, "Closed dentin surface");
+  verb->add_option("--pulp", a->pulp, "Closed pulp surface");
+  verb->add_option("--map", a->map, "VOLUME is a label map: 1=enamel,2=dentin,3=pulp");
+  verb->add_option("--spacing-mm", a->spacing, "Voxel edge, one number or x,y,z; overrides the file's");
+  verb->add_option("--dentin-threshold", a->dentin_threshold, "Gray above which tissue is hard (default: automatic)");
+  verb->add_option("--enamel-threshold", a->enamel_threshold, "Gray above which hard tissue is enamel (default: automatic)");
+  verb->add_option("--occlusal-axis", a->occlusal, "x,y,z in the file's frame (default: dentin centroid to enamel centroid)");
+  verb->add_option("--mesial-axis", a->mesial, "x,y,z in the file's frame (default: the file's x axis)");
+  verb->add_option("--rotate-deg", a->rotate_deg, "Turn about the occlusal axis, degrees")->capture_default_str();
+  verb->add_option("--leaf-mm", a->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  verb->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
+  verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
+  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->callback([=] { run_import(*a); });
+}
 
 void add_info(CLI::App& tooth) {
   auto* info = tooth.add_subcommand("info", "What a tooth file holds");
@@ -251,7 +308,7 @@ void add_info(CLI::App& tooth) {
     const Tooth t = load_tooth_file(*path);
     const Json d = describe(t, std::filesystem::file_size(*path));
     if (*json)
-      std::printf("%s\n", d.dump(2).c_str());
+      print_json(d);
     else
       print(d);
   });
@@ -275,14 +332,14 @@ void add_mesh(CLI::App& tooth) {
     if (a->json) {
       const Json d{
           {"out", a->out}, {"tissue", a->tissue}, {"triangles", m.triangles.size()}, {"vertices", m.vertices_mm.size()}, {"volume_mm3", volume}};
-      std::printf("%s\n", d.dump(2).c_str());
+      print_json(d);
     } else {
       std::printf("%s: %zu triangles around %.3f mm3 of %s\n", a->out.c_str(), m.triangles.size(), volume, a->tissue.c_str());
     }
   });
 }
 
-}  // namespace cavum
+}  // namespace
 
 void add_tooth_verbs(CLI::App& app, int& exit_code) {
   auto* tooth = app.add_subcommand("tooth", "Make, import, inspect and export teeth");

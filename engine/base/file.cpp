@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "engine/base/error.h"
 
@@ -43,6 +44,18 @@ Bytes read_file(const std::string& path) {
 std::string read_text_file(const std::string& path) {
   const Bytes b = read_file(path);
   return {reinterpret_cast<const char*>(b.data()), b.size()};
+}
+
+void require_writable(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (fs::is_directory(path, none)) throw Error(path, "is a folder", "name a file");
+  const fs::path parent = fs::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (!fs::is_directory(folder, none)) throw Error(path, "cannot be written: there is no folder " + folder, "make it, or name another place");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(path, "cannot be written: folder " + folder + " is closed to you (" + reason() + ")",
+                "change its permissions, or name another place");
 }
 
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {

@@ -1,19 +1,14 @@
 #include "engine/base/toml_reader.h"
 
 #include <cmath>
-#include <sstream>
+
+#include "engine/base/text.h"
 
 namespace cavum {
 namespace {
 
 std::string place(const std::string& where, const toml::source_region& source) {
   return where + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
-}
-
-std::string plain(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
 }
 
 }  // namespace
@@ -42,7 +37,7 @@ double TomlReader::number(std::string_view key, double low, double high) {
   const auto value = node->value<double>();
   if (!value || !node->is_number()) fail(key, "is not a number", "write a number");
   if (!(*value >= low && *value <= high))
-    fail(key, "is " + plain(*value) + ", outside " + plain(low) + " .. " + plain(high), "choose a value in that range");
+    fail(key, "is " + plain_number(*value) + ", outside " + plain_number(low) + " .. " + plain_number(high), "choose a value in that range");
   return *value;
 }
 

@@ -8,12 +8,17 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace cavum {
 namespace {
 
 constexpr std::array<std::string_view, 12> k_columns{"t_s", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz", "pedal", "b1", "b2", "point"};
 constexpr std::size_t k_required = 9;
+
+constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
+constexpr double k_longest_s = 86'400;  // a day
+constexpr double k_latest_s = 1e10;     // a clock in seconds since 1970 reaches it in 2286; one in milliseconds is far beyond
 
 std::string_view trimmed(std::string_view s) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -35,14 +40,16 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 /// Reads the lines of one file and says where it stands.
 class Reader {
  public:
-  Reader(const std::string& text, std::string where) : rest_(text), where_(std::move(where)) {}
+  Reader(const std::string& text, std::string where) : rest_(text), where_(std::move(where)) {
+    if (rest_.starts_with(k_byte_order_mark)) rest_.remove_prefix(k_byte_order_mark.size());
+  }
 
   std::optional<std::string_view> line() {
     if (rest_.empty()) return std::nullopt;
     ++number_;
-    const auto end = rest_.find('\n');
+    const auto end = std::min(rest_.find_first_of("\r\n"), rest_.size());
     const auto line = trimmed(rest_.substr(0, end));
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    rest_.remove_prefix(end + (rest_.substr(end).starts_with("\r\n") ? 2 : end < rest_.size() ? 1 : 0));
     return line;
   }
   [[noreturn]] void fail(const std::string& what, const std::string& todo) const { throw Error(where_ + ":" + std::to_string(number_), what, todo); }
@@ -89,6 +96,8 @@ MotionSample read_row(const Reader& in, std::string_view line, const std::vector
       in.fail("'" + std::string(cells[i]) + "' in column " + name + " is not a number", "write a number with a point");
     if (!std::isfinite(value)) in.fail("column " + name + " is " + std::string(cells[i]), "repair or cut out this row");
   }
+  if (v[0] < 0) in.fail("t_s is " + plain_number(v[0]) + ", before the start of time", "shift all times so that the first row is at 0 s");
+  if (v[0] > k_latest_s) in.fail("t_s is " + plain_number(v[0]) + ", which cannot be seconds", "convert it to seconds, the first row at 0 s");
   if (v[8] < 0 || v[8] > 1) in.fail("pedal is " + std::to_string(v[8]) + ", outside 0 .. 1", "scale it: 0 released, 1 pressed to the floor");
   for (int axis = 1; axis <= 3; ++axis)
     if (std::fabs(v[static_cast<std::size_t>(axis)]) > 500)
@@ -120,6 +129,9 @@ Motion parse_motion(const std::string& text, const std::string& where) {
     motion.samples.push_back(read_row(in, *line, column_of));
     const auto n = motion.samples.size();
     if (n > 1 && !(motion.samples[n - 1].t_s > motion.samples[n - 2].t_s)) in.fail("t_s does not grow", "sort the rows and remove repeated times");
+    if (motion.duration_s() > k_longest_s)
+      in.fail("t_s is " + plain_number(motion.duration_s()) + " s after the first row, more than a day",
+              "give seconds, and cut the file where the work ends");
   }
   if (motion.samples.size() < 2) throw Error(where, "holds fewer than two rows of motion", "give a header and at least two rows");
   Vec3 low = motion.samples[0].pose.tip_mm, high = low;

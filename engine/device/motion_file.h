@@ -1,6 +1,7 @@
 // Recorded or scripted motion as a CSV file, read whole and checked before the exam starts, then played
 // tick by tick. Columns: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point (number in the
-// tray); any order, any rate. `# point = round-1.0` before the header chooses the diamond point.
+// tray); any order, any rate. Line ends of every kind and the byte order mark of spreadsheets are accepted. `# point = round-1.0` before the header
+// chooses the diamond point.
 #pragma once
 
 #include <string>
@@ -27,8 +28,8 @@ struct Motion {
   [[nodiscard]] MotionSample at(double t_s) const noexcept;
 };
 
-/// Throws Error(where:line, ...) on a missing or unknown column, a wrong unit, NaN, a pedal outside 0..1, time
-/// that does not grow, a rotation without direction, or a way that cannot be millimetres.
+/// Throws Error(where:line, ...) on a missing or unknown column, a wrong unit, NaN, a pedal outside 0..1, time that is
+/// negative, does not grow, or goes on for more than a day, a rotation without direction, or a way that cannot be millimetres.
 [[nodiscard]] Motion parse_motion(const std::string& text, const std::string& where);
 
 }  // namespace cavum

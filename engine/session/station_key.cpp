@@ -78,6 +78,16 @@ StationKey load_station_key(const std::string& path) {
   return key;
 }
 
+std::string parse_public_key(const std::string& text, const std::string& where) {
+  std::string key = text;
+  for (char& c : key)
+    if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
+  if (key.size() != 64 || key.find_first_not_of("0123456789abcdef") != std::string::npos)
+    throw Error(where, "is not a station's public key: 64 hexadecimal digits",
+                "copy it from what `cavum replay --verify` says of a session of that station");
+  return key;
+}
+
 bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<const std::uint8_t> message,
                   const std::array<std::uint8_t, 64>& signature) {
   start_sodium();

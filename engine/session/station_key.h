@@ -24,6 +24,10 @@ struct StationKey {
 /// cannot be read or made, is damaged, or may be read by others.
 [[nodiscard]] StationKey load_station_key(const std::string& path);
 
+/// A station's public key as people write it: 64 hexadecimal digits, returned in lower case. Throws Error(`where`, ...)
+/// for anything else.
+[[nodiscard]] std::string parse_public_key(const std::string& text, const std::string& where);
+
 /// True when `signature` over `message` was made by the owner of `public_key`.
 [[nodiscard]] bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<const std::uint8_t> message,
                                 const std::array<std::uint8_t, 64>& signature);

@@ -1,10 +1,13 @@
 #include "engine/tooth/make_block.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/tooth/distance.h"
 
 namespace cavum {
@@ -28,40 +31,62 @@ double box_distance_mm(const Slab& box, Vec3 p) {
 
 bool holds(double low, double high, double v) { return v >= low - k_tie_mm && v < high - k_tie_mm; }
 
-std::string number(double v) {
-  std::ostringstream s;
-  s << v;
-  return s.str();
+constexpr double k_rounding_mm = 1e-9;  // 3 * 0.1 is a little more than 0.3
+
+/// Throws unless `mm` can be built of leaves at all; `named` and `option` are the words of the error.
+void check_extent(double mm, double leaf_mm, const std::string& where, const std::string& named, const std::string& option) {
+  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, named + " must be larger than 0 mm", "give " + option + ", for example");
+  if (mm < leaf_mm - k_rounding_mm)
+    throw Error(where, named + " is " + plain_number(mm) + " mm, less than a leaf of " + plain_number(leaf_mm) + " mm", "use a smaller --leaf-mm");
+}
+
+void check_leaf(double leaf_mm, const std::string& where) {
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, "the leaf must be larger than 0 mm", "give --leaf-mm 0.05, for example");
+}
+
+void check_tissue_name(const std::string& name, const std::string& where) {
+  if (!is_plain_text(name)) throw Error(where, "the name of a tissue holds a control character or bytes that are no UTF-8", "use letters and digits");
+  if (name == "air" || name == "solid" || name.empty())
+    throw Error(where, "a tissue cannot be named '" + name + "'", "name a tissue: enamel, dentin, pulp, or one of your own");
+}
+
+void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm, const std::string& where) {
+  double sum = 0.0;
+  for (const auto& layer : layers) {
+    check_tissue_name(layer.tissue, where);
+    check_extent(layer.thickness_mm, leaf_mm, where, "layer '" + layer.tissue + "'", "every layer a thickness such as 1.2");
+    sum += layer.thickness_mm;
+  }
+  if (std::fabs(sum - size_mm.z) > 1e-6)
+    throw Error(where, "the layers are " + plain_number(sum) + " mm together, the height is " + plain_number(size_mm.z) + " mm", "make them equal");
+}
+
+/// The tissue of each layer; a name that is new gets the next free number.
+std::vector<std::uint8_t> number_tissues(const std::vector<Layer>& layers, std::vector<Tissue>& tissues, const std::string& where) {
+  std::vector<std::uint8_t> ids;
+  for (const auto& layer : layers) {
+    const auto found = std::find_if(tissues.begin(), tissues.end(), [&](const Tissue& t) { return t.name == layer.tissue; });
+    if (found != tissues.end()) {
+      ids.push_back(found->id);
+      continue;
+    }
+    if (tissues.size() >= 255) throw Error(where, "more than 255 tissues", "use fewer names");
+    ids.push_back(static_cast<std::uint8_t>(tissues.size() + 1));
+    tissues.push_back({ids.back(), layer.tissue, true});
+  }
+  return ids;
 }
 
 }  // namespace
 
 Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm) {
   const std::string where = "block";
-  for (const double v : {size_mm.x, size_mm.y, size_mm.z})
-    if (!(v > 0 && std::isfinite(v))) throw Error(where, "every size must be larger than 0 mm", "give --size-mm 10,10,6, for example");
-  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, "the leaf must be larger than 0 mm", "give --leaf-mm 0.05, for example");
+  check_leaf(leaf_mm, where);
+  for (const auto& [axis, mm] : {std::pair{"length", size_mm.x}, std::pair{"width", size_mm.y}, std::pair{"height", size_mm.z}})
+    check_extent(mm, leaf_mm, where, std::string("the ") + axis, "--size-mm 10,10,6");
+  check_layers(size_mm, layers, leaf_mm, where);
   Tooth tooth;
-  std::vector<std::uint8_t> ids;
-  double sum = 0.0;
-  for (const auto& layer : layers) {
-    if (!(layer.thickness_mm > 0 && std::isfinite(layer.thickness_mm)))
-      throw Error(where, "layer '" + layer.tissue + "' has no thickness", "give every layer a thickness above 0 mm");
-    if (layer.tissue == "air" || layer.tissue == "solid" || layer.tissue.empty())
-      throw Error(where, "a layer cannot be named '" + layer.tissue + "'", "name a tissue: enamel, dentin, pulp, or one of your own");
-    sum += layer.thickness_mm;
-    std::uint8_t id = k_air;
-    for (const auto& t : tooth.tissues)
-      if (t.name == layer.tissue) id = t.id;
-    if (id == k_air) {
-      if (tooth.tissues.size() >= 255) throw Error(where, "more than 255 tissues", "use fewer names");
-      id = static_cast<std::uint8_t>(tooth.tissues.size() + 1);
-      tooth.tissues.push_back({id, layer.tissue, true});
-    }
-    ids.push_back(id);
-  }
-  if (std::fabs(sum - size_mm.z) > 1e-6)
-    throw Error(where, "the layers are " + number(sum) + " mm together, the height is " + number(size_mm.z) + " mm", "make them equal");
+  const std::vector<std::uint8_t> ids = number_tissues(layers, tooth.tissues, where);
 
   const auto half_leaves = [&](double mm) { return std::ceil(mm / 2 / leaf_mm - 1e-6) + k_margin_leaves; };
   const double nx = half_leaves(size_mm.x), ny = half_leaves(size_mm.y), nz = std::ceil(size_mm.z / leaf_mm - 1e-6) + k_margin_leaves;
@@ -98,17 +123,20 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
       }
   grid.make_consistent(tooth.tissues);
   tooth.octree = Octree(grid, tooth.tissues);
-  tooth.name = "block " + number(size_mm.x) + " x " + number(size_mm.y) + " x " + number(size_mm.z) + " mm";
+  tooth.name = "block " + plain_number(size_mm.x) + " x " + plain_number(size_mm.y) + " x " + plain_number(size_mm.z) + " mm";
   tooth.source = "make block; layers from the top:";
-  for (const auto& layer : layers) tooth.source += " " + layer.tissue + " " + number(layer.thickness_mm) + " mm,";
+  for (const auto& layer : layers) tooth.source += " " + layer.tissue + " " + plain_number(layer.thickness_mm) + " mm,";
   tooth.source.back() = ';';
   tooth.source += " origin at the centre of the top face";
   return tooth;
 }
 
 Tooth make_cube(double edge_mm, const std::string& tissue, double leaf_mm) {
+  check_leaf(leaf_mm, "cube");
+  check_tissue_name(tissue, "cube");
+  check_extent(edge_mm, leaf_mm, "cube", "the edge", "--edge-mm 10");
   Tooth tooth = make_block({edge_mm, edge_mm, edge_mm}, {{tissue, edge_mm}}, leaf_mm);
-  tooth.name = tissue + " cube " + number(edge_mm) + " mm";
+  tooth.name = tissue + " cube " + plain_number(edge_mm) + " mm";
   return tooth;
 }
 
@@ -123,7 +151,8 @@ std::vector<Layer> parse_layers(const std::string& text) {
     const char* from = colon == std::string::npos ? end : part.data() + colon + 1;
     const auto read = std::from_chars(from, end, layer.thickness_mm);
     if (read.ec != std::errc{} || read.ptr != end)
-      throw Error("--layers", "cannot read '" + part + "'", "write name:thickness, such as enamel:1.2,dentin:2.0");
+      throw Error("--layers", "cannot read '" + one_line(part) + "'", "write name:thickness, such as enamel:1.2,dentin:2.0");
+    check_tissue_name(layer.tissue, "--layers");
     layers.push_back(layer);
   }
   if (layers.empty()) throw Error("--layers", "no layer given", "write name:thickness, such as enamel:1.2,dentin:2.0");

@@ -18,8 +18,9 @@ struct Layer {
 };
 
 /// A block of `size_mm` (x, y, z), its layers from top to bottom, with four leaves of air around.
-/// A leaf belongs to the layer that holds its centre. Throws Error when a size is not positive, the layers do
-/// not add up to the height (within 1e-6 mm), a layer is named "air", or the grid would pass 1024 leaves.
+/// A leaf belongs to the layer that holds its centre. Throws Error when a size or a layer is not positive or less than
+/// a leaf (it could be lost), the layers do not add up to the height (within 1e-6 mm), a tissue is named "air" or by
+/// what is no plain text, or the grid would pass 1024 leaves.
 [[nodiscard]] Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm);
 /// A cube of one tissue.
 [[nodiscard]] Tooth make_cube(double edge_mm, const std::string& tissue, double leaf_mm);

@@ -14,6 +14,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
@@ -84,13 +85,14 @@ Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) 
 
   ByteReader from(body, where);
   Tooth tooth;
-  tooth.name = from.get_string();
-  tooth.source = from.get_string();
+  tooth.name = one_line(from.get_string());
+  tooth.source = one_line(from.get_string());
   tooth.tissues.resize(from.get<std::uint8_t>());
   for (auto& t : tooth.tissues) {
     t.id = from.get<std::uint8_t>();
     t.solid = from.get<std::uint8_t>() != 0;
     t.name = from.get_string();
+    if (!is_plain_text(t.name)) from.fail("the name of tissue " + std::to_string(t.id) + " cannot be read");
   }
   tooth.octree = Octree::read(from, tooth.tissues);
   return tooth;

@@ -30,7 +30,7 @@ class EditedSession : public testing::Test {
 
   VerifyReport edited(const std::string& sql) {
     test::tamper(path_, sql);
-    const VerifyReport report = verify_session(path_);
+    VerifyReport report = verify_session(path_);
     EXPECT_FALSE(report.verified) << sql.substr(0, 200);
     EXPECT_FALSE(report.intact);
     return report;

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 
 #include "engine/base/random.h"
 #include "scenarios/distance_transform.h"
@@ -18,6 +18,12 @@ using testing::dentin_block;
 using testing::scenario_text;
 
 constexpr double k_pi_here = 3.14159265358979323846;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double k_patience = 10;  // how much slower a program may be that watches itself
+#else
+constexpr double k_patience = 1;
+#endif
 
 ZoneMap zones_of(const Tooth& tooth, const std::string& target) { return build_zones(parse_scenario(scenario_text(target), "test.toml"), tooth); }
 
@@ -183,11 +189,11 @@ TEST(ZoneMap, ShippedScenariosFitTheShippedMolarInTime) {
   const Tooth tooth = load_tooth_file(std::string(CAVUM_SOURCE_DIR) + "/data/teeth/lower_molar.cvt");
   for (const char* name : {"molar_access.toml", "class_1.toml"}) {
     const Scenario s = load_scenario(data + name);
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     const ZoneMap z = build_zones(s, tooth);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     RecordProperty(name, std::to_string(seconds));
-    EXPECT_LT(seconds, 6.0) << name;  // 2 s on an idle machine of the exam; tests share theirs
+    EXPECT_LT(seconds, 6.0 * k_patience) << name;  // of one processor; 2 s on an idle machine of the exam, tests share theirs
     EXPECT_GT(z.target_mm3(), 5) << name;
     EXPECT_GT(z.count(Zone::protected_), 0u) << name;
   }

@@ -12,10 +12,11 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/random.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
@@ -34,15 +35,9 @@ struct Ran {
 /// A folder of its own for each test, with a station key in it.
 class CommandLine : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "cavum-ui-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    setenv("CAVUM_HOME", (folder_ + "/home").c_str(), 1);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { setenv("CAVUM_HOME", path("home").c_str(), 1); }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
   [[nodiscard]] Ran run(const std::string& arguments) const {
     const int status = std::system((std::string(CAVUM_BINARY) + " " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
@@ -61,7 +56,7 @@ class CommandLine : public testing::Test {
     for (const auto& p : parts) EXPECT_NE(r.err.find(p), std::string::npos) << "'" << p << "' is missing in: " << r.err;
   }
 
-  std::string folder_;
+  testing_basics::Folder folder_;
 };
 
 double best_gap_s(const json& result) {
@@ -81,6 +76,8 @@ std::string reasons(const json& result) {
 TEST_F(CommandLine, ExpertPassesTheAccessExamAndItsReplayVerifies) {
   const json result = exam(k_data + "/scenarios/molar_access.toml", "expert", "--report " + path("r.html"));
   EXPECT_EQ(result["verdict"], "pass");
+  EXPECT_EQ(result["steps"]["completed"], result["steps"]["count"]);
+  EXPECT_TRUE(result["notes"].empty()) << result["notes"];
   EXPECT_GT(result["volumes"]["target_removed_percent"], 90);
   EXPECT_FALSE(result["perforation"]["truth"]["perforated"]);
   const Ran replay = run("replay " + path("expert.cavum") + " --verify --json");
@@ -92,6 +89,15 @@ TEST_F(CommandLine, ExpertPassesTheAccessExamAndItsReplayVerifies) {
   const Ran graded = run("grade " + path("expert.cavum") + " --json");
   EXPECT_EQ(json::parse(graded.out)["score"], result["score"]) << "a grade from the file equals the one at the end of the exam";
   EXPECT_NE(read_text_file(path("r.html")).find("<svg"), std::string::npos);
+}
+
+TEST_F(CommandLine, ExpertCompletesTheStepsOfTheSmallScenariosToo) {
+  for (const std::string& scenario : {k_block, k_data + "/scenarios/class_1.toml"}) {
+    const json result = exam(scenario, "expert");
+    EXPECT_EQ(result["verdict"], "pass") << scenario;
+    EXPECT_EQ(result["finish"], "completed") << scenario << " " << result["volumes"]["target_removed_percent"];
+    fs::remove(path("expert.cavum"));
+  }
 }
 
 TEST_F(CommandLine, NoviceLosesPointsWithTheWallNamed) {
@@ -112,9 +118,7 @@ TEST_F(CommandLine, PerforatorFailsAndForceAndTissueAgreeWithin100Milliseconds) 
 TEST_F(CommandLine, RealMolarTakesTheSameExam) {
   const fs::path shared = fs::path(CAVUM_SOURCE_DIR) / ".." / "shared" / "teeth" / "openmandible";
   if (!fs::exists(shared)) GTEST_SKIP() << "no shared/ folder beside the repository: the real molar is not examined";
-  const Ran help = run("tooth import --help");
-  if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("without import") != std::string::npos)
-    GTEST_SKIP() << "built without import";
+  if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("no import") != std::string::npos) GTEST_SKIP() << "built without import";
   const std::string m = shared.string() + "/Tooth_L6_";
   const Ran import =
       run("tooth import --enamel " + m + "Enamel.stl --dentin " + m + "Dentin.stl --pulp " + m + "Pulp.stl --leaf-mm 0.05 --out " + path("l6.cvt"));
@@ -127,16 +131,13 @@ TEST_F(CommandLine, RealMolarTakesTheSameExam) {
   const json perforator = exam(scenario, "perforator", tooth);
   EXPECT_EQ(perforator["verdict"], "fail");
   EXPECT_LE(best_gap_s(perforator), 0.1);
-  const Ran replay = run("replay " + folder_ + " --verify --json --junit " + path("j.xml"));
+  const Ran replay = run("replay " + folder_.path().string() + " --verify --json --junit " + path("j.xml"));
   EXPECT_EQ(replay.exit_code, 0) << replay.out;
   EXPECT_NE(read_text_file(path("j.xml")).find("tests=\"3\""), std::string::npos);
 }
 
 TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
-  const char* given = std::getenv("CAVUM_TEST_SEED");
-  const auto seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
-  std::printf("CAVUM_TEST_SEED=%llu\n", static_cast<unsigned long long>(seed));
-  std::mt19937_64 random(seed);
+  Random random(testing_basics::drawn_seed("CommandLine.AnExamKilledAtTwentyRandomMomentsIsResumed"));
   for (int i = 0; i < 20; ++i) {
     const std::string session = path("killed" + std::to_string(i) + ".cavum");
     const pid_t child = fork();
@@ -146,7 +147,7 @@ TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
             nullptr);
       _exit(127);
     }
-    usleep(static_cast<useconds_t>(20'000 + random() % 900'000));
+    usleep(static_cast<useconds_t>(20'000 + random.below(900'000)));
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
@@ -182,6 +183,88 @@ TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
   EXPECT_FALSE(fs::exists(path("x.cavum"))) << "nothing was begun";
 }
 
+TEST_F(CommandLine, TeethThatCannotBeBuiltAreRefusedAndNothingIsWritten) {
+  const std::string out = " --json --out " + path("t.cvt");
+  expect_refused("tooth make block --size-mm 1,1,1 --layers enamel:1 --leaf-mm 2" + out, {"leaf", "--leaf-mm"});
+  expect_refused("tooth make block --size-mm 1,1,1 --layers enamel:0.96,dentin:0.04" + out, {"dentin", "--leaf-mm"});
+  expect_refused("tooth make cube --edge-mm 0" + out, {"cube", "--edge-mm"});
+  expect_refused("tooth make block --size-mm 1,1,1 --layers $(printf 'ena\\377mel'):1" + out, {"--layers", "UTF-8"});
+  expect_refused("tooth make cube --tissue $(printf 'a\\033b')" + out, {"cube", "control character"});
+  EXPECT_FALSE(fs::exists(path("t.cvt")));
+}
+
+TEST_F(CommandLine, ATissueThatNoMaterialSetKnowsIsNamedButBuilt) {
+  const std::string make = "tooth make block --size-mm 1,1,1 --leaf-mm 0.1 --json --out " + path("t.cvt");
+  const Ran slip = run(make + " --layers enamle:1");
+  EXPECT_EQ(slip.exit_code, 0);
+  EXPECT_TRUE(json::accept(slip.out)) << "standard output stays JSON";
+  EXPECT_EQ(std::count(slip.err.begin(), slip.err.end(), '\n'), 1) << slip.err;
+  EXPECT_NE(slip.err.find("did you mean 'enamel'?"), std::string::npos) << slip.err;
+  const Ran own = run(make + " --layers gutta-percha:1");
+  EXPECT_EQ(own.exit_code, 0);
+  EXPECT_NE(own.err.find("'gutta-percha'; use one of dentin, enamel"), std::string::npos) << own.err;
+  EXPECT_EQ(run(make + " --layers enamel:0.4,lesion:0.3,pulp:0.3").err, "");
+}
+
+TEST_F(CommandLine, ImportNamesTheFirstThingThatIsWrong) {
+  if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("no import") != std::string::npos) GTEST_SKIP() << "built without import";
+  const std::string out = " --out " + path("t.cvt"), mesh = path("mesh.stl");
+  write_text_file(mesh, "");
+  expect_refused("tooth import --enamel ." + out, {"cavum: .: is a folder"});
+  expect_refused("tooth import --enamel " + path("nope.stl") + out, {"nope.stl: no such mesh file"});
+  expect_refused("tooth import --enamel " + mesh + out, {"--dentin and --pulp are missing"});
+  expect_refused("tooth import --enamel " + mesh + " --pulp " + mesh + out, {"--dentin is missing"});
+}
+
+TEST_F(CommandLine, PlacesThatCannotBeWrittenAreNamedBeforeTheWork) {
+  const std::string who = " --candidate c --operator expert --out ", missing = path("none/r.html"), session = path("x.cavum");
+  expect_refused("exam " + k_block + who + session + " --report " + missing, {"r.html", "no folder"});
+  expect_refused("exam " + k_block + who + session + " --report " + folder_.path().string(), {"is a folder"});
+  expect_refused("exam " + k_block + who + session + " --report " + session, {"--report", "name of its own"});
+  expect_refused("exam " + k_block + who + path("none/x.cavum"), {"x.cavum", "no folder"});
+  EXPECT_FALSE(fs::exists(session)) << "no exam was begun";
+  // the place comes first: what would take long, the session, is not even there
+  expect_refused("exam --resume --end --out " + session + " --report " + missing, {"r.html", "no folder"});
+  expect_refused("replay " + session + " --verify --junit " + path("none/j.xml"), {"j.xml", "no folder"});
+  expect_refused("report " + session + " --out " + missing, {"r.html", "no folder"});
+}
+
+TEST_F(CommandLine, AStationKeyThatIsNoKeyIsRefused) {
+  static_cast<void>(exam(k_block, "expert"));
+  const std::string replay = "replay " + path("expert.cavum") + " --verify --json";
+  for (const char* wrong : {"zz", "''", "0123"}) expect_refused(replay + " --station-key " + wrong, {"--station-key", "64 hexadecimal digits"});
+  std::string key = json::parse(run(replay).out)["station_key"];
+  std::transform(key.begin(), key.end(), key.begin(), [](char c) { return c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c; });
+  EXPECT_EQ(run(replay + " --station-key " + key).exit_code, 0) << "upper case is the same key";
+  EXPECT_EQ(run(replay + " --station-key " + std::string(64, '0')).exit_code, 1);
+}
+
+TEST_F(CommandLine, ADamagedScenarioInsideASessionIsOneLine) {
+  static_cast<void>(exam(k_block, "expert"));
+  std::string bytes = read_text_file(path("expert.cavum"));
+  const auto at = bytes.find("title = \"Round cavity");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 5, "\n\n\n\n\n");
+  write_text_file(path("expert.cavum"), bytes);
+  expect_refused("grade " + path("expert.cavum"), {"expert.cavum", "scenario.toml"});
+  expect_refused("report " + path("expert.cavum") + " --out " + path("r.html"), {"expert.cavum", "scenario.toml"});
+}
+
+TEST_F(CommandLine, AScenarioWithManyMistakesIsOneLineAndItsFileNamesAreShownSafely) {
+  write_text_file(path("bad.toml"), "id = 3\nfoo = 2\n\"two\\nlines\" = 1\n");
+  expect_refused("exam " + path("bad.toml") + " --candidate c --operator expert --out " + path("x.cavum"), {"bad.toml:1:1", "more"});
+  expect_refused("exam $(printf 'a\\nb.toml') --candidate c --operator expert --out " + path("x.cavum"), {"b.toml"});
+  expect_refused("exam " + k_block + " --candidate $(printf 'c\\377') --operator expert --out " + path("x.cavum"), {"--candidate", "UTF-8"});
+}
+
+TEST_F(CommandLine, JUnitIsSoundXmlWhateverAFileIsCalled) {
+  write_text_file(path("a&b<\xff\x01"
+                       "z\xc3\xa4hne.cavum"),
+                  "no session");
+  EXPECT_EQ(run("replay " + folder_.path().string() + " --verify --junit " + path("j.xml")).exit_code, 1);
+  EXPECT_NE(read_text_file(path("j.xml")).find("a&amp;b&lt;??z\xc3\xa4hne.cavum"), std::string::npos) << read_text_file(path("j.xml"));
+}
+
 TEST_F(CommandLine, AMotionFileDrillsAndAnExistingSessionIsNotOverwritten) {
   std::ostringstream csv;
   csv << "# point = "
@@ -190,7 +273,10 @@ TEST_F(CommandLine, AMotionFileDrillsAndAnExistingSessionIsNotOverwritten) {
   const std::string call = "exam " + k_block + " --motion " + path("m.csv") + " --candidate c --out " + path("m.cavum") + " --json";
   const Ran first = run(call);
   ASSERT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_GT(json::parse(first.out)["volumes"]["removed_mm3"], 0.3);
+  const json result = json::parse(first.out);
+  EXPECT_GT(result["volumes"]["removed_mm3"], 0.3);
+  EXPECT_EQ(result["steps"]["completed"], 0);
+  EXPECT_NE(result["notes"].dump().find("1 of 1 steps were not completed"), std::string::npos) << result["notes"];
   expect_refused(call, {"m.cavum"});
   EXPECT_EQ(run("replay " + path("m.cavum") + " --verify").exit_code, 0);
 }

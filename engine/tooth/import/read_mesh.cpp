@@ -30,7 +30,7 @@ Vec3 point(const Surface& surface, Surface::VertexHandle v) {
 }
 
 Surface load(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw Error(path, "no such mesh file", "check the path");
+  require_mesh_file(path);
   // OpenMesh reports on the console; our errors say the same with the file's name.
   omout().disable();
   omlog().disable();
@@ -42,6 +42,12 @@ Surface load(const std::string& path) {
 }
 
 }  // namespace
+
+void require_mesh_file(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) throw Error(path, "is a folder, not a mesh", "name an STL, PLY, OBJ or OFF file");
+  if (!std::filesystem::is_regular_file(path, none)) throw Error(path, "no such mesh file", "check the path");
+}
 
 std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.vertices_mm.size());

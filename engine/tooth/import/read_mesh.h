@@ -16,6 +16,9 @@ struct ReadMesh {
   std::vector<std::string> notes;  ///< what was put right on the way
 };
 
+/// Throws Error unless there is a file at `path`.
+void require_mesh_file(const std::string& path);
+
 /// Throws Error naming the file when it is missing or unreadable, holds a coordinate that is not finite, encloses
 /// nothing, or is open: then with the number of open edges and the place of one.
 [[nodiscard]] ReadMesh read_closed_mesh(const std::string& path);

@@ -58,6 +58,9 @@ TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
   expect_error(k_header + good + "2,0,0,0,1,0,0,0,-0.01\n", 4, "pedal is -0.01");
   expect_error(k_header + good + "1,0,0,0,1,0,0,0,0\n", 4, "t_s does not grow");
   expect_error(k_header + good + "0.5,0,0,0,1,0,0,0,0\n", 4, "t_s does not grow");
+  expect_error(k_header + "-0.5,0,0,0,1,0,0,0,0\n" + good, 2, "t_s is -0.5");
+  expect_error(k_header + good + "1e12,0,0,0,1,0,0,0,0\n", 4, "t_s is 1e+12");
+  expect_error(k_header + good + "90000,0,0,0,1,0,0,0,0\n", 4, "more than a day");
   expect_error(k_header + good + "2,0,0,0,0,0,0,0,0\n", 4, "rotation");
   expect_error(k_header + good + "2,0,0,0,3,0,0,0,0\n", 4, "rotation");
   expect_error(k_header + good + "2,0,0,0,1,0,0,0\n", 4, "has 8 values for 9 columns");
@@ -68,6 +71,22 @@ TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
   expect_error(k_header + good + "2,0,0,501,1,0,0,0,0\n", 4, "z_mm is further than 500 mm");
   for (const char* point : {"0.5", "256", "-2"})
     expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,0,1,0,0,0,0,0\n1,1,0,0,1,0,0,0,0," + std::string(point) + "\n", 3, "point");
+}
+
+TEST(MotionFile, ReadsWhatSpreadsheetsWriteOnEverySystem) {
+  for (const std::string end : {"\n", "\r\n", "\r"})
+    for (const std::string mark : {"", "\xef\xbb\xbf"}) {
+      const std::string rows = k_header.substr(0, k_header.size() - 1) + end + "0,0,0,0,1,0,0,0,0" + end + "1,1,0,0,1,0,0,0,0" + end;
+      ASSERT_EQ(error_in(mark + rows), "");
+      EXPECT_EQ(parse_motion(mark + "# point = round-1.0" + end + rows, "m.csv").point, "round-1.0");
+      expect_error(mark + rows + end + "2,nan,0,0,1,0,0,0,0" + end, 5, "x_mm is nan");
+    }
+}
+
+TEST(MotionFile, AClockThatDoesNotBeginAtZeroIsAccepted) {
+  const Motion m = parse_motion(k_header + "1795238400,0,0,0,1,0,0,0,0\n1795238402,4,0,0,1,0,0,0,0\n", "m.csv");
+  EXPECT_DOUBLE_EQ(m.duration_s(), 2);
+  EXPECT_NEAR(m.at(1).pose.tip_mm.x, 2, 1e-6);
 }
 
 TEST(MotionFile, FaultsOfTheWholeFileNameTheFile) {

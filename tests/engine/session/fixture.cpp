@@ -1,27 +1,15 @@
 #include "tests/engine/session/fixture.h"
 
 #include <sqlite3.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <random>
 
 #include "engine/base/det_math.h"
 #include "engine/base/file.h"
 
 namespace cavum::test {
 namespace {
-
-std::string data_file(const std::string& name) {
-#ifdef CAVUM_SOURCE_DIR
-  return std::string(CAVUM_SOURCE_DIR) + "/data/" + name;
-#else
-  return (std::filesystem::path(__FILE__).parent_path() / "../../../data" / name).string();
-#endif
-}
 
 /// The force model with hard tissue that recedes eight times faster.
 std::string softened(std::string text) {
@@ -35,17 +23,6 @@ double box_distance(double x, double y, double z, double half_x, double half_y, 
 }
 
 }  // namespace
-
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "cavum-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-  ::setenv("CAVUM_HOME", (path_ / "station").c_str(), 1);
-}
-Folder::~Folder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 Tooth block_tooth() {
   Tooth tooth;
@@ -73,9 +50,9 @@ SessionSetup block_setup() {
   setup.device = "none (test)";
   setup.calibration = "exact";
   setup.scenario_toml = "title = \"drill the block\"\n";
-  setup.force_model_toml = softened(read_text_file(data_file("materials/paper.toml")));
+  setup.force_model_toml = softened(read_text_file(testing_basics::data_path("materials/paper.toml")));
   setup.servo_toml = to_toml(ServoConfig{});
-  setup.points_toml = {read_text_file(data_file("points/round-1.0.toml"))};
+  setup.points_toml = {read_text_file(testing_basics::data_path("points/round-1.0.toml"))};
   setup.tooth = save_tooth(block_tooth());
   const TickInput first = motion_at(0);
   setup.first_tip_nm = first.tip_nm;
@@ -110,21 +87,13 @@ std::string make_closed_session(const std::string& path, std::int64_t ticks) {
   const SessionSetup setup = block_setup();
   Simulation simulation = make_simulation(setup, "test");
   Recorder recorder = Recorder::create(path, setup);
-  const std::string result = R"({"verdict":"pass","score":{"points":83,"max":100}})";
+  std::string result = R"({"verdict":"pass","score":{"points":83,"max":100}})";
   for (std::int64_t tick = 0; tick < ticks; tick += 700) {
     recorder.add_event(tick, "step", "{\"step\":" + std::to_string(tick / 700) + "}");
     drill(simulation, recorder, tick, std::min<std::int64_t>(700, ticks - tick));
   }
   recorder.close(save_tooth(drilled_tooth(simulation)), result);
   return result;
-}
-
-std::uint64_t drawn_seed(const char* test) {
-  const char* fixed = std::getenv("CAVUM_TEST_SEED");
-  std::random_device device;
-  const std::uint64_t seed = fixed != nullptr ? std::strtoull(fixed, nullptr, 10) : static_cast<std::uint64_t>(device()) << 32 | device();
-  std::printf("%s: CAVUM_TEST_SEED=%llu\n", test, static_cast<unsigned long long>(seed));
-  return seed;
 }
 
 void tamper(const std::string& path, const std::string& sql) {

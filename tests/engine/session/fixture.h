@@ -2,25 +2,21 @@
 // a private folder with a station key of its own.
 #pragma once
 
-#include <filesystem>
+#include <stdlib.h>
+
 #include <string>
 
 #include "engine/session/recorder.h"
 #include "engine/session/simulation.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::test {
 
-/// A folder that goes away with the test; CAVUM_HOME points into it.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+using testing_basics::drawn_seed;
 
- private:
-  std::filesystem::path path_;
+/// A folder that goes away with the test; CAVUM_HOME points into it.
+struct Folder : testing_basics::Folder {
+  Folder() { ::setenv("CAVUM_HOME", file("station").c_str(), 1); }
 };
 
 /// 2.2 x 2.2 x 2.0 mm, leaf 0.05 mm, top at z = 0: enamel 0.3, dentin 0.3, pulp 0.4, dentin 1.0 mm.
@@ -34,9 +30,6 @@ class Folder {
 void drill(Simulation& simulation, Recorder& recorder, std::int64_t first, std::int64_t ticks);
 /// A closed session of `ticks` ticks with an event every 700 ticks. Returns the result's JSON.
 std::string make_closed_session(const std::string& path, std::int64_t ticks);
-
-/// Seed drawn anew in every run, or taken from CAVUM_TEST_SEED; prints it.
-[[nodiscard]] std::uint64_t drawn_seed(const char* test);
 
 /// Runs SQL on a file, as someone who tampers with it would.
 void tamper(const std::string& path, const std::string& sql);

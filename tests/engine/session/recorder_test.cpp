@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <functional>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -16,15 +15,7 @@ namespace cavum {
 namespace {
 
 using test::Folder;
-
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using testing_basics::error_of;
 
 TEST(Session, ReadsBackEverythingThatWasRecorded) {
   const Folder folder;

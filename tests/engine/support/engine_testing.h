@@ -1,78 +1,23 @@
-// What the tests of the engine's rooms share: seeds that are drawn anew and printed, the shipped points and
-// materials, teeth made from a closed-form signed distance, and a testing rig that turns poses into ticks.
+// What the tests of the engine's rooms share: the shipped points and materials, teeth made from a closed-form signed distance, and a testing rig that
+// turns poses into ticks.
 #pragma once
-
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/random.h"
 #include "engine/servo/servo.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::testing_engine {
 
-/// Seed drawn anew in every run, or taken from CAVUM_TEST_SEED; prints it.
-inline std::uint64_t drawn_seed(const char* test) {
-  const char* fixed = std::getenv("CAVUM_TEST_SEED");
-  std::random_device device;
-  const std::uint64_t seed = fixed != nullptr ? std::strtoull(fixed, nullptr, 10) : static_cast<std::uint64_t>(device()) << 32 | device();
-  std::printf("%s: CAVUM_TEST_SEED=%llu\n", test, static_cast<unsigned long long>(seed));
-  return seed;
-}
-
-/// The text of the Error that `action` throws; empty when it throws none.
-template <class Action>
-std::string error_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return {};
-}
-
-/// A folder that goes away with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "cavum-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// Path of a file in data/.
-inline std::string data_path(const std::string& name) {
-#ifdef CAVUM_SOURCE_DIR
-  return std::string(CAVUM_SOURCE_DIR) + "/data/" + name;
-#else
-  return (std::filesystem::path(__FILE__).parent_path() / "../../../data" / name).string();
-#endif
-}
+using namespace testing_basics;
 
 inline std::string point_text(const std::string& name) { return read_text_file(data_path("points/" + name + ".toml")); }
 inline DiamondPoint diamond_point(const std::string& name) { return parse_diamond_point(point_text(name), name + ".toml"); }

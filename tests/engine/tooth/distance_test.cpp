@@ -11,7 +11,7 @@ namespace {
 
 // Planes at any slope and offset, also a hair's breadth from a leaf's centre, where labels alone say least.
 TEST(SurfaceFromField, PlanesOfAnySlopeAreWithinOneMicrometre) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("SurfaceFromField.PlanesOfAnySlopeAreWithinOneMicrometre"));
   for (int round = 0; round < 60; ++round) {
     Vec3 n = normalized({random.normal(), random.normal(), random.normal()});
     if (round % 6 == 0) n = {0, 0, 1};
@@ -48,7 +48,7 @@ TEST(CheckLattice, RefusesWhatTheOctreeCannotHold) {
 }
 
 TEST(NearestMarked, AgreesWithBruteForce) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("NearestMarked.AgreesWithBruteForce"));
   for (int round = 0; round < 20; ++round) {
     const IVec3 size{static_cast<std::int32_t>(3 + random.below(30)), static_cast<std::int32_t>(3 + random.below(12)),
                      static_cast<std::int32_t>(3 + random.below(12))};

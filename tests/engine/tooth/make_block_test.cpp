@@ -35,7 +35,7 @@ TEST(MakeBlock, VolumesAreWithinHalfALeafOfTheSurfaceWhereTheyAreNot) {
 
 // The true distance of a box's face, whatever its place between the leaves; inner solid borders are no surface.
 TEST(MakeBlock, FlatFacesAreWithinOneMicrometreOfTheTruth) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("MakeBlock.FlatFacesAreWithinOneMicrometreOfTheTruth"));
   const Tooth tooth = make_block({4.037, 3.961, 3.013}, {{"enamel", 0.611}, {"dentin", 0.901}, {"pulp", 0.723}, {"dentin", 0.778}}, 0.05);
   const double pulp_top = -1.512, pulp_bottom = -2.235;
   Octree::Cursor cursor;
@@ -63,6 +63,33 @@ TEST(MakeBlock, UnknownNamesBecomeNewSolidTissues) {
   EXPECT_NE(tooth.tissue_id("lesion"), tooth.tissue_id("gutta-percha"));
   EXPECT_TRUE(tooth.octree.is_solid(tooth.tissue_id("lesion")));
   EXPECT_NEAR(volume_mm3(tooth, "lesion"), 0.5, 1e-9);
+}
+
+// With a layer less than a leaf thick it would depend on the layer's place whether any leaf is its own.
+TEST(MakeBlock, RefusesALeafLargerThanTheBlockOrALayer) {
+  EXPECT_THROW((void)make_block({1, 1, 1}, parse_layers("enamel:1"), 2), Error);
+  EXPECT_THROW((void)make_block({10, 1, 10}, parse_layers("enamel:10"), 2), Error);
+  EXPECT_THROW((void)make_block({10, 10, 10}, parse_layers("enamel:9.96,dentin:0.04"), 0.05), Error);
+  EXPECT_THROW((void)make_cube(1, "dentin", 1.01), Error);
+  for (const double above : {0.0, 0.21, 0.2499}) {  // a layer of one leaf is there wherever it lies
+    const Tooth tooth = make_block({1, 1, 1}, {{"enamel", 0.25 + above}, {"dentin", 0.25}, {"enamel", 0.5 - above}}, 0.25);
+    EXPECT_GT(volume_mm3(tooth, "dentin"), 0) << above;
+  }
+  EXPECT_NEAR(volume_mm3(make_cube(0.3, "dentin", 0.1 * 3), "dentin"), 0.027, 1e-9) << "rounding is no reason to refuse";
+}
+
+TEST(MakeBlock, RefusesNamesThatCannotBeShown) {
+  for (const char* name : {"ena\xffmel", "ena\nmel", "\x1b[31mdentin"}) {
+    EXPECT_THROW((void)parse_layers(std::string(name) + ":1"), Error);
+    EXPECT_THROW((void)make_cube(1, name, 0.1), Error);
+  }
+  EXPECT_EQ(parse_layers("Schmelz\xc3\xa4hnlich:1")[0].tissue, "Schmelz\xc3\xa4hnlich");
+}
+
+TEST(MakeBlock, ErrorsNameTheOptionToChange) {
+  const auto error_of_cube = [](double edge_mm) { return testing_basics::error_of([&] { (void)make_cube(edge_mm, "dentin", 0.05); }); };
+  EXPECT_NE(error_of_cube(0).find("--edge-mm"), std::string::npos) << error_of_cube(0);
+  EXPECT_NE(error_of_cube(0.01).find("--leaf-mm"), std::string::npos) << error_of_cube(0.01);
 }
 
 TEST(MakeBlock, RefusesWhatCannotBeBuilt) {

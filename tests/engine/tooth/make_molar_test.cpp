@@ -129,7 +129,7 @@ TEST(MakeMolar, OcclusalEnamelIsOneToTwoAndAHalfMillimetresThick) {
 
 // The stored distance leads to the formula's own zero, which the octree never saw.
 TEST(MakeMolar, DistancesLeadToTheTrueSurface) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("MakeMolar.DistancesLeadToTheTrueSurface"));
   const Molar formula(coarse());
   const auto f = [&](Vec3 p) { return std::max(formula.outside(p), -formula.pulp(p)); };
   Octree::Cursor cursor;
@@ -172,7 +172,7 @@ TEST(Periodontium, SurroundsTheRootsAndChangesNothingElse) {
   for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp}) EXPECT_EQ(without.octree.count_leaves()[id], molar().octree.count_leaves()[id]);
   EXPECT_EQ(without.octree.count_leaves()[k_periodontium], 0u);
   // Every periodontium leaf is air without it, and dentin is its nearest hard tissue, within 1 mm (brute force on a sample).
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("Periodontium.SurroundsTheRootsAndChangesNothingElse"));
   std::vector<Vec3> supported;
   molar().octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (t == k_periodontium) supported.push_back(molar().octree.centre_mm(at + IVec3{edge / 2, edge / 2, edge / 2}));

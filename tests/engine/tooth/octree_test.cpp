@@ -42,7 +42,7 @@ std::uint64_t carve_dense(TissueGrid& grid, const std::vector<Tissue>& tissues, 
 Tooth small_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
 
 TEST(Octree, EqualsDenseGridAfterRandomCarves) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("Octree.EqualsDenseGridAfterRandomCarves"));
   for (int round = 0; round < 6; ++round) {
     Tooth tooth = small_block();
     TissueGrid dense = tooth.octree.to_grid();
@@ -72,7 +72,7 @@ TEST(Octree, EqualsDenseGridAfterRandomCarves) {
 }
 
 TEST(Octree, AnswersPointQueriesAsTheDenseGridDoes) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("Octree.AnswersPointQueriesAsTheDenseGridDoes"));
   const Tooth tooth = small_block();
   const TissueGrid dense = tooth.octree.to_grid();
   Octree::Cursor cursor;
@@ -88,7 +88,7 @@ TEST(Octree, AnswersPointQueriesAsTheDenseGridDoes) {
 }
 
 TEST(Octree, NeverCallsABoxClearThatHoldsSolid) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("Octree.NeverCallsABoxClearThatHoldsSolid"));
   const Tooth tooth = small_block();
   const TissueGrid dense = tooth.octree.to_grid();
   int clear = 0;
@@ -124,6 +124,14 @@ TEST(ToothFile, EveryTruncationIsAnError) {
   for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
 }
 
+TEST(ToothFile, NamesThatCannotBeShownAreMadeReadableOrRefused) {
+  Tooth tooth = make_cube(0.5, "enamel", 0.1);
+  tooth.name = "z\xe4hne\n";
+  EXPECT_EQ(load_tooth(save_tooth(tooth), "t.cvt").name, "z?hne ");
+  tooth.tissues[0].name = "ena\xffmel";
+  EXPECT_NE(testing_basics::error_of([&] { (void)load_tooth(save_tooth(tooth), "t.cvt"); }).find("name of tissue 1"), std::string::npos);
+}
+
 TEST(ToothFile, EveryFlippedBitIsAnError) {
   Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -135,7 +143,7 @@ TEST(ToothFile, EveryFlippedBitIsAnError) {
 
 // Behind the checksum: an octree that was damaged before it was signed must still not crash the reader.
 TEST(ToothFile, DamagedOctreeBytesNeverCrash) {
-  Random random(testing_tooth::fresh_seed());
+  Random random(testing_tooth::drawn_seed("ToothFile.DamagedOctreeBytesNeverCrash"));
   const Tooth tooth = small_block();
   ByteWriter out;
   tooth.octree.write(out);

@@ -1,24 +1,16 @@
-// What several tests of the tooth need: fresh random seeds that are printed, and independent checks of meshes.
+// What several tests of the tooth need: seeds that are printed, and independent checks of meshes.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
-#include <random>
 #include <vector>
 
 #include "engine/tooth/surface_mesh.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::testing_tooth {
 
-/// A new seed each run, printed; CAVUM_TEST_SEED=n repeats a run.
-inline std::uint64_t fresh_seed() {
-  const char* given = std::getenv("CAVUM_TEST_SEED");
-  const std::uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
-  std::cout << "CAVUM_TEST_SEED=" << seed << '\n';
-  return seed;
-}
+using testing_basics::drawn_seed;
 
 /// Every edge is used once in each direction: closed, 2-manifold along edges, and consistently oriented.
 inline bool is_closed_and_oriented(const TriangleMesh& mesh) {

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/tooth/surface_mesh.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::testing_import {
 
@@ -23,21 +23,13 @@ namespace fs = std::filesystem;
 /// A folder of its own for the running test, emptied first.
 inline fs::path fresh_folder() {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = fs::temp_directory_path() / (std::string("cavum_") + test->test_suite_name() + "_" + test->name());
+  auto folder = fs::temp_directory_path() / (std::string("cavum_") + test->test_suite_name() + "_" + test->name());
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
 }
 
-/// The message of the Error that `act` throws; empty when it throws none.
-inline std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using testing_basics::error_of;
 
 /// The folder `shared/` beside the repository, or an empty path.
 inline fs::path shared_folder() {
@@ -224,8 +216,8 @@ inline void write_dicom_slice(const fs::path& path, const Voxels& v, int z) {
   element(out, 0x28, 0x101, "US", us(8));
   element(out, 0x28, 0x102, "US", us(7));
   element(out, 0x28, 0x103, "US", us(0));
-  const auto from = v.gray.begin() + static_cast<std::ptrdiff_t>(v.index(0, 0, z));
-  element(out, 0x7fe0, 0x10, "OW", {from, from + v.nx * v.ny});
+  const auto slice = [&v](int at) { return v.gray.begin() + static_cast<std::ptrdiff_t>(v.index(0, 0, at)); };
+  element(out, 0x7fe0, 0x10, "OW", {slice(z), slice(z + 1)});
   write_bytes(path, out);
 }
 

@@ -1,0 +1,152 @@
+#include "engine/rig/servo_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/det_math.h"
+#include "engine/device/simulated_stylus.h"
+#include "engine/session/simulation.h"
+#include "engine/tooth/make_block.h"
+
+namespace cavum {
+namespace {
+
+/// Down to the block, then in circles, pressing, and out of contact for a moment in every turn.
+HandIntent drilling_hand(double t_s) {
+  constexpr double k_radius_mm = 1.0, k_turn_s = 8.0, k_start_mm = 0.3, k_press_mm = 1.2, k_feed_mm_s = 0.06;
+  const SinCos turn = det_sincos(2 * k_pi * t_s / k_turn_s);
+  const double in_turn = t_s / k_turn_s - std::floor(t_s / k_turn_s);
+  const double lift_mm = in_turn > 0.9 ? 2.0 : 0.0;
+  const double depth_mm = std::min(2.0 * t_s, k_start_mm + k_press_mm + k_feed_mm_s * t_s);
+  return {{k_radius_mm * turn.cos, k_radius_mm * turn.sin, k_start_mm - depth_mm + lift_mm}, t_s > 0.1 ? 1.0 : 0.0};
+}
+
+nlohmann::json histogram(const Lateness& l) {
+  nlohmann::json bins = nlohmann::json::array();
+  for (std::size_t i = 0; i < l.counts.size(); ++i) {
+    const bool last = i == Lateness::k_edges_us.size();
+    bins.push_back({{"up_to_us", last ? nlohmann::json(nullptr) : nlohmann::json(Lateness::k_edges_us[i])}, {"ticks", l.counts[i]}});
+  }
+  return {{"mean_us", l.mean_us()},          {"p50_us", l.quantile_us(0.5)}, {"p99_us", l.quantile_us(0.99)},
+          {"p999_us", l.quantile_us(0.999)}, {"worst_us", l.worst_us()},     {"histogram", bins}};
+}
+
+template <class... Args>
+void line(std::string& out, const char* format, Args... args) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, args...);
+  out += text;
+}
+
+}  // namespace
+
+SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& force_model_toml, double tick_s) {
+  SessionSetup setup;
+  setup.candidate = "rig";
+  setup.device = "simulated Omni in a simulated hand";
+  setup.calibration = "exact";
+  setup.scenario_toml = "title = \"servo rig\"\n";
+  setup.force_model_toml = force_model_toml;
+  ServoConfig config;
+  config.tick_s = tick_s;
+  setup.servo_toml = to_toml(config);
+  setup.points_toml = {point_toml};
+  setup.tooth = save_tooth(make_block({10, 10, 6}, {{"enamel", 0.5}, {"dentin", 5.5}}, 0.05));
+  const Vec3 start = drilling_hand(0.0).tip_mm;
+  setup.first_tip_nm = make_tick_input({start, {}}, 0, k_stylus_fresh, 0, {}).tip_nm;
+  return setup;
+}
+
+ServoRigResult run_servo_rig(const SessionSetup& setup, const std::string& path, const ServoRigOptions& options) {
+  Simulation simulation = make_simulation(setup, path);
+  ServoRigResult result;
+  result.tick_s = simulation.model.config.tick_s;
+  const std::int64_t periods = std::llround(options.seconds / result.tick_s);
+  RealTimeOptions real_time = options.real_time;
+  if (real_time.max_ticks == 0) real_time.max_ticks = periods;
+
+  Recorder recorder = Recorder::create(path, setup);
+  TickStream stream(static_cast<std::size_t>(30.0 / result.tick_s));
+  SimulatedStylus stylus({}, {}, result.tick_s, drilling_hand);
+  const TickInput first = make_tick_input({setup.first_tip_mm(), {}}, 0, k_stylus_fresh, 0, {});
+  RealTimeServo servo(simulation.model, simulation.state, stylus, stream, first, real_time);
+  SessionWriter writer(stream, recorder, result.tick_s, [&](const ServoTick& tick, std::span<const RemovedLeaf> removed) {
+    result.removed_leaves += static_cast<std::int64_t>(removed.size());
+    if (!tick.output.contact) return;
+    const double force_n = length(tick.output.rendered_force_n);
+    ++result.contact_ticks;
+    result.mean_force_n += force_n;
+    result.peak_force_n = std::max(result.peak_force_n, force_n);
+  });
+  const std::int64_t start_ns = read_clocks().monotonic_ns;
+  servo.start();
+  writer.start();
+  result.servo = servo.join();
+  result.seconds = static_cast<double>(read_clocks().monotonic_ns - start_ns) * 1e-9;
+  result.writer = writer.finish();
+  if (result.contact_ticks > 0) result.mean_force_n /= static_cast<double>(result.contact_ticks);
+  result.slowest_write_s = recorder.slowest_write_s();
+  recorder.close(save_tooth(drilled_tooth(simulation)), to_json(result).dump());
+  return result;
+}
+
+nlohmann::json to_json(const ServoRigResult& r) {
+  const RealTimeReport& s = r.servo;
+  return {{"on_time", r.on_time()},
+          {"tick_s", r.tick_s},
+          {"seconds", r.seconds},
+          {"ticks", s.ticks},
+          {"overruns", s.overruns},
+          {"made_up", s.made_up},
+          {"skipped_late", s.skipped_late},
+          {"skipped_full", s.skipped_full},
+          {"guard_cuts", s.guard_cuts},
+          {"lateness", histogram(s.lateness)},
+          {"work", histogram(s.work)},
+          {"sched_fifo", s.fifo},
+          {"sched_fifo_refused", s.fifo_refused},
+          {"memory_locked", s.memory_locked},
+          {"memory_refused", s.memory_refused},
+          {"ended", s.why},
+          {"error", s.error},
+          {"force", {{"mean_n", r.mean_force_n}, {"peak_n", r.peak_force_n}, {"contact_ticks", r.contact_ticks}}},
+          {"removed_leaves", r.removed_leaves},
+          {"recording",
+           {{"ticks", r.writer.ticks}, {"most_waiting", r.writer.most_waiting}, {"slowest_write_s", r.slowest_write_s}, {"error", r.writer.error}}}};
+}
+
+std::string to_text(const ServoRigResult& r) {
+  const RealTimeReport& s = r.servo;
+  std::string out;
+  line(out, "%lld ticks of %g ms in %.2f s: %s\n", static_cast<long long>(s.ticks), r.tick_s * 1e3, r.seconds,
+       r.on_time() ? "on time" : "NOT always on time");
+  line(out, "  SCHED_FIFO: %s\n", s.fifo ? "yes" : ("refused (" + s.fifo_refused + ")").c_str());
+  line(out, "  memory locked: %s\n", s.memory_locked ? "yes" : ("refused (" + s.memory_refused + ")").c_str());
+  line(out, "  overruns (more than a period late) %lld, made up for %lld, skipped %lld late and %lld without room, cut by the guard %lld\n",
+       static_cast<long long>(s.overruns), static_cast<long long>(s.made_up), static_cast<long long>(s.skipped_late),
+       static_cast<long long>(s.skipped_full), static_cast<long long>(s.guard_cuts));
+  line(out, "  late: mean %.1f, p99 %.0f, worst %.0f us; work: mean %.1f, p99 %.0f, worst %.0f us\n", s.lateness.mean_us(),
+       s.lateness.quantile_us(0.99), s.lateness.worst_us(), s.work.mean_us(), s.work.quantile_us(0.99), s.work.worst_us());
+  line(out, "  force in contact: mean %.2f, peak %.2f N; %lld leaves removed\n", r.mean_force_n, r.peak_force_n,
+       static_cast<long long>(r.removed_leaves));
+  line(out, "  recorded %lld ticks, at most %lld waiting, slowest write %.1f ms\n\n", static_cast<long long>(r.writer.ticks),
+       static_cast<long long>(r.writer.most_waiting), r.slowest_write_s * 1e3);
+  if (!s.error.empty()) out += "  device: " + s.error + "\n";
+  if (!r.writer.error.empty()) out += "  recording: " + r.writer.error + "\n";
+  out += "  late by up to      ticks\n";
+  for (std::size_t i = 0; i < s.lateness.counts.size(); ++i) {
+    const auto n = s.lateness.counts[i];
+    if (n == 0) continue;
+    const double share = static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(1, s.ticks));
+    const std::string bar(static_cast<std::size_t>(std::ceil(40 * share)), '#');
+    if (i < Lateness::k_edges_us.size())
+      line(out, "  %8lld us %12lld %s\n", static_cast<long long>(Lateness::k_edges_us[i]), static_cast<long long>(n), bar.c_str());
+    else
+      line(out, "      more    %12lld %s\n", static_cast<long long>(n), bar.c_str());
+  }
+  return out;
+}
+
+}  // namespace cavum

@@ -1,0 +1,92 @@
+#include "engine/session/session_writer.h"
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace cavum {
+
+SessionWriter::SessionWriter(TickStream& stream, Recorder& recorder, double tick_s, Watch watch)
+    : stream_(stream), recorder_(recorder), period_ns_(std::llround(tick_s * 1e9)), watch_(std::move(watch)) {}
+
+SessionWriter::~SessionWriter() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void SessionWriter::start() {
+  thread_ = std::thread([this] { run(); });
+}
+
+const WriterReport& SessionWriter::finish() {
+  if (thread_.joinable()) thread_.join();
+  return report_;
+}
+
+template <class Action>
+void SessionWriter::guarded(const Action& action) noexcept {
+  try {
+    action();
+  } catch (const std::exception& e) {
+    if (report_.error.empty()) report_.error = e.what();
+  } catch (...) {
+    if (report_.error.empty()) report_.error = "something that is no std::exception";
+  }
+}
+
+void SessionWriter::run() noexcept {
+  ServoTick tick;
+  for (;;) {
+    const bool last_round = stream_.closed();  // asked before emptying: what was put in before closing is seen
+    report_.most_waiting = std::max(report_.most_waiting, static_cast<std::int64_t>(stream_.waiting()));
+    while (stream_.pop(tick, removed_)) take(tick);
+    if (last_round) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  report_.why = stream_.why();
+  guarded([&] {
+    note_overruns(recorder_.ticks());
+    const nlohmann::json detail{{"why", stream_.why()}, {"error", stream_.detail()}};
+    recorder_.add_event(recorder_.ticks(), "servo_stopped", detail.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  });
+  guarded([&] { recorder_.flush(); });
+}
+
+void SessionWriter::take(const ServoTick& tick) {
+  ++report_.ticks;
+  guarded([&] { note_changes(tick); });
+  if (watch_) {
+    const auto error_before = report_.error.empty();
+    guarded([&] { watch_(tick, removed_); });
+    if (error_before && !report_.error.empty()) watch_ = {};  // what it counts is wrong from here on
+  }
+  // on error the recorder has kept the tick, and tries again with the next second
+  guarded([&] { recorder_.append(tick.input, make_tick_record(tick.output), removed_, tick.state_hash); });
+}
+
+void SessionWriter::note_changes(const ServoTick& tick) {
+  if (tick.skipped_periods > 0) recorder_.add_event(tick.tick, "servo_gap", nlohmann::json{{"periods", tick.skipped_periods}}.dump());
+  const bool silent = (tick.output.notices & k_notice_stale_stylus) != 0;
+  if (silent && !was_silent_)
+    recorder_.add_event(tick.tick, "stylus_silent", nlohmann::json{{"fault", (tick.input.flags & k_stylus_fault) != 0}}.dump());
+  if (!silent && was_silent_) recorder_.add_event(tick.tick, "stylus_back", "null");
+  was_silent_ = silent;
+  const int gone = last_flags_ & ~tick.input.flags, come = tick.input.flags & ~last_flags_;
+  if ((gone & k_pedal_fresh) != 0) recorder_.add_event(tick.tick, "pedal_lost", "null");
+  if ((come & k_pedal_fresh) != 0) recorder_.add_event(tick.tick, "pedal_back", "null");
+  last_flags_ = tick.input.flags;
+  if (tick.late_ns > period_ns_) {
+    ++overruns_;
+    worst_late_ns_ = std::max(worst_late_ns_, tick.late_ns);
+  }
+  if ((tick.tick - overruns_since_) * period_ns_ >= 1'000'000'000) note_overruns(tick.tick);
+}
+
+void SessionWriter::note_overruns(std::int64_t tick) {
+  overruns_since_ = tick;
+  if (overruns_ == 0) return;
+  const nlohmann::json detail{{"count", overruns_}, {"worst_late_ms", static_cast<double>(worst_late_ns_) * 1e-6}};
+  overruns_ = worst_late_ns_ = 0;
+  recorder_.add_event(tick, "overruns", detail.dump());
+}
+
+}  // namespace cavum

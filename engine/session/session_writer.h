@@ -1,0 +1,68 @@
+// The other end of the servo's stream: a thread that takes every tick, lets the exam's runner see it, and
+// records it. What went wrong in the servo becomes events here: overruns, gaps, faults, the reason of the end.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/servo/tick_stream.h"
+#include "engine/session/recorder.h"
+
+namespace cavum {
+
+struct WriterReport {
+  std::int64_t ticks = 0;         ///< taken from the stream
+  std::int64_t most_waiting = 0;  ///< ticks that were waiting at the worst moment
+  std::string why;                ///< of the stream's end
+  std::string error;              ///< first error of recorder or watch; empty = everything is on disk
+};
+
+/// Events it writes, with `detail_json`:
+///   `overruns`      {"count", "worst_late_ms"}: ticks of the last second that started more than a period late
+///   `servo_gap`     {"periods"}: so many periods passed without a tick before this one
+///   `stylus_silent` {"fault"}: no fresh pose for longer than the watchdog allows, the force fades (fault: it gave NaN or nonsense)
+///   `stylus_back`   null
+///   `pedal_lost`, `pedal_back` null
+///   `servo_stopped` {"why", "error"}
+class SessionWriter {
+ public:
+  /// Sees every tick on the writer's thread before it is recorded; may add events to the recorder.
+  using Watch = std::function<void(const ServoTick& tick, std::span<const RemovedLeaf> removed)>;
+
+  /// Stream and recorder must outlive it; the recorder belongs to its thread until `finish`.
+  SessionWriter(TickStream& stream, Recorder& recorder, double tick_s, Watch watch = {});
+  /// Waits for the stream's end.
+  ~SessionWriter();
+  SessionWriter(const SessionWriter&) = delete;
+  SessionWriter& operator=(const SessionWriter&) = delete;
+
+  void start();
+  /// Waits until the stream is closed and everything in it is written. The session stays open: close it, or resume later.
+  const WriterReport& finish();
+
+ private:
+  void run() noexcept;
+  void take(const ServoTick& tick);
+  void note_changes(const ServoTick& tick);
+  void note_overruns(std::int64_t tick);
+  template <class Action>
+  void guarded(const Action& action) noexcept;
+
+  TickStream& stream_;
+  Recorder& recorder_;
+  const std::int64_t period_ns_;
+  Watch watch_;
+  std::thread thread_;
+  std::vector<RemovedLeaf> removed_;
+  std::uint16_t last_flags_ = k_pedal_fresh;
+  bool was_silent_ = false;
+  std::int64_t overruns_ = 0, worst_late_ns_ = 0, overruns_since_ = 0;
+  WriterReport report_;
+};
+
+}  // namespace cavum

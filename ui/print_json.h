@@ -1,0 +1,15 @@
+// The one way a verb prints JSON.
+#pragma once
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace cavum {
+
+/// One object on standard output. A file name that is no UTF-8 is shown with replacement characters, for JSON has no other text.
+template <class Json>
+void print_json(const Json& json) {
+  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+}
+
+}  // namespace cavum
