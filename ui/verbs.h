@@ -11,5 +11,6 @@ void add_scenario_verbs(CLI::App& app, int& exit_code);
 void add_exam_verbs(CLI::App& app, int& exit_code);
 void add_replay_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
+void add_rig_verbs(CLI::App& app, int& exit_code);
 
 }  // namespace cavum

@@ -1,7 +1,8 @@
-// Sine and cosine from arithmetic alone: libm gives different bits on different machines, and a replay
-// must not. Used where the engine itself needs an angle (sampling of a diamond point, run-out).
+// Sine, cosine, exp and tanh from arithmetic alone: libm gives different bits on different machines, and a
+// replay must not. Used where the engine itself needs them (sampling of a diamond point, run-out, friction).
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace cavum {
@@ -33,6 +34,33 @@ struct SinCos {
     default:
       return {-c, s};
   }
+}
+
+/// e^x; x is clamped to -700..700, relative error below 1e-14 (x = n·ln 2 + r, Taylor polynomial for |r| <= 0.35).
+[[nodiscard]] constexpr double det_exp(double x) noexcept {
+  x = x > 700.0 ? 700.0 : x > -700.0 ? x : -700.0;  // NaN gives e^-700
+  const double turns = x * 1.44269504088896340736;
+  const auto whole = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
+  // ln 2 in two parts, so that the reduction keeps its digits
+  const double n = static_cast<double>(whole);
+  const double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
+  double e = 1.0;
+  for (int i = 13; i > 0; --i) e = 1.0 + e * (r / i);
+  return e * std::bit_cast<double>(static_cast<std::uint64_t>(whole + 1023) << 52);
+}
+
+/// tanh x, odd to the last bit, relative error below 1e-14 (Lambert's continued fraction up to 0.6, exp beyond).
+[[nodiscard]] constexpr double det_tanh(double x) noexcept {
+  const double size = x < 0 ? -x : x;
+  if (size <= 0.6) {
+    const double x2 = x * x;
+    double below = 17.0;
+    for (int i = 15; i > 0; i -= 2) below = i + x2 / below;
+    return x / below;
+  }
+  const double e = size < 20.0 ? det_exp(-2.0 * size) : 0.0;
+  const double t = (1.0 - e) / (1.0 + e);
+  return x < 0 ? -t : t;
 }
 
 }  // namespace cavum

@@ -76,17 +76,71 @@ void group(ContactTool& tool, std::size_t first, double edge) {
     Vec3 sum;
     while (j < tool.samples.size() && cell(tool.samples[j]) == cell(tool.samples[i])) sum += tool.samples[j++].at_mm;
     ToolPatch patch{sum / static_cast<double>(j - i), 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
-    for (std::size_t s = i; s < j; ++s) patch.radius_mm = std::max(patch.radius_mm, length(tool.samples[s].at_mm - patch.centre_mm));
+    for (std::size_t s = i; s < j; ++s) {
+      patch.radius_mm = std::max(patch.radius_mm, length(tool.samples[s].at_mm - patch.centre_mm));
+      patch.lever_mm = std::max(patch.lever_mm, length(tool.samples[s].at_mm));
+    }
     tool.patches.push_back(patch);
     i = j;
   }
 }
 
+/// The pieces of the coated head where the normal turns; edges as `round_edges` makes them.
+std::vector<TurningPiece> turning_pieces(const DiamondPoint& point) {
+  std::vector<TurningPiece> out;
+  const Profile& profile = point.profile;
+  ProfilePoint normal{0, -1};  // of the axis, looking down
+  ProfilePoint a;
+  bool first = true;
+  for (const auto& s : profile.segments()) {
+    if (a.z_mm >= point.cutting_length_mm) break;
+    ProfilePoint begins, ends;
+    if (s.arc) {
+      const double br = a.r_mm - s.centre.r_mm, bz = a.z_mm - s.centre.z_mm, er = s.end.r_mm - s.centre.r_mm, ez = s.end.z_mm - s.centre.z_mm;
+      const double radius = std::sqrt(br * br + bz * bz);
+      begins = {br / radius, bz / radius};
+      ends = {er / radius, ez / radius};
+    } else {
+      const double dr = s.end.r_mm - a.r_mm, dz = s.end.z_mm - a.z_mm, n = std::sqrt(dr * dr + dz * dz);
+      begins = ends = {dz / n, -dr / n};
+    }
+    const double bend = normal.r_mm * begins.z_mm - normal.z_mm * begins.r_mm, along = normal.r_mm * begins.r_mm + normal.z_mm * begins.z_mm;
+    if (bend > 0.04) {
+      const double radius = first ? 0.0 : k_edge_radius_mm;  // a tip on the axis is as sharp as it is
+      const double inward = radius / (1 + along);
+      out.push_back({{a.r_mm - inward * (normal.r_mm + begins.r_mm), a.z_mm - inward * (normal.z_mm + begins.z_mm)}, normal, begins, radius});
+    }
+    if (s.arc) out.push_back({s.centre, begins, ends, std::sqrt(profile_squared(a.r_mm - s.centre.r_mm) + profile_squared(a.z_mm - s.centre.z_mm))});
+    normal = ends;
+    first = false;
+    a = s.end;
+  }
+  // where the coating ends the shank goes on: that edge is no edge of the tool, but the head's furthest place on its way up
+  out.push_back({{profile.radius_mm(point.cutting_length_mm), point.cutting_length_mm}, normal, {0, 1}, 0.0});
+  return out;
+}
+
 }  // namespace
+
+Vec3 ContactTool::furthest_along(Vec3 way) const noexcept {
+  const double across = std::sqrt(way.x * way.x + way.y * way.y);
+  double best = -1e9;
+  ProfilePoint at;
+  for (const auto& p : turning) {
+    if (p.from.r_mm * way.z - p.from.z_mm * across < 0 || across * p.to.z_mm - way.z * p.to.r_mm < 0) continue;
+    const double height = p.centre.r_mm * across + p.centre.z_mm * way.z + p.radius_mm;
+    if (height <= best) continue;
+    best = height;
+    at = {p.centre.r_mm + p.radius_mm * across, p.centre.z_mm + p.radius_mm * way.z};
+  }
+  if (across < 1e-12) return {0, 0, at.z_mm};  // along the axis every direction is as good: the axis itself
+  return {at.r_mm * way.x / across, at.r_mm * way.y / across, at.z_mm};
+}
 
 ContactTool make_contact_tool(const DiamondPoint& point, double head_spacing_mm) {
   ContactTool tool;
   tool.point = point;
+  tool.turning = turning_pieces(point);
   // a long head is sampled more coarsely: its sides are straight, and the count decides the time of a tick
   constexpr double k_most_head_samples = 450;
   double head_area = 0;

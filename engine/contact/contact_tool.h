@@ -20,14 +20,27 @@ struct ToolPatch {
   Vec3 centre_mm;
   double radius_mm = 0;
   std::uint32_t first = 0, last = 0;  ///< samples [first, last)
+  double lever_mm = 0;                ///< furthest sample from the tip: how far a turn moves it
+};
+
+/// A piece of the felt outline where its normal turns, in the (r, z) half plane: the arc of a ball end, the fillet of an
+/// edge, or a sharp tip (radius 0). `from` and `to` are the outward normals at its ends, counter-clockwise.
+struct TurningPiece {
+  ProfilePoint centre, from, to;
+  double radius_mm = 0;
 };
 
 struct ContactTool {
   DiamondPoint point;
   std::vector<ToolSample> samples;
   std::vector<ToolPatch> patches;
-  std::uint32_t head_patches = 0;  ///< the first patches are the coated head
-  double reach_mm = 0;             ///< furthest sample from the tip
+  std::vector<TurningPiece> turning;  ///< of the coated head
+  std::uint32_t head_patches = 0;     ///< the first patches are the coated head
+  double reach_mm = 0;                ///< furthest sample from the tip
+
+  /// The place on the coated head, as it is felt, that lies furthest along `way` (unit, tool frame): where a plane with
+  /// normal -way touches it. The head is convex, so there is one, exact however far apart the samples are.
+  [[nodiscard]] Vec3 furthest_along(Vec3 way) const noexcept;
 };
 
 /// Edges feel 0.08 mm round, as grit makes them: a sharper edge could not lie in the corner it has cut, for between

@@ -44,10 +44,22 @@ bool on_planes(Vec3 wanted, const HalfSpace* const* set, int n, Vec3& step) noex
 
 }  // namespace
 
-HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces) noexcept {
+HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces, const ActiveSet& guess) noexcept {
   const HalfSpace* active[3] = {};
   int n_active = 0;
   Vec3 step = wanted;
+  if (guess.count > 0) {
+    for (int i = 0; i < guess.count; ++i) active[i] = &half_spaces[static_cast<std::size_t>(guess.at[i])];
+    if (on_planes(wanted, active, guess.count, step))
+      n_active = guess.count;
+    else
+      step = wanted;
+  }
+  const auto solved = [&](bool feasible) {
+    HalfSpaceSolution solution{step, feasible, {n_active, {}}};
+    for (int i = 0; i < n_active; ++i) solution.active.at[i] = static_cast<int>(active[i] - half_spaces.data());
+    return solution;
+  };
   for (int round = 0; round < 64; ++round) {
     const HalfSpace* worst = nullptr;
     double worst_mm = k_tolerance_mm;
@@ -58,7 +70,7 @@ HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spac
         worst = &h;
       }
     }
-    if (worst == nullptr) return {step, true};
+    if (worst == nullptr) return solved(true);
     // The new basis holds the entering half space and a subset of the old ones: the first that satisfies all four.
     const HalfSpace* best[3] = {};
     int n_best = 0;
@@ -79,12 +91,12 @@ HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spac
     for (int i = 0; i < n_active; ++i) consider(active[i], nullptr);
     for (int i = 0; i < n_active; ++i)
       for (int j = i + 1; j < n_active; ++j) consider(active[i], active[j]);
-    if (n_best == 0) return {step, false};
+    if (n_best == 0) return solved(false);
     for (int i = 0; i < n_best; ++i) active[i] = best[i];
     n_active = n_best;
     step = best_step;
   }
-  return {step, false};
+  return solved(false);
 }
 
 }  // namespace cavum

@@ -14,13 +14,21 @@ struct HalfSpace {
   double slack_mm = 0.0;
 };
 
+/// The half spaces that hold the step, by their places in the list.
+struct ActiveSet {
+  int count = 0;  ///< 0 to 3
+  int at[3] = {-1, -1, -1};
+};
+
 struct HalfSpaceSolution {
   Vec3 step;
   bool feasible = true;  ///< false when the half spaces exclude one another: `step` then breaks them least as found
+  ActiveSet active;
 };
 
 /// argmin |s - wanted| over all allowed s. Active-set method: the most violated half space enters, at
 /// most three stay (their KKT conditions are solved exactly); the objective grows with each round.
-[[nodiscard]] HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces) noexcept;
+/// `guess` is tried first (that of the step before, for instance); it saves time and changes nothing else.
+[[nodiscard]] HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces, const ActiveSet& guess = {}) noexcept;
 
 }  // namespace cavum

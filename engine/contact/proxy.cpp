@@ -8,77 +8,136 @@ namespace {
 
 constexpr int k_max_steps = 12;          // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
+constexpr double k_same_means_leaves = 0.02;
 constexpr double k_linear_leaves = 0.1;  // so far a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
+constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
+constexpr double k_touch_leaves = 0.2;    // a sample nearer than that touches fully; rounding of distances is far less
+constexpr double k_fade_leaves = 0.5;     // and from there it touches less and less
+constexpr double k_ahead_leaves = 1.0;    // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
 constexpr double k_settled_mm = 2e-5;     // a smaller step ends the search
+constexpr double k_refined_mm = 2e-5;     // the tool enters solid tissue no deeper
+constexpr int k_refinements = 3;
+constexpr std::size_t k_refined_room = 32;
 constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
 
-/// Furthest that any sample moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
-double turn_bound_mm(const Mat3& a, const Mat3& b, double reach_mm) noexcept {
+/// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
+double turn_bound_rad(const Mat3& a, const Mat3& b) noexcept {
   const Vec3 x = a.row_x - b.row_x, y = a.row_y - b.row_y, z = a.row_z - b.row_z;
-  return std::sqrt(dot(x, x) + dot(y, y) + dot(z, z)) * reach_mm;
+  return std::sqrt(dot(x, x) + dot(y, y) + dot(z, z));
 }
 
-/// Box around a ball: is it free of solid tissue?
-bool clear_around(const Octree& tooth, Vec3 centre, double radius) noexcept {
-  const Vec3 r{radius, radius, radius};
-  return tooth.is_clear(centre - r, centre + r);
-}
+double travel_mm(const ContactState& state, double lever_mm) noexcept { return state.moved_mm + state.turned_rad * lever_mm; }
 
 /// Free way around the whole tool, in mm of travel; 0 when something is near.
-double tool_clearance_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rotation, Vec3 tip) noexcept {
+double tool_air_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rotation, Vec3 tip) noexcept {
   const double half = 0.5 * tool.reach_mm;
   const Vec3 middle = tip + rotation * Vec3{0, 0, half};
-  for (const double margin : {4.0, 1.0})
-    if (clear_around(tooth, middle, half + 1.0 + margin)) return margin;
+  for (const double margin : {4.0, 1.0}) {
+    const double r = half + 1.0 + margin;
+    if (tooth.is_air(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) return margin;
+  }
   return 0;
 }
 
 /// Forgets every clearance: another point was mounted, or the first tick.
 void reset(ContactState& state, const ContactTool& tool, int point) noexcept {
   state.point = point;
-  state.tool_clear_until_mm = state.travel_mm;
-  std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), state.travel_mm);
+  state.tool_air_until_mm = -1.0;
+  std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
-  state.gathered_turned_mm = -1;
-  std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), state.travel_mm);
+  std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), -1.0);
+  state.gathered_turned_rad = -1.0;
 }
 
 /// Collects a half space for each sample that a step of `reach_mm` could bring into contact.
 void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state) noexcept {
-  const Vec3 moved = state.proxy_mm - state.gathered_mm;
-  const double moved_mm = length(moved);
-  if (state.gathered_turned_mm == state.turned_mm && state.gathered_edit == tooth.edit_hash() && moved_mm <= k_linear_leaves * tooth.leaf_mm() &&
+  const double leaf = tooth.leaf_mm();
+  const double moved_mm = length(state.proxy_mm - state.gathered_mm);
+  if (state.gathered_turned_rad == state.turned_rad && state.gathered_edit == tooth.edit_hash() && moved_mm <= k_linear_leaves * leaf &&
       state.gathered_reach_mm >= reach_mm + moved_mm)
     return;
-  reach_mm += k_linear_leaves * tooth.leaf_mm();
+  constexpr double k_gather_leaves = 1.0;  // what touches where the surface will recede to is wanted, too
+  reach_mm = std::max(reach_mm, k_gather_leaves * leaf) + k_linear_leaves * leaf;
   state.gathered_mm = state.proxy_mm;
-  state.gathered_turned_mm = state.turned_mm;
+  state.gathered_turned_rad = state.turned_rad;
   state.gathered_edit = tooth.edit_hash();
   state.gathered_reach_mm = reach_mm;
   state.half_spaces.clear();
-  const double leaf = tooth.leaf_mm();
-  const double deepest = 0.5 * leaf;
+  state.gathered_samples.clear();
+  state.active = {};
   for (std::size_t p = 0; p < tool.patches.size(); ++p) {
     const auto& patch = tool.patches[p];
-    if (state.travel_mm + reach_mm <= state.patch_clear_until_mm[p]) continue;
-    if (state.travel_mm > state.patch_near_until_mm[p]) {
+    const double travel = travel_mm(state, patch.lever_mm);
+    if (travel + reach_mm <= state.patch_clear_until_mm[p]) continue;
+    if (travel > state.patch_near_until_mm[p]) {
       constexpr double k_margin_mm = 0.5, k_stays_near_mm = 0.1;
-      if (clear_around(tooth, state.proxy_mm + state.rotation * patch.centre_mm, patch.radius_mm + k_margin_mm)) {
-        state.patch_clear_until_mm[p] = state.travel_mm + k_margin_mm;
+      const double r = patch.radius_mm + k_margin_mm;
+      const Vec3 middle = state.proxy_mm + state.rotation * patch.centre_mm;
+      if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {
+        state.patch_clear_until_mm[p] = travel + k_margin_mm;
         continue;
       }
-      state.patch_near_until_mm[p] = state.travel_mm + k_stays_near_mm;
+      state.patch_near_until_mm[p] = travel + k_stays_near_mm;
     }
-    for (std::size_t i = patch.first; i < patch.last; ++i) {
-      if (state.travel_mm + reach_mm <= state.sample_clear_until_mm[i]) continue;
+    for (std::uint32_t i = patch.first; i < patch.last; ++i) {
+      if (travel + reach_mm <= state.sample_clear_until_mm[i]) continue;
       const auto s = tooth.sample(state.proxy_mm + state.rotation * tool.samples[i].at_mm, state.cursor);
-      state.sample_clear_until_mm[i] = state.travel_mm + s.distance_mm;
+      state.sample_clear_until_mm[i] = travel + s.distance_mm;
       if (s.distance_mm > reach_mm) continue;
       if (dot(s.gradient, s.gradient) < 1e-3) continue;  // no direction out: neighbours speak
-      state.half_spaces.push_back({s.gradient, std::max(s.distance_mm, -deepest)});
+      state.half_spaces.push_back({s.gradient, std::max(s.distance_mm, -k_deepest_leaves * leaf)});
+      state.gathered_samples.push_back(i);
     }
   }
+}
+
+/// The step from `gathered_mm` nearest to the wanted one. Samples alone would let the head sink in between them: where it
+/// rests, the head's own furthest place against the surface is asked too, and becomes a half space if it enters the tissue.
+HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wanted, double stride_mm, ContactState& state) noexcept {
+  auto solution = nearest_step(wanted, state.half_spaces, state.active);
+  const double leaf = tooth.leaf_mm();
+  const Vec3 since = state.proxy_mm - state.gathered_mm;
+  for (int round = 0; round < k_refinements && solution.feasible && solution.active.count > 0; ++round) {
+    if (length(solution.step - since) > stride_mm) break;  // it will be asked nearer by
+    bool refined = false;
+    for (int i = 0; i < solution.active.count; ++i) {
+      const Vec3 normal = normalized(state.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
+      const Vec3 furthest = tool.furthest_along(state.rotation.transposed(-normal));
+      const auto s = tooth.sample(state.gathered_mm + solution.step + state.rotation * furthest, state.cursor);
+      if (s.distance_mm > -k_refined_mm || dot(s.gradient, s.gradient) < 1e-3) continue;
+      if (state.half_spaces.size() >= state.gathered_samples.size() + k_refined_room) {  // begin anew; the active ones go with them
+        state.half_spaces.resize(state.gathered_samples.size());
+        solution.active.count = 0;
+      }
+      state.half_spaces.push_back({s.gradient, std::max(s.distance_mm, -k_deepest_leaves * leaf) - dot(s.gradient, solution.step)});
+      refined = true;
+    }
+    if (!refined) break;
+    solution = nearest_step(wanted, state.half_spaces, solution.active);
+  }
+  state.active = solution.active;
+  return solution;
+}
+
+/// Means of k, c and 1/τ over the solid (or the void) tissues of a mix, and their share in it.
+double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {
+  double share = 0.0;
+  mean = {};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mix.count); ++i) {
+    const std::uint8_t label = mix.label[i];
+    if (label == k_air || tooth.is_solid(label) != solid) continue;
+    share += mix.share[i];
+    mean.stiffness_n_per_mm += mix.share[i] * tissue[label].stiffness_n_per_mm;
+    mean.damping_n_s_per_mm += mix.share[i] * tissue[label].damping_n_s_per_mm;
+    mean.recession_per_s += mix.share[i] * tissue[label].recession_per_s;
+  }
+  if (share > 0.0) {
+    mean.stiffness_n_per_mm /= share;
+    mean.damping_n_s_per_mm /= share;
+    mean.recession_per_s /= share;
+  }
+  return share;
 }
 
 }  // namespace
@@ -91,31 +150,32 @@ ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first
     samples = std::max(samples, t.samples.size());
     patches = std::max(patches, t.patches.size());
   }
-  state.sample_clear_until_mm.assign(samples, 0.0);
-  state.patch_clear_until_mm.assign(patches, 0.0);
+  state.sample_clear_until_mm.assign(samples, -1.0);
+  state.patch_clear_until_mm.assign(patches, -1.0);
   state.patch_near_until_mm.assign(patches, -1.0);
-  state.half_spaces.reserve(samples);
+  state.counted.assign(samples, 0);
+  state.gathered_samples.reserve(samples);
+  state.half_spaces.reserve(samples + k_refined_room);
   return state;
 }
 
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept {
   const Vec3 before = state.proxy_mm;
   const Mat3 turned = rotation(device.rotation);
-  const double turn_mm = turn_bound_mm(state.rotation, turned, tool.reach_mm);
-  state.travel_mm += turn_mm;
-  state.turned_mm += turn_mm;
+  state.turned_rad += turn_bound_rad(state.rotation, turned);
   state.rotation = turned;
   if (state.point != point) reset(state, tool, point);
 
+  ContactResult result;
   const double leaf = tooth.leaf_mm();
   const Vec3 way = device.tip_mm - state.proxy_mm;
-  const double way_mm = length(way);
-  if (state.tool_clear_until_mm <= state.travel_mm + way_mm)
-    state.tool_clear_until_mm = state.travel_mm + tool_clearance_mm(tooth, tool, turned, state.proxy_mm);
+  const double way_mm = length(way), travel = travel_mm(state, tool.reach_mm);
+  if (state.tool_air_until_mm <= travel + way_mm) state.tool_air_until_mm = travel + tool_air_mm(tooth, tool, turned, state.proxy_mm);
   bool blocked = false;
-  if (state.travel_mm + way_mm < state.tool_clear_until_mm) {
+  if (travel + way_mm < state.tool_air_until_mm) {
     state.proxy_mm = device.tip_mm;
-    state.travel_mm += way_mm;
+    state.moved_mm += way_mm;
+    result.in_air = true;
   } else {
     // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves.
     double stride = state.touching ? k_resting_stride * leaf : leaf;
@@ -123,15 +183,14 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       const Vec3 rest = device.tip_mm - state.proxy_mm;
       const double rest_mm = length(rest);
       gather(tooth, tool, std::min(rest_mm, stride) + 0.02 * leaf, state);
-      // the whole way is projected, and what is left of it shortened: a deep push must not hold back a slide
-      const Vec3 wanted = rest;
-      // the half spaces stand about the place where they were gathered: so do the steps
+      // The whole way is projected, and what is left of it shortened: a deep push must not hold back a slide.
+      // The half spaces stand about the place where they were gathered: so do the steps.
       const Vec3 since = state.proxy_mm - state.gathered_mm;
-      auto solution = nearest_step(since + wanted, state.half_spaces);
+      auto solution = solve(tooth, tool, since + rest, stride, state);
       if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
         for (auto& h : state.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
-        state.gathered_turned_mm = -1;
-        solution = nearest_step(since + wanted, state.half_spaces);
+        state.gathered_turned_rad = -1.0;
+        solution = nearest_step(since + rest, state.half_spaces);
       }
       solution.step -= since;
       Vec3 stepped = solution.feasible ? solution.step : Vec3{};
@@ -140,17 +199,16 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
         stepped = stepped * (stride / stepped_mm);
         stepped_mm = stride;
       }
-      const Vec3 held = solution.step - wanted;
+      const Vec3 held = solution.step - rest;
       blocked = !solution.feasible || dot(held, held) > k_settled_mm * k_settled_mm;
       if (stepped_mm <= k_settled_mm) break;  // settled: standing still keeps what was gathered
       state.proxy_mm += stepped;
-      state.travel_mm += stepped_mm;
+      state.moved_mm += stepped_mm;
       if (!blocked && rest_mm <= stride) break;
       if (stepped_mm > 0.5 * stride) stride = leaf;
     }
   }
 
-  ContactResult result;
   result.moved_mm = state.proxy_mm - before;
   const Vec3 out = state.proxy_mm - device.tip_mm;
   result.penetration_mm = length(out);
@@ -164,60 +222,85 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   return result;
 }
 
-TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const TissueConstants* tissue, ContactState& state) noexcept {
+TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue,
+                           double recession_mm, ContactState& state) noexcept {
+  const double leaf = tooth.leaf_mm();
+  const Vec3 tip = state.proxy_mm - state.normal * recession_mm;
   const Vec3 swung = state.normal - state.means_normal;
-  const Vec3 moved = state.proxy_mm - state.means_proxy_mm;
-  const double same_mm = 0.5 * k_linear_leaves * tooth.leaf_mm();
-  if (state.means_turned_mm == state.turned_mm && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2 &&
+  const Vec3 moved = tip - state.means_tip_mm;
+  const double same_mm = k_same_means_leaves * leaf;
+  if (state.means_turned_rad == state.turned_rad && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2 &&
       dot(moved, moved) < same_mm * same_mm)
     return state.means;
-  state.means_turned_mm = state.turned_mm;
-  state.means_proxy_mm = state.proxy_mm;
+  state.means_turned_rad = state.turned_rad;
+  state.means_tip_mm = tip;
   state.means_edit = tooth.edit_hash();
   state.means_normal = state.normal;
   TouchedMeans& means = state.means;
   means = {};
-  const double leaf = tooth.leaf_mm();
-  const double touch_mm = 0.5 * leaf, before_mm = 0.9 * leaf, reached_mm = 0.1 * leaf;
-  double solid_area = 0, void_area = 0;
-  for (std::size_t p = 0; p < tool.patches.size(); ++p) {
+  const double touch_mm = k_touch_leaves * leaf, fade_mm = k_fade_leaves * leaf;
+  const Vec3 ahead = state.normal * (-k_ahead_leaves * leaf), close = state.normal * (-0.1 * leaf), since = tip - state.gathered_mm;
+  const std::uint32_t head_end = tool.patches[tool.head_patches - 1].last;
+  double cut_area = 0.0, solid_area = 0.0, void_area = 0.0;
+  TissueConstants solid_mean, void_mean;
+  const auto count_void = [&](double area) {
+    if (area <= 0.0) return;
+    void_area += area;
+    means.void_tissue = true;
+    means.of.stiffness_n_per_mm += area * void_mean.stiffness_n_per_mm;
+    means.of.damping_n_s_per_mm += area * void_mean.damping_n_s_per_mm;
+  };
+  std::fill_n(state.counted.begin(), head_end, std::uint8_t{0});
+  for (std::size_t n = 0; n < state.gathered_samples.size(); ++n) {
+    const std::uint32_t i = state.gathered_samples[n];
+    const auto& s = tool.samples[i];
+    const bool head = i < head_end;
+    if (head) state.counted[i] = 1;
+    const double seen = -dot(state.rotation * s.normal, state.normal);
+    if (seen <= 0.0) continue;
+    const auto& h = state.half_spaces[n];
+    double touch = std::clamp(1.0 - (h.slack_mm + dot(h.normal, since) - touch_mm) / fade_mm, 0.0, 1.0);
+    if (touch <= 0.0 && !head) continue;
+    const Vec3 at = tip + state.rotation * s.at_mm;
+    const TissueMix mix = tooth.mix(at + ahead, state.cursor);
+    double solid_share = mean_of(tooth, mix, tissue, true, solid_mean);
+    const double void_share = mean_of(tooth, mix, tissue, false, void_mean);
+    const double area = s.area_mm2 * seen;
+    if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth, tooth.mix(at + close, state.cursor), tissue, true, solid_mean) <= 0.0) touch = 0.0;
+    if (touch > 0.0) {
+      const double touched = area * touch;
+      cut_area += touched;
+      if (head) means.of.recession_per_s += touched * solid_mean.recession_per_s;
+      // a sheet over air holds the tool whole; one over void tissue only as far as there is solid tissue ahead
+      solid_share = void_share > 0.0 ? solid_share / (solid_share + void_share) : 1.0;
+      solid_area += touched * solid_share;
+      means.of.stiffness_n_per_mm += touched * solid_share * solid_mean.stiffness_n_per_mm;
+      means.of.damping_n_s_per_mm += touched * solid_share * solid_mean.damping_n_s_per_mm;
+      if (head) count_void(touched * (1.0 - solid_share));
+    }
+    if (head) count_void(area * (1.0 - touch) * void_share);
+  }
+  for (std::size_t p = 0; p < tool.head_patches; ++p) {
     const auto& patch = tool.patches[p];
-    const bool near_solid = state.patch_clear_until_mm[p] <= state.travel_mm + touch_mm;
-    if (!near_solid && p >= tool.head_patches) continue;
-    for (std::size_t i = patch.first; i < patch.last; ++i) {
+    if (voids.clear_mm(tip + state.rotation * patch.centre_mm) > patch.radius_mm + 3.0 * leaf) continue;
+    for (std::uint32_t i = patch.first; i < patch.last; ++i) {
+      if (state.counted[i] != 0) continue;
       const auto& s = tool.samples[i];
       const double seen = -dot(state.rotation * s.normal, state.normal);
-      if (seen <= 0) continue;
-      const Vec3 at = state.proxy_mm + state.rotation * s.at_mm;
-      std::uint8_t label = tooth.tissue_at(at - state.normal * before_mm, state.cursor);
-      if (label == k_air) continue;
-      if (!tooth.is_solid(label)) {  // void tissue counts from where the surface reaches it, not from behind the last solid leaf
-        const std::uint8_t nearer = tooth.tissue_at(at - state.normal * reached_mm, state.cursor);
-        if (tooth.is_solid(nearer)) label = nearer;
-      }
-      double area = s.area_mm2 * seen;
-      if (tooth.is_solid(label)) {
-        const double gap = state.sample_clear_until_mm[i] - state.travel_mm;  // as the proxy's search left it
-        area *= std::clamp(1.0 - gap / touch_mm, 0.0, 1.0);
-        solid_area += area;
-        if (p < tool.head_patches) means.of.recession_per_s += area * tissue[label].recession_per_s;
-      } else {
-        void_area += area;
-        means.void_tissue = true;
-      }
-      means.of.stiffness_n_per_mm += area * tissue[label].stiffness_n_per_mm;
-      means.of.damping_n_s_per_mm += area * tissue[label].damping_n_s_per_mm;
+      if (seen <= 0.0) continue;
+      const Vec3 at = tip + state.rotation * s.at_mm + ahead;
+      if (tooth.tissue_at(at, state.cursor) != k_air) count_void(s.area_mm2 * seen * mean_of(tooth, tooth.mix(at, state.cursor), tissue, false, void_mean));
     }
   }
-  const double area = solid_area + void_area;
-  means.touching = solid_area > 1e-9;
+  means.touching = cut_area > 1e-9;
   if (!means.touching) {
     means.of = {};
     return means;
   }
+  const double area = solid_area + void_area;
   means.of.stiffness_n_per_mm /= area;
   means.of.damping_n_s_per_mm /= area;
-  means.of.recession_per_s /= solid_area;
+  means.of.recession_per_s /= cut_area;
   return means;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/contact/contact_tool.h"
 #include "engine/contact/half_spaces.h"
 #include "engine/tooth/octree.h"
+#include "engine/tooth/void_map.h"
 
 namespace cavum {
 
@@ -26,25 +27,28 @@ struct TouchedMeans {
   bool void_tissue = false;  ///< pulp or another void tissue lies before the head
 };
 
-/// Memory of the contact: the proxy, and until which travel each patch and sample is known to be in free air.
+/// Memory of the contact: the proxy, and how far each patch and sample may travel through free air that is known already.
+/// Travel is an upper bound of the way of a part of the tool: what the tip moved, and what the tool turned times the part's lever.
 struct ContactState {
   Vec3 proxy_mm;
   Mat3 rotation;
   Vec3 normal;  ///< last contact normal, out of the tooth; zero before the first contact
   bool touching = false;
-  int point = -1;        ///< diamond point that the arrays belong to
-  double travel_mm = 0;  ///< how far any part of the tool has moved so far, an upper bound
-  double tool_clear_until_mm = 0;
-  std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;  ///< in units of travel
-  double turned_mm = 0;                                                                  ///< part of the travel that came from rotation
-  ReservedVector<HalfSpace> half_spaces;                                                 ///< about `gathered_mm`; room for one of each sample
-  Vec3 gathered_mm;  ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
-  double gathered_turned_mm = -1, gathered_reach_mm = 0;
+  int point = -1;                           ///< diamond point that the arrays belong to
+  double moved_mm = 0.0, turned_rad = 0.0;  ///< of the tip and of the tool, so far
+  double tool_air_until_mm = 0.0;
+  std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;
+  ReservedVector<HalfSpace> half_spaces;         ///< about `gathered_mm`: one of each near sample, then refined ones
+  ReservedVector<std::uint32_t> gathered_samples;  ///< samples of the first half spaces
+  ActiveSet active;                              ///< half spaces that held the last step
+  Vec3 gathered_mm;                              ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
+  double gathered_turned_rad = -1.0, gathered_reach_mm = 0.0;
   std::uint64_t gathered_edit = 0;
   TouchedMeans means;  ///< as long as neither tool, tooth nor normal changed much
-  double means_turned_mm = -1;
+  double means_turned_rad = -1.0;
   std::uint64_t means_edit = 0;
-  Vec3 means_proxy_mm, means_normal;
+  Vec3 means_tip_mm, means_normal;
+  std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with
   Octree::Cursor cursor;
 };
 [[nodiscard]] ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm);
@@ -52,6 +56,7 @@ struct ContactState {
 /// What one tick of contact found.
 struct ContactResult {
   bool touching = false;
+  bool in_air = false;        ///< nothing of the tooth, not even void tissue, near any part of the tool
   Vec3 normal;                ///< out of the tooth, from the device to the proxy
   double penetration_mm = 0;  ///< X, before any recession that the cutting still owes
   Vec3 moved_mm;              ///< how far the proxy moved
@@ -60,8 +65,10 @@ struct ContactResult {
 /// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
-/// A sample touches solid tissue within half a leaf, fading out linearly, and void tissue where its
-/// surface has reached it; so k and c change continuously across every border. `tissue` has 256 entries.
-[[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const TissueConstants* tissue, ContactState& state) noexcept;
+/// A sample touches solid tissue within half a leaf of it, fading out linearly; where it does not, void tissue before it counts.
+/// Which tissue that is, is interpolated between leaves, where the surface will be once the `recession_mm` that is not yet
+/// carved is: so k and c change continuously across every border and through every carve. `tissue` has 256 entries.
+[[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue,
+                                         double recession_mm, ContactState& state) noexcept;
 
 }  // namespace cavum

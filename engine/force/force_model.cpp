@@ -21,6 +21,7 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     model.rendering.kvc_n_per_mm = r.number("kvc_n_per_mm", 0, 10);
     model.rendering.filtered_damping_n_s_per_mm = r.number("filtered_damping_n_s_per_mm", 0, 1);
     model.rendering.speed_filter_s = r.number("speed_filter_s", 0, 1);
+    model.rendering.drag_n_per_mm = r.number_or("drag_n_per_mm", 1e-3, 10, model.rendering.drag_n_per_mm);
     r.finish();
   }
   const auto* materials = in.table("materials");
@@ -33,6 +34,13 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     material.tau_s = m.number_or("tau_s", 0, 1e6, 0);
     m.finish();
     model.materials.emplace(name.str(), material);
+  }
+  if (const auto* terms = in.array("terms")) {
+    if (terms->size() > k_max_terms) in.fail("terms", "are more than " + std::to_string(k_max_terms), "leave out the smallest");
+    for (const auto& node : *terms) {
+      if (!node.is_table()) in.fail("terms", "hold something that is not a table", "write [[terms]] with kind = \"…\" for each");
+      model.terms.push_back(read_force_term(*node.as_table(), where));
+    }
   }
   in.finish();
   return model;

@@ -11,7 +11,7 @@ void update_speed(const RenderingModel& model, RenderState& state, bool touching
 }
 
 double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm, double approach_mm,
-                      double dt_s) noexcept {
+                      double dt_s, double terms_n) noexcept {
   if (!touching) {
     state.branch_n = 0.0;
     return 0.0;
@@ -21,7 +21,7 @@ double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderSt
   const double c = tissue.damping_n_s_per_mm - calm;
   // implicit Euler: z = (z + Kvc·dX) / (1 + Kvc·dt/c), written so that c = 0 gives 0
   state.branch_n = c > 0.0 ? (state.branch_n + model.kvc_n_per_mm * approach_mm) * (c / (c + model.kvc_n_per_mm * dt_s)) : 0.0;
-  return std::max(0.0, tissue.stiffness_n_per_mm * depth_mm + state.branch_n + calm * state.speed_mm_s);
+  return std::max(0.0, tissue.stiffness_n_per_mm * depth_mm + state.branch_n + calm * state.speed_mm_s + terms_n);
 }
 
 }  // namespace cavum

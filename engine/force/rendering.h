@@ -12,6 +12,7 @@ struct RenderingModel {
   double kvc_n_per_mm = 0.7;                   ///< spring of the Maxwell branch
   double filtered_damping_n_s_per_mm = 0.002;  ///< on the filtered speed, for the device's own ringing
   double speed_filter_s = 0.005;               ///< time constant of the speed estimate
+  double drag_n_per_mm = 0.7;  ///< spring that friction is rendered through (force_terms.h); from 1.5 on, two ticks of delay make it ring
 };
 
 struct RenderState {
@@ -22,8 +23,9 @@ struct RenderState {
 /// Filtered approach speed after the tip moved `approach_mm` deeper in a tick of `dt_s`; 0 out of contact.
 void update_speed(const RenderingModel& model, RenderState& state, bool touching, double approach_mm, double dt_s) noexcept;
 
-/// Rendered force, N, never pulling: F = k·X + z + b·V, z' = Kvc·V − (Kvc/(c−b))·z integrated implicitly, b ≤ c.
+/// Rendered force, N, never pulling: F = k·X + z + b·V + terms, z' = Kvc·V − (Kvc/(c−b))·z integrated implicitly, b ≤ c.
+/// `terms_n` is what force terms add to the tissue's force.
 [[nodiscard]] double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm,
-                                    double approach_mm, double dt_s) noexcept;
+                                    double approach_mm, double dt_s, double terms_n = 0.0) noexcept;
 
 }  // namespace cavum

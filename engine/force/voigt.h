@@ -13,10 +13,11 @@ struct Viscoelastic {
 };
 
 /// Model force, N, at penetration `depth_mm` (0 = touching) and approach speed `speed_mm_s` (positive = deeper).
-/// Returns 0 out of contact and whenever the damper would pull the tool inwards.
-[[nodiscard]] constexpr double voigt_force_n(Viscoelastic tissue, double depth_mm, double speed_mm_s) noexcept {
+/// `terms_n` is what force terms add to the tissue's force (force_terms.h).
+/// Returns 0 out of contact and whenever the sum would pull the tool inwards.
+[[nodiscard]] constexpr double voigt_force_n(Viscoelastic tissue, double depth_mm, double speed_mm_s, double terms_n = 0.0) noexcept {
   if (!(depth_mm > 0.0)) return 0.0;
-  return std::max(0.0, tissue.stiffness_n_per_mm * depth_mm + tissue.damping_n_s_per_mm * speed_mm_s);
+  return std::max(0.0, tissue.stiffness_n_per_mm * depth_mm + tissue.damping_n_s_per_mm * speed_mm_s + terms_n);
 }
 
 }  // namespace cavum

@@ -45,6 +45,7 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
     point.head_radius_mm = std::max(point.head_radius_mm, p.at.r_mm);
     if (p.normal.z_mm < -1e-9) point.widest_from_mm = p.at.z_mm;  // still facing down
   }
+  point.field = HeadField(point.head, point.cutting_length_mm, point.head_radius_mm);
   point.smallest_radius_mm = point.head.smallest_arc_mm(point.head_radius_mm);
   point.widest_to_mm = point.cutting_length_mm;
   for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm))

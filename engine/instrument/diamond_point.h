@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/instrument/head_field.h"
 #include "engine/instrument/profile.h"
 
 namespace cavum {
@@ -18,8 +19,9 @@ struct DiamondPoint {
   double smallest_radius_mm = 0;                ///< of the head's curvature: a ball end's, or the head's own
   double widest_from_mm = 0, widest_to_mm = 0;  ///< heights between which the head does not get narrower either way
   Profile head;                                 ///< the coated part alone, closed by a flat top
+  HeadField field;                              ///< its distance as a table: what cuts
 
-  /// Signed distance, mm, to the coated head, in the tool frame: what cuts.
+  /// Signed distance, mm, to the coated head, in the tool frame, exact.
   [[nodiscard]] double head_distance_mm(Vec3 tool_mm) const noexcept { return std::max(head.distance_mm(tool_mm), tool_mm.z - cutting_length_mm); }
 };
 

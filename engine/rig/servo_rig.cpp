@@ -18,7 +18,7 @@ HandIntent drilling_hand(double t_s) {
   constexpr double k_radius_mm = 1.0, k_turn_s = 8.0, k_start_mm = 0.3, k_press_mm = 1.2, k_feed_mm_s = 0.06;
   const SinCos turn = det_sincos(2 * k_pi * t_s / k_turn_s);
   const double in_turn = t_s / k_turn_s - std::floor(t_s / k_turn_s);
-  const double lift_mm = in_turn > 0.9 ? 2.0 : 0.0;
+  const double lift_mm = std::max(0.0, 2.0 - 40.0 * std::fabs(in_turn - 0.95));
   const double depth_mm = std::min(2.0 * t_s, k_start_mm + k_press_mm + k_feed_mm_s * t_s);
   return {{k_radius_mm * turn.cos, k_radius_mm * turn.sin, k_start_mm - depth_mm + lift_mm}, t_s > 0.1 ? 1.0 : 0.0};
 }

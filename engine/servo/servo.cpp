@@ -108,6 +108,7 @@ ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>&
   model.config = config;
   model.force = force;
   for (const auto& p : tray) model.tray.push_back(make_contact_tool(p));
+  model.voids = VoidMap(tooth.octree);
   for (const auto& t : tooth.tissues) {
     const auto found = force.materials.find(t.name);
     if (found == force.materials.end()) {
@@ -127,6 +128,7 @@ ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 fi
   state.tooth.reserve_edits(k_edit_room);
   state.contact = make_contact_state(model.tray, first_tip_mm);
   state.last_tip_mm = first_tip_mm;
+  state.terms.count = model.force.terms.size();
   state.removed.reserve(k_removed_room);
   return state;
 }
@@ -140,25 +142,45 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   state.rpm = next_rpm(model.config, state.rpm, input);
 
   double wanted_n = 0.0;
+  Vec3 wanted_drag_n;
   if (input.point < model.tray.size()) {
     const ContactTool& tool = model.tray[input.point];
     const Pose device = input.pose();
     const bool was_touching = state.contact.touching;
     const ContactResult contact = update_contact(state.tooth, tool, input.point, device, state.contact);
-    const TouchedMeans means =
-        contact.touching || state.rpm > 0 ? touched_means(state.tooth, tool, model.tissue.data(), state.contact) : TouchedMeans{};
     // What the proxy advanced along the contact is paid from the recession that was owed; so the surface recedes
     // at exactly v·dt, whatever the rounding of a single carve.
     if (contact.touching && was_touching)
       state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
     else
       state.recession_mm = 0.0;
+    const TouchedMeans means = !contact.in_air && (contact.touching || state.rpm > 0)
+                                   ? touched_means(state.tooth, tool, model.voids, model.tissue.data(), std::max(0.0, state.recession_mm), state.contact)
+                                   : TouchedMeans{};
     const double approach_mm = contact.touching ? -dot(device.tip_mm - state.last_tip_mm, contact.normal) : 0.0;
     const double penetration = contact.touching ? std::max(0.0, contact.penetration_mm - state.recession_mm) : 0.0;
     const Viscoelastic tissue{means.of.stiffness_n_per_mm, means.of.damping_n_s_per_mm};
     update_speed(model.force.rendering, state.render, contact.touching, approach_mm, dt);
     out.model_force_n = voigt_force_n(tissue, penetration, state.render.speed_mm_s);
-    wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt);
+    TermsForce terms;
+    if (!model.force.terms.empty()) {
+      const TermInput seen{.touching = contact.touching,
+                           .penetration_mm = penetration,
+                           .approach_mm_s = state.render.speed_mm_s,
+                           .stiffness_n_per_mm = tissue.stiffness_n_per_mm,
+                           .damping_n_s_per_mm = tissue.damping_n_s_per_mm,
+                           .voigt_n = out.model_force_n,
+                           .rpm = state.rpm,
+                           .tick = state.tick,
+                           .dt_s = dt};
+      terms = apply_terms(model.force.terms, model.force.rendering, seen, device.tip_mm - state.last_tip_mm, state.terms);
+      out.model_force_n = voigt_force_n(tissue, penetration, state.render.speed_mm_s, terms.tissue_n);
+      if (contact.touching) out.model_force_n += dot(terms.drag_n, contact.normal);
+      out.drag_n = terms.drag_n;
+      wanted_drag_n = terms.rendered_drag_n;
+      if (!terms.finite) out.notices |= k_notice_not_finite;
+    }
+    wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt, terms.tissue_n);
     if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, input.point, out);
     state.last_tip_mm = device.tip_mm;
     out.contact = contact.touching;
@@ -173,7 +195,9 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   out.proxy_mm = state.contact.proxy_mm;
   out.rpm = state.rpm;
   out.removed_count = static_cast<std::uint32_t>(state.removed.size());
-  out.rendered_force_n = make_safe(model.config.limits, state.safety, out.normal * wanted_n, fresh, dt, out.notices);
+  Vec3 wanted = out.normal * wanted_n;
+  if (!model.force.terms.empty()) wanted += wanted_drag_n;
+  out.rendered_force_n = make_safe(model.config.limits, state.safety, wanted, fresh, dt, out.notices);
 
   ++state.tick;
   const TickRecord record = make_tick_record(out);
@@ -194,7 +218,7 @@ std::uint64_t state_hash(const ServoState& s) noexcept {
                                      s.safety.force_n.z,   s.safety.used_budget_n_s,
                                      s.safety.silent_s,    s.rpm,
                                      s.recession_mm,       s.swept_mm};
-  return fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version));
+  return hash_of(s.terms, fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version)));
 }
 
 }  // namespace cavum

@@ -20,7 +20,7 @@
 namespace cavum {
 
 /// The version of the physics: a recording replays bit for bit under the version that made it.
-inline constexpr int k_physics_version = 1;
+inline constexpr int k_physics_version = 2;
 
 /// Settings of the handpiece, the device and the tick. TOML text in a session: see `to_toml`.
 struct ServoConfig {
@@ -39,6 +39,7 @@ struct ServoModel {
   ForceModel force;
   std::vector<ContactTool> tray;              ///< diamond points ready for contact
   std::array<TissueConstants, 256> tissue{};  ///< by tissue id
+  VoidMap voids;                              ///< of the intact tooth
 };
 /// Throws Error when a solid tissue has no material in the force model or the tray is empty.
 [[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force,
@@ -50,6 +51,7 @@ struct ServoState {
   std::int64_t tick = 0;
   ContactState contact;
   RenderState render;
+  TermsState terms;
   SafetyState safety;
   Vec3 last_tip_mm;
   double rpm = 0.0;

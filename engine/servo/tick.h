@@ -48,7 +48,9 @@ struct TickInput {
 /// The result of one tick. `removed` lists the leaves turned to air in this tick.
 struct TickOutput {
   Vec3 rendered_force_n;            ///< on the hand, tooth frame, after rendering and safety
-  double model_force_n = 0.0;       ///< F = k X + c V and further terms, along the contact normal, >= 0
+  double model_force_n = 0.0;       ///< F = k X + c V and further terms, along the contact normal; below 0 only where friction holds back
+  Vec3 drag_n;                      ///< friction of the force terms on the hand, tooth frame, against the tip's motion, in air too; its part along
+                                    ///< the normal is in `model_force_n` already
   double penetration_mm = 0.0;      ///< X >= 0
   double approach_mm_s = 0.0;       ///< V, positive = deeper
   double stiffness_n_per_mm = 0.0;  ///< k of the tissues touched

@@ -44,7 +44,7 @@ void SessionWriter::run() noexcept {
   }
   report_.why = stream_.why();
   guarded([&] {
-    note_overruns(recorder_.ticks());
+    note_counts(recorder_.ticks());
     const nlohmann::json detail{{"why", stream_.why()}, {"error", stream_.detail()}};
     recorder_.add_event(recorder_.ticks(), "servo_stopped", detail.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   });
@@ -64,7 +64,10 @@ void SessionWriter::take(const ServoTick& tick) {
 }
 
 void SessionWriter::note_changes(const ServoTick& tick) {
-  if (tick.skipped_periods > 0) recorder_.add_event(tick.tick, "servo_gap", nlohmann::json{{"periods", tick.skipped_periods}}.dump());
+  if (tick.skipped_periods > 0) {
+    if (gaps_++ == 0) first_gap_tick_ = tick.tick;
+    gap_periods_ += tick.skipped_periods;
+  }
   const bool silent = (tick.output.notices & k_notice_stale_stylus) != 0;
   if (silent && !was_silent_)
     recorder_.add_event(tick.tick, "stylus_silent", nlohmann::json{{"fault", (tick.input.flags & k_stylus_fault) != 0}}.dump());
@@ -78,15 +81,16 @@ void SessionWriter::note_changes(const ServoTick& tick) {
     ++overruns_;
     worst_late_ns_ = std::max(worst_late_ns_, tick.late_ns);
   }
-  if ((tick.tick - overruns_since_) * period_ns_ >= 1'000'000'000) note_overruns(tick.tick);
+  if ((tick.tick - counted_since_) * period_ns_ >= 1'000'000'000) note_counts(tick.tick);
 }
 
-void SessionWriter::note_overruns(std::int64_t tick) {
-  overruns_since_ = tick;
-  if (overruns_ == 0) return;
-  const nlohmann::json detail{{"count", overruns_}, {"worst_late_ms", static_cast<double>(worst_late_ns_) * 1e-6}};
-  overruns_ = worst_late_ns_ = 0;
-  recorder_.add_event(tick, "overruns", detail.dump());
+void SessionWriter::note_counts(std::int64_t tick) {
+  counted_since_ = tick;
+  if (gaps_ > 0)
+    recorder_.add_event(tick, "servo_gap", nlohmann::json{{"periods", gap_periods_}, {"times", gaps_}, {"first_tick", first_gap_tick_}}.dump());
+  if (overruns_ > 0)
+    recorder_.add_event(tick, "overruns", nlohmann::json{{"count", overruns_}, {"worst_late_ms", static_cast<double>(worst_late_ns_) * 1e-6}}.dump());
+  gap_periods_ = gaps_ = overruns_ = worst_late_ns_ = 0;
 }
 
 }  // namespace cavum

@@ -24,7 +24,7 @@ struct WriterReport {
 
 /// Events it writes, with `detail_json`:
 ///   `overruns`      {"count", "worst_late_ms"}: ticks of the last second that started more than a period late
-///   `servo_gap`     {"periods"}: so many periods passed without a tick before this one
+///   `servo_gap`     {"periods", "times", "first_tick"}: periods of the last second that passed without a tick, and before which
 ///   `stylus_silent` {"fault"}: no fresh pose for longer than the watchdog allows, the force fades (fault: it gave NaN or nonsense)
 ///   `stylus_back`   null
 ///   `pedal_lost`, `pedal_back` null
@@ -49,7 +49,7 @@ class SessionWriter {
   void run() noexcept;
   void take(const ServoTick& tick);
   void note_changes(const ServoTick& tick);
-  void note_overruns(std::int64_t tick);
+  void note_counts(std::int64_t tick);
   template <class Action>
   void guarded(const Action& action) noexcept;
 
@@ -61,7 +61,9 @@ class SessionWriter {
   std::vector<RemovedLeaf> removed_;
   std::uint16_t last_flags_ = k_pedal_fresh;
   bool was_silent_ = false;
-  std::int64_t overruns_ = 0, worst_late_ns_ = 0, overruns_since_ = 0;
+  std::int64_t overruns_ = 0, worst_late_ns_ = 0;
+  std::int64_t gap_periods_ = 0, gaps_ = 0, first_gap_tick_ = 0;
+  std::int64_t counted_since_ = 0;  ///< tick
   WriterReport report_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace cavum {
 
-Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues) : leaf_mm_(grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
+Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues) : leaf_mm_(grid.leaf_mm), leaves_per_mm_(1.0 / grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
   const int widest = std::max({grid.size.x, grid.size.y, grid.size.z});
   const int thinnest = std::min({grid.size.x, grid.size.y, grid.size.z});
   if (thinnest < 1 || grid.tissue.size() != grid.count() || grid.distance.size() != grid.count() || !(grid.leaf_mm > 0))
@@ -57,16 +57,6 @@ std::uint32_t Octree::build(const TissueGrid& grid, IVec3 low, int level) {
     equal = equal && (c & k_kind) == k_uniform && c == node.child[0];
   }
   return equal ? node.child[0] : k_node | nodes_.add(node);
-}
-
-IVec3 Octree::leaf_at(Vec3 mm) const noexcept {
-  const Vec3 p = (mm - origin_mm_) / leaf_mm_;
-  const auto down = [](double v) {
-    if (!(v > -1e6)) return -1000000;
-    if (!(v < 1e6)) return 1000000;
-    return static_cast<std::int32_t>(std::floor(v));
-  };
-  return {down(p.x), down(p.y), down(p.z)};
 }
 
 IVec3 Octree::clamp_to_tree(Vec3 mm) const noexcept {
@@ -138,29 +128,32 @@ std::uint8_t Octree::tissue_at(Vec3 mm, Cursor& cursor) const noexcept {
   return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}, cursor), leaf_in_brick(leaf));
 }
 
+bool Octree::cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept {
+  const Vec3 p = (mm - origin_mm_) * leaves_per_mm_ - Vec3{0.5, 0.5, 0.5};
+  if (!(std::fabs(p.x) < 1e6 && std::fabs(p.y) < 1e6 && std::fabs(p.z) < 1e6)) return false;
+  cell.low = {floor_of(p.x), floor_of(p.y), floor_of(p.z)};
+  cell.fx = p.x - cell.low.x;
+  cell.fy = p.y - cell.low.y;
+  cell.fz = p.z - cell.low.z;
+  cell.crossing = ((cell.low.x & 3) == 3 ? 1 : 0) | ((cell.low.y & 3) == 3 ? 2 : 0) | ((cell.low.z & 3) == 3 ? 4 : 0);
+  const IVec3 brick{cell.low.x >> 2, cell.low.y >> 2, cell.low.z >> 2};
+  cell.ref[0] = find(brick, cursor);
+  for (int i = 1; i <= cell.crossing; ++i)
+    if ((i & ~cell.crossing) == 0) cell.ref[static_cast<std::size_t>(i)] = find(brick + IVec3{i & 1, i >> 1 & 1, i >> 2}, cursor);
+  return true;
+}
+
 SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
-  const Vec3 p = (mm - origin_mm_) / leaf_mm_ - Vec3{0.5, 0.5, 0.5};
-  if (!(std::fabs(p.x) < 1e6 && std::fabs(p.y) < 1e6 && std::fabs(p.z) < 1e6)) return {k_distance_band_leaves * leaf_mm_, {}};
-  const Vec3 floor_p{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
-  const IVec3 low{static_cast<std::int32_t>(floor_p.x), static_cast<std::int32_t>(floor_p.y), static_cast<std::int32_t>(floor_p.z)};
-  const double fx = p.x - floor_p.x, fy = p.y - floor_p.y, fz = p.z - floor_p.z;
-  // Eight corners out of one to eight bricks: each brick is looked up once.
+  Cell cell;
+  if (!cell_around(mm, cursor, cell)) return {k_distance_band_leaves * leaf_mm_, {}};
   int c[8];
-  const int step_x = (low.x & 3) == 3, step_y = (low.y & 3) == 3, step_z = (low.z & 3) == 3;  // does an axis cross into the next brick?
-  for (int bz = 0; bz <= step_z; ++bz)
-    for (int by = 0; by <= step_y; ++by)
-      for (int bx = 0; bx <= step_x; ++bx) {
-        const auto ref = find({(low.x >> 2) + bx, (low.y >> 2) + by, (low.z >> 2) + bz}, cursor);
-        const bool full = (ref & k_kind) == k_full_brick;
-        const std::int8_t* codes = full ? bricks_.items[ref & k_index].distance.data() : nullptr;
-        for (int i = 0; i < 8; ++i) {
-          const int ix = i & 1, iy = i >> 1 & 1, iz = i >> 2;
-          if ((step_x && ix != bx) || (step_y && iy != by) || (step_z && iz != bz)) continue;
-          const int leaf = leaf_in_brick(low + IVec3{ix, iy, iz});
-          c[i] = full ? codes[leaf] : code_in(ref, leaf);
-        }
-      }
-  const double gx = 1 - fx, gy = 1 - fy, gz = 1 - fz;
+  if (cell.crossing == 0 && (cell.ref[0] & k_kind) == k_full_brick) {
+    const std::int8_t* codes = bricks_.items[cell.ref[0] & k_index].distance.data() + leaf_in_brick(cell.low);
+    for (std::size_t i = 0; i < 8; ++i) c[i] = codes[k_leaf_of_block[i]];
+  } else {
+    for (int i = 0; i < 8; ++i) c[i] = code_in(cell.brick_of(i), cell.leaf_of(i));
+  }
+  const double fx = cell.fx, fy = cell.fy, fz = cell.fz, gx = 1 - fx, gy = 1 - fy, gz = 1 - fz;
   // along x first, then y, then z; the gradient falls out of the same differences
   const double e00 = c[0] * gx + c[1] * fx, e10 = c[2] * gx + c[3] * fx, e01 = c[4] * gx + c[5] * fx, e11 = c[6] * gx + c[7] * fx;
   const double f0 = e00 * gy + e10 * fy, f1 = e01 * gy + e11 * fy;
@@ -170,29 +163,43 @@ SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
   return {(f0 * gz + f1 * fz) * leaves * leaf_mm_, Vec3{dx, dy, f1 - f0} * leaves};
 }
 
-bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high) const noexcept {
+TissueMix Octree::mix(Vec3 mm, Cursor& cursor) const noexcept {
+  TissueMix mix{1, {k_air}, {1.0}};
+  Cell cell;
+  if (!cell_around(mm, cursor, cell)) return mix;
+  if (cell.crossing == 0 && (cell.ref[0] & k_kind) == k_uniform) {
+    mix.label[0] = static_cast<std::uint8_t>(cell.ref[0] & k_index);
+    return mix;
+  }
+  mix.count = 8;
+  for (int i = 0; i < 8; ++i) {
+    mix.label[static_cast<std::size_t>(i)] = tissue_in(cell.brick_of(i), cell.leaf_of(i));
+    mix.share[static_cast<std::size_t>(i)] = ((i & 1) != 0 ? cell.fx : 1 - cell.fx) * ((i & 2) != 0 ? cell.fy : 1 - cell.fy) * ((i & 4) != 0 ? cell.fz : 1 - cell.fz);
+  }
+  return mix;
+}
+
+bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high, bool air_only) const noexcept {
   const int edge = k_brick_edge << level;
   if (low.x > box_high.x || low.y > box_high.y || low.z > box_high.z) return true;
   if (low.x + edge <= box_low.x || low.y + edge <= box_low.y || low.z + edge <= box_low.z) return true;
   switch (ref & k_kind) {
     case k_uniform:
-      return !solid_[ref & k_index];
+      return (ref & k_index) == k_air || (!air_only && !solid_[ref & k_index]);
     case k_node: {
       const int half = edge / 2;
       for (int i = 0; i < 8; ++i)
         if (!clear_in(nodes_.items[ref & k_index].child[static_cast<std::size_t>(i)], level - 1,
-                      low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, box_low, box_high))
+                      low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, box_low, box_high, air_only))
           return false;
       return true;
     }
     case k_label_brick:
-      return !solid_[labels_.items[ref & k_index].tissue[0]];  // never mixed: a border would carry distances
+      return !air_only && !solid_[labels_.items[ref & k_index].tissue[0]];  // never mixed: a border would carry distances
     default:
       return false;
   }
 }
-
-bool Octree::is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept { return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm)); }
 
 void Octree::reserve_edits(std::size_t bricks) {
   bricks_.reserve(bricks);
@@ -269,6 +276,7 @@ void Octree::write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue,
 Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   Octree tree;
   tree.leaf_mm_ = in.get<double>();
+  tree.leaves_per_mm_ = 1.0 / tree.leaf_mm_;
   tree.origin_mm_ = {in.get<double>(), in.get<double>(), in.get<double>()};
   tree.size_ = {in.get<std::int32_t>(), in.get<std::int32_t>(), in.get<std::int32_t>()};
   const auto usable = [](int n) { return n >= 1 && n <= k_max_edge_leaves; };

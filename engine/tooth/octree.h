@@ -31,6 +31,14 @@ struct SurfaceSample {
   Vec3 gradient;
 };
 
+/// Shares of the tissues around a place, as trilinear interpolation between leaf centres sees them; they add up to 1.
+/// Continuous in the place, so that what is averaged with them is, too. A label may appear more than once.
+struct TissueMix {
+  int count = 0;
+  std::array<std::uint8_t, 8> label{};
+  std::array<double, 8> share{};
+};
+
 class Octree {
  public:
   static constexpr int k_brick_edge = 4;
@@ -48,7 +56,12 @@ class Octree {
   [[nodiscard]] double leaf_volume_mm3() const noexcept { return leaf_mm_ * leaf_mm_ * leaf_mm_; }
   [[nodiscard]] Vec3 centre_mm(IVec3 leaf) const noexcept { return origin_mm_ + Vec3{leaf.x + 0.5, leaf.y + 0.5, leaf.z + 0.5} * leaf_mm_; }
   /// The leaf that holds `mm`; may lie outside `size()`, where everything is air.
-  [[nodiscard]] IVec3 leaf_at(Vec3 mm) const noexcept;
+  [[nodiscard]] IVec3 leaf_at(Vec3 mm) const noexcept {
+    constexpr double k_far = 1e6;  // leaves; NaN ends there too
+    const auto down = [](double v) { return v > -k_far ? (v < k_far ? floor_of(v) : static_cast<std::int32_t>(k_far)) : -static_cast<std::int32_t>(k_far); };
+    const Vec3 p = (mm - origin_mm_) * leaves_per_mm_;
+    return {down(p.x), down(p.y), down(p.z)};
+  }
   [[nodiscard]] bool is_solid(std::uint8_t tissue) const noexcept { return solid_[tissue]; }
 
   /// Tissue of a leaf; air outside.
@@ -72,9 +85,12 @@ class Octree {
   /// Trilinear distance and gradient at `mm`.
   [[nodiscard]] SurfaceSample sample(Vec3 mm, Cursor& cursor) const noexcept;
   [[nodiscard]] std::uint8_t tissue_at(Vec3 mm, Cursor& cursor) const noexcept;
+  [[nodiscard]] TissueMix mix(Vec3 mm, Cursor& cursor) const noexcept;
   /// True when no solid leaf and no distance below the band lies in the box `low`..`high` (mm). May say
   /// false for an empty box, never true for one that is not.
-  [[nodiscard]] bool is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept;
+  [[nodiscard]] bool is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept { return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm), false); }
+  /// The same for every tissue, pulp and other void ones too: nothing but air.
+  [[nodiscard]] bool is_air(Vec3 low_mm, Vec3 high_mm) const noexcept { return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm), true); }
 
   /// Room for `bricks` more bricks, so that carving needs no allocation; copies keep it. Untouched room costs no memory.
   void reserve_edits(std::size_t bricks);
@@ -144,14 +160,39 @@ class Octree {
   struct Edit;  // what a carve carries down the tree
 
   [[nodiscard]] static constexpr int leaf_in_brick(IVec3 l) noexcept { return (l.x & 3) | (l.y & 3) << 2 | (l.z & 3) << 4; }
+  // A brick as eight blocks of 2x2x2 leaves: the first leaf of a block, and its leaves from there.
+  [[nodiscard]] static constexpr int first_of_block(int block) noexcept { return (block & 1) * 2 + (block >> 1 & 1) * 8 + (block >> 2) * 32; }
+  static constexpr std::array<int, 8> k_leaf_of_block{0, 1, 4, 5, 16, 17, 20, 21};
+  [[nodiscard]] static bool is_empty_block(const FullBrick& brick, int block) noexcept {
+    for (const int i : k_leaf_of_block) {
+      const auto leaf = static_cast<std::size_t>(first_of_block(block) + i);
+      if (brick.tissue[leaf] != k_air || brick.distance[leaf] != k_distance_far) return false;
+    }
+    return true;
+  }
   [[nodiscard]] int uniform_code(std::uint8_t tissue) const noexcept { return solid_[tissue] ? -k_distance_far : k_distance_far; }
+  /// The eight leaves whose centres surround a place: bit 0, 1, 2 of a corner's number = along x, y, z.
+  struct Cell {
+    IVec3 low;          // leaf of corner 0
+    double fx, fy, fz;  // place between the corners, 0..1
+    int crossing;       // axes along which the corners lie in two bricks, as bits
+    std::array<std::uint32_t, 8> ref;
+    [[nodiscard]] std::uint32_t brick_of(int corner) const noexcept { return ref[static_cast<std::size_t>(corner & crossing)]; }
+    [[nodiscard]] int leaf_of(int corner) const noexcept { return leaf_in_brick(low + IVec3{corner & 1, corner >> 1 & 1, corner >> 2}); }
+  };
+  /// False far outside of any tooth.
+  [[nodiscard]] bool cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept;
+  [[nodiscard]] static std::int32_t floor_of(double v) noexcept {
+    const auto i = static_cast<std::int32_t>(v);
+    return i - (v < i ? 1 : 0);
+  }
   [[nodiscard]] std::uint32_t find(IVec3 brick) const noexcept;
   [[nodiscard]] std::uint32_t find(IVec3 brick, Cursor& cursor) const noexcept;
   [[nodiscard]] int code_in(std::uint32_t ref, int leaf) const noexcept;
   [[nodiscard]] FullBrick expanded(std::uint32_t ref) const noexcept;
   [[nodiscard]] std::uint8_t tissue_in(std::uint32_t ref, int leaf) const noexcept;
   std::uint32_t build(const TissueGrid& grid, IVec3 low, int level);
-  [[nodiscard]] bool clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high) const noexcept;
+  [[nodiscard]] bool clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high, bool air_only) const noexcept;
   template <class Visit>
   void visit_cubes(std::uint32_t ref, int level, IVec3 low, const Visit& visit) const;
   template <class Shape>
@@ -163,7 +204,7 @@ class Octree {
   [[nodiscard]] std::uint32_t canonical(const FullBrick& brick);
   [[nodiscard]] IVec3 clamp_to_tree(Vec3 mm) const noexcept;
 
-  double leaf_mm_ = 0.05;
+  double leaf_mm_ = 0.05, leaves_per_mm_ = 20.0;
   Vec3 origin_mm_;
   IVec3 size_;
   int levels_ = 0;  // a root of 4·2^levels leaves

@@ -1,6 +1,9 @@
 // Templates of the octree: carving by a shape and visiting cubes. Included by octree.h only.
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+
 #include "engine/base/hash.h"
 #include "engine/tooth/octree.h"
 
@@ -12,6 +15,26 @@ struct Octree::Edit {
   double clearance_mm, band_mm;
   bool complete = true;
 };
+
+/// A shape that knows the distances at eight leaves at once, in single precision.
+template <class Shape>
+concept KnowsCorners = requires(const Shape& shape, float* out) { shape.at_corners(Vec3{}, true, out); };
+
+/// A shape that can tell for a ball whether an earlier carve did all of it already.
+template <class Shape>
+concept KnowsUnchanged = requires(const Shape& shape) { shape.unchanged(Vec3{}, 1.0); };
+inline constexpr double k_half_diagonal = 1.7320508075688773;  ///< of a cube, in half edges
+
+/// The shape's distances at the centres of 2x2x2 leaves, or of 2x2x2 blocks of 2x2x2 leaves, x fastest.
+template <class Shape, class Real>
+void corner_distances(const Shape& shape, Vec3 low_mm, double leaf_mm, bool of_blocks, Real* out) noexcept {
+  if constexpr (KnowsCorners<Shape>) {
+    shape.at_corners(low_mm, of_blocks, out);
+  } else {
+    const double apart_mm = of_blocks ? 2 * leaf_mm : leaf_mm;
+    for (int i = 0; i < 8; ++i) out[i] = shape(low_mm + Vec3{double(i & 1), double(i >> 1 & 1), double(i >> 2)} * apart_mm);
+  }
+}
 
 template <class Shape>
 bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm) noexcept {
@@ -29,9 +52,9 @@ void Octree::carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& sha
   // The shape's distance changes by at most 1 mm per mm: the centre speaks for the whole cube.
   const double half_mm = 0.5 * edge * leaf_mm_;
   const Vec3 middle = origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
-  const double radius_mm = half_mm * 1.7320508075688773;
+  const double radius_mm = half_mm * k_half_diagonal;
   if (shape(middle) > radius_mm + edit.band_mm) return;
-  if constexpr (requires { shape.unchanged(middle, radius_mm); })
+  if constexpr (KnowsUnchanged<Shape>)
     if (shape.unchanged(middle, radius_mm)) return;
   if (level == 0) {
     carve_brick(ref, low, shape, edit);
@@ -69,26 +92,42 @@ void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit
     edit.complete = false;
     return;
   }
+  // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
+  using Real = std::conditional_t<KnowsCorners<Shape>, float, double>;
+  const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + edit.band_mm);
+  const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)), clearance_mm = static_cast<Real>(edit.clearance_mm);
+  Real block_mm[8], tool_mm[8];
+  corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm);
+  if (*std::min_element(block_mm, block_mm + 8) > skip_mm) return;
   FullBrick brick = expanded(ref);
   bool changed = false;
-  // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
-  const double skip_mm = leaf_mm_ * 0.8660254037844387 + edit.band_mm;
   for (int block = 0; block < 8; ++block) {
-    const IVec3 corner{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2};
-    const IVec3 at = low + corner;
-    if (shape(origin_mm_ + Vec3{at.x + 1.0, at.y + 1.0, at.z + 1.0} * leaf_mm_) > skip_mm) continue;
+    if (block_mm[block] > skip_mm || is_empty_block(brick, block)) continue;
+    const IVec3 at = low + IVec3{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2};
+    const Vec3 first_mm = centre_mm(at);
+    if constexpr (KnowsUnchanged<Shape>) {
+      const double half = 0.5 * leaf_mm_;
+      if (shape.unchanged(first_mm + Vec3{half, half, half}, half * k_half_diagonal)) continue;
+    }
+    corner_distances(shape, first_mm, leaf_mm_, false, tool_mm);
+    int cut_code[8];
+    for (int i = 0; i < 8; ++i) {  // encode_distance, eight at a time
+      constexpr Real k_far = k_distance_far;
+      const Real code = std::min(std::max((clearance_mm - tool_mm[i]) * codes_per_mm, -k_far), k_far);
+      cut_code[i] = static_cast<int>(code + (k_far + Real{0.5})) - k_distance_far;
+    }
     for (int inner = 0; inner < 8; ++inner) {
-      const IVec3 leaf = at + IVec3{inner & 1, inner >> 1 & 1, inner >> 2};
-      const auto i = static_cast<std::size_t>(leaf_in_brick(leaf));
-      if (brick.tissue[i] == k_air && brick.distance[i] == k_distance_far) continue;
-      const double tool_mm = shape(centre_mm(leaf));
-      const bool removed = tool_mm < 0.0 && brick.tissue[i] != k_air;
-      int code = std::max<int>(brick.distance[i], encode_distance((edit.clearance_mm - tool_mm) / leaf_mm_));
+      const auto i = static_cast<std::size_t>(first_of_block(block) + k_leaf_of_block[inner]);
+      int code = brick.distance[i];
+      const bool removed = tool_mm[inner] < 0 && brick.tissue[i] != k_air;
+      if (cut_code[inner] <= code && !removed) continue;
       if (removed) {
+        const IVec3 leaf = at + IVec3{inner & 1, inner >> 1 & 1, inner >> 2};
         edit.removed.push_back(
             {static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
         brick.tissue[i] = k_air;
       }
+      code = std::max(code, cut_code[inner]);
       code = solid_[brick.tissue[i]] ? std::min(code, -1) : std::max(code, 1);
       changed = changed || removed || code != brick.distance[i];
       brick.distance[i] = static_cast<std::int8_t>(code);

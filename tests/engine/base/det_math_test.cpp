@@ -25,7 +25,41 @@ TEST(DetMath, AgreesWithLibmTo1e12) {
     for (const double beside : {-1e-9, 0.0, 1e-9}) check((quarter + 0.5) * k_pi / 2 + beside);
 }
 
+TEST(DetMath, ExpAndTanhAgreeWithLibmTo1e12) {
+  Random random(drawn_seed("DetMath.ExpAndTanhAgreeWithLibmTo1e12"));
+  const auto check_exp = [](double x) { ASSERT_NEAR(det_exp(x) / std::exp(x), 1.0, 1e-12) << x; };
+  const auto check_tanh = [](double x) {
+    ASSERT_NEAR(det_tanh(x), std::tanh(x), 1e-12) << x;
+    if (x != 0) {
+      ASSERT_NEAR(det_tanh(x) / std::tanh(x), 1.0, 1e-12) << x;
+    }
+    ASSERT_EQ(det_tanh(-x), -det_tanh(x)) << x;
+    ASSERT_LE(std::fabs(det_tanh(x)), 1.0) << x;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    check_exp(random.uniform(-700, 700));
+    check_exp(random.uniform(-1, 1));
+    check_tanh(random.uniform(-25, 25));
+    check_tanh(random.uniform(-1, 1));
+    check_tanh(random.uniform(-1e-6, 1e-6));
+  }
+  for (const double seam : {0.0, 0.6, 20.0})  // where the method changes
+    for (const double beside : {-1e-9, 0.0, 1e-9}) check_tanh(seam + beside);
+  for (const double x : {1e-300, 1e300, static_cast<double>(INFINITY)}) check_tanh(x);
+  EXPECT_EQ(det_exp(0.0), 1.0);
+}
+
+TEST(DetMath, TanhNeverFalls) {  // a friction law must not: the search for its speed relies on it
+  double last = -1.0;
+  for (int i = -250000; i <= 250000; ++i) {
+    const double t = det_tanh(i * 1e-4);
+    ASSERT_GE(t, last - 1e-15) << i;
+    last = t;
+  }
+}
+
 TEST(DetMath, IsKnownWhileCompiling) {
+  static_assert(det_exp(0.0) == 1.0 && det_tanh(0.0) == 0.0);
   static_assert(det_sincos(0.0).sin == 0.0 && det_sincos(0.0).cos == 1.0);
   static_assert(det_sincos(k_pi / 6).sin > 0.4999999999 && det_sincos(k_pi / 6).sin < 0.5000000001);
 }

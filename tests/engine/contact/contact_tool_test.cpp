@@ -64,6 +64,26 @@ std::pair<double, double> area_and_height(const Profile& profile, double low, do
   return {area, moment / area};
 }
 
+TEST(ContactTool, TheFurthestPlaceLiesOnTheHeadAndNoSampleLiesFurther) {
+  Random random(drawn_seed("ContactTool.TheFurthestPlaceLiesOnTheHeadAndNoSampleLiesFurther"));
+  for (const auto& name : point_names()) {
+    const ContactTool tool = make_contact_tool(diamond_point(name));
+    const std::uint32_t head = tool.patches[tool.head_patches - 1].last;
+    double most = 0;
+    for (int i = 0; i < 3000; ++i) {
+      Vec3 way = random_direction(random);
+      way.z = -std::fabs(way.z);  // towards the tooth; upwards the head ends in its neck
+      const Vec3 at = tool.furthest_along(way);
+      EXPECT_LE(tool.point.profile.distance_mm(at), 1e-4) << name << ": outside the head, at height " << at.z;
+      double samples = -1e9;
+      for (std::uint32_t s = 0; s < head; ++s) samples = std::max(samples, dot(tool.samples[s].at_mm, way));
+      ASSERT_GE(dot(at, way), samples - 1e-6) << name;
+      most = std::max(most, dot(at, way) - samples);
+    }
+    EXPECT_LT(most, 0.06) << name << ": no more than lies between samples 0.18 mm apart";
+  }
+}
+
 TEST(ContactTool, AreasOfTheSamplesAddUpToTheHead) {
   for (const auto& name : point_names()) {
     const ContactTool tool = make_contact_tool(diamond_point(name));

@@ -84,23 +84,23 @@ TEST(Proxy, OnAPlaneXIsTheAnalyticDepthWhateverTheOrientation) {
   for (int i = 0; i < 50; ++i) worst.grow(press_and_slide(random, diamond_point("round-1.0")));
   std::printf("plane, round-1.0, 50 orientations: X at rest %.2f %% and %.2f deg; sliding at 2 mm/s: X %.2f %%, ripple %.2f %%, direction %.2f deg\n",
               worst.at_rest_percent, worst.at_rest_degrees, worst.depth_percent, worst.ripple_percent, worst.degrees);
-  // aim: 2 %, 2 % and 3 degrees. These are what holds today.
-  EXPECT_LE(worst.at_rest_percent, 2.4);
-  EXPECT_LE(worst.at_rest_degrees, 3.0);
-  EXPECT_LE(worst.depth_percent, 2.6);
-  EXPECT_LE(worst.ripple_percent, 2.8);
-  EXPECT_LE(worst.degrees, 3.6);
+  EXPECT_LE(worst.at_rest_percent, 1.0);
+  EXPECT_LE(worst.at_rest_degrees, 2.0);
+  EXPECT_LE(worst.depth_percent, 1.5);
+  EXPECT_LE(worst.ripple_percent, 2.0);
+  EXPECT_LE(worst.degrees, 3.0);
   EXPECT_EQ(worst.dropped, 0);
 }
 
-TEST(Proxy, DirectionLagsBehindAFasterSlideByNoMoreThanItDoesToday) {
-  Random random(drawn_seed("Proxy.DirectionLagsBehindAFasterSlideByNoMoreThanItDoesToday"));
-  for (const auto& [speed, most_degrees] : {std::pair{0.5, 3.0}, {2.0, 3.6}, {10.0, 12.0}, {50.0, 30.0}}) {
+TEST(Proxy, DirectionDoesNotLagBehindAFasterSlide) {
+  Random random(drawn_seed("Proxy.DirectionDoesNotLagBehindAFasterSlide"));
+  for (const double speed : {0.5, 2.0, 10.0, 50.0}) {
     Figures worst;
     for (int i = 0; i < 6; ++i) worst.grow(press_and_slide(random, diamond_point("round-1.0"), speed));
     std::printf("plane, round-1.0, sliding at %4.1f mm/s: X %.2f %%, ripple %.2f %%, direction %.2f deg\n", speed, worst.depth_percent,
                 worst.ripple_percent, worst.degrees);
-    EXPECT_LE(worst.degrees, most_degrees) << speed;
+    EXPECT_LE(worst.degrees, 3.0) << speed;
+    EXPECT_LE(worst.ripple_percent, 2.0) << speed;
   }
 }
 
@@ -111,9 +111,11 @@ TEST(Proxy, EveryPointFeelsAPlane) {
     for (int i = 0; i < 5; ++i) worst.grow(press_and_slide(random, diamond_point(name)));
     std::printf("plane, %-18s: X at rest %5.2f %%, sliding: X %5.2f %%, ripple %5.2f %%, direction %5.2f deg\n", name.c_str(), worst.at_rest_percent,
                 worst.depth_percent, worst.ripple_percent, worst.degrees);
-    // An edge is felt 0.08 mm round (contact_tool.h), so 0.033 mm of a right angle are missing; samples lie up to 0.18 mm apart on long heads.
-    EXPECT_LE(worst.depth_percent, 25) << name;
-    EXPECT_LE(worst.degrees, 6) << name;
+    // An edge is felt 0.08 mm round (contact_tool.h), so up to 0.04 of 0.25 mm are missing on heads that end in one; on all others nothing is.
+    const bool edged = name == "cylinder-flat-1.0" || name == "inverted-cone-1.0" || name == "taper-flat-1.0";
+    EXPECT_LE(worst.depth_percent, edged ? 20.0 : 2.0) << name;
+    EXPECT_LE(worst.ripple_percent, 2.0) << name;
+    EXPECT_LE(worst.degrees, 3.0) << name;
   }
 }
 

@@ -17,8 +17,9 @@ std::vector<RemovedLeaf> room() {
   return removed;
 }
 
-TEST(CarveHead, RemovesExactlyTheLeavesWhoseCentreTheHeadHeld) {
-  Random random(drawn_seed("CarveHead.RemovesExactlyTheLeavesWhoseCentreTheHeadHeld"));
+// The head is tabulated (head_field.h): what lies within 4 micrometres of its surface may fall either way.
+TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
+  Random random(drawn_seed("CarveHead.RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther"));
   for (const auto& name : point_names()) {
     const DiamondPoint point = diamond_point(name);
     Tooth tooth = make_block({2, 2, 2}, {{"enamel", 1}, {"dentin", 1}}, 0.1);
@@ -45,18 +46,18 @@ TEST(CarveHead, RemovesExactlyTheLeavesWhoseCentreTheHeadHeld) {
           double nearest = 1e9;
           for (const auto& p : poses)
             nearest = std::min(nearest, point.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
-          if (std::fabs(nearest) < 1e-9) continue;
+          gone += before.tissue[i] != after.tissue[i];
+          if (std::fabs(nearest) < 0.004) continue;
           ASSERT_EQ(after.tissue[i], nearest < 0 ? std::uint8_t{k_air} : before.tissue[i])
               << name << " leaf " << x << ' ' << y << ' ' << z << " distance " << nearest;
-          gone += before.tissue[i] != after.tissue[i];
         }
     EXPECT_EQ(gone, removed.size()) << name << ": every removed leaf is listed once";
     EXPECT_GT(gone, 0u) << name;
   }
 }
 
-TEST(CarveHead, TheLeadingSideAloneGivesTheSameToothAsTheWholeHead) {
-  Random random(drawn_seed("CarveHead.TheLeadingSideAloneGivesTheSameToothAsTheWholeHead"));
+TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
+  Random random(drawn_seed("CarveHead.TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode"));
   for (const auto& name : point_names())
     for (int round = 0; round < 3; ++round) {
       const DiamondPoint point = diamond_point(name);
@@ -77,7 +78,7 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheSameToothAsTheWholeHead) {
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
       for (std::size_t i = 0; i < a.distance.size(); ++i)
-        ASSERT_EQ(a.distance[i], b.distance[i]) << name << " at leaf index " << i << " (127 codes are 2 leaves)";
+        ASSERT_LE(std::abs(a.distance[i] - b.distance[i]), 1) << name << " at leaf index " << i << " (127 codes are 2 leaves)";
     }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "engine/servo/real_time.h"
 #include "engine/tooth/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
@@ -28,6 +29,8 @@ void* operator new(std::size_t size) {
   return p;
 }
 void* operator new[](std::size_t size) { return operator new(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
 void operator delete(void* p) noexcept { release(p); }
 void operator delete[](void* p) noexcept { release(p); }
 void operator delete(void* p, std::size_t) noexcept { release(p); }
@@ -40,8 +43,11 @@ using namespace testing_engine;
 
 TEST(Servo, TheStepAllocatesNothingWhileDrilling) {
   const Tooth tooth = make_block({3, 3, 3}, {{"enamel", 0.8}, {"dentin", 0.7}, {"pulp", 0.5}, {"dentin", 1.0}}, 0.05);
-  Rig rig(tooth, {diamond_point("round-1.0"), diamond_point("cylinder-flat-1.0"), diamond_point("pear-1.0")}, hard_model(0.8, 1.79, 0.3),
-          {0, 0, 0.2});
+  ForceModel force = hard_model(0.8, 1.79, 0.3);
+  force.terms = {make_force_term("coulomb_friction", {{"fc_n", 0.2}, {"v0_mm_s", 0.5}}, "test"),
+                 make_force_term("series_compliance", {{"ks_n_per_mm", 5.0}}, "test"),
+                 make_force_term("run_out", {{"eccentricity_um", 10.0}}, "test")};
+  Rig rig(tooth, {diamond_point("round-1.0"), diamond_point("cylinder-flat-1.0"), diamond_point("pear-1.0")}, force, {0, 0, 0.2});
   long removed = 0, carving_ticks = 0, before = 0;
   t_allocations = 0;
   for (int i = 0; i < 10000; ++i) {
@@ -65,6 +71,35 @@ TEST(Servo, TheStepAllocatesNothingWhileDrilling) {
   ::operator delete(::operator new(8));  // the counter itself counts
   t_counting = false;
   EXPECT_GE(t_allocations, 1);
+}
+
+/// Drills, and counts what the servo thread allocates between its first and last reading.
+class CountingDevice final : public ServoDevice {
+ public:
+  [[nodiscard]] DeviceReading read(double) override {
+    t_counting = true;
+    const double t = static_cast<double>(reads++) * 1e-3;
+    allocations = t_allocations;
+    return {{{0.3 * std::sin(9 * t), 0, 0.1 - 2 * t}, {}}, 1.0, k_stylus_fresh | k_pedal_fresh, 0};
+  }
+  void send_force(Vec3) override { allocations = t_allocations; }
+  void cut_force() noexcept override {}
+
+  long reads = 0, allocations = -1;
+};
+
+TEST(RealTime, TheServoThreadAllocatesNothing) {
+  Rig rig(make_cube(4, "dentin", 0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0.012, 0.3), {0, 0, 0.1});
+  TickStream stream;
+  CountingDevice device;
+  RealTimeOptions options;
+  options.max_ticks = 800;
+  RealTimeServo servo(rig.model, rig.state, device, stream, {}, options);
+  servo.start();
+  EXPECT_EQ(servo.join().ticks, 800);
+  EXPECT_GT(device.reads, 100);
+  EXPECT_EQ(device.allocations, 0);
+  EXPECT_NE(rig.state.tooth.edit_hash(), make_servo_state(rig.model, make_cube(4, "dentin", 0.05), {}).tooth.edit_hash()) << "it must have drilled";
 }
 
 }  // namespace

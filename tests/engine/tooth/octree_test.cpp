@@ -108,6 +108,33 @@ TEST(Octree, NeverCallsABoxClearThatHoldsSolid) {
   EXPECT_GT(clear, 0);
 }
 
+TEST(Octree, MixesTheTissuesOfTheEightLeavesAroundAPlace) {
+  Random random(testing_tooth::drawn_seed("Octree.MixesTheTissuesOfTheEightLeavesAroundAPlace"));
+  const Tooth tooth = small_block();
+  const TissueGrid dense = tooth.octree.to_grid();
+  Octree::Cursor cursor;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 at{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)};
+    std::array<double, 256> expected{}, seen{};
+    const Vec3 p = (at - dense.origin_mm) / dense.leaf_mm - Vec3{0.5, 0.5, 0.5};
+    for (std::int32_t z = -1; z <= dense.size.z; ++z) {
+      if (std::fabs(p.z - z) >= 1) continue;
+      for (std::int32_t y = -1; y <= dense.size.y; ++y) {
+        if (std::fabs(p.y - y) >= 1) continue;
+        for (std::int32_t x = -1; x <= dense.size.x; ++x) {  // the hat function of each leaf's centre
+          if (std::fabs(p.x - x) >= 1) continue;
+          const double share = (1 - std::fabs(p.x - x)) * (1 - std::fabs(p.y - y)) * (1 - std::fabs(p.z - z));
+          expected[dense.inside({x, y, z}) ? dense.tissue[dense.index({x, y, z})] : std::uint8_t{k_air}] += share;
+        }
+      }
+    }
+    const TissueMix mix = tooth.octree.mix(at, cursor);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mix.count); ++k) seen[mix.label[k]] += mix.share[k];
+    if (p.x < -1 || p.y < -1 || p.z < -1 || p.x > dense.size.x || p.y > dense.size.y || p.z > dense.size.z) continue;  // all air, all of it
+    for (std::size_t t = 0; t < 256; ++t) ASSERT_NEAR(seen[t], expected[t], 1e-9) << "tissue " << t;
+  }
+}
+
 TEST(ToothFile, SavesTheSameBytesAfterLoading) {
   const Tooth tooth = small_block();
   const Bytes once = save_tooth(tooth);

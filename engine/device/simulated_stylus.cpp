@@ -1,0 +1,26 @@
+#include "engine/device/simulated_stylus.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cavum {
+
+DeviceReading SimulatedStylus::read(double elapsed_s) {
+  constexpr int k_most_steps = 1000;
+  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_most_steps);
+  HandIntent intent;
+  Vec3 tip;
+  for (int i = 0; i < steps; ++i) {
+    time_s_ += tick_s_;
+    intent = intent_(time_s_);
+    tip = advance_omni(omni_, hand_, state_, cut_.load(std::memory_order_acquire) ? Vec3{} : force_n_, intent.tip_mm, tick_s_);
+  }
+  return {{tip, {}}, intent.pedal, k_stylus_fresh | k_pedal_fresh, 0};
+}
+
+void SimulatedStylus::send_force(Vec3 force_n) {
+  force_n_ = force_n;
+  cut_.store(false, std::memory_order_release);
+}
+
+}  // namespace cavum

@@ -1,0 +1,43 @@
+// A force beyond the Voigt law: friction, compliance, run-out. Each is one small class with one evaluate
+// function, listed by name in a force model's [[terms]]. Exam, rigs and `explain` call the same function: it
+// knows scalars only, X and V along the contact normal (the feed, for a rig) and the speed of the tip.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace cavum {
+
+/// What a term may look at in one tick. Terms add up; none sees another.
+struct TermInput {
+  bool touching = false;
+  double penetration_mm = 0.0;      ///< X, 0 out of contact
+  double approach_mm_s = 0.0;       ///< V along the contact normal, positive = deeper; 0 in air
+  double speed_mm_s = 0.0;          ///< of the tip along its own way, in air too. Servo: >= 0. Along a feed: signed, positive = advancing
+  double stiffness_n_per_mm = 0.0;  ///< k of the tissues touched
+  double damping_n_s_per_mm = 0.0;  ///< c of the tissues touched
+  double voigt_n = 0.0;             ///< voigt_force_n of the above
+  double rpm = 0.0;                 ///< of the handpiece
+  std::int64_t tick = 0;
+  double dt_s = 0.0;  ///< since the last evaluation
+};
+
+/// What a term adds.
+struct TermForce {
+  double tissue_n = 0.0;  ///< along the contact normal, positive = out of the tooth. Part of the tissue's force: none in air, and the sum never pulls
+  double drag_n = 0.0;    ///< against the tip's motion, with the sign of `speed_mm_s`; in air too, and it may pull
+};
+
+/// What a term remembers from tick to tick; zero at the start. Plain, so that state can be copied and hashed.
+using TermMemory = std::array<double, 4>;
+
+/// Constant; whatever changes is in the memory.
+class ForceTerm {
+ public:
+  virtual ~ForceTerm() = default;
+  /// A function of its two arguments alone, by + - * / and sqrt (det_math.h for more). The servo may try it on copies of
+  /// the memory with other speeds before the call that counts. A drag must not fall below 0 at positive speed.
+  [[nodiscard]] virtual TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept = 0;
+};
+
+}  // namespace cavum

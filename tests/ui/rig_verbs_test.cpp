@@ -1,0 +1,103 @@
+// `cavum rig` as a user runs it: small experiments, their JSON and files, and bad input.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+struct Ran {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+class RigVerbs : public testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
+  [[nodiscard]] Ran run(const std::string& arguments) const {
+    const int status = std::system((std::string(CAVUM_BINARY) + " rig " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
+  }
+  void expect_refused(const std::string& arguments, const std::string& part) const {
+    const Ran r = run(arguments);
+    EXPECT_EQ(r.exit_code, 2) << arguments << "\n" << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    EXPECT_TRUE(r.err.starts_with("cavum: ")) << r.err;
+    EXPECT_NE(r.err.find(part), std::string::npos) << "'" << part << "' is missing in: " << r.err;
+    EXPECT_EQ(r.out, "");
+  }
+  testing_basics::Folder folder_;
+};
+
+TEST_F(RigVerbs, CubeWritesFiguresPictureAndRecordings) {
+  const Ran r = run("cube --runs 1 --k 0.4,0.8 --model consistent --json --out " + path("c.svg") + " --csv " + path("c.csv"));
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["experiment"], "cube");
+  ASSERT_EQ(j["sets"].size(), 1u);
+  const json& rows = j["sets"][0]["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  for (const char* key : {"k_n_per_mm", "c_n_s_per_mm", "mean_n", "sd_n", "without_friction_mean_n", "closed_form_n", "eq_6_n", "left_out"})
+    EXPECT_TRUE(rows[0].contains(key)) << key;
+  EXPECT_DOUBLE_EQ(j["eq_6"]["slope_mm"], 0.505);
+  EXPECT_TRUE(j["reading"].is_string());
+  EXPECT_TRUE(read_text_file(path("c.csv")).starts_with("session,t_s,x_mm,f_n"));
+  EXPECT_NE(read_text_file(path("rig.toml")).find("k_n_per_mm = 0.8"), std::string::npos);
+  const std::string svg = read_text_file(path("c.svg"));
+  for (const char* words : {"<svg", "force, N", "spring coefficient k, N/mm", "eq. 6"}) EXPECT_NE(svg.find(words), std::string::npos) << words;
+}
+
+TEST_F(RigVerbs, ToothComputesThePapersConstants) {
+  ASSERT_EQ(std::system((std::string(CAVUM_BINARY) +
+                         " tooth make block --size-mm 4,4,3 --layers enamel:0.4,dentin:0.4,pulp:1.5,dentin:0.7 --leaf-mm 0.05 --out " +
+                         path("b.cvt") + " >" + path("made"))
+                            .c_str()),
+            0);
+  const Ran r = run("tooth --tooth " + path("b.cvt") + " --runs 2 --json --out " + path("t.svg"));
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_NEAR(j["paper"]["c_at_k_0_8_n_s_per_mm"], 1.789, 5e-4);
+  EXPECT_NEAR(j["paper"]["k_of_tooth_n_per_mm"], 0.788, 5e-4);
+  EXPECT_EQ(j["layers"].size(), 3u);
+  EXPECT_LT(j["after_n"]["mean"], j["before_n"]["mean"]);
+  EXPECT_NE(read_text_file(path("t.svg")).find("time since contact, s"), std::string::npos);
+}
+
+TEST_F(RigVerbs, PressOfASingleCellSaysWhetherItIsWithinTheLimits) {
+  const Ran r = run("press --k 0.8 --c paper --delay 1 --hand 300 --press 1 --speed 20 --json --out " + path("p.svg"));
+  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_TRUE(j["within_limits"]);
+  ASSERT_EQ(j["presses"].size(), 1u);
+  ASSERT_EQ(j["contacts"].size(), 1u);
+  EXPECT_LE(j["presses"][0]["ours"]["sd_n"], 0.02);
+  EXPECT_GT(j["presses"][0]["explicit"]["sd_n"], 0.3);
+  EXPECT_NE(read_text_file(path("p.svg")).find("hand 300 N/m"), std::string::npos);
+}
+
+TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
+  expect_refused("cube --out " + path("c.png"), "use a name ending in .svg");
+  expect_refused("cube --out " + path("no/folder/c.svg"), "c.svg");
+  expect_refused("cube --k 0.4 --csv " + path("c.csv"), "--csv-k");
+  expect_refused("cube --model nothing", "nothing.toml");
+  expect_refused("cube --runs 0", "--runs");
+  expect_refused("cube --k -1", "--k");
+  expect_refused("tooth --tooth " + path("nothing.cvt"), "nothing.cvt");
+  expect_refused("tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), "--at");
+  expect_refused("press --c strong", "paper, consistent or none");
+  expect_refused("press --k 0", "--k");
+  expect_refused("servo", "--out");
+  write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
+  expect_refused("tooth --model " + path("bad.toml"), "bad.toml:3");
+}
+
+}  // namespace
+}  // namespace cavum
