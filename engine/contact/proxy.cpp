@@ -12,12 +12,12 @@ constexpr double k_same_means_leaves = 0.02;
 constexpr double k_linear_leaves = 0.1;  // so far a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
 constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
+constexpr double k_dead_leaves = 0.004;    // one that lies no deeper is not pushed at all: two walls that differ by rounding would squeeze the tool out
 constexpr double k_touch_leaves = 0.2;    // a sample nearer than that touches fully; rounding of distances is far less
 constexpr double k_fade_leaves = 0.5;     // and from there it touches less and less
-constexpr double k_ahead_leaves = 1.0;    // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
+constexpr double k_ahead_leaves = 1.5;    // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
 constexpr double k_settled_mm = 2e-5;     // a smaller step ends the search
-constexpr double k_refined_mm = 2e-5;     // the tool enters solid tissue no deeper
-constexpr int k_refinements = 3;
+constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
 constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
 
@@ -48,6 +48,12 @@ void reset(ContactState& state, const ContactTool& tool, int point) noexcept {
   std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), -1.0);
   state.gathered_turned_rad = -1.0;
+}
+
+/// Room before a surface at `distance_mm`, as half spaces state it.
+double slack_mm(double distance_mm, double leaf_mm) noexcept {
+  if (distance_mm >= 0.0) return distance_mm;
+  return std::max(std::min(distance_mm + k_dead_leaves * leaf_mm, 0.0), -k_deepest_leaves * leaf_mm);
 }
 
 /// Collects a half space for each sample that a step of `reach_mm` could bring into contact.
@@ -86,7 +92,7 @@ void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, Conta
       state.sample_clear_until_mm[i] = travel + s.distance_mm;
       if (s.distance_mm > reach_mm) continue;
       if (dot(s.gradient, s.gradient) < 1e-3) continue;  // no direction out: neighbours speak
-      state.half_spaces.push_back({s.gradient, std::max(s.distance_mm, -k_deepest_leaves * leaf)});
+      state.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf)});
       state.gathered_samples.push_back(i);
     }
   }
@@ -105,12 +111,12 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
       const Vec3 normal = normalized(state.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
       const Vec3 furthest = tool.furthest_along(state.rotation.transposed(-normal));
       const auto s = tooth.sample(state.gathered_mm + solution.step + state.rotation * furthest, state.cursor);
-      if (s.distance_mm > -k_refined_mm || dot(s.gradient, s.gradient) < 1e-3) continue;
+      if (s.distance_mm >= -k_dead_leaves * leaf || dot(s.gradient, s.gradient) < 1e-3) continue;
       if (state.half_spaces.size() >= state.gathered_samples.size() + k_refined_room) {  // begin anew; the active ones go with them
         state.half_spaces.resize(state.gathered_samples.size());
         solution.active.count = 0;
       }
-      state.half_spaces.push_back({s.gradient, std::max(s.distance_mm, -k_deepest_leaves * leaf) - dot(s.gradient, solution.step)});
+      state.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, solution.step)});
       refined = true;
     }
     if (!refined) break;
@@ -250,22 +256,13 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
     means.of.stiffness_n_per_mm += area * void_mean.stiffness_n_per_mm;
     means.of.damping_n_s_per_mm += area * void_mean.damping_n_s_per_mm;
   };
-  std::fill_n(state.counted.begin(), head_end, std::uint8_t{0});
-  for (std::size_t n = 0; n < state.gathered_samples.size(); ++n) {
-    const std::uint32_t i = state.gathered_samples[n];
-    const auto& s = tool.samples[i];
-    const bool head = i < head_end;
-    if (head) state.counted[i] = 1;
-    const double seen = -dot(state.rotation * s.normal, state.normal);
-    if (seen <= 0.0) continue;
-    const auto& h = state.half_spaces[n];
-    double touch = std::clamp(1.0 - (h.slack_mm + dot(h.normal, since) - touch_mm) / fade_mm, 0.0, 1.0);
-    if (touch <= 0.0 && !head) continue;
-    const Vec3 at = tip + state.rotation * s.at_mm;
+  // Adds a place of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface.
+  const auto count = [&](Vec3 at, double area, double gap_mm, bool head) {
+    double touch = std::clamp(1.0 - (gap_mm - touch_mm) / fade_mm, 0.0, 1.0);
+    if (touch <= 0.0 && !head) return;
     const TissueMix mix = tooth.mix(at + ahead, state.cursor);
     double solid_share = mean_of(tooth, mix, tissue, true, solid_mean);
     const double void_share = mean_of(tooth, mix, tissue, false, void_mean);
-    const double area = s.area_mm2 * seen;
     if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth, tooth.mix(at + close, state.cursor), tissue, true, solid_mean) <= 0.0) touch = 0.0;
     if (touch > 0.0) {
       const double touched = area * touch;
@@ -279,6 +276,21 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
       if (head) count_void(touched * (1.0 - solid_share));
     }
     if (head) count_void(area * (1.0 - touch) * void_share);
+  };
+  std::fill_n(state.counted.begin(), head_end, std::uint8_t{0});
+  for (std::size_t n = 0; n < state.gathered_samples.size(); ++n) {
+    const std::uint32_t i = state.gathered_samples[n];
+    const auto& s = tool.samples[i];
+    const bool head = i < head_end;
+    if (head) state.counted[i] = 1;
+    const double seen = -dot(state.rotation * s.normal, state.normal);
+    const auto& h = state.half_spaces[n];
+    if (seen > 0.0) count(tip + state.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head);
+  }
+  if (state.touching) {  // a fine tip may touch between its samples: the furthest place counts a little, and alone if need be
+    constexpr double k_furthest_mm2 = 1e-3;
+    const Vec3 furthest = tip + state.rotation * tool.furthest_along(state.rotation.transposed(-state.normal));
+    count(furthest, k_furthest_mm2, tooth.sample(furthest, state.cursor).distance_mm, true);
   }
   for (std::size_t p = 0; p < tool.head_patches; ++p) {
     const auto& patch = tool.patches[p];

@@ -66,7 +66,7 @@ struct ContactResult {
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
 /// A sample touches solid tissue within half a leaf of it, fading out linearly; where it does not, void tissue before it counts.
-/// Which tissue that is, is interpolated between leaves, where the surface will be once the `recession_mm` that is not yet
+/// Which tissue that is, is looked up one and a half leaves ahead and interpolated between leaves, where the surface will be once the `recession_mm` that is not yet
 /// carved is: so k and c change continuously across every border and through every carve. `tissue` has 256 entries.
 [[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue,
                                          double recession_mm, ContactState& state) noexcept;

@@ -96,6 +96,7 @@ void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit
   using Real = std::conditional_t<KnowsCorners<Shape>, float, double>;
   const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + edit.band_mm);
   const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)), clearance_mm = static_cast<Real>(edit.clearance_mm);
+  const int solid_most = std::max(-1, int{encode_distance(edit.clearance_mm / leaf_mm_)});
   Real block_mm[8], tool_mm[8];
   corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm);
   if (*std::min_element(block_mm, block_mm + 8) > skip_mm) return;
@@ -127,8 +128,9 @@ void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit
             {static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
         brick.tissue[i] = k_air;
       }
-      code = std::max(code, cut_code[inner]);
-      code = solid_[brick.tissue[i]] ? std::min(code, -1) : std::max(code, 1);
+      // A solid leaf stays inside the surface, or outside it by no more than the clearance: cut on both sides of a tool whose
+      // width is a whole number of leaves, such leaves would hold it.
+      code = solid_[brick.tissue[i]] ? std::max(code, std::min(cut_code[inner], solid_most)) : std::max({code, cut_code[inner], 1});
       changed = changed || removed || code != brick.distance[i];
       brick.distance[i] = static_cast<std::int8_t>(code);
     }

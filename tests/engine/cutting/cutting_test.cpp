@@ -72,6 +72,24 @@ TEST(Cutting, SteadyPenetrationIs0_505MmWhateverStiffnessLeafAndTick) {
               volume);
 }
 
+TEST(Cutting, NoHeadIsHeldInTheHoleItCuts) {
+  Random random(drawn_seed("Cutting.NoHeadIsHeldInTheHoleItCuts"));
+  for (const char* name : {"round-0.8", "round-1.0", "round-1.4", "pear-1.0", "taper-round-1.2", "cylinder-flat-1.0", "inverted-cone-1.0"}) {
+    double most = 0;
+    for (int i = 0; i < 8; ++i) {  // anywhere within a leaf: a width of whole leaves once let both walls hold the head
+      const double x = random.uniform(-0.05, 0.05), y = i % 2 == 0 ? 0.0 : random.uniform(-0.05, 0.05), quantum = i % 4 < 2 ? 0.055 : 0.0;
+      Rig rig(block(0.05), {diamond_point(name)}, hard_model(0.8, 0), {x, y, 0.05});
+      rig.spin_up({x, y, 0.05});
+      for (int t = 1; t <= 10000; ++t) {
+        const double z = 0.05 - k_feed * 1e-3 * t;
+        const TickOutput out = rig.tick({x, y, quantum > 0 ? std::floor(z / quantum) * quantum : z}, 1.0);
+        most = std::max(most, out.penetration_mm - quantum);
+      }
+    }
+    EXPECT_LE(most, k_feed * k_tau + 0.01) << name;
+  }
+}
+
 TEST(Cutting, RemovalDoesNotDependOnTheLengthOfATick) {
   const Plunge a = plunge(0.8, 0.05, 0.002, 6.0);
   for (const double dt : {0.001, 0.0005, 0.00025}) {
