@@ -179,7 +179,8 @@ class Way {
 bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const DiamondPoint& point, Vec3 tip) {
   constexpr double k_step_mm = 0.1;
   constexpr double k_s = 0.70710678118654752;
-  constexpr Vec3 k_around[] = {{0, 0, 0}, {1, 0, 0}, {k_s, k_s, 0}, {0, 1, 0}, {-k_s, k_s, 0}, {-1, 0, 0}, {-k_s, -k_s, 0}, {0, -1, 0}, {k_s, -k_s, 0}};
+  constexpr Vec3 k_around[] = {{0, 0, 0},  {1, 0, 0},       {k_s, k_s, 0}, {0, 1, 0},     {-k_s, k_s, 0},
+                               {-1, 0, 0}, {-k_s, -k_s, 0}, {0, -1, 0},    {k_s, -k_s, 0}};
   for (double h = k_step_mm / 2; h < point.cutting_length_mm; h += k_step_mm)
     for (const Vec3 way : k_around) {
       const Vec3 p = tip + way * point.profile.radius_mm(h) + Vec3{0, 0, h};

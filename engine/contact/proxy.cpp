@@ -9,14 +9,14 @@ namespace {
 constexpr int k_max_steps = 12;          // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
 constexpr double k_same_means_leaves = 0.02;
-constexpr double k_linear_leaves = 0.1;  // so far a half space stands in for the curved surface
+constexpr double k_linear_leaves = 0.2;  // so far a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
 constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
-constexpr double k_dead_leaves = 0.004;    // one that lies no deeper is not pushed at all: two walls that differ by rounding would squeeze the tool out
-constexpr double k_touch_leaves = 0.2;    // a sample nearer than that touches fully; rounding of distances is far less
-constexpr double k_fade_leaves = 0.5;     // and from there it touches less and less
-constexpr double k_ahead_leaves = 1.5;    // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
-constexpr double k_settled_mm = 2e-5;     // a smaller step ends the search
+constexpr double k_dead_leaves = 0.004;  // one that lies no deeper is not pushed at all: two walls that differ by rounding would squeeze the tool out
+constexpr double k_touch_leaves = 0.2;   // a sample nearer than that touches fully; rounding of distances is far less
+constexpr double k_fade_leaves = 0.5;    // and from there it touches less and less
+constexpr double k_ahead_leaves = 1.6;   // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
+constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
 constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
 constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
@@ -77,7 +77,7 @@ void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, Conta
     const double travel = travel_mm(state, patch.lever_mm);
     if (travel + reach_mm <= state.patch_clear_until_mm[p]) continue;
     if (travel > state.patch_near_until_mm[p]) {
-      constexpr double k_margin_mm = 0.5, k_stays_near_mm = 0.1;
+      constexpr double k_margin_mm = 0.5, k_stays_near_mm = 0.3;
       const double r = patch.radius_mm + k_margin_mm;
       const Vec3 middle = state.proxy_mm + state.rotation * patch.centre_mm;
       if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {
@@ -228,8 +228,8 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   return result;
 }
 
-TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue,
-                           double recession_mm, ContactState& state) noexcept {
+TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, double recession_mm,
+                           ContactState& state) noexcept {
   const double leaf = tooth.leaf_mm();
   const Vec3 tip = state.proxy_mm - state.normal * recession_mm;
   const Vec3 swung = state.normal - state.means_normal;
@@ -301,7 +301,8 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
       const double seen = -dot(state.rotation * s.normal, state.normal);
       if (seen <= 0.0) continue;
       const Vec3 at = tip + state.rotation * s.at_mm + ahead;
-      if (tooth.tissue_at(at, state.cursor) != k_air) count_void(s.area_mm2 * seen * mean_of(tooth, tooth.mix(at, state.cursor), tissue, false, void_mean));
+      if (tooth.tissue_at(at, state.cursor) != k_air)
+        count_void(s.area_mm2 * seen * mean_of(tooth, tooth.mix(at, state.cursor), tissue, false, void_mean));
     }
   }
   means.touching = cut_area > 1e-9;

@@ -38,10 +38,10 @@ struct ContactState {
   double moved_mm = 0.0, turned_rad = 0.0;  ///< of the tip and of the tool, so far
   double tool_air_until_mm = 0.0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;
-  ReservedVector<HalfSpace> half_spaces;         ///< about `gathered_mm`: one of each near sample, then refined ones
+  ReservedVector<HalfSpace> half_spaces;           ///< about `gathered_mm`: one of each near sample, then refined ones
   ReservedVector<std::uint32_t> gathered_samples;  ///< samples of the first half spaces
-  ActiveSet active;                              ///< half spaces that held the last step
-  Vec3 gathered_mm;                              ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
+  ActiveSet active;                                ///< half spaces that held the last step
+  Vec3 gathered_mm;                                ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
   double gathered_turned_rad = -1.0, gathered_reach_mm = 0.0;
   std::uint64_t gathered_edit = 0;
   TouchedMeans means;  ///< as long as neither tool, tooth nor normal changed much
@@ -66,8 +66,8 @@ struct ContactResult {
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
 /// A sample touches solid tissue within half a leaf of it, fading out linearly; where it does not, void tissue before it counts.
-/// Which tissue that is, is looked up one and a half leaves ahead and interpolated between leaves, where the surface will be once the `recession_mm` that is not yet
-/// carved is: so k and c change continuously across every border and through every carve. `tissue` has 256 entries.
+/// Which tissue that is, is looked up one and a half leaves ahead and interpolated between leaves, where the surface will be once the `recession_mm`
+/// that is not yet carved is: so k and c change continuously across every border and through every carve. `tissue` has 256 entries.
 [[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue,
                                          double recession_mm, ContactState& state) noexcept;
 

@@ -53,8 +53,8 @@ struct HeadShape {
   }
 
   /// The distance to a convex body that moved by `way` can fall at x only where the surface nearest to x faced
-  /// along the way before the move (distances to convex bodies are convex). Faces of a body of revolution: sideways within the half turn about x, downwards only below
-  /// the height where the head is widest, upwards only above the height where it begins to narrow.
+  /// along the way before the move (distances to convex bodies are convex). Faces of a body of revolution: sideways within the half turn about x,
+  /// downwards only below the height where the head is widest, upwards only above the height where it begins to narrow.
   [[nodiscard]] bool unchanged(Vec3 centre_mm, double radius_mm) const noexcept {
     if (!only_leading) return false;
     const Vec3 c = rotation.transposed(centre_mm - tip_mm) + way;  // as it lay before the move

@@ -8,7 +8,8 @@
 
 namespace cavum {
 
-Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues) : leaf_mm_(grid.leaf_mm), leaves_per_mm_(1.0 / grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
+Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
+    : leaf_mm_(grid.leaf_mm), leaves_per_mm_(1.0 / grid.leaf_mm), origin_mm_(grid.origin_mm), size_(grid.size) {
   const int widest = std::max({grid.size.x, grid.size.y, grid.size.z});
   const int thinnest = std::min({grid.size.x, grid.size.y, grid.size.z});
   if (thinnest < 1 || grid.tissue.size() != grid.count() || grid.distance.size() != grid.count() || !(grid.leaf_mm > 0))
@@ -73,16 +74,14 @@ std::uint32_t Octree::find(IVec3 brick) const noexcept {
   return ref;
 }
 
-std::uint32_t Octree::find(IVec3 brick, Cursor& cursor) const noexcept {
-  if (((brick.x | brick.y | brick.z) >> levels_) != 0) return k_uniform | k_air;
+std::uint32_t Octree::find_anew(IVec3 brick, Cursor& cursor) const noexcept {
   if (cursor.version_ != version_) {
     cursor.entries_.fill({});
     cursor.version_ = version_;
   }
-  const auto key = static_cast<std::uint32_t>(brick.x | brick.y << 10 | brick.z << 20);
-  auto& e = cursor.entries_[static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6)];
-  if (e.key != key) e = {key, find(brick)};
-  return e.ref;
+  const std::uint32_t ref = find(brick);
+  cursor.entries_[Cursor::place_of(brick)] = {Cursor::key_of(brick), ref};
+  return ref;
 }
 
 int Octree::code_in(std::uint32_t ref, int leaf) const noexcept {
@@ -128,7 +127,7 @@ std::uint8_t Octree::tissue_at(Vec3 mm, Cursor& cursor) const noexcept {
   return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}, cursor), leaf_in_brick(leaf));
 }
 
-bool Octree::cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept {
+inline bool Octree::cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept {
   const Vec3 p = (mm - origin_mm_) * leaves_per_mm_ - Vec3{0.5, 0.5, 0.5};
   if (!(std::fabs(p.x) < 1e6 && std::fabs(p.y) < 1e6 && std::fabs(p.z) < 1e6)) return false;
   cell.low = {floor_of(p.x), floor_of(p.y), floor_of(p.z)};
@@ -174,7 +173,8 @@ TissueMix Octree::mix(Vec3 mm, Cursor& cursor) const noexcept {
   mix.count = 8;
   for (int i = 0; i < 8; ++i) {
     mix.label[static_cast<std::size_t>(i)] = tissue_in(cell.brick_of(i), cell.leaf_of(i));
-    mix.share[static_cast<std::size_t>(i)] = ((i & 1) != 0 ? cell.fx : 1 - cell.fx) * ((i & 2) != 0 ? cell.fy : 1 - cell.fy) * ((i & 4) != 0 ? cell.fz : 1 - cell.fz);
+    mix.share[static_cast<std::size_t>(i)] =
+        ((i & 1) != 0 ? cell.fx : 1 - cell.fx) * ((i & 2) != 0 ? cell.fy : 1 - cell.fy) * ((i & 4) != 0 ? cell.fz : 1 - cell.fz);
   }
   return mix;
 }

@@ -58,7 +58,9 @@ class Octree {
   /// The leaf that holds `mm`; may lie outside `size()`, where everything is air.
   [[nodiscard]] IVec3 leaf_at(Vec3 mm) const noexcept {
     constexpr double k_far = 1e6;  // leaves; NaN ends there too
-    const auto down = [](double v) { return v > -k_far ? (v < k_far ? floor_of(v) : static_cast<std::int32_t>(k_far)) : -static_cast<std::int32_t>(k_far); };
+    const auto down = [](double v) {
+      return v > -k_far ? (v < k_far ? floor_of(v) : static_cast<std::int32_t>(k_far)) : -static_cast<std::int32_t>(k_far);
+    };
     const Vec3 p = (mm - origin_mm_) * leaves_per_mm_;
     return {down(p.x), down(p.y), down(p.z)};
   }
@@ -79,6 +81,10 @@ class Octree {
     struct Entry {
       std::uint32_t key = ~0u, ref = 0;
     };
+    [[nodiscard]] static std::uint32_t key_of(IVec3 brick) noexcept { return static_cast<std::uint32_t>(brick.x | brick.y << 10 | brick.z << 20); }
+    [[nodiscard]] static std::size_t place_of(IVec3 brick) noexcept {
+      return static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
+    }
     std::array<Entry, 512> entries_{};
     std::uint64_t version_ = ~0ULL;
   };
@@ -88,9 +94,13 @@ class Octree {
   [[nodiscard]] TissueMix mix(Vec3 mm, Cursor& cursor) const noexcept;
   /// True when no solid leaf and no distance below the band lies in the box `low`..`high` (mm). May say
   /// false for an empty box, never true for one that is not.
-  [[nodiscard]] bool is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept { return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm), false); }
+  [[nodiscard]] bool is_clear(Vec3 low_mm, Vec3 high_mm) const noexcept {
+    return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm), false);
+  }
   /// The same for every tissue, pulp and other void ones too: nothing but air.
-  [[nodiscard]] bool is_air(Vec3 low_mm, Vec3 high_mm) const noexcept { return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm), true); }
+  [[nodiscard]] bool is_air(Vec3 low_mm, Vec3 high_mm) const noexcept {
+    return clear_in(root_, levels_, {0, 0, 0}, leaf_at(low_mm), leaf_at(high_mm), true);
+  }
 
   /// Room for `bricks` more bricks, so that carving needs no allocation; copies keep it. Untouched room costs no memory.
   void reserve_edits(std::size_t bricks);
@@ -187,7 +197,12 @@ class Octree {
     return i - (v < i ? 1 : 0);
   }
   [[nodiscard]] std::uint32_t find(IVec3 brick) const noexcept;
-  [[nodiscard]] std::uint32_t find(IVec3 brick, Cursor& cursor) const noexcept;
+  [[nodiscard]] std::uint32_t find(IVec3 brick, Cursor& cursor) const noexcept {
+    if (((brick.x | brick.y | brick.z) >> levels_) != 0) return k_uniform | k_air;  // also catches negatives
+    const auto& e = cursor.entries_[Cursor::place_of(brick)];
+    return cursor.version_ == version_ && e.key == Cursor::key_of(brick) ? e.ref : find_anew(brick, cursor);
+  }
+  [[nodiscard]] std::uint32_t find_anew(IVec3 brick, Cursor& cursor) const noexcept;
   [[nodiscard]] int code_in(std::uint32_t ref, int leaf) const noexcept;
   [[nodiscard]] FullBrick expanded(std::uint32_t ref) const noexcept;
   [[nodiscard]] std::uint8_t tissue_in(std::uint32_t ref, int leaf) const noexcept;

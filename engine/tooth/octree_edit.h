@@ -18,11 +18,15 @@ struct Octree::Edit {
 
 /// A shape that knows the distances at eight leaves at once, in single precision.
 template <class Shape>
-concept KnowsCorners = requires(const Shape& shape, float* out) { shape.at_corners(Vec3{}, true, out); };
+concept KnowsCorners = requires(const Shape& shape, float* out) {
+  shape.at_corners(Vec3{}, true, out);
+};
 
 /// A shape that can tell for a ball whether an earlier carve did all of it already.
 template <class Shape>
-concept KnowsUnchanged = requires(const Shape& shape) { shape.unchanged(Vec3{}, 1.0); };
+concept KnowsUnchanged = requires(const Shape& shape) {
+  shape.unchanged(Vec3{}, 1.0);
+};
 inline constexpr double k_half_diagonal = 1.7320508075688773;  ///< of a cube, in half edges
 
 /// The shape's distances at the centres of 2x2x2 leaves, or of 2x2x2 blocks of 2x2x2 leaves, x fastest.
@@ -95,7 +99,8 @@ void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit
   // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
   using Real = std::conditional_t<KnowsCorners<Shape>, float, double>;
   const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + edit.band_mm);
-  const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)), clearance_mm = static_cast<Real>(edit.clearance_mm);
+  const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)),
+             clearance_mm = static_cast<Real>(edit.clearance_mm);
   const int solid_most = std::max(-1, int{encode_distance(edit.clearance_mm / leaf_mm_)});
   Real block_mm[8], tool_mm[8];
   corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm);

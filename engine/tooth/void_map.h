@@ -18,8 +18,9 @@ class VoidMap {
   [[nodiscard]] double clear_mm(Vec3 mm) const noexcept {
     const Vec3 p = (mm - origin_mm_) * cells_per_mm_;
     if (!(p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < size_.x && p.y < size_.y && p.z < size_.z)) return 0.0;
-    const auto i = (static_cast<std::size_t>(p.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(p.y)) * static_cast<std::size_t>(size_.x) +
-                   static_cast<std::size_t>(p.x);
+    const auto i =
+        (static_cast<std::size_t>(p.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(p.y)) * static_cast<std::size_t>(size_.x) +
+        static_cast<std::size_t>(p.x);
     return cells_[i] > 1 ? (cells_[i] - 1) * cell_mm_ : 0.0;
   }
 

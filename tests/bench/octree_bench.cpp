@@ -74,7 +74,8 @@ int main(int argc, char**) {
     const Tooth block = make_block({6, 5, 4.4}, {{"enamel", 4.4}}, leaf);
     std::size_t small = 0, large = 0;
     const double half = carve_ball_us(block, 0.25, &small), one = carve_ball_us(block, 0.5, &large);
-    std::printf("leaf %.3f mm: ball of 0.5 mm diameter %7.1f us (%zu leaves), of 1.0 mm %7.1f us (%zu leaves); round-1.0 drills on by 1/4 leaf: %6.1f us\n",
-                leaf, half, small, one, large, drill_on_us(block, testing_engine::diamond_point("round-1.0")));
+    std::printf(
+        "leaf %.3f mm: ball of 0.5 mm diameter %7.1f us (%zu leaves), of 1.0 mm %7.1f us (%zu leaves); round-1.0 drills on by 1/4 leaf: %6.1f us\n",
+        leaf, half, small, one, large, drill_on_us(block, testing_engine::diamond_point("round-1.0")));
   }
 }

@@ -58,7 +58,8 @@ std::vector<double> in_air(const Tooth& tooth, const DiamondPoint& point, double
 }
 
 void line(const char* what, const Quantiles& q) {
-  std::printf("%-44s median %7.2f  p99 %7.2f  p99.9 %7.2f  worst %8.2f  mean %7.2f us\n", what, q.median_us, q.p99_us, q.p999_us, q.worst_us, q.mean_us);
+  std::printf("%-44s median %7.2f  p99 %7.2f  p99.9 %7.2f  worst %8.2f  mean %7.2f us\n", what, q.median_us, q.p99_us, q.p999_us, q.worst_us,
+              q.mean_us);
 }
 
 /// What open drilling simulators do each tick: every leaf in the box of the tool, on a dense grid, asked whether the tool holds it.
@@ -104,7 +105,8 @@ int main(int argc, char** argv) {
     std::vector<double> scan;
     for (int i = 0; i < 300; ++i) scan.push_back(dense_scan_us(grid, ball, {0, 0, -1.5}));
     const double dense = quantiles(scan).median_us;
-    std::printf("  dense scan of the tool's box: %.2f us, %.1f times the median tick, %.1f times the mean\n", dense, dense / q.median_us, dense / q.mean_us);
+    std::printf("  dense scan of the tool's box: %.2f us, %.1f times the median tick, %.1f times the mean\n", dense, dense / q.median_us,
+                dense / q.mean_us);
   }
   const Tooth tooth = block(0.05);
   line("block, round-1.0, out of contact", quantiles(in_air(tooth, ball, 0, ticks)));
