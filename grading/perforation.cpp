@@ -54,6 +54,8 @@ class RunningMedian {
   std::size_t count_ = 0;
 };
 
+/// Tip of the diamond point where the tooth lets it be; the device's own tip is pressed in further, by X.
+Vec3 place_of(const TickRecord& r) { return {r.proxy_nm[0] * 1e-6, r.proxy_nm[1] * 1e-6, r.proxy_nm[2] * 1e-6}; }
 Vec3 tip_of(const TickInput& in) { return {in.tip_nm[0] * 1e-6, in.tip_nm[1] * 1e-6, in.tip_nm[2] * 1e-6}; }
 
 }  // namespace
@@ -138,10 +140,12 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
     const bool deeper = advance >= s.least_advance_mm && advance >= s.keeps_up * usual && advance >= s.straightness * length(way) &&
                         way.z <= s.withdrawal * length(way);
     if (!deeper || visits.before(to, onset - s.visited_ticks)) continue;
+    std::int64_t fell = down_since;
+    while (fell > onset && force[at(fell)] < s.time_at * level) --fell;
     PerforationEvent e;
-    e.tick = onset;
+    e.tick = std::max(onset, fell - s.smooth_ticks / 2);
     e.seen_tick = i;
-    e.site_mm = to;
+    e.site_mm = place_of(records[at(e.tick)]);
     e.force_before_n = level;
     e.force_after_n = force[at(i)];
     e.advance_mm = advance;

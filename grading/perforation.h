@@ -7,7 +7,8 @@
 // the force (deeper) as in steady cutting, into a place where it has not been before. A hand that eases off
 // falls back, a lift-off moves the tip back, a released pedal stops the handpiece, a slip moves the tip
 // sideways, a withdrawal occlusally, a cut into an earlier cavity leads where the tip has been. The time
-// of the event is the onset of the fall: the last moment at which the force still had 93 % of its level.
+// of the event is the last moment at which the force still had 70 % of its level: tissue is felt a leaf and a half
+// ahead, so the fall begins before the tissue behind is touched. Its place is where the head was then.
 #pragma once
 
 #include <span>
@@ -21,7 +22,8 @@ namespace cavum {
 struct DetectorSettings {
   double least_level_n = 0.15;  ///< a force below it tells nothing
   double fall = 0.5;            ///< of the level
-  double onset = 0.93;          ///< of the level
+  double onset = 0.93;          ///< of the level: from here on the tip is watched
+  double time_at = 0.7;         ///< of the level: the time of the event
   int smooth_ticks = 20;        ///< mean of the force
   int level_ticks = 320;        ///< median of the smoothed force over this long ...
   int level_gap_ticks = 40;     ///< ... ending this long before now

@@ -40,11 +40,6 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
   return detail.dump();
 }
 
-/// Text of a material set: a name in data/materials, or a file.
-std::string force_model_text(const std::string& wanted, const std::string& near_file) {
-  return read_text_file(wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file));
-}
-
 /// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
 void fill(ExamSetup& setup, const std::string& scenario_path) {
   setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path);
@@ -72,6 +67,10 @@ std::string find_data_file(const std::string& folder, const std::string& name, c
   throw Error(folder + "/" + name, "is nowhere to be found (looked at " + looked + ")", "correct the name or set CAVUM_DATA to the data folder");
 }
 
+std::string force_model_text(const std::string& wanted, const std::string& near_file) {
+  return read_text_file(wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file));
+}
+
 std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
   auto setup = std::make_unique<ExamSetup>();
   SessionSetup& s = setup->session;
@@ -91,6 +90,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   config.max_rpm = scenario.max_rpm;
   s.servo_toml = to_toml(config);
   fill(*setup, scenario_path);
+  require_tissues(setup->scenario, setup->tooth);
   return setup;
 }
 
@@ -115,13 +115,16 @@ std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& pat
   return exam;
 }
 
-std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path) {
+std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source) {
   std::unique_ptr<Exam> exam(new Exam(setup, {}));
-  ResumedSession resumed = resume_session(path, [&](std::int64_t, const TickInput& input, const TickOutput& output, const ServoState& state) {
-    exam->runner_.advance(*exam->runner_state_, input, output, state.removed);
-    exam->last_input_ = input;
-    exam->last_ = output;
-  });
+  ResumedSession resumed = resume_session(
+      path,
+      [&](std::int64_t, const TickInput& input, const TickOutput& output, const ServoState& state) {
+        exam->runner_.advance(*exam->runner_state_, input, output, state.removed);
+        exam->last_input_ = input;
+        exam->last_ = output;
+      },
+      source);
   if (resumed.ticks == 0) {
     exam->last_input_.tip_nm = resumed.setup.first_tip_nm;
     exam->last_.proxy_mm = resumed.setup.first_tip_mm();

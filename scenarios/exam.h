@@ -21,6 +21,9 @@ namespace cavum {
 /// Throws Error naming the places.
 [[nodiscard]] std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file);
 
+/// Text of a force model: the name of data/materials/NAME.toml, or a path ending in .toml. Throws Error.
+[[nodiscard]] std::string force_model_text(const std::string& wanted, const std::string& near_file);
+
 /// What may be chosen beside the scenario itself.
 struct ExamOptions {
   std::string candidate;                                   ///< pseudonym
@@ -51,7 +54,8 @@ class Exam {
   /// Starts recording to `path`, with the tip at `first_tip_mm`. Throws Error when it cannot.
   [[nodiscard]] static std::unique_ptr<Exam> start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm);
   /// Takes up a session that was killed, with the setup it holds; the ticks recorded so far are simulated again.
-  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path);
+  /// `source` is noted in the gap: what gives the input from now on.
+  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source = {});
 
   /// One tick; throws Error when it cannot be recorded (the tick is kept, go on after making room).
   const TickOutput& tick(const TickInput& input);

@@ -154,6 +154,8 @@ Scenario read_scenario(const toml::table& table, const std::string& path, Proble
     CheckedTable pt(*p, "[perforation]", problems);
     s.perforation.aims = pt.texts("aims");
     s.perforation.faults = pt.texts("faults");
+    const auto at = pt.where("faults").begin;
+    s.perforation.source = path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
     check_tissues(pt, "aims", s.perforation.aims);
     check_tissues(pt, "faults", s.perforation.faults);
     for (const auto& aim : s.perforation.aims)
@@ -227,6 +229,15 @@ std::string find_tooth_file(const Scenario& scenario) {
     if (fs::exists(candidate)) return candidate.lexically_normal().string();
   throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",
               "put it beside the scenario or in data/teeth, or name another with --tooth");
+}
+
+void require_tissues(const Scenario& scenario, const Tooth& tooth) {
+  std::vector<std::string> known;
+  for (const auto& t : tooth.tissues) known.push_back(t.name);
+  for (const auto* list : {&scenario.perforation.aims, &scenario.perforation.faults})
+    for (const auto& name : *list)
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw Error(scenario.perforation.source, "this tooth has no tissue '" + name + "'", suggestion(name, known));
 }
 
 }  // namespace cavum

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/tooth/tooth.h"
 #include "scenarios/scenario.h"
 
 namespace cavum {
@@ -20,6 +21,8 @@ struct Problem {
 /// Throws Error naming the first mistake, and how many there are.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path);
 [[nodiscard]] Scenario load_scenario(const std::string& path);
+/// Throws Error when a tissue that must, or must not, be opened is none of the tooth's: misspelt, it would never be touched.
+void require_tissues(const Scenario& scenario, const Tooth& tooth);
 /// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]).
 [[nodiscard]] RubricSpec parse_rubric(const std::string& text, const std::string& path);
 

@@ -1,6 +1,7 @@
 // `cavum exam`: a timed exam from a motion file or a simulated candidate, recorded, graded and sealed.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -23,7 +24,7 @@ struct Options {
   std::string scenario, candidate, motion, operator_name, device, out, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
-  bool json = false, quiet = false, resume = false, end = false;
+  bool json = false, quiet = false, resume = false, end = false, model_given = false;
 };
 
 /// One line on the terminal that shows time, step and removal; nothing when the output is no terminal.
@@ -50,13 +51,49 @@ class ProgressBar {
   bool shown_;
 };
 
+/// Line of the file that holds sample `sample` of a motion that parse_motion has accepted: header, comments and empty
+/// lines give no sample.
+std::size_t line_of_sample(std::string_view text, std::size_t sample) {
+  constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
+  if (text.starts_with(k_byte_order_mark)) text.remove_prefix(k_byte_order_mark.size());
+  std::size_t number = 0, rows = 0;
+  while (!text.empty()) {
+    ++number;
+    const auto end = std::min(text.find_first_of("\r\n"), text.size());
+    const auto first = text.substr(0, end).find_first_not_of(" \t");
+    if (first != std::string_view::npos && text[first] != '#' && ++rows == sample + 2) break;  // the header is row 1
+    text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
+  }
+  return number;
+}
+
+/// A motion file whose diamond points are all on the tray; else throws Error.
+std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
+  const std::string text = read_text_file(path);
+  Motion motion = parse_motion(text, path);
+  for (std::size_t i = 0; i < motion.samples.size(); ++i)
+    if (const int point = motion.samples[i].point; point >= static_cast<int>(tray.size()))
+      throw Error(
+          path + ":" + std::to_string(line_of_sample(text, i)),
+          "point is " + std::to_string(point) + ", and the scenario has " + std::to_string(tray.size()) + (tray.size() == 1 ? " point" : " points"),
+          "write 0 for its first point" + (tray.size() > 1 ? ", at most " + std::to_string(tray.size() - 1) : std::string()));
+  return std::make_unique<PlayedMotion>(std::move(motion), tray, path);
+}
+
 std::unique_ptr<InputSource> make_source(const Options& o, const ExamSetup& setup) {
-  if (!o.motion.empty()) return std::make_unique<PlayedMotion>(parse_motion(read_text_file(o.motion), o.motion), setup.point_names, o.motion);
+  if (!o.motion.empty()) return read_motion(o.motion, setup.point_names);
   std::vector<ContactTool> tray;
   for (const auto& p : setup.points) tray.push_back(make_contact_tool(p));
   OmniModel omni;
   omni.delay_ticks = o.delay_ticks;
   return std::make_unique<SimulatedCandidate>(make_candidate(o.operator_name, setup.scenario, setup.zones, setup.tooth, tray, o.seed), omni);
+}
+
+std::string source_name(const Options& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
+
+SourceNotes source_notes(const Options& o) {
+  if (!o.motion.empty()) return {{"motion_file", std::filesystem::path(o.motion).filename().string()}};
+  return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
 }
 
 std::unique_ptr<ExamSetup> make_setup(const Options& o) {
@@ -65,14 +102,8 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
   options.tooth_file = o.tooth;
   options.force_model = o.model;
   options.rubric_file = o.rubric;
-  if (!o.motion.empty()) {
-    options.device = "motion file";
-    options.notes.emplace_back("motion_file", std::filesystem::path(o.motion).filename().string());
-  } else {
-    options.device = "simulated Omni, operator " + o.operator_name;
-    options.notes.emplace_back("operator", o.operator_name);
-    options.notes.emplace_back("operator_seed", std::to_string(o.seed));
-  }
+  options.device = source_name(o);
+  options.notes = source_notes(o);
   return prepare_exam(o.scenario, options);
 }
 
@@ -117,6 +148,19 @@ void run_new(const Options& o) {
   finish(o, *exam);
 }
 
+/// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
+void require_same(const Options& o, const SessionSetup& held) {
+  const auto differs = [&o](const std::string& option, const std::string& what) {
+    throw Error(option, "is not the " + what + " that " + o.out + " was begun with", "leave it out, or name another session with --out");
+  };
+  if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, "candidate ('" + held.candidate + "')");
+  if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
+  if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, "tooth");
+  const std::string near_file = o.scenario.empty() ? "data/scenarios/any.toml" : o.scenario;
+  if (o.model_given && force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
+  if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml) differs("--rubric " + o.rubric, "rubric");
+}
+
 /// Takes up a killed exam with new motion, or closes it as it stands.
 void run_resumed(const Options& o) {
   if (o.motion.empty() && o.operator_name.empty() && !o.end)
@@ -124,13 +168,18 @@ void run_resumed(const Options& o) {
   require_places(o);
   const SessionReader reader(o.out);
   reader.require_readable();
+  if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
   const auto setup = prepare_exam(reader.setup());
-  const auto exam = Exam::resume(*setup, o.out);
-  if (!o.motion.empty()) {
-    PlayedMotion source(parse_motion(read_text_file(o.motion), o.motion), setup->point_names, o.motion);
-    run_exam(*exam, source);
-  } else if (!o.operator_name.empty()) {
-    const auto source = make_source(o, *setup);
+  const bool moves = !o.motion.empty() || !o.operator_name.empty();
+  // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
+  const auto source = moves ? make_source(o, *setup) : nullptr;
+  SourceNotes notes;
+  if (moves) {
+    notes = source_notes(o);
+    notes.emplace_back("device", source_name(o));
+  }
+  const auto exam = Exam::resume(*setup, o.out, notes);
+  if (source) {
     run_exam(*exam, *source);
   } else if (!exam->over()) {
     exam->end();
@@ -152,7 +201,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   device->excludes(name)->excludes(motion);
   exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
-  exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
@@ -161,7 +210,8 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed: with --motion, --operator or --end");
   exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
   exam->add_flag("--quiet", o->quiet, "no progress bar");
-  exam->callback([o, &exit_code] {
+  exam->callback([o, model, &exit_code] {
+    o->model_given = model->count() > 0;
     if (!o->device.empty()) throw Error("--device " + o->device, "no haptic device is driven by this version", "use --operator or --motion");
     if (o->resume) {
       run_resumed(*o);

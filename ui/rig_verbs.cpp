@@ -178,7 +178,7 @@ void add_cube(CLI::App& rig, int& exit_code) {
       ->delimiter(',')
       ->capture_default_str();
   verb->add_option("--k", a->options.k_n_per_mm, "stiffnesses, N/mm")->delimiter(',')->check(CLI::Range(0.0, 2.0))->capture_default_str();
-  verb->add_option("--csv", a->csv, "recordings of the first model at --csv-k, for `explain`; rig.toml is written beside it");
+  verb->add_option("--csv", a->csv, "recordings of the first model at --csv-k; rig.toml with their units is written beside it");
   verb->add_option("--csv-k", a->csv_k_n_per_mm, "stiffness that is recorded, N/mm")->capture_default_str();
   verb->callback([a, &exit_code] {
     run_cube(*a);

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/tooth/tooth.h"
+#include "scenarios/exam.h"
 #include "scenarios/parse.h"
 #include "scenarios/picture.h"
 #include "scenarios/zone_map.h"
@@ -29,6 +30,8 @@ int check(const Options& o) {
       const Scenario s = load_scenario(o.scenario);
       const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
       static_cast<void>(build_zones(s, tooth));
+      require_tissues(s, tooth);
+      for (const auto& name : s.points) static_cast<void>(find_data_file("points", name + ".toml", o.scenario));
     } catch (const Error& e) {
       const std::string text = e.what();
       const auto at = text.find(": "), then = text.find("; ");

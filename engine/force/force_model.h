@@ -1,5 +1,5 @@
 // A force model: the materials of the tissues, the law of cutting, force terms beyond the Voigt law, and the
-// constants of rendering. It is a TOML file read by the exam, the rigs and `explain` alike; two ship in data/materials.
+// constants of rendering. It is a TOML file read by the exam and the rigs alike; two ship in data/materials.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // A force beyond the Voigt law: friction, compliance, run-out. Each is one small class with one evaluate
-// function, listed by name in a force model's [[terms]]. Exam, rigs and `explain` call the same function: it
+// function, listed by name in a force model's [[terms]]. Exam and rigs call the same function: it
 // knows scalars only, X and V along the contact normal (the feed, for a rig) and the speed of the tip.
 #pragma once
 

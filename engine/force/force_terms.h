@@ -14,7 +14,7 @@ namespace cavum {
 inline constexpr std::size_t k_max_terms = 8;
 using ForceTerms = std::vector<ForceTermPtr>;  ///< at most k_max_terms
 
-/// Force along a feed, N, resisting positive: F = max(0, k·X + c·V + Σ tissue) + Σ drag. For rigs and `explain`: `in` with
+/// Force along a feed, N, resisting positive: F = max(0, k·X + c·V + Σ tissue) + Σ drag. For rigs: `in` with
 /// X, V, k, c, rpm, dt and touching set; speed is V and the Voigt force is filled in here. `memory` has one entry for each
 /// term, zero before the first sample. In air (not touching) give V all the same: drag acts there too.
 [[nodiscard]] double force_along_feed_n(const ForceTerms& terms, TermInput in, std::span<TermMemory> memory) noexcept;

@@ -22,7 +22,7 @@ struct TermParameter {
 };
 
 struct TermKind {
-  const char* name;  ///< as in [[terms]] and as the mechanism of `explain`
+  const char* name;  ///< as in [[terms]]
   std::vector<TermParameter> parameters;
   ForceTermPtr (*make)(const std::vector<double>& values);  ///< values in the order of `parameters`, in range
 };

@@ -26,7 +26,7 @@ struct CubeOptions {
   double recorded_k_n_per_mm = -1.0;  ///< runs of the first model at this k are kept as recordings; -1 = none
 };
 
-/// A reading of the machine at 100 Hz, as `explain` reads it.
+/// A reading of the machine at 100 Hz, as its CSV holds it.
 struct CubeReading {
   double t_s = 0, x_mm = 0;  ///< X; in air minus the distance to the cube
   double v_mm_s = 0, f_n = 0, spindle_rpm = 0, removed_mm3 = 0;

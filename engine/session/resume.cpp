@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/text.h"
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
 
@@ -53,7 +54,7 @@ void simulate(const SessionReader& session, Simulation& simulation, const TickVi
   }
 }
 
-std::string gap_detail(const SessionReader& session) {
+std::string gap_detail(const SessionReader& session, const SourceNotes& source) {
   Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
@@ -68,19 +69,20 @@ std::string gap_detail(const SessionReader& session) {
   detail["gap_boot_s"] = nullptr;
   if (!this_boot.empty() && this_boot == last_boot) detail["gap_boot_s"] = static_cast<double>(now.boot_ns - last.boot_ns) * 1e-9;
   detail["boot_id"] = this_boot;
+  for (const auto& [key, value] : source) detail["source"][one_line(key)] = one_line(value);
   return detail.dump();
 }
 
 }  // namespace
 
-ResumedSession resume_session(const std::string& path, const TickVisitor& visit) {
+ResumedSession resume_session(const std::string& path, const TickVisitor& visit, const SourceNotes& source) {
   const SessionReader session(path);
   require_intact(session);
   SessionSetup setup = session.setup();
   Simulation simulation = make_simulation(setup, path);
   simulate(session, simulation, visit);
   Recorder recorder = Resumption::open(session);
-  recorder.add_event(session.ticks(), "gap", gap_detail(session));
+  recorder.add_event(session.ticks(), "gap", gap_detail(session, source));
   recorder.flush();
   return {std::move(recorder), std::move(simulation), std::move(setup), session.ticks()};
 }

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/session/recorder.h"
 #include "engine/session/session_reader.h"
@@ -22,8 +24,12 @@ struct ResumedSession {
 /// `state.removed` holds the leaves removed in the tick.
 using TickVisitor = std::function<void(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state)>;
 
+/// What gives the input from now on, by key (device, motion_file, operator …); noted in the gap.
+using SourceNotes = std::vector<std::pair<std::string, std::string>>;
+
 /// Throws Error when the file cannot be read, is closed, is damaged, replays differently, or is being recorded.
-/// Logs a `gap` event: {"gap_utc_s", "gap_boot_s" (null after a reboot), "last_utc_ns", "resumed_utc_ns", "boot_id"}.
-[[nodiscard]] ResumedSession resume_session(const std::string& path, const TickVisitor& visit = {});
+/// Logs a `gap` event: {"gap_utc_s", "gap_boot_s" (null after a reboot), "last_utc_ns", "resumed_utc_ns", "boot_id"},
+/// and "source", an object of `source` when that is not empty.
+[[nodiscard]] ResumedSession resume_session(const std::string& path, const TickVisitor& visit = {}, const SourceNotes& source = {});
 
 }  // namespace cavum

@@ -101,7 +101,7 @@ void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit
   const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + edit.band_mm);
   const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)),
              clearance_mm = static_cast<Real>(edit.clearance_mm);
-  const int solid_most = std::max(-1, int{encode_distance(edit.clearance_mm / leaf_mm_)});
+  const int solid_most = edit.clearance_mm > 0.0 ? int{encode_distance(edit.clearance_mm / leaf_mm_)} : -1;
   Real block_mm[8], tool_mm[8];
   corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm);
   if (*std::min_element(block_mm, block_mm + 8) > skip_mm) return;

@@ -2,25 +2,17 @@
 // and leaf, beside what open drilling simulators do (a dense scan of the tool's bounding box) in the same run.
 //   tick_bench [TICKS [TOOTH.cvt]]   times; with a tooth file also on that tooth
 //   tick_bench count LEAF            drills 2000 ticks in a block, for valgrind --tool=callgrind --toggle-collect='cavum::step*'
-#include <time.h>
-
 #include <cstdio>
 #include <cstring>
 
 #include "engine/tooth/make_block.h"
+#include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum {
 namespace {
 
 using namespace testing_engine;
-/// Time this thread has had the processor, us: others on the same machine do not count. Asking takes about 0.3 us.
-double thread_us() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e6 + static_cast<double>(t.tv_nsec) * 1e-3;
-}
-
 /// What asking itself adds to each figure, us.
 double clock_cost_us() {
   double least = 1e9;

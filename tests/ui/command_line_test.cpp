@@ -16,6 +16,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/random.h"
+#include "engine/session/session_reader.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
@@ -100,6 +101,27 @@ TEST_F(CommandLine, ExpertCompletesTheStepsOfTheSmallScenariosToo) {
   }
 }
 
+TEST_F(CommandLine, AMisspeltTissueOrPointIsFoundBeforeAnyExam) {
+  std::ifstream in(k_data + "/scenarios/class_1.toml");
+  const std::string good{std::istreambuf_iterator<char>(in), {}};
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"pulp\"", "\"pulpa\""}, {"points = [\"", "points = [\"round-9\", \""}}) {
+    std::string bad = good;
+    const auto at = bad.find(from, from[0] == '"' ? bad.find("[perforation]") : 0);
+    ASSERT_NE(at, std::string::npos);
+    bad.replace(at, from.size(), to);
+    std::ofstream(path("bad.toml")) << bad;
+    const std::string tooth = " --tooth " + k_data + "/teeth/lower_molar.cvt";
+    const Ran check = run("scenario check " + path("bad.toml") + tooth);
+    EXPECT_EQ(check.exit_code, 1) << check.out;
+    const Ran exam = run("exam " + path("bad.toml") + tooth + " --candidate A --operator expert --out " + path("bad.cavum"));
+    EXPECT_EQ(exam.exit_code, 2) << exam.err;
+    EXPECT_FALSE(fs::exists(path("bad.cavum")));
+    if (from == "\"pulp\"") {
+      EXPECT_NE(check.out.find("did you mean 'pulp'"), std::string::npos) << check.out;
+    }
+  }
+}
+
 TEST_F(CommandLine, NoviceLosesPointsWithTheWallNamed) {
   const json result = exam(k_data + "/scenarios/molar_access.toml", "novice");
   EXPECT_NE(result["verdict"], "pass");
@@ -161,6 +183,56 @@ TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
   }
 }
 
+TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
+  const std::string session = path("killed.cavum");
+  const pid_t child = fork();
+  if (child == 0) {
+    std::freopen("/dev/null", "w", stdout);
+    execl(CAVUM_BINARY, CAVUM_BINARY, "exam", k_block.c_str(), "--candidate", "anna", "--operator", "expert", "--out", session.c_str(), "--quiet",
+          nullptr);
+    _exit(127);
+  }
+  const auto begun = [&] {
+    try {
+      return SessionReader(session).findings().empty() && SessionReader(session).ticks() > 0;
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
+  int status = 0;
+  for (int i = 0; i < 10'000 && !begun(); ++i) usleep(1000);
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "the exam was over before it was killed";
+
+  write_text_file(path("other.toml"), read_text_file(k_block) + "\n# another one\n");
+  write_text_file(path("other.cvt"), "another tooth");
+  write_text_file(path("beyond.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,5,1,0,0,0,0,0\n1,0,0,4,1,0,0,0,0,2\n");
+  write_text_file(path("go_on.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n0.1,0,0,4,1,0,0,0,0\n");
+  const std::string resume = "exam --resume --end --out " + session + " ";
+  expect_refused(resume + "--candidate berta", {"--candidate berta", "'anna'", "leave it out"});
+  expect_refused("exam " + path("other.toml") + " --resume --end --out " + session, {"other.toml", "scenario"});
+  expect_refused(resume + "--tooth " + path("other.cvt"), {"--tooth", "other.cvt"});
+  expect_refused(resume + "--model paper", {"--model paper", "force model"});
+  expect_refused(resume + "--rubric " + path("other.toml"), {"--rubric", "other.toml"});
+  expect_refused("exam --resume --out " + session + " --motion " + path("beyond.csv"), {"beyond.csv:3", "point is 2"});
+  expect_refused("exam --resume --out " + session + " --operator wizard", {"wizard"});
+
+  const Ran resumed =
+      run("exam " + k_block + " --resume --candidate anna --model consistent --motion " + path("go_on.csv") + " --json --out " + session);
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  int gaps = 0;
+  const SessionReader done(session);
+  for (const auto& row : done.event_rows())
+    if (row.event.kind == "gap") {
+      ++gaps;
+      EXPECT_EQ(json::parse(row.event.detail_json)["source"], (json{{"device", "motion file"}, {"motion_file", "go_on.csv"}}));
+    }
+  EXPECT_EQ(gaps, 1) << "a refused call leaves no gap";
+  EXPECT_EQ(run("replay " + session + " --verify").exit_code, 0);
+  expect_refused(resume + "--candidate berta", {"is closed"});
+}
+
 TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
   const std::string out = " --candidate c --out " + path("x.cavum");
   expect_refused("grade " + path("nothing.cavum"), {"nothing.cavum"});
@@ -179,6 +251,11 @@ TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
   expect_refused(motion(head + "1,0,0,0,1,0,0,0,1.5\n"), {"m.csv:3", "pedal"});
   expect_refused(motion("t_s,x_m,y_m,z_m,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n"), {"m.csv:1", "x_m", "x_mm"});
   expect_refused(motion(head + "1,0.01,0,5,1,0,0,0,0\n"), {"m.csv", "metres"});
+  const std::string with_point = "\xef\xbb\xbf# a comment\r\n\r\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\r\n0,0,0,5,1,0,0,0,0,1\r\n# more\r\n";
+  expect_refused(motion(with_point + "1,0,0,4,1,0,0,0,0,2\r\n"), {"m.csv:6", "point is 2", "2 points"});
+  expect_refused(motion(with_point + "1,0,0,4,1,0,0,0,0,0.5\r\n"), {"m.csv:6", "point"});
+  expect_refused(motion(with_point + "1,0,0,4,1,0,0,0,0,-2\r\n"), {"m.csv:6", "point"});
+  expect_refused(motion(with_point + "1,0,0,4,1,0,0,0,0,first\r\n"), {"m.csv:6", "point"});
   expect_refused(motion("# point = chisel\n" + head + "1,0,0,0,1,0,0,0,0\n"), {"chisel"});
   EXPECT_FALSE(fs::exists(path("x.cavum"))) << "nothing was begun";
 }

@@ -1,7 +1,6 @@
 #include "engine/tooth/import/import_meshes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/import/fill_mesh.h"
+#include "engine/tooth/import/layer_order.h"
 #include "engine/tooth/import/read_mesh.h"
 #include "engine/tooth/periodontium.h"
 
@@ -113,20 +113,12 @@ std::uint64_t close_gaps(TissueGrid& grid, const Layers& f) {
   return closed;
 }
 
-/// The pulp lies in dentin and touches hardly anything else, in every tooth: what it touches tells whether the
-/// three files are what they are said to be.
+/// Whether the three files are what they are said to be, by the rule of layer_order.h.
 void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
-  std::array<std::uint64_t, 256> touched{};
-  const std::size_t nx = static_cast<std::size_t>(grid.size.x), nxy = nx * static_cast<std::size_t>(grid.size.y);
-  for (std::size_t i = nxy; i + nxy < grid.tissue.size(); ++i) {
-    if (grid.tissue[i] != k_pulp) continue;
-    for (const auto j : {i - 1, i + 1, i - nx, i + nx, i - nxy, i + nxy}) ++touched[grid.tissue[j]];
-  }
+  const auto touched = pulp_faces(grid.size, grid.tissue);
   const auto all = touched[k_air] + touched[k_enamel] + touched[k_dentin];
   if (all == 0) throw Error(paths.pulp, "the pulp is smaller than a leaf", "check the unit (mm), or use a smaller --leaf-mm");
-  if (touched[k_enamel] > touched[k_dentin] && touched[k_enamel] >= touched[k_air])
-    throw Error(paths.enamel + ", " + paths.dentin, "enamel and dentin look exchanged: the pulp lies in the enamel",
-                "exchange --enamel and --dentin");
+  require_layer_order(touched, paths.enamel + ", " + paths.dentin, "exchange --enamel and --dentin");
   if (touched[k_air] * 5 > all)
     throw Error(paths.pulp, "the pulp is not enclosed by the dentin: " + std::to_string(100 * touched[k_air] / all) + " % of its surface is bare",
                 "check which file is enamel, dentin and pulp, and that all share one frame");

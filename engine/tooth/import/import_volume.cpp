@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
+#include "engine/tooth/import/layer_order.h"
 #include "engine/tooth/import/read_volume.h"
 #include "engine/tooth/import/segment.h"
 #include "engine/tooth/periodontium.h"
@@ -154,6 +155,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   Segmentation s;
   if (map) {
     s = from_labels(volume, options.labels, path);
+    if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0)
+      require_layer_order(pulp_faces(s.size, s.tissue), path, "exchange enamel and dentin in --map");
     how = "label map";
   } else {
     const auto levels = find_gray_levels(volume, options.thresholds, path);

@@ -32,7 +32,8 @@ struct VolumeImport {
 };
 
 /// Throws Error as read_volume, find_gray_levels and segment do; when enamel or dentin is missing and no occlusal axis
-/// given; when the tooth would need more than 1024 leaves along an edge; and when an assumed spacing gives no tooth's size.
+/// given; when a label map has enamel and dentin exchanged; when the tooth would need more than 1024 leaves along an edge; and when an assumed
+/// spacing gives no tooth's size.
 [[nodiscard]] VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options);
 
 }  // namespace cavum

@@ -203,6 +203,16 @@ TEST(ImportLabelMap, NrrdAndNiftiGiveTheirTissues) {
   }
 }
 
+TEST(ImportLabelMap, ExchangedLayersAreTheSameErrorAsForMeshes) {
+  const auto path = write_nrrd(fresh_folder() / "l.nrrd", labels());
+  auto o = options();
+  o.labels = parse_label_map("2=enamel,1=dentin,3=pulp");
+  const auto error = error_of([&] { (void)import_volume(path, o); });
+  EXPECT_NE(error.find("l.nrrd: enamel and dentin look exchanged: the pulp lies in the enamel; exchange"), std::string::npos) << error;
+  o.labels = parse_label_map("1=enamel,2=dentin,3=air");
+  EXPECT_EQ(error_of([&] { (void)import_volume(path, o); }), "") << "a tooth without pulp says nothing about the order";
+}
+
 TEST(ImportLabelMap, LabelsWithoutMeaningAreListed) {
   const auto path = write_nrrd(fresh_folder() / "l.nrrd", labels());
   auto o = options();
