@@ -85,7 +85,7 @@ struct StepSpec {
 /// Which tissues may be broken into, and which must not.
 struct PerforationSpec {
   std::vector<std::string> aims, faults;
-  std::string source;  ///< file:line:column of the table
+  std::string source{};  ///< file:line:column of the table
 };
 
 struct CriterionSpec {
