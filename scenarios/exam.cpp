@@ -88,6 +88,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   }
   ServoConfig config;
   config.max_rpm = scenario.max_rpm;
+  config.position_quantum_mm = options.position_quantum_mm;
   s.servo_toml = to_toml(config);
   fill(*setup, scenario_path);
   require_tissues(setup->scenario, setup->tooth);

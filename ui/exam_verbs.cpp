@@ -104,6 +104,7 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
   options.rubric_file = o.rubric;
   options.device = source_name(o);
   options.notes = source_notes(o);
+  if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
   return prepare_exam(o.scenario, options);
 }
 
