@@ -82,6 +82,11 @@ std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
 
 ReadMesh read_closed_mesh(const std::string& path) {
   const Surface surface = load(path);
+  for (const auto v : surface.vertices()) {  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
+    const Vec3 p = point(surface, v);
+    if (!surface.is_isolated(v) && (!is_finite(p) || length(p) > 1e6))
+      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
+  }
   std::size_t open_edges = 0;
   Vec3 open_at;
   for (const auto e : surface.edges()) {
@@ -99,8 +104,6 @@ ReadMesh read_closed_mesh(const std::string& path) {
   for (const auto v : surface.vertices()) {
     if (surface.is_isolated(v)) continue;
     const Vec3 p = point(surface, v);
-    if (!is_finite(p) || length(p) > 1e6)
-      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
     pinched += !surface.is_manifold(v);
     renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(out.mesh.vertices_mm.size());
     out.mesh.vertices_mm.push_back(p);
