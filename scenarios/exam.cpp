@@ -45,7 +45,8 @@ void fill(ExamSetup& setup, const std::string& scenario_path, const std::string&
   setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path);
   setup.tooth = load_tooth(setup.session.tooth, tooth_path);
   for (std::size_t i = 0; i < setup.session.points_toml.size(); ++i) {
-    setup.points.push_back(parse_diamond_point(setup.session.points_toml[i], i < point_paths.size() ? point_paths[i] : "diamond point of the session"));
+    setup.points.push_back(
+        parse_diamond_point(setup.session.points_toml[i], i < point_paths.size() ? point_paths[i] : "diamond point of the session"));
     setup.point_names.push_back(setup.points.back().name);
   }
   setup.zones = build_zones(setup.scenario, setup.tooth);
@@ -71,9 +72,7 @@ std::string force_model_path(const std::string& wanted, const std::string& near_
   return wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file);
 }
 
-std::string force_model_text(const std::string& wanted, const std::string& near_file) {
-  return read_text_file(force_model_path(wanted, near_file));
-}
+std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }
 
 std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
   auto setup = std::make_unique<ExamSetup>();

@@ -181,7 +181,8 @@ void RealTimeServo::start() {
     if (loop->guard.joinable()) loop->guard.join();
     loop->device.cut_force();
     loop->stream.close("device_failed", e.what());  // who empties it must not wait
-    throw Error("servo", std::string("cannot have its two threads (") + e.what() + ")", "close other programs, or raise the limits of memory and processes");
+    throw Error("servo", std::string("cannot have its two threads (") + e.what() + ")",
+                "close other programs, or raise the limits of memory and processes");
   }
 }
 

@@ -95,7 +95,8 @@ void put_in_place(const std::string& made, const std::string& path) {
   const bool there = errno == EEXIST || ::access(path.c_str(), F_OK) == 0;
   const std::string why = std::strerror(errno);
   ::unlink(made.c_str());
-  if (there) throw Error(path, "exists already: another exam began to record into it", "choose another name; an existing session is never overwritten");
+  if (there)
+    throw Error(path, "exists already: another exam began to record into it", "choose another name; an existing session is never overwritten");
   throw Error(path, "cannot be put in place (" + why + ")", "check the folder and the disk");
 }
 

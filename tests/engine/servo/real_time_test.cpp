@@ -1,7 +1,6 @@
 #include "engine/servo/real_time.h"
 
 #include <gtest/gtest.h>
-
 #include <pthread.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -303,9 +302,7 @@ int started_with_room_for(int stacks) {
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + k_stack / 2 + static_cast<std::size_t>(stacks) * k_stack;
-    const struct rlimit limit {
-      most, most
-    };
+    const struct rlimit limit { most, most };
     ::setrlimit(RLIMIT_AS, &limit);
     try {
       servo.start();

@@ -126,7 +126,8 @@ TEST(TipEstimate, ThroughAnEncoderARampIsRenderedWithin2PercentOfTheLawAndWithou
       }
       last = f;
     }
-    std::printf("encoder of 0.055 mm, 0.25 mm/s, dt %g: off the Voigt law by at most %.4f; largest change in a tick %.5f N\n", dt, worst, largest_change);
+    std::printf("encoder of 0.055 mm, 0.25 mm/s, dt %g: off the Voigt law by at most %.4f; largest change in a tick %.5f N\n", dt, worst,
+                largest_change);
     EXPECT_LE(worst, 0.02);
     EXPECT_LE(largest_change, 0.003) << "a step of the encoder alone would be 0.0825 N";
   }
