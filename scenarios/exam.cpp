@@ -41,11 +41,12 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
 }
 
 /// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
-void fill(ExamSetup& setup, const std::string& scenario_path) {
+void fill(ExamSetup& setup, const std::string& scenario_path, const std::string& tooth_path, const std::vector<std::string>& point_paths) {
   setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path);
-  setup.tooth = load_tooth(setup.session.tooth, "tooth");
-  for (const auto& text : setup.session.points_toml) {
-    setup.points.push_back(parse_diamond_point(text, "diamond point"));
+  setup.tooth = load_tooth(setup.session.tooth, tooth_path);
+  for (std::size_t i = 0; i < setup.session.points_toml.size(); ++i) {
+    setup.points.push_back(
+        parse_diamond_point(setup.session.points_toml[i], i < point_paths.size() ? point_paths[i] : "diamond point of the session"));
     setup.point_names.push_back(setup.points.back().name);
   }
   setup.zones = build_zones(setup.scenario, setup.tooth);
@@ -67,9 +68,11 @@ std::string find_data_file(const std::string& folder, const std::string& name, c
   throw Error(folder + "/" + name, "is nowhere to be found (looked at " + looked + ")", "correct the name or set CAVUM_DATA to the data folder");
 }
 
-std::string force_model_text(const std::string& wanted, const std::string& near_file) {
-  return read_text_file(wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file));
+std::string force_model_path(const std::string& wanted, const std::string& near_file) {
+  return wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file);
 }
+
+std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }
 
 std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
   auto setup = std::make_unique<ExamSetup>();
@@ -79,17 +82,25 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   s.candidate = options.candidate;
   s.device = options.device;
   s.notes = options.notes;
-  s.tooth = read_file(options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file);
-  s.force_model_toml = force_model_text(options.force_model, scenario_path);
-  for (const auto& name : scenario.points) s.points_toml.push_back(read_text_file(find_data_file("points", name + ".toml", scenario_path)));
+  const std::string tooth_path = options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file;
+  s.tooth = read_file(tooth_path);
+  const std::string model_path = force_model_path(options.force_model, scenario_path);
+  s.force_model_toml = read_text_file(model_path);
+  static_cast<void>(parse_force_model(s.force_model_toml, model_path));  // its mistakes are named with its own file
+  std::vector<std::string> point_paths;
+  for (const auto& name : scenario.points) {
+    point_paths.push_back(find_data_file("points", name + ".toml", scenario_path));
+    s.points_toml.push_back(read_text_file(point_paths.back()));
+  }
   if (!options.rubric_file.empty()) {
     s.rubric_toml = read_text_file(options.rubric_file);
     static_cast<void>(parse_rubric(s.rubric_toml, options.rubric_file));
   }
   ServoConfig config;
   config.max_rpm = scenario.max_rpm;
+  config.position_quantum_mm = options.position_quantum_mm;
   s.servo_toml = to_toml(config);
-  fill(*setup, scenario_path);
+  fill(*setup, scenario_path, tooth_path, point_paths);
   require_tissues(setup->scenario, setup->tooth);
   return setup;
 }
@@ -97,7 +108,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
 std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
   auto setup = std::make_unique<ExamSetup>();
   setup->session = session;
-  fill(*setup, "scenario of the session");
+  fill(*setup, "scenario of the session", "tooth of the session", {});
   return setup;
 }
 

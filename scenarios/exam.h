@@ -28,6 +28,7 @@ namespace cavum {
 struct ExamOptions {
   std::string candidate;                                   ///< pseudonym
   std::string device;                                      ///< name of what gives the input
+  double position_quantum_mm = 0.0;                        ///< step of its encoder; 0 = exact
   std::string tooth_file;                                  ///< empty: the scenario's
   std::string force_model = "consistent";                  ///< name of data/materials/NAME.toml, or a path ending in .toml
   std::string rubric_file;                                 ///< empty: the scenario's own rubric counts

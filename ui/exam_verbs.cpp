@@ -104,6 +104,7 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
   options.rubric_file = o.rubric;
   options.device = source_name(o);
   options.notes = source_notes(o);
+  if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
   return prepare_exam(o.scenario, options);
 }
 
@@ -203,7 +204,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
-  exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->capture_default_str();
+  exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(CLI::NonNegativeNumber)->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
   exam->add_option("--report", o->report, "also write the report (HTML)");

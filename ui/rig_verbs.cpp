@@ -85,7 +85,7 @@ void add_common(CLI::App& verb, Common& a, bool runs) {
     verb.add_option("--runs", a.runs, "of each kind, each with an offset, an encoder phase and a noise of its own")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
-    verb.add_option("--seed", a.seed, "of all that differs between runs")->capture_default_str();
+    verb.add_option("--seed", a.seed, "of all that differs between runs")->check(CLI::NonNegativeNumber)->capture_default_str();
   }
   verb.add_flag("--json", a.json, "one JSON object on standard output");
 }

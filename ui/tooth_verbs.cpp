@@ -145,6 +145,18 @@ void notice_unknown_tissues(const Tooth& tooth) {
   }
 }
 
+/// The surface is kept exactly, but leaves are whole: what counts them counts another size. That is said.
+void notice_part_leaves(const std::vector<double>& sizes_mm, double leaf_mm, const char* what) {
+  for (const double mm : sizes_mm) {
+    const double leaves = mm / leaf_mm, low = std::floor(leaves) * leaf_mm, high = std::ceil(leaves) * leaf_mm;
+    if (std::fabs(leaves - std::round(leaves)) < 1e-6) continue;
+    std::fprintf(stderr,
+                 "cavum: notice: %s of %g mm is no whole number of leaves of %g mm: its surface is exact, but bounds and volumes count whole leaves; "
+                 "%g or %g mm would be both\n",
+                 what, mm, leaf_mm, low, high);
+  }
+}
+
 void add_make(CLI::App& tooth) {
   auto* make = tooth.add_subcommand("make", "Build a tooth from formulae");
   make->require_subcommand(1);
@@ -170,7 +182,10 @@ void add_make(CLI::App& tooth) {
   molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
   molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
   molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
-  molar->callback([=] { finish(make_molar(*shape), mc->out, mc->json); });
+  molar->callback([=] {
+    require_writable(mc->out);
+    finish(make_molar(*shape), mc->out, mc->json);
+  });
 
   auto* premolar = make->add_subcommand("premolar", "A parametric upper second premolar");
   auto premolar_shape = std::make_shared<PremolarShape>();
@@ -204,8 +219,13 @@ void add_make(CLI::App& tooth) {
   block->add_option("--layers", ba->layers, "name:thickness_mm from top to bottom")->capture_default_str();
   block->add_option("--leaf-mm", ba->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   block->callback([=] {
-    const Tooth made = make_block(parse_vec(ba->size, "--size-mm"), parse_layers(ba->layers), ba->leaf_mm);
+    require_writable(bc->out);
+    const Vec3 size = parse_vec(ba->size, "--size-mm");
+    const std::vector<Layer> layers = parse_layers(ba->layers);
+    const Tooth made = make_block(size, layers, ba->leaf_mm);
     notice_unknown_tissues(made);
+    notice_part_leaves({size.x, size.y, size.z}, ba->leaf_mm, "a side");
+    for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, ba->leaf_mm, ("layer '" + layer.tissue + "'").c_str());
     finish(made, bc->out, bc->json);
   });
 
@@ -220,8 +240,10 @@ void add_make(CLI::App& tooth) {
   cube->add_option("--tissue", ca->tissue, "Tissue")->capture_default_str();
   cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   cube->callback([=] {
+    require_writable(cc->out);
     const Tooth made = make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm);
     notice_unknown_tissues(made);
+    notice_part_leaves({ca->edge_mm}, ca->leaf_mm, "an edge");
     finish(made, cc->out, cc->json);
   });
 }
@@ -349,6 +371,7 @@ void add_mesh(CLI::App& tooth) {
   mesh->add_option("--out", a->out, "Mesh to write (.stl or .ply), mm")->required();
   mesh->add_flag("--json", a->json, "One JSON object on stdout");
   mesh->callback([=] {
+    require_writable(a->out);
     const TriangleMesh m = surface_mesh(load_tooth_file(a->file), a->tissue);
     write_mesh_file(m, a->out);
     const double volume = rounded(signed_volume_mm3(m), 1e-6);

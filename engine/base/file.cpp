@@ -23,6 +23,13 @@ struct File {
 
 std::string reason() { return std::strerror(errno); }
 
+/// Renaming onto a device, a pipe or a socket would replace it by a file.
+void require_no_node(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+    throw Error(path, "is no ordinary file but a device, a pipe or a socket", "name a file");
+}
+
 }  // namespace
 
 Bytes read_file(const std::string& path) {
@@ -50,6 +57,7 @@ void require_writable(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code none;
   if (fs::is_directory(path, none)) throw Error(path, "is a folder", "name a file");
+  require_no_node(path);
   const fs::path parent = fs::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   if (!fs::is_directory(folder, none)) throw Error(path, "cannot be written: there is no folder " + folder, "make it, or name another place");
@@ -59,6 +67,7 @@ void require_writable(const std::string& path) {
 }
 
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  require_no_node(path);
   const std::string temporary = path + ".part";
   const auto fail = [&](const std::string& what) {
     const std::string why = reason();

@@ -12,10 +12,10 @@ namespace cavum {
 /// Throws Error when the file cannot be read.
 [[nodiscard]] Bytes read_file(const std::string& path);
 [[nodiscard]] std::string read_text_file(const std::string& path);
-/// Throws Error when no file can be put at `path`: it is a folder, or its own folder is missing or closed to us. For
+/// Throws Error when no file can be put at `path`: it is a folder, a device, a pipe or a socket, or its own folder is missing or closed to us. For
 /// asking before long work; the disk may still be full afterwards.
 void require_writable(const std::string& path);
-/// Replaces `path` as one step. Throws Error when it cannot be written; the old file then still stands.
+/// Replaces `path` as one step. Throws Error when it cannot be written, or is a device, a pipe or a socket; the old file then still stands.
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 void write_text_file(const std::string& path, const std::string& text);
 

@@ -105,7 +105,12 @@ MotionSample read_row(const Reader& in, std::string_view line, const std::vector
               "give millimetres in the tooth frame");
   const double n2 = v[4] * v[4] + v[5] * v[5] + v[6] * v[6] + v[7] * v[7];
   if (n2 < 0.5 || n2 > 2) in.fail("the rotation qw,qx,qy,qz is not of unit length", "give a unit quaternion, 1,0,0,0 for an upright handpiece");
-  if (v[11] != std::floor(v[11]) || v[11] < -1 || v[11] > 255) in.fail("point is not a number of the tray", "write 0 for the first diamond point");
+  const bool has_point = std::find(column_of.begin(), column_of.end(), std::size_t{11}) != column_of.end();
+  if (has_point && (v[11] != std::floor(v[11]) || v[11] < 0 || v[11] > 255))
+    in.fail("point is " + plain_number(v[11]) + ", not a number of the tray", "write 0 for the first diamond point");
+  for (const std::size_t button : {9u, 10u})
+    if (v[button] != 0 && v[button] != 1)
+      in.fail(std::string(k_columns[button]) + " is " + plain_number(v[button]) + ", neither 0 nor 1", "write 1 while the button is pressed, else 0");
   return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
 }
 
@@ -119,7 +124,10 @@ Motion parse_motion(const std::string& text, const std::string& where) {
     if (line->empty()) continue;
     if (line->front() == '#') {
       const auto equals = line->find('=');
-      if (equals != std::string_view::npos && trimmed(line->substr(1, equals - 1)) == "point") motion.point = trimmed(line->substr(equals + 1));
+      if (equals != std::string_view::npos && trimmed(line->substr(1, equals - 1)) == "point") {
+        motion.point = trimmed(line->substr(equals + 1));
+        if (motion.point.empty()) in.fail("'# point =' names no diamond point", "write its name, such as round-1.0, or leave the line out");
+      }
       continue;
     }
     if (column_of.empty()) {

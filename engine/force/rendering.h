@@ -3,6 +3,8 @@
 // Voigt law at rest and at constant speed, and stays passive in between.
 #pragma once
 
+#include <limits>
+
 #include "engine/force/voigt.h"
 
 namespace cavum {
@@ -24,8 +26,11 @@ struct RenderState {
 void update_speed(const RenderingModel& model, RenderState& state, bool touching, double approach_mm, double dt_s) noexcept;
 
 /// Rendered force, N, never pulling: F = k·X + z + b·V + terms, z' = Kvc·V − (Kvc/(c−b))·z integrated implicitly, b ≤ c.
-/// `terms_n` is what force terms add to the tissue's force.
+/// `terms_n` is what force terms add to the tissue's force. |z| is held below (c−b)·`fastest_mm_s`, the most that the law allows for
+/// by the steps of a coarse encoder (servo/tip_estimate.h): otherwise z would relax with c/Kvc, 2.6 s for the paper's c, and the tip
+/// creep on from step to step all that time. It only lets go of energy.
 [[nodiscard]] double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm,
-                                    double approach_mm, double dt_s, double terms_n = 0.0) noexcept;
+                                    double approach_mm, double dt_s, double terms_n = 0.0,
+                                    double fastest_mm_s = std::numeric_limits<double>::infinity()) noexcept;
 
 }  // namespace cavum

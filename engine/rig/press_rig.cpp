@@ -31,10 +31,14 @@ ForceModel force_of(const PressCell& cell, const PressOptions& o, Rendering rend
   return force;
 }
 
-/// The explicit law goes out as published, with nothing but the peak of the device: a slew limit would tame it.
-ServoConfig config_of(Rendering rendering) {
+/// Ours knows the steps of the encoder. The explicit law goes out as published, with nothing but the peak of the device: a slew limit
+/// would tame it.
+ServoConfig config_of(const PressOptions& o, Rendering rendering) {
   ServoConfig config;
-  if (rendering == Rendering::explicit_voigt) config.limits.slew_n_per_s = 1e6;
+  if (rendering == Rendering::ours)
+    config.position_quantum_mm = o.omni.quantum_mm;
+  else
+    config.limits.slew_n_per_s = 1e6;
   return config;
 }
 
@@ -42,7 +46,7 @@ ServoConfig config_of(Rendering rendering) {
 class Loop {
  public:
   Loop(const PressBench& bench, const PressCell& cell, const PressOptions& o, Rendering rendering)
-      : model_(make_servo_model(bench.block, {bench.point}, force_of(cell, o, rendering), config_of(rendering))),
+      : model_(make_servo_model(bench.block, {bench.point}, force_of(cell, o, rendering), config_of(o, rendering))),
         omni_(o.omni),
         device_(make_omni_state({0, 0, k_above_mm})),
         state_(make_servo_state(model_, bench.block, {0, 0, k_above_mm})) {

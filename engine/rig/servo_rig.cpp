@@ -51,6 +51,7 @@ SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& f
   setup.force_model_toml = force_model_toml;
   ServoConfig config;
   config.tick_s = tick_s;
+  config.position_quantum_mm = OmniModel{}.quantum_mm;
   setup.servo_toml = to_toml(config);
   setup.points_toml = {point_toml};
   setup.tooth = save_tooth(make_block({10, 10, 6}, {{"enamel", 0.5}, {"dentin", 5.5}}, 0.05));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <exception>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "engine/base/error.h"
@@ -171,8 +173,17 @@ RealTimeServo::~RealTimeServo() {
 void RealTimeServo::start() {
   if (loop_->thread.joinable() || loop_->finished) throw Error("servo", "was started already", "make a new one");
   Loop* loop = loop_.get();
-  loop->guard = std::thread([loop] { loop->watch(); });
-  loop->thread = std::thread([loop] { loop->run(); });
+  try {
+    loop->guard = std::thread([loop] { loop->watch(); });
+    loop->thread = std::thread([loop] { loop->run(); });
+  } catch (const std::system_error& e) {
+    loop->finished.store(true, std::memory_order_release);
+    if (loop->guard.joinable()) loop->guard.join();
+    loop->device.cut_force();
+    loop->stream.close("device_failed", e.what());  // who empties it must not wait
+    throw Error("servo", std::string("cannot have its two threads (") + e.what() + ")",
+                "close other programs, or raise the limits of memory and processes");
+  }
 }
 
 void RealTimeServo::ask_to_stop() noexcept { loop_->stop.store(true, std::memory_order_relaxed); }

@@ -52,7 +52,7 @@ class RealTimeServo {
   RealTimeServo(const RealTimeServo&) = delete;
   RealTimeServo& operator=(const RealTimeServo&) = delete;
 
-  void start();
+  void start();  ///< throws Error when the system gives no threads, with the stream closed; or when it was started already
   void ask_to_stop() noexcept;
   [[nodiscard]] bool running() const noexcept;
   /// Waits for the end; the stream is closed by then, and zero force was sent. May be called again.

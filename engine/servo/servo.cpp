@@ -147,6 +147,7 @@ ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 fi
   state.tooth = tooth.octree;
   state.tooth.reserve_edits(k_edit_room);
   state.contact = make_contact_state(model.tray, first_tip_mm);
+  state.estimate = make_tip_estimate(make_tick_input({first_tip_mm, {}}, 0.0, 0, 0, {}).tip_nm);
   state.last_tip_mm = first_tip_mm;
   state.terms.count = model.force.terms.size();
   state.removed.reserve(k_removed_room);
@@ -160,12 +161,13 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   const bool fresh = (input.flags & k_stylus_fresh) != 0;
   if ((input.flags & k_pedal_fresh) == 0) out.notices |= k_notice_no_pedal;
   state.rpm = next_rpm(model.config, state.rpm, input);
+  update_tip_estimate(state.estimate, input.tip_nm, state.tick, model.config.position_quantum_mm, dt);
 
   double wanted_n = 0.0;
   Vec3 wanted_drag_n;
   if (input.point < model.tray.size()) {
     const ContactTool& tool = model.tray[input.point];
-    const Pose device = input.pose();
+    const Pose device{state.estimate.tip_mm, input.pose().rotation};
     const bool was_touching = state.contact.touching;
     const ContactResult contact = update_contact(state.tooth, tool, input.point, device, state.contact);
     // What the proxy advanced along the contact is paid from the recession that was owed; so the surface recedes
@@ -201,7 +203,8 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
       wanted_drag_n = terms.rendered_drag_n;
       if (!terms.finite) out.notices |= k_notice_not_finite;
     }
-    wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt, terms.tissue_n);
+    wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt, terms.tissue_n,
+                              fastest_mm_s(state.estimate, contact.normal, state.tick, model.config.position_quantum_mm, dt));
     if (state.rpm < k_still_share * model.config.max_rpm || state.carving.now.point != input.point) drop_carving(state.carving);
     if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, input.point, out);
     state.last_tip_mm = device.tip_mm;
@@ -243,7 +246,8 @@ std::uint64_t state_hash(const ServoState& s) noexcept {
                                      s.safety.silent_s,    s.rpm,
                                      s.recession_mm,       s.swept_mm,
                                      s.carve_began_mm};
-  return hash_of(s.terms, fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version)));
+  const std::uint64_t rest = fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version));
+  return hash_of(s.terms, hash_of(s.estimate, rest));
 }
 
 }  // namespace cavum

@@ -15,6 +15,7 @@
 #include "engine/force/safety.h"
 #include "engine/instrument/diamond_point.h"
 #include "engine/servo/tick.h"
+#include "engine/servo/tip_estimate.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
@@ -25,9 +26,10 @@ inline constexpr int k_physics_version = 3;
 /// Settings of the handpiece, the device and the tick. TOML text in a session: see `to_toml`.
 struct ServoConfig {
   double tick_s = k_tick_s;
-  double max_rpm = 200000.0;  ///< speed at a pedal pressed to the floor
-  double spin_up_s = 0.15;    ///< time constant of the handpiece's speed
-  SafetyLimits limits;        ///< of the haptic device
+  double max_rpm = 200000.0;         ///< speed at a pedal pressed to the floor
+  double spin_up_s = 0.15;           ///< time constant of the handpiece's speed
+  double position_quantum_mm = 0.0;  ///< step of the device's encoder in the positions it reports; 0 = exact
+  SafetyLimits limits;               ///< of the haptic device
 };
 [[nodiscard]] std::string to_toml(const ServoConfig& config);
 /// Throws Error(where, ...) on anything missing, unknown or out of range.
@@ -49,6 +51,7 @@ struct ServoModel {
 struct ServoState {
   Octree tooth;
   std::int64_t tick = 0;
+  TipEstimate estimate;
   ContactState contact;
   RenderState render;
   TermsState terms;

@@ -8,7 +8,8 @@ namespace cavum {
 std::string to_toml(const ServoConfig& c) {
   std::ostringstream out;
   out.precision(17);
-  out << "tick_s = " << c.tick_s << "\nmax_rpm = " << c.max_rpm << "\nspin_up_s = " << c.spin_up_s << "\n\n[limits]\npeak_n = " << c.limits.peak_n
+  out << "tick_s = " << c.tick_s << "\nmax_rpm = " << c.max_rpm << "\nspin_up_s = " << c.spin_up_s
+      << "\nposition_quantum_mm = " << c.position_quantum_mm << "\n\n[limits]\npeak_n = " << c.limits.peak_n
       << "\ncontinuous_n = " << c.limits.continuous_n << "\nslew_n_per_s = " << c.limits.slew_n_per_s
       << "\nsustained_budget_n_s = " << c.limits.sustained_budget_n_s << "\nwatchdog_s = " << c.limits.watchdog_s << "\n";
   return out.str();
@@ -21,6 +22,7 @@ ServoConfig parse_servo_config(const std::string& text, const std::string& where
   c.tick_s = in.number("tick_s", 1e-5, 0.01);
   c.max_rpm = in.number("max_rpm", 1, 1e6);
   c.spin_up_s = in.number("spin_up_s", 0, 10);
+  c.position_quantum_mm = in.number_or("position_quantum_mm", 0, 1, 0.0);  // sessions of physics 1 and 2 have none
   const auto* limits = in.table("limits");
   if (limits == nullptr) in.fail("limits", "is missing", "add [limits]");
   TomlReader l(*limits, where);

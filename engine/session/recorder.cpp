@@ -92,9 +92,12 @@ void put_in_place(const std::string& made, const std::string& path) {
   if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return;
   const bool unsupported = errno == EINVAL || errno == ENOSYS;
   if (unsupported && ::access(path.c_str(), F_OK) != 0 && ::rename(made.c_str(), path.c_str()) == 0) return;
+  const bool there = errno == EEXIST || ::access(path.c_str(), F_OK) == 0;
   const std::string why = std::strerror(errno);
   ::unlink(made.c_str());
-  throw Error(path, "cannot be put in place (" + why + ")", "choose another name; an existing session is never overwritten");
+  if (there)
+    throw Error(path, "exists already: another exam began to record into it", "choose another name; an existing session is never overwritten");
+  throw Error(path, "cannot be put in place (" + why + ")", "check the folder and the disk");
 }
 
 void sync_folder_of(const std::string& path) {
@@ -134,7 +137,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   Recorder recorder(path, load_station_key(station_key_path()));
   const auto meta = meta_of(setup);
   const auto artifacts = artifacts_of(setup);
-  const std::string made = path + ".new";
+  const std::string made = path + ".new-" + std::to_string(::getpid());  // of this process alone: two exams may be begun under one name at once
   ::unlink(made.c_str());
   ::unlink((made + "-journal").c_str());
   try {

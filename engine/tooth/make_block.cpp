@@ -35,7 +35,7 @@ constexpr double k_rounding_mm = 1e-9;  // 3 * 0.1 is a little more than 0.3
 
 /// Throws unless `mm` can be built of leaves at all; `named` and `option` are the words of the error.
 void check_extent(double mm, double leaf_mm, const std::string& where, const std::string& named, const std::string& option) {
-  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, named + " must be larger than 0 mm", "give " + option + ", for example");
+  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, named + " must be larger than 0 mm", "give " + option);
   if (mm < leaf_mm - k_rounding_mm)
     throw Error(where, named + " is " + plain_number(mm) + " mm, less than a leaf of " + plain_number(leaf_mm) + " mm", "use a smaller --leaf-mm");
 }
@@ -83,7 +83,7 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
   const std::string where = "block";
   check_leaf(leaf_mm, where);
   for (const auto& [axis, mm] : {std::pair{"length", size_mm.x}, std::pair{"width", size_mm.y}, std::pair{"height", size_mm.z}})
-    check_extent(mm, leaf_mm, where, std::string("the ") + axis, "--size-mm 10,10,6");
+    check_extent(mm, leaf_mm, where, std::string("the ") + axis, "--size-mm 10,10,6, for example");
   check_layers(size_mm, layers, leaf_mm, where);
   Tooth tooth;
   const std::vector<std::uint8_t> ids = number_tissues(layers, tooth.tissues, where);
@@ -134,7 +134,7 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
 Tooth make_cube(double edge_mm, const std::string& tissue, double leaf_mm) {
   check_leaf(leaf_mm, "cube");
   check_tissue_name(tissue, "cube");
-  check_extent(edge_mm, leaf_mm, "cube", "the edge", "--edge-mm 10");
+  check_extent(edge_mm, leaf_mm, "cube", "the edge", "--edge-mm 10, for example");
   Tooth tooth = make_block({edge_mm, edge_mm, edge_mm}, {{tissue, edge_mm}}, leaf_mm);
   tooth.name = tissue + " cube " + plain_number(edge_mm) + " mm";
   return tooth;

@@ -358,5 +358,52 @@ TEST_F(CommandLine, AMotionFileDrillsAndAnExistingSessionIsNotOverwritten) {
   EXPECT_EQ(run("replay " + path("m.cavum") + " --verify").exit_code, 0);
 }
 
+TEST_F(CommandLine, MistakesAreNamedWithTheFileTheyAreIn) {
+  const std::string exam = "exam " + k_block + " --candidate c --operator expert --out " + path("x.cavum");
+  expect_refused(exam + " --tooth " + k_block, {"block_cavity.toml: ", "tooth file"});
+  std::ifstream in(k_data + "/materials/paper.toml");
+  std::string bad{std::istreambuf_iterator<char>(in), {}};
+  bad.replace(bad.find("rpm_ref"), 7, "rpm_rex");
+  write_text_file(path("bad_model.toml"), bad);
+  expect_refused(exam + " --model " + path("bad_model.toml"), {path("bad_model.toml") + ":"});
+  EXPECT_FALSE(fs::exists(path("x.cavum")));
+  expect_refused(exam + " --seed -1", {"--seed"});
+}
+
+TEST_F(CommandLine, PlacesToWriteAreLookedAtBeforeTheWorkAndDevicesAreNeverReplaced) {
+  ASSERT_EQ(std::system(("mkfifo " + path("pipe")).c_str()), 0);
+  const std::string cube = "tooth make cube --edge-mm 1 --leaf-mm 0.1 --out ";
+  expect_refused(cube + path("pipe"), {"pipe", "no ordinary file"});
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  ASSERT_EQ(run(cube + path("cube.cvt")).exit_code, 0);
+  // what is wrong with the work itself would be found later
+  for (const char* verb : {"tooth make cube --edge-mm -1 --out ", "tooth make block --size-mm 1,1,-1 --out ", "tooth make molar --leaf-mm -1 --out "})
+    expect_refused(verb + path("none/a.cvt"), {"there is no folder"});
+  expect_refused("tooth mesh " + path("none.cvt") + " --out " + path("none/a.stl"), {"there is no folder"});
+}
+
+TEST_F(CommandLine, ABlockOfPartLeavesSaysWhatIsCounted) {
+  const Ran r = run("tooth make block --size-mm 1,1,1.03 --layers dentin:1.03 --leaf-mm 0.05 --out " + path("b.cvt"));
+  EXPECT_EQ(r.exit_code, 0);
+  EXPECT_NE(r.err.find("1.03 mm is no whole number of leaves"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("1 or 1.05 mm"), std::string::npos) << r.err;
+  EXPECT_EQ(run("tooth make block --size-mm 1,1,1.05 --layers dentin:1.05 --leaf-mm 0.05 --out " + path("b.cvt")).err, "");
+}
+
+TEST_F(CommandLine, OfTwoExamsBegunUnderOneNameOneGoesOn) {
+  const std::string exam = std::string(CAVUM_BINARY) + " exam " + k_block + " --operator expert --quiet --out " + path("one.cavum") + " --candidate ";
+  const std::string both = exam + "a >" + path("o1") + " 2>" + path("e1") + " & first=$!; " + exam + "b >" + path("o2") + " 2>" + path("e2") +
+                           "; b=$?; wait $first; echo $? $b >" + path("codes");
+  for (int i = 0; i < 3; ++i) {
+    fs::remove(path("one.cavum"));
+    ASSERT_EQ(std::system(both.c_str()), 0);
+    const std::string codes = read_text_file(path("codes")), errors = read_text_file(path("e1")) + read_text_file(path("e2"));
+    EXPECT_TRUE(codes == "0 2\n" || codes == "2 0\n") << codes << errors;
+    EXPECT_NE(errors.find("exists already"), std::string::npos) << errors;
+    EXPECT_NE(errors.find("choose another name"), std::string::npos) << errors;
+    EXPECT_EQ(run("replay " + path("one.cavum") + " --verify").exit_code, 0);
+  }
+}
+
 }  // namespace
 }  // namespace cavum

@@ -3,11 +3,14 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <numeric>
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 
 namespace cavum {
 namespace {
@@ -29,8 +32,44 @@ Vec3 point(const Surface& surface, Surface::VertexHandle v) {
   return {p[0], p[1], p[2]};
 }
 
+/// OpenMesh joins the equal corners of an STL while it reads; a corner that is no number is equal to any other, vanishes in that, and
+/// leaves a hole. So they are looked for in the file itself.
+void require_numbers_in_stl(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (extension != ".stl") return;
+  const auto fail = [&](const std::string& where) { throw Error(path, where + " has a corner that is no number", "export the mesh again, in mm"); };
+  const Bytes file = read_file(path);
+  constexpr std::size_t k_head = 84, k_facet = 50, k_normal = 12, k_corners = 9;
+  std::uint32_t facets = 0;
+  if (file.size() >= k_head) std::memcpy(&facets, file.data() + k_head - 4, 4);
+  if (file.size() >= k_head && file.size() == k_head + k_facet * std::size_t{facets}) {
+    for (std::size_t f = 0; f < facets; ++f)
+      for (std::size_t i = 0; i < k_corners; ++i) {
+        float value = 0;
+        std::memcpy(&value, file.data() + k_head + f * k_facet + k_normal + i * sizeof value, sizeof value);
+        if (!std::isfinite(value)) fail("facet " + std::to_string(f + 1));
+      }
+    return;
+  }
+  std::istringstream text(std::string(file.begin(), file.end()));
+  std::size_t number = 0;
+  for (std::string line; std::getline(text, line);) {
+    ++number;
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word != "vertex") continue;
+    for (int i = 0; i < 3; ++i) {
+      words >> word;
+      char* end = nullptr;
+      if (!words || !std::isfinite(std::strtod(word.c_str(), &end)) || *end != '\0') fail("line " + std::to_string(number));
+    }
+  }
+}
+
 Surface load(const std::string& path) {
   require_mesh_file(path);
+  require_numbers_in_stl(path);
   // OpenMesh reports on the console; our errors say the same with the file's name.
   omout().disable();
   omlog().disable();
@@ -82,6 +121,11 @@ std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
 
 ReadMesh read_closed_mesh(const std::string& path) {
   const Surface surface = load(path);
+  for (const auto v : surface.vertices()) {  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
+    const Vec3 p = point(surface, v);
+    if (!surface.is_isolated(v) && (!is_finite(p) || length(p) > 1e6))
+      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
+  }
   std::size_t open_edges = 0;
   Vec3 open_at;
   for (const auto e : surface.edges()) {
@@ -99,8 +143,6 @@ ReadMesh read_closed_mesh(const std::string& path) {
   for (const auto v : surface.vertices()) {
     if (surface.is_isolated(v)) continue;
     const Vec3 p = point(surface, v);
-    if (!is_finite(p) || length(p) > 1e6)
-      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
     pinched += !surface.is_manifold(v);
     renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(out.mesh.vertices_mm.size());
     out.mesh.vertices_mm.push_back(p);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -24,6 +25,19 @@ TEST(File, WritesAndReadsBackEveryByte) {
   write_file(folder.file("empty"), {});
   EXPECT_TRUE(read_file(folder.file("empty")).empty());
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.part")));
+}
+
+TEST(File, ADeviceOrAPipeIsNotReplacedByAFile) {
+  const Folder folder;
+  const std::string pipe = folder.file("pipe"), link = folder.file("link");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/null", link);
+  for (const std::string& node : {pipe, link}) {
+    EXPECT_EQ(error_of([&] { require_writable(node); }).rfind(node + ": is no ordinary file", 0), 0u);
+    EXPECT_EQ(error_of([&] { write_text_file(node, "text"); }).rfind(node + ": is no ordinary file", 0), 0u);
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
 }
 
 TEST(File, MissingFileAndFolderAreErrorsThatNameThem) {

@@ -109,6 +109,14 @@ TEST(MotionFile, NoTruncationOrOddByteCrashesTheReader) {
   }
 }
 
+TEST(MotionFile, ButtonsAreZeroOrOneAndAPointIsNamedOrNumbered) {
+  const std::string header = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n", second = "1,1,0,0,1,0,0,0,0,0,0,0\n";
+  EXPECT_EQ(error_in(header + "0,0,0,0,1,0,0,0,0,0,0,0\n" + second), "");
+  for (const char* bad : {"7,0,0", "0,-1,0", "0.5,0,0", "0,0,-1", "0,0,", "0,0,256", "0,0,0.5"})
+    EXPECT_EQ(error_in(header + "0,0,0,0,1,0,0,0,0," + bad + "\n" + second).rfind("m.csv:2: ", 0), 0u) << bad;
+  EXPECT_NE(error_in("# point =\n" + k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n"), "") << "not silently the first point";
+}
+
 TEST(MotionFile, PlaysLinearlyBetweenRowsAndHoldsTheEnds) {
   const Motion m = parse_motion(k_header + "5,0,0,0,1,0,0,0,0\n7,4,-2,1,1,0,0,0,1\n8,4,-2,1,1,0,0,0,0.5\n", "m.csv");
   const MotionSample half = m.at(0.5);

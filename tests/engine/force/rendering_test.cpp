@@ -131,6 +131,19 @@ TEST(Rendering, TheBranchGivesBackNoMoreThanItTook) {
   }
 }
 
+TEST(Rendering, TheBranchHoldsNoMoreThanTheLawAtTheFastestSpeedLeftOpen) {
+  Press run{{}, {0.8, 1.79}};
+  run.model.filtered_damping_n_s_per_mm = 0;
+  (void)run.to(1.0);
+  EXPECT_GT(run.state.branch_n, 0.6);
+  (void)render_force_n(run.model, run.tissue, run.state, true, 1.0, 0.0, 0.001, 0.0, 0.2);
+  EXPECT_NEAR(run.state.branch_n, 1.79 * 0.2, 1e-12);
+  run.state.branch_n = -0.6;
+  (void)render_force_n(run.model, run.tissue, run.state, true, 1.0, 0.0, 0.001, 0.0, 0.2);
+  EXPECT_NEAR(run.state.branch_n, -1.79 * 0.2, 1e-12) << "neither when it pulls";
+  EXPECT_EQ(render_force_n(run.model, {0.8, 0.0}, run.state, true, 1.0, 0.0, 0.001), 0.8) << "without damping there is nothing to bound";
+}
+
 TEST(Rendering, SpeedFilterSettlesOnTheSpeed) {
   RenderState state;
   const RenderingModel model;

@@ -1,8 +1,13 @@
 #include "engine/servo/real_time.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "engine/device/simulated_stylus.h"
 #include "engine/tooth/make_block.h"
@@ -278,6 +283,49 @@ TEST(RealTime, RunsAt4KilohertzToo) {
   run.go(2000);
   EXPECT_NEAR(static_cast<double>(monotonic_ns() - start) * 1e-9, 0.5, 0.2);
   EXPECT_NEAR(length(run.ticks.back().output.rendered_force_n), 0.64, 0.02);
+}
+
+/// What `start` does in a process of its own that has room for only so many stacks of 256 MB: 0 it ran, 1 Error with the stream
+/// closed, 2 something else; -1 the process died.
+int started_with_room_for(int stacks) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Live live(nullptr);
+    live.options.ask_for_memory = live.options.ask_for_fifo = false;
+    live.options.max_ticks = 5;
+    RealTimeServo servo(live.rig.model, live.rig.state, live.device, live.stream, {}, live.options);
+    constexpr std::size_t k_stack = 256u << 20;
+    pthread_attr_t attributes;
+    ::pthread_attr_init(&attributes);
+    ::pthread_attr_setstacksize(&attributes, k_stack);
+    ::pthread_setattr_default_np(&attributes);
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + k_stack / 2 + static_cast<std::size_t>(stacks) * k_stack;
+    const struct rlimit limit { most, most };
+    ::setrlimit(RLIMIT_AS, &limit);
+    try {
+      servo.start();
+      servo.join();
+      ::_exit(0);
+    } catch (const Error&) {
+      ::_exit(live.stream.closed() && !servo.running() ? 1 : 2);
+    } catch (...) {
+      ::_exit(2);
+    }
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(RealTime, AThreadThatCannotBeHadIsAnErrorAndNotTheEndOfTheProgram) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need the address space";
+#endif
+  EXPECT_EQ(started_with_room_for(0), 1) << "not even the guard";
+  EXPECT_EQ(started_with_room_for(1), 1) << "the guard, but not the servo";
+  EXPECT_EQ(started_with_room_for(4), 0);
 }
 
 }  // namespace

@@ -232,11 +232,19 @@ TEST(Servo, ConfigSurvivesItsTomlAndRefusesOddValues) {
   config.tick_s = 0.00025;
   config.max_rpm = 123456.789;
   config.limits.peak_n = 0.1 + 0.2;
+  config.position_quantum_mm = 0.055;
   const std::string text = to_toml(config);
   const ServoConfig back = parse_servo_config(text, "c.toml");
   EXPECT_EQ(to_toml(back), text);
   EXPECT_EQ(back.limits.peak_n, config.limits.peak_n) << "to the last bit";
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"spin_up_s", "spin_s"}, {"[limits]", "[limit]"}, {"tick_s = ", "tick_s = -"}}) {
+  EXPECT_EQ(back.position_quantum_mm, config.position_quantum_mm);
+  std::string older = text;  // of physics 1 and 2
+  older.erase(older.find("position_quantum_mm"), older.find("\n\n[limits]") - older.find("position_quantum_mm"));
+  EXPECT_EQ(parse_servo_config(older, "c.toml").position_quantum_mm, 0.0);
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"spin_up_s", "spin_s"},
+                                 {"[limits]", "[limit]"},
+                                 {"quantum_mm = ", "quantum_mm = -"},
+                                 {"tick_s = ", "tick_s = -"}}) {
     std::string bad = text;
     bad.replace(bad.find(from), from.size(), to);
     EXPECT_EQ(error_of([&] { (void)parse_servo_config(bad, "c.toml"); }).rfind("c.toml:", 0), 0u) << to;

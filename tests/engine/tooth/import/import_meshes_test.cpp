@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
+
 #include "engine/tooth/import/read_mesh.h"
 #include "engine/tooth/make_molar.h"
 #include "tests/engine/tooth/import/import_testing.h"
@@ -102,6 +105,25 @@ TEST(ImportMeshes, AnOpenMeshIsAnErrorThatNamesFileAndPlace) {
   EXPECT_NE(error.find("d.obj"), std::string::npos) << error;
   EXPECT_NE(error.find("3 open"), std::string::npos) << error;
   EXPECT_NE(error.find("one at ("), std::string::npos) << error;
+}
+
+TEST(ImportMeshes, ACornerThatIsNoNumberIsNamedAndNotTakenForAHole) {
+  const auto folder = fresh_folder();
+  const auto name = [&](const char* file) { return (folder / file).string(); };
+  write_mesh_file(ball({0, 0, 0}, 1, 6), name("good.stl"));
+  EXPECT_GT(read_closed_mesh(name("good.stl")).volume_mm3, 1);
+  Bytes binary = read_file(name("good.stl"));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(binary.data() + 84 + 2 * 50 + 12 + 4, &nan, sizeof nan);  // of the third facet
+  write_file(name("binary.stl"), binary);
+  const std::string in_binary = error_of([&] { (void)read_closed_mesh(name("binary.stl")); });
+  EXPECT_EQ(in_binary.rfind(name("binary.stl") + ": facet 3 has a corner that is no number", 0), 0u) << in_binary;
+  for (const char* value : {"nan", "inf", "-NaN", "x", ""}) {
+    write_text_file(name("text.stl"), "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 " + std::string(value) +
+                                          "\nendloop\nendfacet\nendsolid t\n");
+    const std::string in_text = error_of([&] { (void)read_closed_mesh(name("text.stl")); });
+    EXPECT_EQ(in_text.rfind(name("text.stl") + ": line 6 has a corner that is no number", 0), 0u) << in_text;
+  }
 }
 
 TEST(ImportMeshes, ExchangedLayersAreAnError) {
