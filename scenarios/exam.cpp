@@ -21,6 +21,13 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
     case ExamEventKind::step_time_limit:
       detail["step"] = index < setup.scenario.steps.size() ? setup.scenario.steps[index].id : "";
       break;
+    case ExamEventKind::pause_started:
+    case ExamEventKind::pause_ended:
+      detail["pause"] = event.index;
+      break;
+    case ExamEventKind::pause_refused:
+      detail["pauses"] = event.index;
+      break;
     case ExamEventKind::point_not_allowed:
       detail["point"] = event.index;
       break;
@@ -42,7 +49,8 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
 
 /// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
 void fill(ExamSetup& setup, const std::string& scenario_path) {
-  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path);
+  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path, Reading::recorded);
+  setup.scenario.accommodations = granted(setup.scenario.accommodations, setup.session.notes, scenario_path);
   setup.tooth = load_tooth(setup.session.tooth, "tooth");
   for (const auto& text : setup.session.points_toml) {
     setup.points.push_back(parse_diamond_point(text, "diamond point"));
@@ -78,7 +86,9 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   const Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
   s.candidate = options.candidate;
   s.device = options.device;
+  require_sound(options.grant, "accommodations");
   s.notes = options.notes;
+  for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
   s.tooth = read_file(options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file);
   s.force_model_toml = force_model_text(options.force_model, scenario_path);
   for (const auto& name : scenario.points) s.points_toml.push_back(read_text_file(find_data_file("points", name + ".toml", scenario_path)));
@@ -143,7 +153,9 @@ void Exam::record_events() {
   }
 }
 
-const TickOutput& Exam::tick(const TickInput& input) {
+const TickOutput& Exam::tick(const TickInput& wanted) {
+  TickInput input = wanted;
+  if (Runner::paused(*runner_state_)) input.pedal_q16 = 0;  // what is recorded is what the step consumed
   last_input_ = input;
   last_ = step(simulation_.model, simulation_.state, input);
   runner_.advance(*runner_state_, input, last_, simulation_.state.removed);
@@ -155,6 +167,11 @@ const TickOutput& Exam::tick(const TickInput& input) {
 void Exam::end() {
   runner_.end(*runner_state_);
   record_events();
+}
+
+void Exam::note_late(std::int64_t ticks, std::int64_t pedal_ticks) {
+  const nlohmann::json detail{{"ticks", ticks}, {"pedal_ticks", pedal_ticks}};
+  recorder_->add_event(runner_state_->ticks - 1, k_late_work, detail.dump());
 }
 
 void Exam::close(const std::string& result_json) { recorder_->close(save_tooth(tooth_now()), result_json); }
