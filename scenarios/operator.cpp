@@ -13,6 +13,7 @@ constexpr double k_arrived_mm = 0.04;         // cutting; ways through the air n
 constexpr double k_lead_rate_mm_s = 15.0;     // how fast the hand builds up its push
 constexpr double k_correction = 2.0;          // of an error across the way ...
 constexpr double k_most_correction_mm = 0.8;  // ... up to this
+constexpr double k_astray_mm = 0.12;          // further off the way it no longer goes on along it
 constexpr double k_friction_n = 0.26;         // of the device's joints: a practised hand knows it
 constexpr double k_intention_s = 0.025;
 constexpr double k_gentle_bend = 0.7;  // cosine between two pieces of the way
@@ -115,10 +116,14 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
     goal = &way_[next_];
     left = left_to(*goal, goal->tip_mm - from_mm_);
   }
-  const Vec3 direction = normalized(goal->tip_mm - seen.proxy_mm), line = normalized(goal->tip_mm - from_mm_);
+  Vec3 direction = normalized(goal->tip_mm - seen.proxy_mm);
+  const Vec3 line = normalized(goal->tip_mm - from_mm_);
   // Across the way the hand corrects more than it sees, or the friction of the joints would keep the error.
   const Vec3 anchor = from_mm_ + line * std::clamp(dot(seen.proxy_mm - from_mm_, line), 0.0, length(goal->tip_mm - from_mm_));
-  Vec3 correction = (anchor - seen.proxy_mm) * k_correction;
+  const Vec3 off = anchor - seen.proxy_mm;
+  Vec3 correction = off * k_correction;
+  // A groove cut before leads the point astray: back to the way first, or the wall between them would be left standing.
+  if (const double astray = length(off); goal->cut && astray > k_astray_mm) direction = normalized(direction * (k_astray_mm / astray) + off / astray);
   if (const double c = length(correction); c > k_most_correction_mm) correction = correction * (k_most_correction_mm / c);
 
   // Push until the penetration felt is the one aimed at; where nothing resists, move at a quiet speed.
