@@ -44,7 +44,4 @@ void require_tissues(const Scenario& scenario, const Tooth& tooth);
 /// working directory. Throws Error when none is there.
 [[nodiscard]] std::string find_tooth_file(const Scenario& scenario);
 
-/// A commented scenario to start from; it passes `check_scenario`.
-[[nodiscard]] std::string scenario_template();
-
 }  // namespace cavum

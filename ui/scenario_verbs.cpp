@@ -17,6 +17,7 @@
 #include "scenarios/parse.h"
 #include "scenarios/picture.h"
 #include "scenarios/simulated_exam.h"
+#include "scenarios/template.h"
 #include "scenarios/zone_map.h"
 #include "ui/print_json.h"
 #include "ui/verbs.h"
@@ -25,7 +26,7 @@ namespace cavum {
 namespace {
 
 struct Options {
-  std::string scenario, tooth, out, model = "consistent";
+  std::string scenario, tooth, tooth_kind = "molar", task = "class_1", out, model = "consistent";
   std::uint64_t seed = 1;
   bool json = false, force = false;
 };
@@ -173,7 +174,7 @@ int solve(const Options& o) {
 
 int make_new(const Options& o) {
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  write_text_file(o.out, scenario_template());
+  write_text_file(o.out, scenario_template(o.tooth_kind, o.task));
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
   return 0;
 }
@@ -208,6 +209,10 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
 
   auto* news = verb->add_subcommand("new", "Write a commented scenario to start from");
+  std::string known;
+  for (const auto& c : template_choices()) known += (known.empty() ? "" : ", ") + c.tooth + " " + c.task;
+  news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
+  news->add_option("--task", o->task, "kind of task")->capture_default_str();
   news->add_option("--out", o->out, "file to write")->required();
   news->add_flag("--force", o->force, "overwrite");
   news->callback([o, &exit_code] { exit_code = make_new(*o); });
