@@ -20,6 +20,7 @@ class ProblemList {
   /// False for what an exam ran with before a rule was made: the rule is not for it.
   [[nodiscard]] bool strict() const noexcept { return reading_ == Reading::to_be_run; }
   void add(const toml::source_region& at, const std::string& what, const std::string& what_to_do);
+  [[nodiscard]] std::size_t size() const noexcept { return problems_.size(); }
   void add(Place at, const std::string& what, const std::string& what_to_do);
   /// Sorted by place.
   [[nodiscard]] std::vector<Problem> take();

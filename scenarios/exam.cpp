@@ -1,5 +1,6 @@
 #include "scenarios/exam.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -59,16 +60,33 @@ void fill(ExamSetup& setup, const std::string& scenario_path) {
   setup.zones = build_zones(setup.scenario, setup.tooth);
 }
 
+std::vector<fs::path> data_folders(const std::string& folder, const std::string& near_file) {
+  std::vector<fs::path> places;
+  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder);
+  places.push_back(fs::path(near_file).parent_path() / ".." / folder);
+  places.push_back(fs::path("data") / folder);
+  places.push_back(fs::path(CAVUM_DATA_DIR) / folder);
+  return places;
+}
+
 }  // namespace
 
+std::vector<std::string> data_names(const std::string& folder, const std::string& near_file) {
+  for (const auto& place : data_folders(folder, near_file)) {
+    std::error_code none;
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(place, none))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    if (!names.empty()) return names;
+  }
+  return {};
+}
+
 std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file) {
-  std::vector<fs::path> places;
-  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder / name);
-  places.push_back(fs::path(near_file).parent_path() / ".." / folder / name);
-  places.push_back(fs::path("data") / folder / name);
-  places.push_back(fs::path(CAVUM_DATA_DIR) / folder / name);
   std::string looked;
-  for (const auto& p : places) {
+  for (const auto& place : data_folders(folder, near_file)) {
+    const fs::path p = place / name;
     if (fs::exists(p)) return p.lexically_normal().string();
     looked += (looked.empty() ? "" : ", ") + p.lexically_normal().string();
   }

@@ -22,6 +22,9 @@ namespace cavum {
 /// Throws Error naming the places.
 [[nodiscard]] std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file);
 
+/// Names (without .toml) of the files in the first of those folders that exists, sorted.
+[[nodiscard]] std::vector<std::string> data_names(const std::string& folder, const std::string& near_file);
+
 /// Text of a force model: the name of data/materials/NAME.toml, or a path ending in .toml. Throws Error.
 [[nodiscard]] std::string force_model_text(const std::string& wanted, const std::string& near_file);
 

@@ -152,38 +152,43 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   return {intended_mm_, pedal_, false};
 }
 
+ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray) {
+  ChosenPoint chosen;
+  chosen.index = tray.size();
+  double best_score = 0;
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    ReachMap map = reach_map(zones, tooth, tray[i], PlanOptions{}.margin_mm);
+    chosen.covers.push_back(coverage(map, zones, tooth, tray[i]));
+    // a head shorter than the target is deep leaves ledges that hold up its neck
+    const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
+    const double score = chosen.covers.back() * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
+    if (score > best_score * 1.01) {
+      best_score = score;
+      chosen.index = i;
+      chosen.map = std::move(map);
+    }
+  }
+  return chosen;
+}
+
 Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                          const std::vector<ContactTool>& tray, std::uint64_t seed) {
   const Skill skill = make_skill(skill_name, seed);
-  // The point that reaches most of the target's columns at their full depth; of equals the first one allowed.
-  std::size_t best = tray.size();
-  double best_score = 0;
-  ReachMap best_map;
-  for (std::size_t i = 0; i < tray.size(); ++i) {
-    ReachMap map = reach_map(zones, tooth, tray[i], PlanOptions{}.margin_mm);
-    // a head shorter than the target is deep leaves ledges that hold up its neck
-    const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
-    const double score = coverage(map, zones, tooth, tray[i]) * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
-    if (score > best_score * 1.01) {
-      best_score = score;
-      best = i;
-      best_map = std::move(map);
-    }
-  }
-  if (best == tray.size())
+  const ChosenPoint chosen = choose_point(zones, tooth, tray);
+  if (chosen.index == tray.size())
     throw Error(scenario.path.empty() ? "scenario" : scenario.path, "no allowed diamond point fits into the target", "allow a thinner one");
-  auto way = plan_cut(best_map, zones, tooth, PlanOptions{});
+  auto way = plan_cut(chosen.map, zones, tooth, PlanOptions{});
   if (skill.perforates)
     for (const auto& fault : scenario.perforation.faults) {
       bool present = false;
       for (const auto& t : tooth.tissues) present = present || t.name == fault;
       if (!present) continue;
-      auto deeper = plan_perforation(zones, tooth, best_map, tooth.tissue_id(fault));
+      auto deeper = plan_perforation(zones, tooth, chosen.map, tooth.tissue_id(fault));
       if (deeper.empty()) continue;
       way.insert(way.end(), deeper.begin(), deeper.end());
       break;
     }
-  return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(best)};
+  return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 
 }  // namespace cavum

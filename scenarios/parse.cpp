@@ -34,6 +34,11 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
   for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
+  for (const auto& function : functions_in_expression(text))
+    if (function != "min" && function != "max" && function != "abs") {
+      t.problem(key, "'" + std::string(key) + "' uses the unknown function '" + function + "'", "use min, max or abs");
+      return;
+    }
   try {
     std::vector<std::string> known = names;
     for (const auto& used : names_in_expression(text)) {

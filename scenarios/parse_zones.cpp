@@ -198,9 +198,10 @@ ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& plac
   ZoneSpec z;
   z.target = read_shapes(t, "target", true, places, problems);
   for (const char* key : {"leeway", "container"}) t.note(places, key, std::string("zones/") + key);
+  const std::size_t before = problems.size();
   z.leeway = read_margin(t, "leeway", problems);
   z.container = read_margin(t, "container", problems);
-  if (t.has("leeway") && t.has("container") && (z.container.sides_mm < z.leeway.sides_mm || z.container.bottom_mm < z.leeway.bottom_mm))
+  if (problems.size() == before && (z.container.sides_mm < z.leeway.sides_mm || z.container.bottom_mm < z.leeway.bottom_mm))
     t.problem("container", "the container is narrower than the leeway", "make it at least as wide: it is measured from the target too");
   z.protected_shapes = read_shapes(t, "protected", false, places, problems);
   t.finish();

@@ -1,6 +1,7 @@
 // `cavum scenario check | show | solve | new`: authoring help.
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "engine/tooth/tooth.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
+#include "scenarios/check.h"
 #include "scenarios/exam.h"
 #include "scenarios/parse.h"
 #include "scenarios/picture.h"
@@ -32,31 +34,28 @@ struct Options {
 };
 
 int check(const Options& o) {
-  std::vector<Problem> problems = check_scenario(read_text_file(o.scenario), o.scenario);
-  if (problems.empty()) {
-    // the zones must also fit the tooth, when it is there
-    try {
-      const Scenario s = load_scenario(o.scenario);
-      const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
-      static_cast<void>(build_zones(s, tooth));
-      require_tissues(s, tooth);
-      for (const auto& name : s.points) static_cast<void>(find_data_file("points", name + ".toml", o.scenario));
-    } catch (const Error& e) {
-      const std::string text = e.what();
-      const auto at = text.find(": "), then = text.find("; ");
-      problems.push_back({text.substr(0, at), text.substr(at + 2, then - at - 2), text.substr(then + 2), 0, 0});
-    }
-  }
+  const CheckedScenario checked = check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
   if (o.json) {
-    nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", problems.empty()}, {"problems", nlohmann::ordered_json::array()}};
-    for (const auto& p : problems)
-      j["problems"].push_back({{"where", p.where}, {"line", p.line}, {"column", p.column}, {"what", p.what}, {"what_to_do", p.what_to_do}});
+    nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
+    for (const auto& p : checked.problems)
+      j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
+                               {"where", p.where},
+                               {"line", p.line},
+                               {"column", p.column},
+                               {"what", p.what},
+                               {"what_to_do", p.what_to_do}});
+    j["expert_s"] = checked.expert_s ? nlohmann::ordered_json(std::round(*checked.expert_s)) : nlohmann::ordered_json(nullptr);
     print_json(j);
   } else {
-    for (const auto& p : problems) std::cout << p.text() << "\n";
-    if (problems.empty()) std::cout << o.scenario << ": sound\n";
+    for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
+    if (checked.sound()) {
+      const auto n = checked.problems.size();
+      std::cout << o.scenario << ": sound" << (n == 0 ? "" : ", with " + std::to_string(n) + (n == 1 ? " warning" : " warnings"));
+      if (checked.expert_s) std::cout << "; the built-in expert needs about " << fixed(*checked.expert_s, 0) << " s";
+      std::cout << "\n";
+    }
   }
-  return problems.empty() ? 0 : 1;
+  return checked.sound() ? 0 : 1;
 }
 
 int show(const Options& o) {
@@ -186,7 +185,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("scenario", "Write and check exam scenarios");
   verb->require_subcommand(1);
 
-  auto* checks = verb->add_subcommand("check", "Name every mistake of a scenario file");
+  auto* checks = verb->add_subcommand("check", "Name every mistake of a scenario file, and warn of what is unwise");
   checks->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
   checks->add_option("--tooth", o->tooth, "check the zones against this tooth instead");
   checks->add_flag("--json", o->json, "one JSON object on standard output");
