@@ -19,7 +19,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_no_end = 1e300;
-constexpr double k_thin_wall_mm2 = 1.0;  // of a wall thinner than the leeway: less is a rim where the crown curves away
+constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
 constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a point's reach
 using Ranges = std::map<std::string, ValueRange>;
 
@@ -74,8 +74,8 @@ void Adviser::target() {
   for (const auto& t : tooth_.tissues) {
     if (t.id == k_air || role_[t.id] == 1 || (role_[t.id] == 0 && tree.is_solid(t.id))) continue;
     const std::string stays = role_[t.id] == 2 ? ", which must not be opened" : ", which is neither an aim nor a fault";
-    const std::string remedy =
-        role_[t.id] == 2 ? "make the target smaller, or list '" + t.name + "' under aims" : "list '" + t.name + "' under aims or faults of [perforation]";
+    const std::string remedy = role_[t.id] == 2 ? "make the target smaller, or list '" + t.name + "' under aims"
+                                                : "list '" + t.name + "' under aims or faults of [perforation]";
     if (inside[t.id] > 0)
       warn("zones/target/0", "the target holds " + mm3(inside[t.id]) + " of " + t.name + stays, remedy);
     else if (beside[t.id] > 0)
@@ -132,8 +132,9 @@ void Adviser::walls() {
     const double mm2 = static_cast<double>(thin[w]) * leaf * leaf;
     if (mm2 < k_thin_wall_mm2) continue;
     const bool floor = static_cast<Wall>(w) == Wall::floor;
-    warn("zones/leeway", "the leeway is wider than the " + std::string(floor ? "floor" : wall_name(static_cast<Wall>(w))) +
-                             (floor ? "" : " wall") + " of the tooth over " + fixed(mm2, 1) + " mm2: it leads out into the air",
+    warn("zones/leeway",
+         "the leeway is wider than the " + std::string(floor ? "floor" : wall_name(static_cast<Wall>(w))) + (floor ? "" : " wall") +
+             " of the tooth over " + fixed(mm2, 1) + " mm2: it leads out into the air",
          "make the leeway narrower, or move the target inwards");
   }
 }
@@ -208,7 +209,8 @@ void Adviser::step_condition(std::size_t step, const char* key, const std::strin
   const bool completes = std::string(key) == "complete_when";
   if (outlook == Outlook::never)
     warn(place, "'" + std::string(key) + "' can never come true",
-         completes ? "ask for something that can be reached, or the step ends by its time limit only" : "ask for something that can happen, or take it out");
+         completes ? "ask for something that can be reached, or the step ends by its time limit only"
+                   : "ask for something that can happen, or take it out");
   if (outlook == Outlook::always)
     warn(place, "'" + std::string(key) + "' is true from the first tick", completes ? "ask for something that is still to be done" : "take it out");
 }
@@ -230,7 +232,7 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const ValueRange&
   const auto share = [&](double v) { return std::clamp((v - c.zero) / (c.full - c.zero), 0.0, 1.0); };
   const double best = std::max(share(range.low), share(range.high)), worst = std::min(share(range.low), share(range.high));
   const std::string runs = "'" + c.metric + "' " +
-                           (range.high >= k_no_end ? "never falls below " + plain_number(range.low)
+                           (range.high >= k_no_end    ? "never falls below " + plain_number(range.low)
                             : range.low == range.high ? "is always " + plain_number(range.low) + " here"
                                                       : "runs from " + plain_number(range.low) + " to " + plain_number(range.high) + " here");
   if (c.points > 0 && best <= 0)

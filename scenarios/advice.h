@@ -13,7 +13,7 @@ namespace cavum {
 
 /// Everything to warn of, in no order. `points` are the allowed ones, in the scenario's order. `expert_s` becomes the time that the
 /// built-in expert will need, about, when it can do the task at all.
-[[nodiscard]] std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones,
-                                          const std::vector<DiamondPoint>& points, std::optional<double>& expert_s);
+[[nodiscard]] std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
+                                          std::optional<double>& expert_s);
 
 }  // namespace cavum

@@ -64,13 +64,13 @@ taper_deg = 0
      R"(# The occlusal step ...
 [[zones.target]]
 shape = "column"
-outline = { kind = "stroke", points_mm = [[-1.5, 0], [3.0, 0]], width_mm = 1.4 }
+outline = { kind = "stroke", points_mm = [[-1.5, 0], [3.6, 0]], width_mm = 1.4 }
 bottom = { kind = "below_lowest", depth_mm = 1.8 }
 
 # ... and the box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
 [[zones.target]]
 shape = "prism"
-at_mm = [0, 0, -0.6]
+at_mm = [0, 0, -1.0]
 height_mm = 6
 outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
 )",
@@ -80,7 +80,7 @@ outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6],
      R"(# The box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
 [[zones.target]]
 shape = "prism"
-at_mm = [0, 0, -0.6]
+at_mm = [0, 0, -1.0]
 height_mm = 6
 outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
 )",

@@ -59,6 +59,7 @@ int check(const Options& o) {
 }
 
 int show(const Options& o) {
+  if (!o.out.ends_with(".svg")) throw Error(o.out, "the zones are drawn as SVG only", "use a name ending in .svg");
   require_writable(o.out);
   const Scenario s = load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
