@@ -34,6 +34,11 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
   for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
+  constexpr std::size_t k_longest = 2000;
+  if (text.size() > k_longest && problems.strict()) {
+    t.problem(key, "'" + std::string(key) + "' has " + std::to_string(text.size()) + " characters", "write at most 2000");
+    return;
+  }
   for (const auto& function : functions_in_expression(text))
     if (function != "min" && function != "max" && function != "abs") {
       t.problem(key, "'" + std::string(key) + "' uses the unknown function '" + function + "'", "use min, max or abs");
@@ -142,7 +147,7 @@ void check_tissues(CheckedTable& t, const char* key, const std::vector<std::stri
 PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
   CheckedTable t(table, "[pauses]", problems);
   PauseSpec p;
-  p.count = t.whole("count", 1, 20, 1, true);
+  p.count = t.whole("count", 0, 20, 0, true);
   p.longest_s = t.number("longest_s", 0.001, 3600, 60, true);
   p.button = t.whole("button", 1, 2, 2);
   t.finish();

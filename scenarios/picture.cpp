@@ -312,7 +312,8 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
     width = std::max(width, x);
   }
   const std::string legend = legend_svg(false, strong);
-  width = std::max(width, size_of(legend, "width='") + 20);
+  const double title_px = 9.0 * static_cast<double>(scenario.title.size() + tooth.name.size() + 2);
+  width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
   const double height = row_y + row_height + 40;
   return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width) + "' height='" + number(height) + "' font-family='sans-serif'>\n" +
          "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>" +
