@@ -15,7 +15,9 @@
 #include "engine/base/file.h"
 #include "engine/force/force_model.h"
 #include "engine/tooth/make_block.h"
+#include "engine/tooth/make_incisor.h"
 #include "engine/tooth/make_molar.h"
+#include "engine/tooth/make_premolar.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/checked_toml.h"
@@ -169,6 +171,27 @@ void add_make(CLI::App& tooth) {
   molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
   molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
   molar->callback([=] { finish(make_molar(*shape), mc->out, mc->json); });
+
+  auto* premolar = make->add_subcommand("premolar", "A parametric upper second premolar");
+  auto premolar_shape = std::make_shared<PremolarShape>();
+  auto pc = common(premolar);
+  premolar->add_option("--leaf-mm", premolar_shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  premolar->add_option("--periodontium-mm", premolar_shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")
+      ->capture_default_str();
+  premolar->add_option("--occlusal-enamel-mm", premolar_shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
+  premolar->add_option("--lateral-enamel-mm", premolar_shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
+  premolar->add_option("--chamber-roof-mm", premolar_shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
+  premolar->callback([=] { finish(make_premolar(*premolar_shape), pc->out, pc->json); });
+
+  auto* incisor = make->add_subcommand("incisor", "A parametric upper central incisor");
+  auto incisor_shape = std::make_shared<IncisorShape>();
+  auto ic = common(incisor);
+  incisor->add_option("--leaf-mm", incisor_shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  incisor->add_option("--periodontium-mm", incisor_shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
+  incisor->add_option("--incisal-enamel-mm", incisor_shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
+  incisor->add_option("--lateral-enamel-mm", incisor_shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
+  incisor->add_option("--chamber-top-mm", incisor_shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
+  incisor->callback([=] { finish(make_incisor(*incisor_shape), ic->out, ic->json); });
 
   auto* block = make->add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
   struct BlockArgs {

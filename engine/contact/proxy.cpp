@@ -8,8 +8,8 @@ namespace {
 
 constexpr int k_max_steps = 12;          // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
-constexpr double k_same_means_leaves = 0.02;
-constexpr double k_linear_leaves = 0.2;  // so far a half space stands in for the curved surface
+constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.0009, k_late_means_leaves = 0.05;
+constexpr double k_linear_leaves = 0.3, k_linear_mm = 0.0135;  // so far, or that far, a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
 constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
 constexpr double k_dead_leaves = 0.004;  // one that lies no deeper is not pushed at all: two walls that differ by rounding would squeeze the tool out
@@ -58,13 +58,13 @@ double slack_mm(double distance_mm, double leaf_mm) noexcept {
 
 /// Collects a half space for each sample that a step of `reach_mm` could bring into contact.
 void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state) noexcept {
-  const double leaf = tooth.leaf_mm();
+  const double leaf = tooth.leaf_mm(), linear_mm = std::max(k_linear_leaves * leaf, k_linear_mm);
   const double moved_mm = length(state.proxy_mm - state.gathered_mm);
-  if (state.gathered_turned_rad == state.turned_rad && state.gathered_edit == tooth.edit_hash() && moved_mm <= k_linear_leaves * leaf &&
+  if (state.gathered_turned_rad == state.turned_rad && state.gathered_edit == tooth.edit_hash() && moved_mm <= linear_mm &&
       state.gathered_reach_mm >= reach_mm + moved_mm)
     return;
-  constexpr double k_gather_leaves = 1.0;  // what touches where the surface will recede to is wanted, too
-  reach_mm = std::max(reach_mm, k_gather_leaves * leaf) + k_linear_leaves * leaf;
+  constexpr double k_gather_leaves = 1.1;  // what touches where the surface will recede to is wanted, too
+  reach_mm = std::max(reach_mm, k_gather_leaves * leaf) + linear_mm;
   state.gathered_mm = state.proxy_mm;
   state.gathered_turned_rad = state.turned_rad;
   state.gathered_edit = tooth.edit_hash();
@@ -89,6 +89,7 @@ void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, Conta
     for (std::uint32_t i = patch.first; i < patch.last; ++i) {
       if (travel + reach_mm <= state.sample_clear_until_mm[i]) continue;
       const auto s = tooth.sample(state.proxy_mm + state.rotation * tool.samples[i].at_mm, state.cursor);
+      ++state.looked_up;
       state.sample_clear_until_mm[i] = travel + s.distance_mm;
       if (s.distance_mm > reach_mm) continue;
       if (dot(s.gradient, s.gradient) < 1e-3) continue;  // no direction out: neighbours speak
@@ -167,6 +168,7 @@ ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first
 
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept {
   const Vec3 before = state.proxy_mm;
+  state.looked_up = 0;
   const Mat3 turned = rotation(device.rotation);
   state.turned_rad += turn_bound_rad(state.rotation, turned);
   state.rotation = turned;
@@ -234,16 +236,25 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
   const Vec3 tip = state.proxy_mm - state.normal * recession_mm;
   const Vec3 swung = state.normal - state.means_normal;
   const Vec3 moved = tip - state.means_tip_mm;
-  const double same_mm = k_same_means_leaves * leaf;
-  if (state.means_turned_rad == state.turned_rad && state.means_edit == tooth.edit_hash() && dot(swung, swung) < k_same_normal2 &&
-      dot(moved, moved) < same_mm * same_mm)
-    return state.means;
+  const double same_mm = std::max(k_same_means_leaves * leaf, k_same_means_mm);
+  if (state.means_turned_rad == state.turned_rad && dot(swung, swung) < k_same_normal2) {
+    const double moved2 = dot(moved, moved), late_mm = k_late_means_leaves * leaf;
+    if (state.means_edit == tooth.edit_hash() && moved2 < same_mm * same_mm) return state.means;
+    // After a carve everything is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
+    // stood: what it touches may be looked up in the next tick.
+    if (state.looked_up > 0 && !state.means_late && moved2 < late_mm * late_mm) {
+      state.means_late = true;
+      return state.means;
+    }
+  }
+  state.means_late = false;
   state.means_turned_rad = state.turned_rad;
   state.means_tip_mm = tip;
   state.means_edit = tooth.edit_hash();
   state.means_normal = state.normal;
   TouchedMeans& means = state.means;
   means = {};
+  state.looked_up += static_cast<int>(state.gathered_samples.size());
   const double touch_mm = k_touch_leaves * leaf, fade_mm = k_fade_leaves * leaf;
   const Vec3 ahead = state.normal * (-k_ahead_leaves * leaf), close = state.normal * (-0.1 * leaf), since = tip - state.gathered_mm;
   const std::uint32_t head_end = tool.patches[tool.head_patches - 1].last;
@@ -257,9 +268,9 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
     means.of.damping_n_s_per_mm += area * void_mean.damping_n_s_per_mm;
   };
   // Adds a place of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface.
-  const auto count = [&](Vec3 at, double area, double gap_mm, bool head) {
+  const auto count = [&](Vec3 at, double area, double gap_mm, bool head, bool void_near) {
     double touch = std::clamp(1.0 - (gap_mm - touch_mm) / fade_mm, 0.0, 1.0);
-    if (touch <= 0.0 && !head) return;
+    if (touch <= 0.0 && !(head && void_near)) return;
     const TissueMix mix = tooth.mix(at + ahead, state.cursor);
     double solid_share = mean_of(tooth, mix, tissue, true, solid_mean);
     const double void_share = mean_of(tooth, mix, tissue, false, void_mean);
@@ -277,25 +288,30 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
     }
     if (head) count_void(area * (1.0 - touch) * void_share);
   };
+  const auto void_near = [&](const ToolPatch& patch) {
+    return voids.clear_mm(tip + state.rotation * patch.centre_mm) <= patch.radius_mm + 3.0 * leaf;
+  };
   std::fill_n(state.counted.begin(), head_end, std::uint8_t{0});
+  std::size_t patch = 0;
+  bool near = void_near(tool.patches[patch]);
   for (std::size_t n = 0; n < state.gathered_samples.size(); ++n) {
     const std::uint32_t i = state.gathered_samples[n];
+    while (i >= tool.patches[patch].last) near = void_near(tool.patches[++patch]);  // samples stand in the order of their patches
     const auto& s = tool.samples[i];
     const bool head = i < head_end;
     if (head) state.counted[i] = 1;
     const double seen = -dot(state.rotation * s.normal, state.normal);
     const auto& h = state.half_spaces[n];
-    if (seen > 0.0) count(tip + state.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head);
+    if (seen > 0.0) count(tip + state.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head, near);
   }
   if (state.touching) {  // a fine tip may touch between its samples: the furthest place counts a little, and alone if need be
     constexpr double k_furthest_mm2 = 1e-3;
     const Vec3 furthest = tip + state.rotation * tool.furthest_along(state.rotation.transposed(-state.normal));
-    count(furthest, k_furthest_mm2, tooth.sample(furthest, state.cursor).distance_mm, true);
+    count(furthest, k_furthest_mm2, tooth.sample(furthest, state.cursor).distance_mm, true, true);
   }
   for (std::size_t p = 0; p < tool.head_patches; ++p) {
-    const auto& patch = tool.patches[p];
-    if (voids.clear_mm(tip + state.rotation * patch.centre_mm) > patch.radius_mm + 3.0 * leaf) continue;
-    for (std::uint32_t i = patch.first; i < patch.last; ++i) {
+    if (!void_near(tool.patches[p])) continue;
+    for (std::uint32_t i = tool.patches[p].first; i < tool.patches[p].last; ++i) {
       if (state.counted[i] != 0) continue;
       const auto& s = tool.samples[i];
       const double seen = -dot(state.rotation * s.normal, state.normal);

@@ -48,6 +48,8 @@ struct ContactState {
   double means_turned_rad = -1.0;
   std::uint64_t means_edit = 0;
   Vec3 means_tip_mm, means_normal;
+  bool means_late = false;            ///< they are those of the tick before
+  int looked_up = 0;                  ///< places of the tooth that this tick asked for: what contact has cost
   std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with
   Octree::Cursor cursor;
 };

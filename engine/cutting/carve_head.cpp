@@ -69,26 +69,42 @@ bool same(const Mat3& a, const Mat3& b) noexcept { return a.row_x == b.row_x && 
 
 }  // namespace
 
-bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, double ease_mm, CarvedHead& last,
-                std::vector<RemovedLeaf>& removed) noexcept {
-  const double leaf = tooth.leaf_mm();
-  // The head's box: the capsule around its axis, and the band of distances that changes around it.
-  const double r = head.head_radius_mm + (k_distance_band_leaves + 1.0) * leaf;
-  const Vec3 end = tip_mm + rotation * Vec3{0, 0, head.cutting_length_mm};
-  const Vec3 low{std::min(tip_mm.x, end.x) - r, std::min(tip_mm.y, end.y) - r, std::min(tip_mm.z, end.z) - r};
-  const Vec3 high{std::max(tip_mm.x, end.x) + r, std::max(tip_mm.y, end.y) + r, std::max(tip_mm.z, end.z) + r};
-  HeadShape shape{head, tip_mm, rotation, Corners(rotation, leaf), Corners(rotation, 2 * leaf)};
-  if (last.point == point && ease_mm == 0.0 && same(last.rotation, rotation)) {
-    shape.only_leading = true;
-    shape.band_mm = (k_distance_band_leaves + 0.25) * leaf;
-    shape.way = rotation.transposed(tip_mm - last.tip_mm);
-    shape.across_mm = std::sqrt(shape.way.x * shape.way.x + shape.way.y * shape.way.y);
+void begin_carving(HeadCarving& carving, const CarvedHead& head, double ease_mm) noexcept {
+  carving.now = head;
+  carving.ease_mm = ease_mm;
+  carving.plan.clear();
+  carving.worked_out = false;
+}
+
+void drop_carving(HeadCarving& carving) noexcept { carving.now.point = -1; }
+
+CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoint& head, int work, std::vector<RemovedLeaf>& removed) noexcept {
+  const CarvedHead &now = carving.now, &last = carving.last;
+  bool all = carving.worked_out;
+  if (!all && !carving.plan.full()) {
+    const double leaf = tooth.leaf_mm();
+    // The head's box: the capsule around its axis, and the band of distances that changes around it.
+    const double r = head.head_radius_mm + (k_distance_band_leaves + 1.0) * leaf;
+    const Vec3 end = now.tip_mm + now.rotation * Vec3{0, 0, head.cutting_length_mm};
+    const Vec3 low{std::min(now.tip_mm.x, end.x) - r, std::min(now.tip_mm.y, end.y) - r, std::min(now.tip_mm.z, end.z) - r};
+    const Vec3 high{std::max(now.tip_mm.x, end.x) + r, std::max(now.tip_mm.y, end.y) + r, std::max(now.tip_mm.z, end.z) + r};
+    HeadShape shape{head, now.tip_mm, now.rotation, Corners(now.rotation, leaf), Corners(now.rotation, 2 * leaf)};
+    if (last.point == now.point && carving.ease_mm == 0.0 && same(last.rotation, now.rotation)) {
+      shape.only_leading = true;
+      shape.band_mm = (k_distance_band_leaves + 0.25) * leaf;
+      shape.way = now.rotation.transposed(now.tip_mm - last.tip_mm);
+      shape.across_mm = std::sqrt(shape.way.x * shape.way.x + shape.way.y * shape.way.y);
+    }
+    // Trilinear interpolation of a hollow of radius R lies leaf²/(8R) a direction inside it, rounding of the codes adds 0.01 leaf.
+    const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm) + carving.ease_mm;
+    carving.worked_out = all = tooth.plan(low, high, shape, clearance_mm, work, carving.plan);
+    if (work < k_at_once) return CarvingStep::under_way;
   }
-  // Trilinear interpolation of a hollow of radius R lies leaf²/(8R) a direction inside it, rounding of the codes adds 0.01 leaf.
-  const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm) + ease_mm;
-  const bool complete = tooth.carve(low, high, shape, removed, clearance_mm);
-  last = {tip_mm, rotation, complete ? point : -1};
-  return complete;
+  const bool room = tooth.apply(carving.plan, removed);
+  if (room && !all) return work < k_at_once ? CarvingStep::under_way : go_on_carving(carving, tooth, head, work, removed);
+  carving.last = room ? now : CarvedHead{};
+  carving.now.point = -1;
+  return room ? CarvingStep::done : CarvingStep::no_room;
 }
 
 }  // namespace cavum

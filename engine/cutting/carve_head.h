@@ -10,19 +10,35 @@
 
 namespace cavum {
 
-/// Where a head was carved last, to know what it has already done.
+/// A head at a pose in the tooth.
 struct CarvedHead {
   Vec3 tip_mm;
   Mat3 rotation;
-  int point = -1;  ///< of the tray; -1 = nothing carved yet, or not completely
+  int point = -1;  ///< of the tray; -1 = none
 };
 
-/// Turns every leaf inside the head to air and raises the surface distance around it. Appends to `removed`
-/// within its capacity; `last` is brought up to date. Returns false when room ran out (then part of the head was
-/// not carved). A head that only moved on since `last` is carved on its leading side alone: behind it nothing
-/// can change, for all heads are convex. `ease_mm` widens the distance field (not the labels) around the whole head,
-/// for one that is clamped in its hole.
-bool carve_head(Octree& tooth, const DiamondPoint& head, int point, Vec3 tip_mm, const Mat3& rotation, double ease_mm, CarvedHead& last,
-                std::vector<RemovedLeaf>& removed) noexcept;
+/// A carve is worked out over several ticks and made in the last of them.
+struct HeadCarving {
+  CarvedHead last;       ///< the last complete carve, to know what is done already
+  CarvedHead now;        ///< the carve under way
+  double ease_mm = 0.0;  ///< widens the distance field (not the labels) around the whole head, for one that is clamped in its hole
+  Octree::Plan plan;
+  bool worked_out = false;  ///< the plan is complete
+  [[nodiscard]] bool under_way() const noexcept { return now.point >= 0; }
+};
+
+/// Begins to carve a head; what was under way is dropped.
+void begin_carving(HeadCarving& carving, const CarvedHead& head, double ease_mm) noexcept;
+void drop_carving(HeadCarving& carving) noexcept;
+
+enum class CarvingStep { under_way, done, no_room };
+/// Work enough for any carve.
+inline constexpr int k_at_once = 1 << 30;
+/// Works `work` units (about 15 ns each, see Octree::plan) on the carve under way; when all is worked out, the next call makes it: it
+/// turns every leaf inside the head to air and raises the surface distance around it. Removed leaves are appended to `removed` within
+/// its capacity. With `k_at_once` a single call does everything; a very large carve is otherwise made in parts. A head that only moved on since
+/// the last carve is carved on its leading side alone: behind it nothing can change, for all heads are convex.
+/// `no_room`: part of the head was not carved, and the carving is over.
+CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoint& head, int work, std::vector<RemovedLeaf>& removed) noexcept;
 
 }  // namespace cavum

@@ -9,13 +9,17 @@
 namespace cavum {
 namespace {
 
-constexpr double k_carve_step_leaves = 0.25;     // recession is gathered up to this before the octree is edited
-constexpr double k_sweep_step_leaves = 1.0;      // way through void tissue between two carves
-constexpr double k_clamped_leaves = 0.5;         // recession owed by a head that is clamped in its hole
-constexpr double k_ease = 0.1;                   // of that recession
-constexpr double k_still_share = 0.01;           // of the full speed: below it the handpiece stands still
-constexpr std::size_t k_edit_room = 1 << 17;     // bricks; untouched room costs no memory
-constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick
+constexpr double k_least_step_mm = 0.0125;             // of recession between two carves,
+constexpr double k_carve_step_leaves = 0.25;           // recession is gathered up to this before the octree is edited
+constexpr double k_sweep_step_leaves = 1.0;            // way through void tissue between two carves
+constexpr double k_clamped_steps = 2.0;                // recession owed by a head that is clamped in its hole
+constexpr double k_most_steps = 4.0;                   // more recession is never owed
+constexpr double k_ease = 0.1;                         // of that recession
+constexpr int k_tick_work = 2100, k_least_work = 400;  // units (15 ns each) a tick for a carve under way
+constexpr int k_lookup_work = 4;                       // of them, that a place looked up by the contact costs
+constexpr double k_still_share = 0.01;                 // of the full speed: below it the handpiece stands still
+constexpr std::size_t k_edit_room = 1 << 17;           // bricks; untouched room costs no memory
+constexpr std::size_t k_removed_room = 1 << 16;        // leaves a tick
 
 std::int32_t to_whole(double value) noexcept {
   if (!(value > -2147483647.0)) return -2147483647;
@@ -33,34 +37,50 @@ double next_rpm(const ServoConfig& config, double rpm, const TickInput& input) n
   return wanted == 0.0 && rpm < k_still_share * config.max_rpm ? 0.0 : rpm;
 }
 
+/// Goes on with the carve under way.
+void carve(const ServoModel& model, ServoState& state, int work, TickOutput& out) noexcept {
+  const auto& head = model.tray[static_cast<std::size_t>(state.carving.now.point)].point;
+  if (go_on_carving(state.carving, state.tooth, head, work, state.removed) == CarvingStep::no_room) out.notices |= k_notice_tooth_full;
+}
+
 /// Lets the surface recede and carves when enough has gathered.
 void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, const ContactResult& contact, const TouchedMeans& means,
          double penetration_mm, int input_point, TickOutput& out) noexcept {
-  const double leaf = state.tooth.leaf_mm();
-  bool carve = false;
+  const double leaf = state.tooth.leaf_mm(), step = std::max(k_carve_step_leaves * leaf, k_least_step_mm);
+  bool due = false;
   if (means.touching) {
     // v = X/τ · rpm/rpm_ref (slope 0.505 mm of the paper’s eq. 6 over 0.25 mm/s)
     state.recession_mm += penetration_mm * means.of.recession_per_s * (state.rpm / model.force.rpm_ref) * model.config.tick_s;
-    state.recession_mm = std::min(state.recession_mm, leaf);
-    carve = state.recession_mm >= k_carve_step_leaves * leaf;
+    state.recession_mm = std::min(state.recession_mm, k_most_steps * step);
+    due = state.recession_mm >= step;
     out.cutting = means.of.recession_per_s > 0;
   }
   state.swept_mm += length(contact.moved_mm);
-  if (means.void_tissue && state.swept_mm >= k_sweep_step_leaves * leaf) carve = true;
-  if (!carve) return;
+  // Contact and carving share the time of a tick.
+  const int work = std::max(k_tick_work - k_lookup_work * state.contact.looked_up, k_least_work);
+  if (state.carving.under_way()) {
+    // A carve may take its time as long as the next one is not due.
+    const bool late = state.recession_mm - state.carve_began_mm >= step || state.swept_mm >= k_sweep_step_leaves * leaf;
+    carve(model, state, late ? k_at_once : work, out);
+    return;
+  }
+  if (means.void_tissue && state.swept_mm >= k_sweep_step_leaves * leaf) due = true;
+  if (!due) return;
   const double ahead = means.touching ? std::max(0.0, state.recession_mm) : 0.0;
   const Vec3 at = state.contact.proxy_mm - state.contact.normal * ahead;
   // Where the head was carved already (held up by neck or shank, or swinging in its hole) there is nothing to gain.
   const Mat3& turned = state.contact.rotation;
-  if (state.carved.point == input_point) {
+  const CarvedHead& last = state.carving.last;
+  if (last.point == input_point) {
     const Vec3 top{0, 0, tool.point.cutting_length_mm};
-    const Vec3 tip_way = at - state.carved.tip_mm, top_way = tip_way + turned * top - state.carved.rotation * top;
-    if (length(tip_way) + length(top_way) < k_carve_step_leaves * leaf) return;
+    const Vec3 tip_way = at - last.tip_mm, top_way = tip_way + turned * top - last.rotation * top;
+    if (length(tip_way) + length(top_way) < step) return;
   }
   // A recession that the proxy does not follow means a head clamped by the rounding between leaves: ease it by a few micrometres.
-  const double ease_mm = ahead > k_clamped_leaves * leaf ? k_ease * ahead : 0.0;
-  if (!carve_head(state.tooth, tool.point, input_point, at, turned, ease_mm, state.carved, state.removed)) out.notices |= k_notice_tooth_full;
+  begin_carving(state.carving, {at, turned, input_point}, ahead > k_clamped_steps * step ? k_ease * ahead : 0.0);
+  state.carve_began_mm = state.recession_mm;
   state.swept_mm = 0.0;
+  carve(model, state, work, out);
 }
 
 }  // namespace
@@ -182,6 +202,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
       if (!terms.finite) out.notices |= k_notice_not_finite;
     }
     wanted_n = render_force_n(model.force.rendering, tissue, state.render, contact.touching, penetration, approach_mm, dt, terms.tissue_n);
+    if (state.rpm < k_still_share * model.config.max_rpm || state.carving.now.point != input.point) drop_carving(state.carving);
     if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, input.point, out);
     state.last_tip_mm = device.tip_mm;
     out.contact = contact.touching;
@@ -192,6 +213,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   } else {
     out.notices |= k_notice_bad_point;
     state.rpm = 0.0;
+    drop_carving(state.carving);
   }
   out.proxy_mm = state.contact.proxy_mm;
   out.rpm = state.rpm;
@@ -210,15 +232,17 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
 }
 
 std::uint64_t state_hash(const ServoState& s) noexcept {
-  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash()};
-  const std::array<double, 16> parts{s.contact.proxy_mm.x, s.contact.proxy_mm.y,
+  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash(),
+                                           s.carving.under_way() ? s.carving.plan.progress() : 0};
+  const std::array<double, 17> parts{s.contact.proxy_mm.x, s.contact.proxy_mm.y,
                                      s.contact.proxy_mm.z, s.contact.normal.x,
                                      s.contact.normal.y,   s.contact.normal.z,
                                      s.render.branch_n,    s.render.speed_mm_s,
                                      s.safety.force_n.x,   s.safety.force_n.y,
                                      s.safety.force_n.z,   s.safety.used_budget_n_s,
                                      s.safety.silent_s,    s.rpm,
-                                     s.recession_mm,       s.swept_mm};
+                                     s.recession_mm,       s.swept_mm,
+                                     s.carve_began_mm};
   return hash_of(s.terms, fast_hash(parts.data(), sizeof parts, fast_hash(whole.data(), sizeof whole, k_physics_version)));
 }
 

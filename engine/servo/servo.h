@@ -20,7 +20,7 @@
 namespace cavum {
 
 /// The version of the physics: a recording replays bit for bit under the version that made it.
-inline constexpr int k_physics_version = 2;
+inline constexpr int k_physics_version = 3;
 
 /// Settings of the handpiece, the device and the tick. TOML text in a session: see `to_toml`.
 struct ServoConfig {
@@ -55,9 +55,10 @@ struct ServoState {
   SafetyState safety;
   Vec3 last_tip_mm;
   double rpm = 0.0;
-  double recession_mm = 0.0;            ///< surface receded along the contact but not yet carved
-  double swept_mm = 0.0;                ///< way of the head since the last carve
-  CarvedHead carved;                    ///< pose of the last carve
+  double recession_mm = 0.0;    ///< surface receded along the contact but not yet carved
+  double swept_mm = 0.0;        ///< way of the head since the last carve began
+  double carve_began_mm = 0.0;  ///< `recession_mm` when it began
+  HeadCarving carving;
   std::uint64_t trace_hash = 0;         ///< over every output so far
   ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
 };

@@ -6,81 +6,11 @@
 #include <span>
 #include <string>
 
-#include "engine/base/error.h"
-#include "engine/tooth/distance.h"
-#include "engine/tooth/periodontium.h"
+#include "engine/tooth/formula_tooth.h"
+#include "engine/tooth/tooth_shapes.h"
 
 namespace cavum {
 namespace {
-
-// ---- shapes, all in mm ----
-
-/// Smooth maximum (intersection) and minimum (union): rounds the meeting of two surfaces over about k mm.
-double smooth_max(double a, double b, double k) {
-  const double h = std::max(k - std::fabs(a - b), 0.0) / k;
-  return std::max(a, b) + h * h * k * 0.25;
-}
-double smooth_min(double a, double b, double k) { return -smooth_max(-a, -b, k); }
-
-/// 0 below `low`, 1 above `high`, smooth between.
-double ramp(double low, double high, double v) {
-  const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-/// A bell of height 1 and half width about `width`.
-double bell(double distance, double width) {
-  const double t = distance / width, q = 1 / (1 + t * t);
-  return q * q;
-}
-
-/// Smooth curve through (z, value) knots, z rising (Hermite, tangents from the neighbours); constant beyond.
-struct Knot {
-  double z, value;
-};
-double profile(std::span<const Knot> k, double z) {
-  if (z <= k.front().z) return k.front().value;
-  if (z >= k.back().z) return k.back().value;
-  std::size_t i = 0;
-  while (z > k[i + 1].z) ++i;
-  const auto slope = [&](std::size_t j) {
-    if (j == 0 || j + 1 == k.size()) return 0.0;
-    return (k[j + 1].value - k[j - 1].value) / (k[j + 1].z - k[j - 1].z);
-  };
-  const double h = k[i + 1].z - k[i].z, t = (z - k[i].z) / h, t2 = t * t, t3 = t2 * t;
-  return k[i].value * (2 * t3 - 3 * t2 + 1) + slope(i) * h * (t3 - 2 * t2 + t) + k[i + 1].value * (3 * t2 - 2 * t3) + slope(i + 1) * h * (t3 - t2);
-}
-
-/// About the distance to an upright tube whose cross-section lies between an ellipse and a rounded rectangle.
-double tube(double x, double y, double half_x, double half_y) {
-  const double u = x / half_x, v = y / half_y, u2 = u * u, v2 = v * v;
-  const double q = 0.5 * std::sqrt(u2 + v2) + 0.5 * std::sqrt(std::sqrt(u2 * u2 + v2 * v2));
-  if (q < 0.05) return -std::min(half_x, half_y);
-  return std::sqrt(x * x + y * y) * (1 - 1 / q);
-}
-
-/// Exact distance to a round cone: the hull of two balls.
-double round_cone(Vec3 p, Vec3 a, double ra, Vec3 b, double rb) {
-  const Vec3 ba = b - a, pa = p - a;
-  const double l2 = dot(ba, ba), rr = ra - rb, a2 = l2 - rr * rr, il2 = 1 / l2;
-  const double y = dot(pa, ba), z = y - l2;
-  const Vec3 side = pa * l2 - ba * y;
-  const double x2 = dot(side, side), y2 = y * y * l2, z2 = z * z * l2;
-  const double k = (rr > 0 ? 1.0 : rr < 0 ? -1.0 : 0.0) * rr * rr * x2;
-  if ((z > 0 ? 1.0 : -1.0) * a2 * z2 > k) return std::sqrt(x2 + z2) * il2 - rb;
-  if ((y > 0 ? 1.0 : -1.0) * a2 * y2 < k) return std::sqrt(x2 + y2) * il2 - ra;
-  return (std::sqrt(x2 * a2 * il2) + y * rr) * il2 - ra;
-}
-
-double segment_distance(double x, double y, double ax, double ay, double bx, double by) {
-  const double dx = bx - ax, dy = by - ay;
-  const double t = std::clamp(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  const double ex = x - ax - t * dx, ey = y - ay - t * dy;
-  return std::sqrt(ex * ex + ey * ey);
-}
-
-/// Within 0.7 mm of its zero no function below changes faster than this, mm per mm (measured 3.13, in the roots).
-constexpr double k_steepest = 3.2;
 
 // ---- the crown ----
 
@@ -136,13 +66,6 @@ double distal_axis_x(double z) {
   return -2.35 - 1.5 * s + 0.75 * s * s;
 }
 constexpr double k_mesial_half_x = 2.0, k_mesial_half_y = 4.1, k_distal_half_x = 2.0, k_distal_half_y = 3.6;
-
-/// One root: an elliptic paraboloid along a bent axis, so that its end is round. First-order distance.
-double root(Vec3 p, double axis_x, double half_x, double half_y) {
-  const double u = (p.x - axis_x) / half_x, v = p.y / half_y, top = k_root_top_z - k_apex_z;
-  const double gx = 2 * u / half_x, gy = 2 * v / half_y, gz = 1 / top;
-  return (u * u + v * v - along_root(p.z)) / std::sqrt(gx * gx + gy * gy + gz * gz);
-}
 
 // ---- the pulp ----
 
@@ -203,8 +126,8 @@ double Molar::crown(Vec3 p) const noexcept {
 }
 
 double Molar::roots(Vec3 p) const noexcept {
-  const double mesial = root(p, mesial_axis_x(p.z), k_mesial_half_x, k_mesial_half_y);
-  const double distal = root(p, distal_axis_x(p.z), k_distal_half_x, k_distal_half_y);
+  const double mesial = paraboloid(p, mesial_axis_x(p.z), k_mesial_half_x, k_mesial_half_y, k_apex_z, k_root_top_z);
+  const double distal = paraboloid(p, distal_axis_x(p.z), k_distal_half_x, k_distal_half_y, k_apex_z, k_root_top_z);
   return smooth_max(smooth_min(mesial, distal, 0.5), p.z - k_root_top_z - 0.8, 0.6);
 }
 
@@ -238,72 +161,15 @@ double Molar::pulp(Vec3 p) const noexcept {
   return smooth_min(d, canals, 0.25);
 }
 
-std::uint8_t Molar::tissue(Vec3 p) const noexcept {
-  if (outside(p) >= 0) return k_air;
-  if (pulp(p) <= 0) return k_pulp;
-  return p.z > neck_mm(p.x, p.y) && core(p) > 0 ? k_enamel : k_dentin;
-}
-
 Tooth make_molar(const MolarShape& shape) {
-  const auto check = [](const char* name, double v, double low, double high) {
-    if (!(v >= low && v <= high)) throw Error(name, "is " + std::to_string(v), "choose from " + std::to_string(low) + " to " + std::to_string(high));
-  };
-  check("--leaf-mm", shape.leaf_mm, 0.03, 0.5);
-  check("--canals", shape.canals, 2, 4);
-  check("--occlusal-enamel-mm", shape.occlusal_enamel_mm, 1.2, 2.2);
-  check("--lateral-enamel-mm", shape.lateral_enamel_mm, 1.0, 2.0);
-  check("--chamber-roof-mm", shape.chamber_roof_mm, -3.2, -1.8);
-  check("--chamber-height-mm", shape.chamber_height_mm, 1.0, 2.2);
-  check("--periodontium-mm", shape.periodontium_mm, 0.0, 5.0);
-
-  const double leaf = shape.leaf_mm, margin = 4 * leaf;
-  const auto down = [&](double mm) { return static_cast<std::int32_t>(-std::ceil((-mm + margin) / leaf)); };
-  const auto up = [&](double mm) { return static_cast<std::int32_t>(std::ceil((mm + margin) / leaf)); };
-  const IVec3 low{down(-5.7), down(-5.3), down(k_apex_z - 0.1)}, high{up(5.7), up(5.3), up(3.7)};
-  TissueGrid grid;
-  check_lattice(high - low, leaf, "molar");
-  grid.allocate(high - low, leaf, Vec3{double(low.x), double(low.y), double(low.z)} * leaf);
-
-  const Molar molar(shape);
-  const auto solid_field = [&molar](Vec3 p) { return std::max(molar.outside(p), -molar.pulp(p)); };
-  std::vector<float> field(grid.count());
-  // The centre of a block of leaves speaks for all of them while its value is larger than the functions can
-  // change within the block and two leaves around it.
-  constexpr int k_block = 4;
-  const double reach = k_steepest * leaf * (k_block * 0.8660254037844386 + 2.0);
-  for (std::int32_t bz = 0; bz < grid.size.z; bz += k_block)
-    for (std::int32_t by = 0; by < grid.size.y; by += k_block)
-      for (std::int32_t bx = 0; bx < grid.size.x; bx += k_block) {
-        const Vec3 middle = grid.centre_mm({bx, by, bz}) + Vec3{1, 1, 1} * ((k_block - 1) * 0.5 * leaf);
-        const double outside = molar.outside(middle);
-        const double pulp = outside > reach ? 1.0 : molar.pulp(middle), core = outside > reach ? 1.0 : molar.core(middle);
-        for (std::int32_t z = bz; z < std::min(bz + k_block, grid.size.z); ++z)
-          for (std::int32_t y = by; y < std::min(by + k_block, grid.size.y); ++y)
-            for (std::int32_t x = bx; x < std::min(bx + k_block, grid.size.x); ++x) {
-              const auto i = grid.index({x, y, z});
-              const Vec3 p = grid.centre_mm({x, y, z});
-              const double to_outside = std::fabs(outside) > reach ? outside : molar.outside(p);
-              field[i] = static_cast<float>(to_outside);
-              if (to_outside >= 0) continue;
-              const double to_pulp = std::fabs(pulp) > reach ? pulp : molar.pulp(p);
-              field[i] = static_cast<float>(std::max(to_outside, -to_pulp));
-              if (to_pulp <= 0) {
-                grid.tissue[i] = k_pulp;
-                continue;
-              }
-              const double to_core = std::fabs(core) > reach ? core : molar.core(p);
-              grid.tissue[i] = p.z > Molar::neck_mm(p.x, p.y) && to_core > 0 ? k_enamel : k_dentin;
-              field[i] = std::min(field[i], -1e-12f);  // solid, however near the surface
-            }
-      }
-  Tooth tooth;
-  set_surface_from_field(grid, tooth.tissues, field, solid_field);
-  const auto around = add_periodontium(grid, shape.periodontium_mm);
-  tooth.octree = Octree(grid, tooth.tissues);
-  tooth.name = "lower first molar (parametric, " + std::to_string(shape.canals) + " canals)";
-  tooth.source = "make molar, parametric lower first molar of Cavum; leaf " + std::to_string(leaf) + " mm; ";
-  tooth.source += around > 0 ? "periodontium " + std::to_string(shape.periodontium_mm) + " mm around the roots" : "no periodontium";
-  return tooth;
+  check_choice("--canals", shape.canals, 2, 4);
+  check_choice("--occlusal-enamel-mm", shape.occlusal_enamel_mm, 1.2, 2.2);
+  check_choice("--lateral-enamel-mm", shape.lateral_enamel_mm, 1.0, 2.0);
+  check_choice("--chamber-roof-mm", shape.chamber_roof_mm, -3.2, -1.8);
+  check_choice("--chamber-height-mm", shape.chamber_height_mm, 1.0, 2.2);
+  return build_formula_tooth(Molar(shape), {{-5.7, -5.3, k_apex_z - 0.1}, {5.7, 5.3, 3.7}}, shape.leaf_mm, shape.periodontium_mm,
+                             "lower first molar (parametric, " + std::to_string(shape.canals) + " canals)",
+                             "make molar, parametric lower first molar of Cavum");
 }
 
 }  // namespace cavum

@@ -25,6 +25,7 @@ struct MolarShape {
 /// distance near its surface.
 class Molar {
  public:
+  static constexpr double k_steepest = 3.2;  ///< measured 3.13, in the roots
   explicit Molar(const MolarShape& shape) : shape_(shape) {}
   /// The whole tooth without regard to what it is made of.
   [[nodiscard]] double outside(Vec3 p) const noexcept;
@@ -34,8 +35,6 @@ class Molar {
   [[nodiscard]] double core(Vec3 p) const noexcept;
   /// z of the neck (the cervical line) around (x, y): higher on the mesial and distal side.
   [[nodiscard]] static double neck_mm(double x, double y) noexcept;
-  /// Tissue at a point, periodontium left out.
-  [[nodiscard]] std::uint8_t tissue(Vec3 p) const noexcept;
 
  private:
   [[nodiscard]] double crown(Vec3 p) const noexcept;

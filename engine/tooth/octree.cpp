@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/hash.h"
 
 namespace cavum {
 
@@ -130,15 +131,17 @@ std::uint8_t Octree::tissue_at(Vec3 mm, Cursor& cursor) const noexcept {
 inline bool Octree::cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept {
   const Vec3 p = (mm - origin_mm_) * leaves_per_mm_ - Vec3{0.5, 0.5, 0.5};
   if (!(std::fabs(p.x) < 1e6 && std::fabs(p.y) < 1e6 && std::fabs(p.z) < 1e6)) return false;
-  cell.low = {floor_of(p.x), floor_of(p.y), floor_of(p.z)};
-  cell.fx = p.x - cell.low.x;
-  cell.fy = p.y - cell.low.y;
-  cell.fz = p.z - cell.low.z;
-  cell.crossing = ((cell.low.x & 3) == 3 ? 1 : 0) | ((cell.low.y & 3) == 3 ? 2 : 0) | ((cell.low.z & 3) == 3 ? 4 : 0);
-  const IVec3 brick{cell.low.x >> 2, cell.low.y >> 2, cell.low.z >> 2};
+  const IVec3 low{floor_of(p.x), floor_of(p.y), floor_of(p.z)};
+  cell.fx = p.x - low.x;
+  cell.fy = p.y - low.y;
+  cell.fz = p.z - low.z;
+  cell.crossing = ((low.x & 3) == 3 ? 1 : 0) | ((low.y & 3) == 3 ? 2 : 0) | ((low.z & 3) == 3 ? 4 : 0);
+  const IVec3 brick{low.x >> 2, low.y >> 2, low.z >> 2};
   cell.ref[0] = find(brick, cursor);
   for (int i = 1; i <= cell.crossing; ++i)
     if ((i & ~cell.crossing) == 0) cell.ref[static_cast<std::size_t>(i)] = find(brick + IVec3{i & 1, i >> 1 & 1, i >> 2}, cursor);
+  const int x[2]{low.x & 3, (low.x + 1) & 3}, y[2]{(low.y & 3) << 2, ((low.y + 1) & 3) << 2}, z[2]{(low.z & 3) << 4, ((low.z + 1) & 3) << 4};
+  for (std::size_t i = 0; i < 8; ++i) cell.leaf[i] = x[i & 1] | y[i >> 1 & 1] | z[i >> 2];
   return true;
 }
 
@@ -146,11 +149,13 @@ SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
   Cell cell;
   if (!cell_around(mm, cursor, cell)) return {k_distance_band_leaves * leaf_mm_, {}};
   int c[8];
-  if (cell.crossing == 0 && (cell.ref[0] & k_kind) == k_full_brick) {
-    const std::int8_t* codes = bricks_.items[cell.ref[0] & k_index].distance.data() + leaf_in_brick(cell.low);
-    for (std::size_t i = 0; i < 8; ++i) c[i] = codes[k_leaf_of_block[i]];
-  } else {
-    for (int i = 0; i < 8; ++i) c[i] = code_in(cell.brick_of(i), cell.leaf_of(i));
+  const auto crossing = static_cast<std::size_t>(cell.crossing);
+  std::array<Row<std::int8_t>, 8> rows;
+  for (std::size_t i = 0; i <= crossing; ++i)
+    if ((i & ~crossing) == 0) rows[i] = codes_of(cell.ref[i]);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto& row = rows[i & crossing];
+    c[i] = row.first[cell.leaf[i] & row.mask];
   }
   const double fx = cell.fx, fy = cell.fy, fz = cell.fz, gx = 1 - fx, gy = 1 - fy, gz = 1 - fz;
   // along x first, then y, then z; the gradient falls out of the same differences
@@ -166,16 +171,20 @@ TissueMix Octree::mix(Vec3 mm, Cursor& cursor) const noexcept {
   TissueMix mix{1, {k_air}, {1.0}};
   Cell cell;
   if (!cell_around(mm, cursor, cell)) return mix;
-  if (cell.crossing == 0 && (cell.ref[0] & k_kind) == k_uniform) {
-    mix.label[0] = static_cast<std::uint8_t>(cell.ref[0] & k_index);
-    return mix;
+  const auto crossing = static_cast<std::size_t>(cell.crossing);
+  std::array<Row<std::uint8_t>, 8> rows;
+  for (std::size_t i = 0; i <= crossing; ++i)
+    if ((i & ~crossing) == 0) rows[i] = labels_of(cell.ref[i]);
+  int unlike = 0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto& row = rows[i & crossing];
+    mix.label[i] = row.first[cell.leaf[i] & row.mask];
+    unlike |= mix.label[i] ^ mix.label[0];
   }
+  if (unlike == 0) return mix;
   mix.count = 8;
-  for (int i = 0; i < 8; ++i) {
-    mix.label[static_cast<std::size_t>(i)] = tissue_in(cell.brick_of(i), cell.leaf_of(i));
-    mix.share[static_cast<std::size_t>(i)] =
-        ((i & 1) != 0 ? cell.fx : 1 - cell.fx) * ((i & 2) != 0 ? cell.fy : 1 - cell.fy) * ((i & 4) != 0 ? cell.fz : 1 - cell.fz);
-  }
+  for (std::size_t i = 0; i < 8; ++i)
+    mix.share[i] = ((i & 1) != 0 ? cell.fx : 1 - cell.fx) * ((i & 2) != 0 ? cell.fy : 1 - cell.fy) * ((i & 4) != 0 ? cell.fz : 1 - cell.fz);
   return mix;
 }
 
@@ -199,6 +208,80 @@ bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IV
     default:
       return false;
   }
+}
+
+bool Octree::apply(Plan& plan, std::vector<RemovedLeaf>& removed) noexcept {
+  plan.applied_ = 0;
+  plan.out_of_room_ = false;
+  if (!plan.bricks_.empty()) apply_in(root_, levels_, {0, 0, 0}, 0, plan, removed);
+  plan.bricks_.clear();
+  return !plan.out_of_room_;
+}
+
+void Octree::apply_in(std::uint32_t& ref, int level, IVec3 low, std::uint32_t place, Plan& plan, std::vector<RemovedLeaf>& removed) noexcept {
+  if (level == 0) {
+    if (bricks_.full() || labels_.full() || removed.capacity() - removed.size() < k_brick_leaves) {
+      plan.out_of_room_ = true;
+      return;
+    }
+    store_brick(ref, low, plan.bricks_[plan.applied_++].content, removed);
+    return;
+  }
+  if ((ref & k_kind) == k_uniform) {
+    if (nodes_.full()) {
+      plan.out_of_room_ = true;
+      return;
+    }
+    Node split;
+    split.child.fill(ref);
+    ref = k_node | nodes_.add(split);
+    ++version_;
+  }
+  const std::uint32_t node = ref & k_index;
+  const std::uint32_t part = 1u << 3 * (level - 1);
+  bool all_equal = true;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    std::uint32_t child = nodes_.items[node].child[i];
+    if (!plan.out_of_room_ && plan.applied_ < plan.bricks_.size() && plan.bricks_[plan.applied_].place < place + (i + 1) * part) {
+      apply_in(child, level - 1, low_of_child(low, i, k_brick_edge << (level - 1)), place + i * part, plan, removed);
+      nodes_.items[node].child[i] = child;
+    }
+    all_equal = all_equal && (child & k_kind) == k_uniform && child == nodes_.items[node].child[0];
+  }
+  if (all_equal) {
+    ref = nodes_.items[node].child[0];
+    nodes_.release(node);
+    ++version_;
+  }
+}
+
+void Octree::store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, std::vector<RemovedLeaf>& removed) noexcept {
+  const auto before = labels_of(ref);
+  const bool same = before.mask != 0 && std::equal(brick.tissue.begin(), brick.tissue.end(), before.first);
+  for (int block = 0; block < 8 && !same; ++block)
+    for (const int inner : k_leaf_of_block) {
+      const int i = first_of_block(block) + inner;
+      const std::uint8_t tissue = before.first[i & before.mask];
+      if (tissue == brick.tissue[static_cast<std::size_t>(i)]) continue;
+      const IVec3 leaf = low + IVec3{i & 3, i >> 2 & 3, i >> 4};
+      removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), tissue, 0});
+    }
+  const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
+  edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
+  if ((ref & k_kind) == k_full_brick) {
+    const bool empty = std::all_of(brick.distance.begin(), brick.distance.end(), [](int code) { return code == k_distance_far; }) &&
+                       std::all_of(brick.tissue.begin(), brick.tissue.end(), [](int tissue) { return tissue == k_air; });
+    if (!empty) {
+      bricks_.items[ref & k_index] = brick;
+      return;
+    }
+    bricks_.release(ref & k_index);
+    ref = k_uniform | k_air;
+  } else {
+    if ((ref & k_kind) == k_label_brick) labels_.release(ref & k_index);
+    ref = canonical(brick);
+  }
+  ++version_;
 }
 
 void Octree::reserve_edits(std::size_t bricks) {

@@ -112,7 +112,16 @@ class Octree {
   /// `shape.unchanged(centre, radius)` may say true for a ball (mm) in which an earlier carve did all of it already.
   /// Returns false, and leaves the rest untouched, when the reserved room or `removed` is full.
   template <class Shape>
-  bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm = 0.0) noexcept;
+  bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm = 0.0);
+
+  class Plan;
+  /// The same in two halves, for one tick may be too short for a carve: `plan` works out what bricks will hold, as far as
+  /// `work` (about 15 ns a unit) and the plan's room reach, and goes on from there when called again; true when it has seen the whole box.
+  /// Nothing but `apply` may edit the tooth in between.
+  template <class Shape>
+  bool plan(Vec3 low_mm, Vec3 high_mm, const Shape& shape, double clearance_mm, int work, Plan& plan) const noexcept;
+  /// Puts planned bricks into the tree and empties the plan, which then stands where planning stopped. False, and the rest is lost, without room.
+  bool apply(Plan& plan, std::vector<RemovedLeaf>& removed) noexcept;
   /// Changes with every edit, and is equal after equal edits of equal teeth.
   [[nodiscard]] std::uint64_t edit_hash() const noexcept { return edit_hash_; }
 
@@ -167,9 +176,13 @@ class Octree {
       free.reserve(items.capacity());
     }
   };
-  struct Edit;  // what a carve carries down the tree
+  struct Planning;  // what goes down the tree with a plan
 
   [[nodiscard]] static constexpr int leaf_in_brick(IVec3 l) noexcept { return (l.x & 3) | (l.y & 3) << 2 | (l.z & 3) << 4; }
+  /// Low leaf of the i-th child of a cube, whose children have `edge` leaves.
+  [[nodiscard]] static constexpr IVec3 low_of_child(IVec3 low, std::uint32_t i, int edge) noexcept {
+    return low + IVec3{static_cast<int>(i & 1) * edge, static_cast<int>(i >> 1 & 1) * edge, static_cast<int>(i >> 2) * edge};
+  }
   // A brick as eight blocks of 2x2x2 leaves: the first leaf of a block, and its leaves from there.
   [[nodiscard]] static constexpr int first_of_block(int block) noexcept { return (block & 1) * 2 + (block >> 1 & 1) * 8 + (block >> 2) * 32; }
   static constexpr std::array<int, 8> k_leaf_of_block{0, 1, 4, 5, 16, 17, 20, 21};
@@ -183,13 +196,35 @@ class Octree {
   [[nodiscard]] int uniform_code(std::uint8_t tissue) const noexcept { return solid_[tissue] ? -k_distance_far : k_distance_far; }
   /// The eight leaves whose centres surround a place: bit 0, 1, 2 of a corner's number = along x, y, z.
   struct Cell {
-    IVec3 low;          // leaf of corner 0
-    double fx, fy, fz;  // place between the corners, 0..1
-    int crossing;       // axes along which the corners lie in two bricks, as bits
-    std::array<std::uint32_t, 8> ref;
-    [[nodiscard]] std::uint32_t brick_of(int corner) const noexcept { return ref[static_cast<std::size_t>(corner & crossing)]; }
-    [[nodiscard]] int leaf_of(int corner) const noexcept { return leaf_in_brick(low + IVec3{corner & 1, corner >> 1 & 1, corner >> 2}); }
+    double fx, fy, fz;                 // place between the corners, 0..1
+    int crossing;                      // axes along which the corners lie in two bricks, as bits
+    std::array<std::uint32_t, 8> ref;  // bricks, by the corner's bits that cross
+    std::array<std::int32_t, 8> leaf;  // of each corner, in its brick
   };
+  /// What a brick says of its leaves: `first[leaf & mask]`. A uniform one has a single entry.
+  template <class T>
+  struct Row {
+    const T* first;
+    std::int32_t mask;
+  };
+  [[nodiscard]] Row<std::int8_t> codes_of(std::uint32_t ref) const noexcept {
+    static constexpr std::int8_t k_outside = k_distance_far, k_inside = -k_distance_far;
+    const std::uint32_t at = ref & k_index, kind = ref & k_kind;
+    if (kind == k_full_brick) return {bricks_.items[at].distance.data(), k_brick_leaves - 1};
+    return {solid_[kind == k_label_brick ? labels_.items[at].tissue[0] : at & 255u] ? &k_inside : &k_outside,
+            0};  // one without distances has no border
+  }
+  [[nodiscard]] Row<std::uint8_t> labels_of(std::uint32_t ref) const noexcept {
+    const std::uint32_t at = ref & k_index, kind = ref & k_kind;
+    if (kind == k_full_brick) return {bricks_.items[at].tissue.data(), k_brick_leaves - 1};
+    if (kind == k_label_brick) return {labels_.items[at].tissue.data(), k_brick_leaves - 1};
+    return {&k_labels[at & 255u], 0};
+  }
+  static constexpr std::array<std::uint8_t, 256> k_labels = [] {
+    std::array<std::uint8_t, 256> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint8_t>(i);
+    return all;
+  }();
   /// False far outside of any tooth.
   [[nodiscard]] bool cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept;
   [[nodiscard]] static std::int32_t floor_of(double v) noexcept {
@@ -211,9 +246,11 @@ class Octree {
   template <class Visit>
   void visit_cubes(std::uint32_t ref, int level, IVec3 low, const Visit& visit) const;
   template <class Shape>
-  void carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& shape, Edit& edit) noexcept;
+  void plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t place, const Shape& shape, Planning& planning) const noexcept;
   template <class Shape>
-  void carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit& edit) noexcept;
+  bool cut_brick(IVec3 low, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept;
+  void apply_in(std::uint32_t& ref, int level, IVec3 low, std::uint32_t place, Plan& plan, std::vector<RemovedLeaf>& removed) noexcept;
+  void store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, std::vector<RemovedLeaf>& removed) noexcept;
   void write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue, ByteWriter& distance) const;
   std::uint32_t read_ref(ByteReader& shape, ByteReader& tissue, ByteReader& distance, int level);
   [[nodiscard]] std::uint32_t canonical(const FullBrick& brick);
@@ -230,6 +267,33 @@ class Octree {
   Pool<FullBrick> bricks_;
   std::uint64_t edit_hash_ = 0;
   std::uint64_t version_ = 0;  // of the structure; tells cursors to look again
+};
+
+/// A carve worked out in part or in whole, and not yet made.
+class Octree::Plan {
+ public:
+  Plan() { bricks_.reserve(k_room); }
+  /// Begins another carve.
+  void clear() noexcept {
+    bricks_.clear();
+    next_ = 0;
+  }
+  [[nodiscard]] bool full() const noexcept { return bricks_.size() == bricks_.capacity(); }
+  /// Equal when equally much of the same carve is done.
+  [[nodiscard]] std::uint64_t progress() const noexcept { return static_cast<std::uint64_t>(next_) << 32 | bricks_.size(); }
+
+ private:
+  friend class Octree;
+  static constexpr std::size_t k_room = 512;
+  /// The place of a brick in the order of the tree: the bits of x, y and z in turn.
+  struct Brick {
+    std::uint32_t place = 0;
+    FullBrick content;
+  };
+  ReservedVector<Brick> bricks_;
+  std::uint32_t next_ = 0;   // all places before it are planned
+  std::size_t applied_ = 0;  // of `bricks_`, while they are put into the tree
+  bool out_of_room_ = false;
 };
 
 }  // namespace cavum

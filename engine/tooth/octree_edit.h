@@ -2,18 +2,18 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
-#include "engine/base/hash.h"
 #include "engine/tooth/octree.h"
 
 namespace cavum {
 
-struct Octree::Edit {
+struct Octree::Planning {
   IVec3 low, high;  // leaves that may change, inclusive
-  std::vector<RemovedLeaf>& removed;
   double clearance_mm, band_mm;
-  bool complete = true;
+  int work;
+  Plan& plan;
 };
 
 /// A shape that knows the distances at eight leaves at once, in single precision.
@@ -41,123 +41,100 @@ void corner_distances(const Shape& shape, Vec3 low_mm, double leaf_mm, bool of_b
 }
 
 template <class Shape>
-bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm) noexcept {
-  Edit edit{clamp_to_tree(low_mm), clamp_to_tree(high_mm), removed, clearance_mm, k_distance_band_leaves * leaf_mm_ + clearance_mm};
-  carve_in(root_, levels_, {0, 0, 0}, shape, edit);
-  return edit.complete;
+bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm) {
+  Plan steps;
+  for (bool all = false; !all;) {
+    all = plan(low_mm, high_mm, shape, clearance_mm, std::numeric_limits<int>::max(), steps);
+    if (!apply(steps, removed)) return false;
+  }
+  return true;
 }
 
 template <class Shape>
-void Octree::carve_in(std::uint32_t& ref, int level, IVec3 low, const Shape& shape, Edit& edit) noexcept {
-  if (ref == (k_uniform | k_air) || !edit.complete) return;
+bool Octree::plan(Vec3 low_mm, Vec3 high_mm, const Shape& shape, double clearance_mm, int work, Plan& plan) const noexcept {
+  Planning planning{clamp_to_tree(low_mm), clamp_to_tree(high_mm), clearance_mm, k_distance_band_leaves * leaf_mm_ + clearance_mm, work, plan};
+  plan_in(root_, levels_, {0, 0, 0}, 0, shape, planning);
+  if (planning.work <= 0 || plan.full()) return false;
+  plan.next_ = 0;
+  return true;
+}
+
+template <class Shape>
+void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t place, const Shape& shape, Planning& planning) const noexcept {
+  if (planning.work <= 0 || planning.plan.full() || ref == (k_uniform | k_air)) return;
+  const std::uint32_t end = place + (1u << 3 * level);
+  if (end <= planning.plan.next_) return;  // planned in an earlier part
   const int edge = k_brick_edge << level;
-  if (low.x > edit.high.x || low.y > edit.high.y || low.z > edit.high.z) return;
-  if (low.x + edge <= edit.low.x || low.y + edge <= edit.low.y || low.z + edge <= edit.low.z) return;
+  if (low.x > planning.high.x || low.y > planning.high.y || low.z > planning.high.z) return;
+  if (low.x + edge <= planning.low.x || low.y + edge <= planning.low.y || low.z + edge <= planning.low.z) return;
   // The shape's distance changes by at most 1 mm per mm: the centre speaks for the whole cube.
   const double half_mm = 0.5 * edge * leaf_mm_;
   const Vec3 middle = origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
   const double radius_mm = half_mm * k_half_diagonal;
-  if (shape(middle) > radius_mm + edit.band_mm) return;
+  --planning.work;
+  if (shape(middle) > radius_mm + planning.band_mm) return;
   if constexpr (KnowsUnchanged<Shape>)
     if (shape.unchanged(middle, radius_mm)) return;
-  if (level == 0) {
-    carve_brick(ref, low, shape, edit);
+  if (level > 0) {
+    for (std::uint32_t i = 0; i < 8; ++i)
+      plan_in((ref & k_kind) == k_node ? nodes_.items[ref & k_index].child[i] : ref, level - 1, low_of_child(low, i, edge / 2),
+              place + (i << 3 * (level - 1)), shape, planning);
     return;
   }
-  if ((ref & k_kind) == k_uniform) {
-    if (nodes_.full()) {
-      edit.complete = false;
-      return;
-    }
-    Node split;
-    split.child.fill(ref);
-    ref = k_node | nodes_.add(split);
-    ++version_;
-  }
-  const std::uint32_t node = ref & k_index;
-  const int half = edge / 2;
-  bool all_equal = true;
-  for (int i = 0; i < 8; ++i) {
-    std::uint32_t child = nodes_.items[node].child[static_cast<std::size_t>(i)];
-    carve_in(child, level - 1, low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, shape, edit);
-    nodes_.items[node].child[static_cast<std::size_t>(i)] = child;
-    all_equal = all_equal && (child & k_kind) == k_uniform && child == nodes_.items[node].child[0];
-  }
-  if (all_equal) {
-    ref = nodes_.items[node].child[0];
-    nodes_.release(node);
-    ++version_;
-  }
+  auto& bricks = planning.plan.bricks_;
+  bricks.emplace_back();
+  bricks.back().place = place;
+  bricks.back().content = expanded(ref);
+  if (!cut_brick(low, shape, planning, bricks.back().content)) bricks.pop_back();
+  planning.plan.next_ = end;
 }
 
+/// Cuts a copy of a brick; false when nothing changed.
 template <class Shape>
-void Octree::carve_brick(std::uint32_t& ref, IVec3 low, const Shape& shape, Edit& edit) noexcept {
-  if (bricks_.full() || labels_.full() || edit.removed.capacity() - edit.removed.size() < k_brick_leaves) {
-    edit.complete = false;
-    return;
-  }
+bool Octree::cut_brick(IVec3 low, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept {
   // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
   using Real = std::conditional_t<KnowsCorners<Shape>, float, double>;
-  const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + edit.band_mm);
+  const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
   const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)),
-             clearance_mm = static_cast<Real>(edit.clearance_mm);
-  const int solid_most = edit.clearance_mm > 0.0 ? int{encode_distance(edit.clearance_mm / leaf_mm_)} : -1;
+             clearance_mm = static_cast<Real>(planning.clearance_mm);
+  const int solid_most = planning.clearance_mm > 0.0 ? int{encode_distance(planning.clearance_mm / leaf_mm_)} : -1;
   Real block_mm[8], tool_mm[8];
   corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm);
-  if (*std::min_element(block_mm, block_mm + 8) > skip_mm) return;
-  FullBrick brick = expanded(ref);
   bool changed = false;
+  constexpr int k_brick_work = 6, k_block_work = 5;
+  planning.work -= k_brick_work;
   for (int block = 0; block < 8; ++block) {
     if (block_mm[block] > skip_mm || is_empty_block(brick, block)) continue;
-    const IVec3 at = low + IVec3{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2};
-    const Vec3 first_mm = centre_mm(at);
+    const Vec3 first_mm = centre_mm(low + IVec3{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2});
     if constexpr (KnowsUnchanged<Shape>) {
       const double half = 0.5 * leaf_mm_;
       if (shape.unchanged(first_mm + Vec3{half, half, half}, half * k_half_diagonal)) continue;
     }
+    planning.work -= k_block_work;
     corner_distances(shape, first_mm, leaf_mm_, false, tool_mm);
     int cut_code[8];
-    for (int i = 0; i < 8; ++i) {  // encode_distance, eight at a time
+    for (int i = 0; i < 8; ++i) {  // encode_distance, eight at a time; in a form that compilers turn into vectors
       constexpr Real k_far = k_distance_far;
-      const Real code = std::min(std::max((clearance_mm - tool_mm[i]) * codes_per_mm, -k_far), k_far);
+      Real code = (clearance_mm - tool_mm[i]) * codes_per_mm;
+      code = code < -k_far ? -k_far : code;
+      code = code > k_far ? k_far : code;
       cut_code[i] = static_cast<int>(code + (k_far + Real{0.5})) - k_distance_far;
     }
-    for (int inner = 0; inner < 8; ++inner) {
+    for (std::size_t inner = 0; inner < 8; ++inner) {
       const auto i = static_cast<std::size_t>(first_of_block(block) + k_leaf_of_block[inner]);
-      int code = brick.distance[i];
-      const bool removed = tool_mm[inner] < 0 && brick.tissue[i] != k_air;
-      if (cut_code[inner] <= code && !removed) continue;
-      if (removed) {
-        const IVec3 leaf = at + IVec3{inner & 1, inner >> 1 & 1, inner >> 2};
-        edit.removed.push_back(
-            {static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), brick.tissue[i], 0});
-        brick.tissue[i] = k_air;
-      }
+      const int before = brick.distance[i];
+      const std::uint8_t tissue = tool_mm[inner] < 0 ? std::uint8_t{k_air} : brick.tissue[i];
+      const bool removed = tissue != brick.tissue[i];
       // A solid leaf stays inside the surface, or outside it by no more than the clearance: cut on both sides of a tool whose
-      // width is a whole number of leaves, such leaves would hold it.
-      code = solid_[brick.tissue[i]] ? std::max(code, std::min(cut_code[inner], solid_most)) : std::max({code, cut_code[inner], 1});
-      changed = changed || removed || code != brick.distance[i];
+      // width is a whole number of leaves, such leaves would hold it. Air lies outside.
+      int code = solid_[tissue] ? std::min(cut_code[inner], solid_most) : std::max(cut_code[inner], removed ? 1 : -k_distance_far);
+      code = std::max(code, before);
+      changed |= removed | (code != before);
+      brick.tissue[i] = tissue;
       brick.distance[i] = static_cast<std::int8_t>(code);
     }
   }
-  if (!changed) return;
-  const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
-  edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
-  if ((ref & k_kind) == k_full_brick) {
-    FullBrick& mine = bricks_.items[ref & k_index];
-    bool empty = true;
-    for (std::size_t j = 0; j < k_brick_leaves && empty; ++j) empty = brick.tissue[j] == k_air && brick.distance[j] == k_distance_far;
-    if (!empty) {
-      mine = brick;
-      return;
-    }
-    bricks_.release(ref & k_index);
-    ref = k_uniform | k_air;
-  } else {
-    if ((ref & k_kind) == k_label_brick) labels_.release(ref & k_index);
-    ref = canonical(brick);
-  }
-  ++version_;
+  return changed;
 }
 
 template <class Visit>

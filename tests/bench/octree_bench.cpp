@@ -50,12 +50,13 @@ double drill_on_us(const Tooth& block, const DiamondPoint& point) {
   tree.reserve_edits(1 << 17);
   std::vector<RemovedLeaf> removed;
   removed.reserve(1 << 17);
-  CarvedHead last;
+  HeadCarving carving;
   std::vector<double> us;
   for (double z = 0; z > -3.0; z -= 0.25 * tree.leaf_mm()) {
     removed.clear();
     const double begin = thread_us();
-    (void)carve_head(tree, point, 0, {0.013, 0.007, z}, {}, 0.0, last, removed);
+    begin_carving(carving, {{0.013, 0.007, z}, {}, 0}, 0.0);
+    (void)go_on_carving(carving, tree, point, k_at_once, removed);
     if (z < -1.5) us.push_back(thread_us() - begin);
   }
   return median(us);

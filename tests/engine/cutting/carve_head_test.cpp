@@ -17,6 +17,12 @@ std::vector<RemovedLeaf> room() {
   return removed;
 }
 
+/// A whole carve in one call; false when room ran out.
+bool carve(Octree& tooth, const DiamondPoint& point, const CarvedHead& head, HeadCarving& carving, std::vector<RemovedLeaf>& removed) {
+  begin_carving(carving, head, 0.0);
+  return go_on_carving(carving, tooth, point, k_at_once, removed) == CarvingStep::done;
+}
+
 // The head is tabulated (head_field.h): what lies within 4 micrometres of its surface may fall either way.
 TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
   Random random(drawn_seed("CarveHead.RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther"));
@@ -27,7 +33,7 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
     tooth.octree.reserve_edits(20000);
     auto removed = room();
     std::vector<Pose> poses;
-    CarvedHead last;
+    HeadCarving carving;
     Quat turned = random_rotation(random);
     Vec3 tip{random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-1.5, -0.5)}, way = random_direction(random) * 0.02;
     for (int i = 0; i < 40; ++i) {  // straight runs with one rotation, now and then a turn: the leading side alone is carved
@@ -35,7 +41,7 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
       if (random.below(12) == 0) turned = random_rotation(random);
       tip += way;
       poses.push_back({tip, turned});
-      ASSERT_TRUE(carve_head(tooth.octree, point, 0, tip, rotation(turned), 0.0, last, removed));
+      ASSERT_TRUE(carve(tooth.octree, point, {tip, rotation(turned), 0}, carving, removed));
     }
     const TissueGrid after = tooth.octree.to_grid();
     std::size_t gone = 0;
@@ -66,14 +72,14 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
       Tooth two;
       two.octree = one.octree;
       auto removed_one = room(), removed_two = room();
-      CarvedHead last;
+      HeadCarving carving;
       const Mat3 turned = rotation(random_rotation(random));
       Vec3 tip{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1.5, 0.3)};
       for (int i = 0; i < 30; ++i) {
         tip += random_direction(random) * random.uniform(0.002, 0.05);
-        ASSERT_TRUE(carve_head(one.octree, point, 0, tip, turned, 0.0, last, removed_one));
-        CarvedHead none;
-        ASSERT_TRUE(carve_head(two.octree, point, 0, tip, turned, 0.0, none, removed_two));
+        ASSERT_TRUE(carve(one.octree, point, {tip, turned, 0}, carving, removed_one));
+        HeadCarving anew;
+        ASSERT_TRUE(carve(two.octree, point, {tip, turned, 0}, anew, removed_two));
       }
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
@@ -82,19 +88,73 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
     }
 }
 
+TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
+  Random random(drawn_seed("CarveHead.SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast"));
+  for (const auto& name : point_names()) {
+    const DiamondPoint point = diamond_point(name);
+    Tooth one = make_block({2, 2, 2}, {{"enamel", 1}, {"dentin", 1}}, 0.05);
+    one.octree.reserve_edits(20000);
+    Tooth two;
+    two.octree = one.octree;
+    auto removed_one = room(), removed_two = room();
+    HeadCarving at_once, spread;
+    const Mat3 turned = rotation(random_rotation(random));
+    Vec3 tip{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1.5, 0.3)};
+    int calls = 0;
+    for (int i = 0; i < 6; ++i) {
+      tip += random_direction(random) * random.uniform(0.002, 0.05);
+      ASSERT_TRUE(carve(one.octree, point, {tip, turned, 0}, at_once, removed_one));
+      begin_carving(spread, {tip, turned, 0}, 0.0);
+      const auto before = two.octree.edit_hash();
+      const auto listed = removed_two.size();
+      for (CarvingStep step = CarvingStep::under_way; step == CarvingStep::under_way; ++calls) {
+        ASSERT_TRUE(two.octree.edit_hash() == before || spread.plan.progress() >> 32 > 0) << "edited before anything was worked out";
+        if (two.octree.edit_hash() == before) {
+          ASSERT_EQ(removed_two.size(), listed);
+        }
+        step = go_on_carving(spread, two.octree, point, static_cast<int>(random.below(3000)) + 1, removed_two);
+        ASSERT_NE(step, CarvingStep::no_room);
+        ASSERT_LT(calls, 100000) << "it never ends";
+      }
+      ASSERT_EQ(one.octree.edit_hash(), two.octree.edit_hash()) << name << " carve " << i;
+    }
+    ASSERT_GT(calls, 12) << name << ": never spread";
+    ASSERT_EQ(removed_one, removed_two) << name;
+    const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
+    ASSERT_EQ(a.tissue, b.tissue) << name;
+    ASSERT_EQ(a.distance, b.distance) << name;
+  }
+}
+
+TEST(CarveHead, WhatIsDroppedWasNeverCarved) {
+  const DiamondPoint point = diamond_point("round-1.0");
+  Tooth tooth = make_block({2, 2, 2}, {{"enamel", 2}}, 0.05);
+  tooth.octree.reserve_edits(20000);
+  auto removed = room();
+  HeadCarving carving;
+  const auto before = tooth.octree.edit_hash();
+  begin_carving(carving, {{0, 0, -0.5}, Mat3{}, 0}, 0.0);
+  ASSERT_EQ(go_on_carving(carving, tooth.octree, point, 1000, removed), CarvingStep::under_way);
+  drop_carving(carving);
+  EXPECT_FALSE(carving.under_way());
+  EXPECT_EQ(tooth.octree.edit_hash(), before);
+  EXPECT_TRUE(removed.empty());
+  EXPECT_EQ(carving.last.point, -1);
+}
+
 TEST(CarveHead, FullRoomIsToldAndTheNextCarveMakesUpForIt) {
   const DiamondPoint point = diamond_point("round-1.0");
   Tooth tooth = make_block({2, 2, 2}, {{"enamel", 2}}, 0.05);
   tooth.octree.reserve_edits(20000);
   std::vector<RemovedLeaf> little;
   little.reserve(10);
-  CarvedHead last;
-  EXPECT_FALSE(carve_head(tooth.octree, point, 0, {0, 0, -0.5}, Mat3{}, 0.0, last, little));
+  HeadCarving carving;
+  EXPECT_FALSE(carve(tooth.octree, point, {{0, 0, -0.5}, Mat3{}, 0}, carving, little));
   EXPECT_LE(little.size(), little.capacity());
   EXPECT_EQ(little.capacity(), 10u) << "it grew";
-  EXPECT_EQ(last.point, -1) << "an unfinished carve must not count as done";
+  EXPECT_EQ(carving.last.point, -1) << "an unfinished carve must not count as done";
   auto removed = room();
-  EXPECT_TRUE(carve_head(tooth.octree, point, 0, {0, 0, -0.5}, Mat3{}, 0.0, last, removed));
+  EXPECT_TRUE(carve(tooth.octree, point, {{0, 0, -0.5}, Mat3{}, 0}, carving, removed));
   const double expected = 2.0 / 3.0 * k_pi * 0.125;  // half a ball
   EXPECT_NEAR(static_cast<double>(removed.size() + little.size()) * 1.25e-4 / expected, 1.0, 0.02);
 }

@@ -107,7 +107,7 @@ TEST(Cutting, ASlotHasTheVolumeAndTheWallsOfItsSweep) {
     rig.spin_up({-2, 0, -depth});
     const TickOutput out = rig.travel({-2, 0, -depth}, {0.4, 0, -depth}, 1.0, 1.0);
     EXPECT_NEAR(out.penetration_mm, 0.2, 0.01) << "X = V tau";
-    const double reached = rig.state.carved.tip_mm.x;
+    const double reached = rig.state.carving.last.tip_mm.x;
     EXPECT_NEAR(reached, 0.4 - out.penetration_mm, 0.02);
     const double swept = depth * (2 * r * (reached + half) + k_pi * r * r / 2), removed = removed_mm3(tooth.octree, rig.state.tooth);
     // walls and floor, away from both ends, against the sweep
