@@ -1,13 +1,18 @@
 #include "grading/grade.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "grading/cut_surface.h"
 #include "grading/motion.h"
 #include "grading/perforation.h"
 #include "grading/removed_map.h"
 #include "grading/volumes.h"
+#include "scenarios/accommodations.h"
+#include "scenarios/exam.h"
+#include "scenarios/runner.h"
 
 namespace cavum {
 namespace {
@@ -38,6 +43,50 @@ ProgressMeasures measure_progress(const GradeInput& input) {
   return p;
 }
 
+/// Pauses up to tick `ticks`; one that was running at the end ends there.
+std::vector<PauseMeasure> find_pauses(const GradeInput& input, std::int64_t ticks) {
+  std::vector<PauseMeasure> list;
+  for (const auto& e : input.events) {
+    if (is_kind(e, ExamEventKind::pause_started)) list.push_back({e.tick, ticks});
+    if (is_kind(e, ExamEventKind::pause_ended) && !list.empty()) list.back().end = std::min(e.tick, ticks);
+  }
+  return list;
+}
+
+LateWork find_late_work(const GradeInput& input) {
+  for (const auto& e : input.events) {
+    if (e.kind != k_late_work) continue;
+    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
+    if (detail.is_object()) return {detail.value("ticks", std::int64_t{0}), detail.value("pedal_ticks", std::int64_t{0})};
+  }
+  return {};
+}
+
+std::string seconds(std::int64_t ticks) { return fixed(static_cast<double>(ticks) * k_tick_s, 3) + " s"; }
+
+/// What granted, paused and late time means for a reader.
+void note_time(Result& r) {
+  if (const auto text = accommodations_text(r.accommodations); !text.empty())
+    r.notes.push_back("accommodations: " + text + "; the limit was " + seconds(r.limit_ticks));
+  if (!r.pauses.empty()) {
+    std::string list;
+    std::int64_t sum = 0;
+    for (const auto& p : r.pauses) {
+      list += (list.empty() ? "" : ", ") + seconds(p.end - p.begin) + " from tick " + std::to_string(p.begin);
+      sum += p.end - p.begin;
+    }
+    r.notes.push_back("pauses: " + std::to_string(r.pauses.size()) + ", " + seconds(sum) + " in all, which do not count (" + list + ")");
+  }
+  if (r.pauses_refused > 0)
+    r.notes.push_back(std::to_string(r.pauses_refused) + " pauses asked for and not given: none was left, or the handpiece turned");
+  if (r.motion.late_ticks > 0)
+    r.notes.push_back(std::to_string(r.motion.late_ticks) + " ticks were recorded after the exam was over, " + fixed(r.motion.late_removed_mm3, 2) +
+                      " mm3 removed in them; they do not count");
+  if (r.late_work.ticks > 0)
+    r.notes.push_back("the candidate went on for " + seconds(r.late_work.ticks) + " after time was up, with the pedal pressed for " +
+                      seconds(r.late_work.pedal_ticks) + "; the tooth stayed as it was, and nothing of it counts");
+}
+
 /// The list of removed leaves and the tooth as it was left must tell the same story.
 void compare_with_final_tooth(const GradeInput& input, const RemovedMap& removed, Result& result) {
   std::size_t wrong = 0;
@@ -63,21 +112,25 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.tooth_name = input.before.name;
   r.tissues = input.before.tissues;
   r.leaf_mm = input.zones.leaf_mm();
-  r.extra_time_percent = input.scenario.accommodations.extra_time_percent;
+  r.accommodations = input.scenario.accommodations;
+  r.limit_ticks = exam_limit_ticks(input.scenario);
   const std::int64_t ticks = counted_ticks(input);
   // without motion (a cavity handed in for marking) every removed leaf counts
   const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;
   const RemovedMap removed(input.removed, last_tick);
   r.volumes = measure_volumes(input, removed, last_tick);
   r.shape = measure_shape(input, removed, last_tick);
-  r.motion = measure_motion(input, ticks);
+  r.pauses = find_pauses(input, ticks);
+  for (const auto& e : input.events) r.pauses_refused += is_kind(e, ExamEventKind::pause_refused) ? 1 : 0;
+  r.late_work = find_late_work(input);
+  r.motion = measure_motion(input, ticks, r.pauses);
+  for (const auto& leaf : input.removed) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
   r.perforation = measure_perforation(input, input.inputs.empty() ? last_tick : ticks);
   r.progress = measure_progress(input);
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
     r.notes.push_back(std::to_string(r.progress.steps - r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) +
                       " steps were not completed; the verdict comes from the rubric alone");
-  if (r.motion.late_ticks > 0)
-    r.notes.push_back(std::to_string(r.motion.late_ticks) + " ticks were recorded after the exam was over; they do not count");
+  note_time(r);
   compare_with_final_tooth(input, removed, r);
   mark(r, rubric);
   return r;

@@ -7,10 +7,14 @@ namespace cavum {
 
 double force_n(const TickRecord& r) noexcept { return length({r.rendered_un[0] * 1e-6, r.rendered_un[1] * 1e-6, r.rendered_un[2] * 1e-6}); }
 
-MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks) {
+MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses) {
   MotionMeasures m;
   const auto n = static_cast<std::size_t>(ticks);
-  m.time_s = static_cast<double>(ticks) * k_tick_s;
+  std::vector<std::uint8_t> paused(n, 0);
+  std::int64_t standing = 0;  // ticks in which the exam's clock stood still
+  for (const auto& p : pauses)
+    for (std::int64_t i = p.begin; i < std::min(p.end, ticks); ++i, ++standing) paused[static_cast<std::size_t>(i)] = 1;
+  m.time_s = static_cast<double>(ticks - standing) * k_tick_s;
   m.late_ticks = static_cast<std::int64_t>(input.inputs.size()) - ticks;
   const auto tip = [&](std::size_t i) {
     const auto& t = input.inputs[i].tip_nm;
@@ -19,6 +23,7 @@ MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks) {
   double sum = 0;
   std::int64_t turning = 0, cutting = 0, over = 0;
   for (std::size_t i = 0; i < n; ++i) {
+    if (paused[i] != 0) continue;
     const TickRecord& r = input.records[i];
     const double f = force_n(r);
     const bool turns = r.rpm >= k_turning_rpm;
@@ -36,13 +41,14 @@ MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks) {
     }
   }
   for (std::size_t i = static_cast<std::size_t>(k_path_step_ticks); i < n; i += static_cast<std::size_t>(k_path_step_ticks))
-    m.path_mm += length(tip(i) - tip(i - static_cast<std::size_t>(k_path_step_ticks)));
+    if (paused[i] == 0 && paused[i - static_cast<std::size_t>(k_path_step_ticks)] == 0)
+      m.path_mm += length(tip(i) - tip(i - static_cast<std::size_t>(k_path_step_ticks)));
   std::int64_t idle = 0;
   const auto window = static_cast<std::size_t>(k_idle_window_ticks);
   for (std::size_t i = 0; i + window <= n; i += window) {
     bool quiet = true;
     for (std::size_t j = i; j < i + window && quiet; ++j)
-      quiet = input.records[j].removed == 0 && input.records[j].penetration_nm == 0 && length(tip(j) - tip(i)) <= k_idle_mm;
+      quiet = paused[j] == 0 && input.records[j].removed == 0 && input.records[j].penetration_nm == 0 && length(tip(j) - tip(i)) <= k_idle_mm;
     idle += quiet ? k_idle_window_ticks : 0;
   }
   m.handpiece_time_s = static_cast<double>(turning) * k_tick_s;

@@ -17,6 +17,6 @@ inline constexpr double k_idle_mm = 0.05;
 [[nodiscard]] double force_n(const TickRecord& record) noexcept;
 
 /// `ticks`: how many count.
-[[nodiscard]] MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks);
+[[nodiscard]] MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses = {});
 
 }  // namespace cavum

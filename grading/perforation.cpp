@@ -13,6 +13,7 @@ namespace cavum {
 namespace {
 
 constexpr std::int64_t k_confirm_ticks = 100;
+constexpr double k_reach_mm = 1.0;  // from the place of a drop in force to the tissue it may be a breakthrough into
 
 /// Where the tip has been, and when first.
 class Visits {
@@ -155,6 +156,21 @@ std::vector<PerforationEvent> detect_breakthroughs(std::span<const TickInput> in
   return events;
 }
 
+namespace {
+
+/// True when the untouched tooth holds a tissue of role 1 or 2 within k_reach_mm of a place: elsewhere there is nothing to break into.
+bool near_role(const Octree& before, const std::array<int, 256>& role, Vec3 site_mm) {
+  constexpr double k_step_mm = 0.1;
+  const int n = static_cast<int>(k_reach_mm / k_step_mm);
+  for (int z = -n; z <= n; ++z)
+    for (int y = -n; y <= n; ++y)
+      for (int x = -n; x <= n; ++x)
+        if (x * x + y * y + z * z <= n * n && role[before.tissue_at(site_mm + Vec3{double(x), double(y), double(z)} * k_step_mm)] != 0) return true;
+  return false;
+}
+
+}  // namespace
+
 PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ticks) {
   PerforationMeasures p;
   const PerforationSpec& spec = input.scenario.perforation;
@@ -178,6 +194,8 @@ PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ti
   }
   const auto counted = std::min<std::size_t>(input.inputs.size(), static_cast<std::size_t>(ticks));
   p.events = detect_breakthroughs(input.inputs.first(counted), input.records.first(counted));
+  // whoever cuts through the last wall between two grooves falls too, but into the cavity
+  std::erase_if(p.events, [&](const PerforationEvent& e) { return !near_role(input.before.octree, role, e.site_mm); });
   for (auto& e : p.events) {
     const double beyond = input.zones.distance_mm(e.site_mm);
     const double leeway = std::max(input.scenario.zones.leeway.sides_mm, input.scenario.zones.leeway.bottom_mm);

@@ -36,7 +36,8 @@ std::array<std::string, 3> sections(const Result& r, const GradeInput& input) {
   const Vec3 at = r.perforation.fault.perforated ? r.perforation.fault.first.site_mm : (low + high) * 0.5;
   const double across = low.z + 0.35 * (high.z - low.z);
   const auto draw = [&](View view, double at_mm, const char* name) {
-    return section_svg(input.before, &input.after, input.zones, {view, at_mm, 25, name + fixed(at_mm, 2) + " mm"});
+    return section_svg(input.before, &input.after, input.zones,
+                       {view, at_mm, 25, name + fixed(at_mm, 2) + " mm", input.scenario.accommodations.high_contrast});
   };
   return {draw(View::mesio_distal, at.y, "mesial-distal, y = "), draw(View::bucco_lingual, at.x, "buccal-lingual, x = "),
           draw(View::horizontal, across, "across, z = ")};
@@ -58,7 +59,7 @@ std::string sections_svg(const Result& r, const GradeInput& input) {
     return "<g transform='translate(" + fixed(x, 0) + " " + fixed(y, 2) + ")'>" + content + "</g>\n";
   };
   const auto pictures = sections(r, input);
-  const std::string legend = legend_svg(true);
+  const std::string legend = legend_svg(true, input.scenario.accommodations.high_contrast);
   double height = 0, x = k_margin_px;
   for (const auto& p : pictures) height = std::max(height, svg_px(p, "height='"));
   std::string body;
@@ -87,7 +88,7 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
 
   h += "<h2>Removed against target</h2>\n<div class='pictures'>\n";
   for (const auto& section : sections(r, input)) h += section;
-  h += "</div>\n" + legend_svg(true);
+  h += "</div>\n" + legend_svg(true, input.scenario.accommodations.high_contrast);
 
   h += "<h2>Criteria</h2>\n<table><tr><th>Criterion</th><th class='n'>Value</th><th class='n'>Points</th><th>Why</th></tr>\n";
   for (const auto& c : r.criteria)

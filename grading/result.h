@@ -90,7 +90,18 @@ struct MotionMeasures {
   double time_s = 0.0, handpiece_time_s = 0.0, idle_s = 0.0, path_mm = 0.0;
   double force_mean_n = 0.0, force_peak_n = 0.0, force_over_limit_s = 0.0;
   Trace force_peak, first_over_limit;
-  std::int64_t late_ticks = 0;  ///< recorded after the exam was over; they count nowhere
+  std::int64_t late_ticks = 0;    ///< recorded after the exam was over; they count nowhere
+  double late_removed_mm3 = 0.0;  ///< removed in them
+};
+
+/// A pause, in ticks of the recording: the exam's clock stood still from `begin` up to `end`, which counts again.
+struct PauseMeasure {
+  std::int64_t begin = 0, end = 0;
+};
+
+/// What a candidate went on to do when time was up: not simulated, and nothing of it counts.
+struct LateWork {
+  std::int64_t ticks = 0, pedal_ticks = 0;
 };
 
 struct ProgressMeasures {
@@ -124,7 +135,11 @@ struct Result {
   PerforationMeasures perforation;
   MotionMeasures motion;
   ProgressMeasures progress;
-  double extra_time_percent = 0.0;
+  Accommodations accommodations;
+  std::int64_t limit_ticks = 0;  ///< of the exam's clock, with what was granted
+  std::vector<PauseMeasure> pauses;
+  int pauses_refused = 0;
+  LateWork late_work;
   std::vector<std::string> notes;  ///< what a reader must know: disagreement in the record, late ticks
   std::vector<Tissue> tissues;
 };

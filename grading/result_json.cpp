@@ -138,8 +138,28 @@ Json to_json(const Result& r) {
   j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
   j["violations"] = r.progress.violations;
   j["finish"] = r.progress.finish;
-  j["extra_time_percent"] = r.extra_time_percent;
+  j["extra_time_percent"] = r.accommodations.extra_time_percent;
   j["late_ticks"] = r.motion.late_ticks;
+  // Only where there is something to say: a session graded before these were known grades to the same text.
+  const auto& a = r.accommodations;
+  if (a != Accommodations{}) {
+    j["accommodations"] = {{"extra_time_percent", a.extra_time_percent},
+                           {"extra_time_s", a.extra_time_s},
+                           {"left_handed", a.left_handed},
+                           {"high_contrast", a.high_contrast}};
+    j["time_limit_s"] = rounded(static_cast<double>(r.limit_ticks) * k_tick_s);
+  }
+  if (!r.pauses.empty() || r.pauses_refused > 0) {
+    Json list = Json::array();
+    std::int64_t sum = 0;
+    for (const auto& p : r.pauses) {
+      list.push_back({{"from_tick", p.begin}, {"to_tick", p.end}});
+      sum += p.end - p.begin;
+    }
+    j["pauses"] = {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
+  }
+  if (r.motion.late_ticks > 0) j["late_removed_mm3"] = rounded(r.motion.late_removed_mm3);
+  if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
   j["notes"] = r.notes;
   return j;
 }

@@ -2,6 +2,7 @@
 
 #include "engine/base/error.h"
 #include "engine/session/chain_check.h"
+#include "scenarios/accommodations.h"
 #include "scenarios/parse.h"
 
 namespace cavum {
@@ -20,7 +21,8 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   const std::string& path = reader.path();
   const SessionSetup setup = reader.setup();
   auto s = std::make_unique<GradedSession>();
-  s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario");
+  s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario", Reading::recorded);
+  s->scenario.accommodations = granted(s->scenario.accommodations, setup.notes, path + ": accommodations");
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
   s->before = load_tooth(setup.tooth, path + ": tooth");
   s->after = std::move(after);

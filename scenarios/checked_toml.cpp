@@ -52,8 +52,11 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
 }
 
 void ProblemList::add(const toml::source_region& at, const std::string& what, const std::string& what_to_do) {
-  const int line = static_cast<int>(at.begin.line), column = static_cast<int>(at.begin.column);
-  problems_.push_back({path_ + ":" + std::to_string(line) + ":" + std::to_string(column), what, what_to_do, line, column});
+  add(Place{static_cast<int>(at.begin.line), static_cast<int>(at.begin.column)}, what, what_to_do);
+}
+
+void ProblemList::add(Place at, const std::string& what, const std::string& what_to_do) {
+  problems_.push_back({path_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column), what, what_to_do, at.line, at.column});
 }
 
 std::vector<Problem> ProblemList::take() {
@@ -65,6 +68,21 @@ std::vector<Problem> ProblemList::take() {
 toml::source_region CheckedTable::where(std::string_view key) const {
   if (const auto* node = table_.get(key); node != nullptr && node->source().begin.line > 0) return node->source();
   return table_.source();
+}
+
+void CheckedTable::problem_in(std::string_view key, std::size_t item, const std::string& what, const std::string& what_to_do) {
+  const auto* array = table_[key].as_array();
+  const bool known = array != nullptr && item < array->size() && (*array)[item].source().begin.line > 0;
+  problems_.add(known ? (*array)[item].source() : where(key), what, what_to_do);
+}
+
+void CheckedTable::note(std::map<std::string, Place>& places, std::string_view key, const std::string& name) const {
+  const auto* node = table_.get(key);
+  if (node == nullptr) return;
+  const auto place = [](const toml::node& n) { return Place{static_cast<int>(n.source().begin.line), static_cast<int>(n.source().begin.column)}; };
+  places[name] = place(*node);
+  if (const auto* array = node->as_array())
+    for (std::size_t i = 0; i < array->size(); ++i) places[name + "/" + std::to_string(i)] = place((*array)[i]);
 }
 
 const toml::node* CheckedTable::ask(std::string_view key, bool required) {
@@ -87,6 +105,13 @@ double CheckedTable::number(std::string_view key, double low, double high, doubl
     return fallback;
   }
   return v;
+}
+
+int CheckedTable::whole(std::string_view key, int low, int high, int fallback, bool required) {
+  const double v = number(key, low, high, fallback, required);
+  if (v == std::floor(v)) return static_cast<int>(v);
+  problem(key, "'" + std::string(key) + "' is " + plain_number(v), "write a whole number");
+  return fallback;
 }
 
 std::string CheckedTable::text(std::string_view key, const std::string& fallback, bool required) {

@@ -4,7 +4,7 @@
 
 #include <toml++/toml.h>
 
-#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,13 +16,18 @@ namespace cavum {
 
 class ProblemList {
  public:
-  explicit ProblemList(std::string path) : path_(std::move(path)) {}
+  explicit ProblemList(std::string path, Reading reading = Reading::to_be_run) : path_(std::move(path)), reading_(reading) {}
+  /// False for what an exam ran with before a rule was made: the rule is not for it.
+  [[nodiscard]] bool strict() const noexcept { return reading_ == Reading::to_be_run; }
   void add(const toml::source_region& at, const std::string& what, const std::string& what_to_do);
+  [[nodiscard]] std::size_t size() const noexcept { return problems_.size(); }
+  void add(Place at, const std::string& what, const std::string& what_to_do);
   /// Sorted by place.
   [[nodiscard]] std::vector<Problem> take();
 
  private:
   std::string path_;
+  Reading reading_;
   std::vector<Problem> problems_;
 };
 
@@ -34,6 +39,8 @@ class CheckedTable {
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
   /// A number within [low, high]; `fallback` when absent (a problem if `required`) or wrong.
   double number(std::string_view key, double low, double high, double fallback, bool required = false);
+  /// A whole number within [low, high].
+  int whole(std::string_view key, int low, int high, int fallback, bool required = false);
   std::string text(std::string_view key, const std::string& fallback, bool required = false);
   bool truth(std::string_view key, bool fallback);
   static constexpr std::size_t k_wrong = static_cast<std::size_t>(-1);
@@ -50,6 +57,10 @@ class CheckedTable {
   /// Place of a key's value, or of the table.
   [[nodiscard]] toml::source_region where(std::string_view key) const;
   void problem(std::string_view key, const std::string& what, const std::string& what_to_do) { problems_.add(where(key), what, what_to_do); }
+  /// The same for an item of the list under `key`.
+  void problem_in(std::string_view key, std::size_t item, const std::string& what, const std::string& what_to_do);
+  /// Notes where a key's value stands (and, under `name/0` and so on, its items), if it is written.
+  void note(std::map<std::string, Place>& places, std::string_view key, const std::string& name) const;
   /// Reports keys that nobody asked for. Call last.
   void finish();
 

@@ -1,5 +1,6 @@
 #include "scenarios/exam.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,13 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
     case ExamEventKind::step_failed:
     case ExamEventKind::step_time_limit:
       detail["step"] = index < setup.scenario.steps.size() ? setup.scenario.steps[index].id : "";
+      break;
+    case ExamEventKind::pause_started:
+    case ExamEventKind::pause_ended:
+      detail["pause"] = event.index;
+      break;
+    case ExamEventKind::pause_refused:
+      detail["pauses"] = event.index;
       break;
     case ExamEventKind::point_not_allowed:
       detail["point"] = event.index;
@@ -42,7 +50,8 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
 
 /// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
 void fill(ExamSetup& setup, const std::string& scenario_path, const std::string& tooth_path, const std::vector<std::string>& point_paths) {
-  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path);
+  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path, Reading::recorded);
+  setup.scenario.accommodations = granted(setup.scenario.accommodations, setup.session.notes, scenario_path);
   setup.tooth = load_tooth(setup.session.tooth, tooth_path);
   for (std::size_t i = 0; i < setup.session.points_toml.size(); ++i) {
     setup.points.push_back(
@@ -52,16 +61,33 @@ void fill(ExamSetup& setup, const std::string& scenario_path, const std::string&
   setup.zones = build_zones(setup.scenario, setup.tooth);
 }
 
+std::vector<fs::path> data_folders(const std::string& folder, const std::string& near_file) {
+  std::vector<fs::path> places;
+  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder);
+  places.push_back(fs::path(near_file).parent_path() / ".." / folder);
+  places.push_back(fs::path("data") / folder);
+  places.push_back(fs::path(CAVUM_DATA_DIR) / folder);
+  return places;
+}
+
 }  // namespace
 
+std::vector<std::string> data_names(const std::string& folder, const std::string& near_file) {
+  for (const auto& place : data_folders(folder, near_file)) {
+    std::error_code none;
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(place, none))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    if (!names.empty()) return names;
+  }
+  return {};
+}
+
 std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file) {
-  std::vector<fs::path> places;
-  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder / name);
-  places.push_back(fs::path(near_file).parent_path() / ".." / folder / name);
-  places.push_back(fs::path("data") / folder / name);
-  places.push_back(fs::path(CAVUM_DATA_DIR) / folder / name);
   std::string looked;
-  for (const auto& p : places) {
+  for (const auto& place : data_folders(folder, near_file)) {
+    const fs::path p = place / name;
     if (fs::exists(p)) return p.lexically_normal().string();
     looked += (looked.empty() ? "" : ", ") + p.lexically_normal().string();
   }
@@ -81,7 +107,9 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   const Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
   s.candidate = options.candidate;
   s.device = options.device;
+  require_sound(options.grant, "accommodations");
   s.notes = options.notes;
+  for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
   const std::string tooth_path = options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file;
   s.tooth = read_file(tooth_path);
   const std::string model_path = force_model_path(options.force_model, scenario_path);
@@ -154,7 +182,9 @@ void Exam::record_events() {
   }
 }
 
-const TickOutput& Exam::tick(const TickInput& input) {
+const TickOutput& Exam::tick(const TickInput& wanted) {
+  TickInput input = wanted;
+  if (Runner::paused(*runner_state_)) input.pedal_q16 = 0;  // what is recorded is what the step consumed
   last_input_ = input;
   last_ = step(simulation_.model, simulation_.state, input);
   runner_.advance(*runner_state_, input, last_, simulation_.state.removed);
@@ -166,6 +196,11 @@ const TickOutput& Exam::tick(const TickInput& input) {
 void Exam::end() {
   runner_.end(*runner_state_);
   record_events();
+}
+
+void Exam::note_late(std::int64_t ticks, std::int64_t pedal_ticks) {
+  const nlohmann::json detail{{"ticks", ticks}, {"pedal_ticks", pedal_ticks}};
+  recorder_->add_event(runner_state_->ticks - 1, k_late_work, detail.dump());
 }
 
 void Exam::close(const std::string& result_json) { recorder_->close(save_tooth(tooth_now()), result_json); }

@@ -11,6 +11,7 @@
 
 #include "engine/session/recorder.h"
 #include "engine/session/resume.h"
+#include "scenarios/accommodations.h"
 #include "scenarios/parse.h"
 #include "scenarios/runner.h"
 
@@ -20,6 +21,9 @@ namespace cavum {
 /// `near_file`'s folder (../points of data/scenarios/x.toml), in ./data, and where Cavum was built or installed.
 /// Throws Error naming the places.
 [[nodiscard]] std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file);
+
+/// Names (without .toml) of the files in the first of those folders that exists, sorted.
+[[nodiscard]] std::vector<std::string> data_names(const std::string& folder, const std::string& near_file);
 
 /// Text of a force model: the name of data/materials/NAME.toml, or a path ending in .toml. Throws Error.
 [[nodiscard]] std::string force_model_text(const std::string& wanted, const std::string& near_file);
@@ -32,6 +36,7 @@ struct ExamOptions {
   std::string tooth_file;                                  ///< empty: the scenario's
   std::string force_model = "consistent";                  ///< name of data/materials/NAME.toml, or a path ending in .toml
   std::string rubric_file;                                 ///< empty: the scenario's own rubric counts
+  Grant grant;                                             ///< accommodations beside the scenario's own
   std::vector<std::pair<std::string, std::string>> notes;  ///< recorded as they are
 };
 
@@ -49,6 +54,9 @@ struct ExamSetup {
 /// The same from what a session holds: for resuming and regrading.
 [[nodiscard]] std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session);
 
+/// Kind of the event that Exam::note_late records; its detail is {"ticks":…,"pedal_ticks":…}.
+inline constexpr char k_late_work[] = "late_work";
+
 /// A running exam.
 class Exam {
  public:
@@ -58,11 +66,15 @@ class Exam {
   /// `source` is noted in the gap: what gives the input from now on.
   [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source = {});
 
-  /// One tick; throws Error when it cannot be recorded (the tick is kept, go on after making room).
+  /// One tick, in a pause with the pedal released, whatever the foot does; throws Error when it cannot be recorded (the tick is kept, go on after
+  /// making room).
   const TickOutput& tick(const TickInput& input);
   [[nodiscard]] bool over() const noexcept { return runner_state_->finish != Finish::running; }
   /// The candidate stops: the exam is over.
   void end();
+  /// Records that the candidate went on for so many ticks after time was up, in `pedal_ticks` of them with the pedal pressed.
+  /// That work is not simulated, and nothing of it counts.
+  void note_late(std::int64_t ticks, std::int64_t pedal_ticks);
   /// Seals the session with the tooth as it is and the result.
   void close(const std::string& result_json);
 

@@ -64,6 +64,23 @@ double Expression::value() const noexcept {
   }
 }
 
+std::vector<std::string> functions_in_expression(const std::string& text) {
+  std::vector<std::string> names;
+  std::string name;
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (letter) {
+      name += c;
+    } else if (c == '(' && !name.empty()) {
+      names.push_back(name);
+      name.clear();
+    } else if (c != ' ') {
+      name.clear();
+    }
+  }
+  return names;
+}
+
 std::vector<std::string> names_in_expression(const std::string& text) {
   try {
     mu::Parser parser;

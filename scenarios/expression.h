@@ -31,4 +31,7 @@ class Expression {
 /// Names that an expression uses, sorted. Throws std::runtime_error when it cannot be read at all.
 [[nodiscard]] std::vector<std::string> names_in_expression(const std::string& text);
 
+/// Names that stand before a bracket, in their order.
+[[nodiscard]] std::vector<std::string> functions_in_expression(const std::string& text);
+
 }  // namespace cavum

@@ -13,6 +13,7 @@ constexpr double k_arrived_mm = 0.04;         // cutting; ways through the air n
 constexpr double k_lead_rate_mm_s = 15.0;     // how fast the hand builds up its push
 constexpr double k_correction = 2.0;          // of an error across the way ...
 constexpr double k_most_correction_mm = 0.8;  // ... up to this
+constexpr double k_astray_mm = 0.12;          // further off the way it no longer goes on along it
 constexpr double k_friction_n = 0.26;         // of the device's joints: a practised hand knows it
 constexpr double k_intention_s = 0.025;
 constexpr double k_gentle_bend = 0.7;  // cosine between two pieces of the way
@@ -115,10 +116,14 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
     goal = &way_[next_];
     left = left_to(*goal, goal->tip_mm - from_mm_);
   }
-  const Vec3 direction = normalized(goal->tip_mm - seen.proxy_mm), line = normalized(goal->tip_mm - from_mm_);
+  Vec3 direction = normalized(goal->tip_mm - seen.proxy_mm);
+  const Vec3 line = normalized(goal->tip_mm - from_mm_);
   // Across the way the hand corrects more than it sees, or the friction of the joints would keep the error.
   const Vec3 anchor = from_mm_ + line * std::clamp(dot(seen.proxy_mm - from_mm_, line), 0.0, length(goal->tip_mm - from_mm_));
-  Vec3 correction = (anchor - seen.proxy_mm) * k_correction;
+  const Vec3 off = anchor - seen.proxy_mm;
+  Vec3 correction = off * k_correction;
+  // A groove cut before leads the point astray: back to the way first, or the wall between them would be left standing.
+  if (const double astray = length(off); goal->cut && astray > k_astray_mm) direction = normalized(direction * (k_astray_mm / astray) + off / astray);
   if (const double c = length(correction); c > k_most_correction_mm) correction = correction * (k_most_correction_mm / c);
 
   // Push until the penetration felt is the one aimed at; where nothing resists, move at a quiet speed.
@@ -147,38 +152,43 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   return {intended_mm_, pedal_, false};
 }
 
+ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray) {
+  ChosenPoint chosen;
+  chosen.index = tray.size();
+  double best_score = 0;
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    ReachMap map = reach_map(zones, tooth, tray[i], PlanOptions{}.margin_mm);
+    chosen.covers.push_back(coverage(map, zones, tooth, tray[i]));
+    // a head shorter than the target is deep leaves ledges that hold up its neck
+    const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
+    const double score = chosen.covers.back() * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
+    if (score > best_score * 1.01) {
+      best_score = score;
+      chosen.index = i;
+      chosen.map = std::move(map);
+    }
+  }
+  return chosen;
+}
+
 Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                          const std::vector<ContactTool>& tray, std::uint64_t seed) {
   const Skill skill = make_skill(skill_name, seed);
-  // The point that reaches most of the target's columns at their full depth; of equals the first one allowed.
-  std::size_t best = tray.size();
-  double best_score = 0;
-  ReachMap best_map;
-  for (std::size_t i = 0; i < tray.size(); ++i) {
-    ReachMap map = reach_map(zones, tooth, tray[i], PlanOptions{}.margin_mm);
-    // a head shorter than the target is deep leaves ledges that hold up its neck
-    const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
-    const double score = coverage(map, zones, tooth, tray[i]) * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
-    if (score > best_score * 1.01) {
-      best_score = score;
-      best = i;
-      best_map = std::move(map);
-    }
-  }
-  if (best == tray.size())
+  const ChosenPoint chosen = choose_point(zones, tooth, tray);
+  if (chosen.index == tray.size())
     throw Error(scenario.path.empty() ? "scenario" : scenario.path, "no allowed diamond point fits into the target", "allow a thinner one");
-  auto way = plan_cut(best_map, zones, tooth, PlanOptions{});
+  auto way = plan_cut(chosen.map, zones, tooth, PlanOptions{});
   if (skill.perforates)
     for (const auto& fault : scenario.perforation.faults) {
       bool present = false;
       for (const auto& t : tooth.tissues) present = present || t.name == fault;
       if (!present) continue;
-      auto deeper = plan_perforation(zones, tooth, best_map, tooth.tissue_id(fault));
+      auto deeper = plan_perforation(zones, tooth, chosen.map, tooth.tissue_id(fault));
       if (deeper.empty()) continue;
       way.insert(way.end(), deeper.begin(), deeper.end());
       break;
     }
-  return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(best)};
+  return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 
 }  // namespace cavum

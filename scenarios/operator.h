@@ -69,6 +69,14 @@ class Operator {
   double lead_mm_ = 0, stuck_s_ = 0, best_mm_ = 1e9, pedal_ = 0;
 };
 
+/// The point of a tray that reaches most of the target's columns at their full depth; of equals the first one.
+struct ChosenPoint {
+  std::size_t index = 0;       ///< the tray's size when none fits
+  ReachMap map;                ///< of that point
+  std::vector<double> covers;  ///< share of the target that each point of the tray can remove, 0..1
+};
+[[nodiscard]] ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray);
+
 /// The plan and the candidate for a scenario laid into a tooth: the mounted point is the first one allowed
 /// that removes the target best. Throws Error when no allowed point fits into the target.
 struct Candidate {

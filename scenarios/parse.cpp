@@ -8,12 +8,15 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "scenarios/checked_toml.h"
+#include "scenarios/condition.h"
 #include "scenarios/expression.h"
 #include "scenarios/names.h"
 #include "scenarios/parse_zones.h"
 
 namespace cavum {
 namespace {
+
+using Places = std::map<std::string, Place>;
 
 bool good_id(const std::string& id) {
   return !id.empty() &&
@@ -26,11 +29,21 @@ std::string read_id(CheckedTable& t, const std::string& fallback) {
   return id;
 }
 
-void check_condition(CheckedTable& t, const char* key, const std::string& text) {
+void check_condition(CheckedTable& t, const char* key, const std::string& text, const ProblemList& problems) {
   if (text.empty()) return;
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
   for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
+  constexpr std::size_t k_longest = 2000;
+  if (text.size() > k_longest && problems.strict()) {
+    t.problem(key, "'" + std::string(key) + "' has " + std::to_string(text.size()) + " characters", "write at most 2000");
+    return;
+  }
+  for (const auto& function : functions_in_expression(text))
+    if (function != "min" && function != "max" && function != "abs") {
+      t.problem(key, "'" + std::string(key) + "' uses the unknown function '" + function + "'", "use min, max or abs");
+      return;
+    }
   try {
     std::vector<std::string> known = names;
     for (const auto& used : names_in_expression(text)) {
@@ -42,23 +55,30 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
     std::vector<double> values(known.size(), 0.0);
     const Expression compiled(text, known, values);
     static_cast<void>(compiled);
+    if (problems.strict() && !is_condition(text))
+      t.problem(key, "'" + std::string(key) + "' is a number, not a condition",
+                "compare it with something, for example \"target_removed_percent >= 90\"");
   } catch (const std::runtime_error& e) {
     t.problem(key, "'" + std::string(key) + "' cannot be read (" + e.what() + ")",
               "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
   }
 }
 
-std::vector<StepSpec> read_steps(CheckedTable& scenario, ProblemList& problems) {
+std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, ProblemList& problems) {
   std::vector<StepSpec> steps;
   for (const auto* table : scenario.tables("steps", true)) {
     CheckedTable t(*table, "[[steps]]", problems);
     StepSpec s;
+    const std::string at = "steps/" + std::to_string(steps.size());
     s.id = read_id(t, "");
     s.instruction = t.text("instruction", "", true);
     s.complete_when = t.text("complete_when", "", true);
-    check_condition(t, "complete_when", s.complete_when);
+    check_condition(t, "complete_when", s.complete_when, problems);
+    t.note(places, "complete_when", at + "/complete_when");
     s.fail_when = t.text("fail_when", "");
-    check_condition(t, "fail_when", s.fail_when);
+    check_condition(t, "fail_when", s.fail_when, problems);
+    t.note(places, "fail_when", at + "/fail_when");
+    t.note(places, "time_limit_s", at + "/time_limit_s");
     if (t.has("time_limit_s"))
       s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 60);
     else
@@ -72,7 +92,7 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, ProblemList& problems) 
   return steps;
 }
 
-CriterionSpec read_criterion(const toml::table& table, ProblemList& problems) {
+CriterionSpec read_criterion(const toml::table& table, const std::string& at, Places& places, ProblemList& problems) {
   CheckedTable t(table, "[[rubric.criteria]]", problems);
   CriterionSpec c;
   c.id = read_id(t, "");
@@ -82,6 +102,7 @@ CriterionSpec read_criterion(const toml::table& table, ProblemList& problems) {
   for (const auto& m : k_metrics) names.emplace_back(m.name);
   if (!c.metric.empty() && std::find(names.begin(), names.end(), c.metric) == names.end() && c.metric.rfind("touched_", 0) != 0)
     t.problem("metric", "there is no measure '" + c.metric + "'", suggestion(c.metric, names));
+  for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, at + "/" + key);
   c.full = t.number("full", -1e9, 1e9, 1, true);
   c.zero = t.number("zero", -1e9, 1e9, 0, true);
   if (t.has("full") && t.has("zero") && c.full == c.zero)
@@ -99,7 +120,7 @@ CriterionSpec read_criterion(const toml::table& table, ProblemList& problems) {
   return c;
 }
 
-RubricSpec read_rubric(const toml::table& table, const std::string& name, ProblemList& problems) {
+RubricSpec read_rubric(const toml::table& table, const std::string& name, Places& places, ProblemList& problems) {
   CheckedTable t(table, name, problems);
   RubricSpec r;
   r.compensatory = t.word("rule", {"compensatory", "non-compensatory"}, 0, true) == 0;
@@ -107,7 +128,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Proble
   r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
   double sum = 0;
   for (const auto* c : t.tables("criteria", true)) {
-    r.criteria.push_back(read_criterion(*c, problems));
+    r.criteria.push_back(read_criterion(*c, "rubric/criteria/" + std::to_string(r.criteria.size()), places, problems));
     sum += r.criteria.back().points;
     for (std::size_t i = 0; i + 1 < r.criteria.size(); ++i)
       if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
@@ -119,11 +140,40 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Proble
 }
 
 void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
-  for (const auto& name : list)
-    if (!good_id(name)) t.problem(key, "'" + name + "' is no name of a tissue", "use names such as pulp or periodontium");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!good_id(list[i])) t.problem_in(key, i, "'" + list[i] + "' is no name of a tissue", "use names such as pulp or periodontium");
 }
 
-Scenario read_scenario(const toml::table& table, const std::string& path, ProblemList& problems) {
+PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
+  CheckedTable t(table, "[pauses]", problems);
+  PauseSpec p;
+  p.count = t.whole("count", 0, 20, 0, true);
+  p.longest_s = t.number("longest_s", 0.001, 3600, 60, true);
+  p.button = t.whole("button", 1, 2, 2);
+  t.finish();
+  return p;
+}
+
+/// The button of pauses cannot also be asked for in a condition.
+void check_pause_button(const Scenario& s, ProblemList& problems) {
+  if (s.pauses.count == 0) return;
+  const std::string button = "button_" + std::to_string(s.pauses.button);
+  for (std::size_t i = 0; i < s.steps.size(); ++i)
+    for (const auto& [key, text] : {std::pair("complete_when", s.steps[i].complete_when), std::pair("fail_when", s.steps[i].fail_when)}) {
+      std::vector<std::string> used;
+      try {
+        if (!text.empty()) used = names_in_expression(text);
+      } catch (const std::runtime_error&) {
+        continue;  // named already
+      }
+      if (std::find(used.begin(), used.end(), button) == used.end()) continue;
+      const Place at = s.places.at("steps/" + std::to_string(i) + "/" + key);
+      problems.add(at, std::string("'") + key + "' asks for " + button + ", which begins and ends pauses",
+                   "use the other button, or set 'button' of [pauses]");
+    }
+}
+
+Scenario read_table(const toml::table& table, const std::string& path, ProblemList& problems) {
   CheckedTable t(table, "the scenario", problems);
   Scenario s;
   s.path = path;
@@ -134,28 +184,31 @@ Scenario read_scenario(const toml::table& table, const std::string& path, Proble
   s.points = t.texts("points", true);
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
-      t.problem("points", "'" + s.points[i] + "' is no name of a diamond point", "use names of data/points, such as round-1.0");
+      t.problem_in("points", i, "'" + s.points[i] + "' is no name of a diamond point", "use names of data/points, such as round-1.0");
     else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
              s.points.begin() + static_cast<std::ptrdiff_t>(i))
-      t.problem("points", "'" + s.points[i] + "' is listed twice", "list each point once");
+      t.problem_in("points", i, "'" + s.points[i] + "' is listed twice", "list each point once");
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
   s.force_limit_n = t.number("force_limit_n", 0, 100, 0);
   if (const auto* a = t.table("accommodations")) {
     CheckedTable at(*a, "[accommodations]", problems);
     s.accommodations.extra_time_percent = at.number("extra_time_percent", 0, 400, 0);
+    s.accommodations.extra_time_s = at.number("extra_time_s", 0, 36000, 0);
     s.accommodations.left_handed = at.truth("left_handed", false);
     s.accommodations.high_contrast = at.truth("high_contrast", false);
     at.finish();
   }
-  s.steps = read_steps(t, problems);
-  if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, problems);
+  if (const auto* p = t.table("pauses")) s.pauses = read_pauses(*p, problems);
+  for (const char* key : {"tooth", "points", "time_limit_s", "zones"}) t.note(s.places, key, key);
+  s.steps = read_steps(t, s.places, problems);
+  check_pause_button(s, problems);
+  if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, s.places, problems);
   if (const auto* p = t.table("perforation", true)) {
     CheckedTable pt(*p, "[perforation]", problems);
     s.perforation.aims = pt.texts("aims");
     s.perforation.faults = pt.texts("faults");
-    const auto at = pt.where("faults").begin;
-    s.perforation.source = path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+    for (const char* key : {"aims", "faults"}) pt.note(s.places, key, std::string("perforation/") + key);
     check_tissues(pt, "aims", s.perforation.aims);
     check_tissues(pt, "faults", s.perforation.faults);
     for (const auto& aim : s.perforation.aims)
@@ -163,7 +216,7 @@ Scenario read_scenario(const toml::table& table, const std::string& path, Proble
         pt.problem("faults", "'" + aim + "' is both an aim and a fault", "keep it in one of the two lists");
     pt.finish();
   }
-  if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", problems);
+  if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
   t.finish();
   return s;
 }
@@ -188,20 +241,21 @@ void throw_first(const std::vector<Problem>& problems) {
 
 }  // namespace
 
-std::vector<Problem> check_scenario(const std::string& text, const std::string& path) {
-  ProblemList problems(path);
+ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading) {
+  ProblemList problems(path, reading);
   toml::table table;
-  if (read_toml(text, path, table, problems)) static_cast<void>(read_scenario(table, path, problems));
-  return problems.take();
+  ReadScenario read;
+  if (read_toml(text, path, table, problems)) read.scenario = read_table(table, path, problems);
+  read.problems = problems.take();
+  return read;
 }
 
-Scenario parse_scenario(const std::string& text, const std::string& path) {
-  ProblemList problems(path);
-  toml::table table;
-  Scenario s;
-  if (read_toml(text, path, table, problems)) s = read_scenario(table, path, problems);
-  throw_first(problems.take());
-  return s;
+std::vector<Problem> check_scenario(const std::string& text, const std::string& path) { return read_scenario(text, path).problems; }
+
+Scenario parse_scenario(const std::string& text, const std::string& path, Reading reading) {
+  ReadScenario read = read_scenario(text, path, reading);
+  throw_first(read.problems);
+  return std::move(read.scenario);
 }
 
 Scenario load_scenario(const std::string& path) { return parse_scenario(read_text_file(path), path); }
@@ -210,9 +264,10 @@ RubricSpec parse_rubric(const std::string& text, const std::string& path) {
   ProblemList problems(path);
   toml::table table;
   RubricSpec r;
+  Places places;
   if (read_toml(text, path, table, problems)) {
     const auto* inner = table.get_as<toml::table>("rubric");
-    r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", problems);
+    r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", places, problems);
   }
   throw_first(problems.take());
   return r;
@@ -231,13 +286,42 @@ std::string find_tooth_file(const Scenario& scenario) {
               "put it beside the scenario or in data/teeth, or name another with --tooth");
 }
 
-void require_tissues(const Scenario& scenario, const Tooth& tooth) {
+std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
   std::vector<std::string> known;
   for (const auto& t : tooth.tissues) known.push_back(t.name);
-  for (const auto* list : {&scenario.perforation.aims, &scenario.perforation.faults})
-    for (const auto& name : *list)
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        throw Error(scenario.perforation.source, "this tooth has no tissue '" + name + "'", suggestion(name, known));
+  std::vector<Problem> problems;
+  const auto need = [&](const std::string& name, const std::string& place) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      problems.push_back(problem_at(s, place, "this tooth has no tissue '" + name + "'", suggestion(name, known)));
+  };
+  for (const auto& [key, list] : {std::pair("perforation/aims/", &s.perforation.aims), std::pair("perforation/faults/", &s.perforation.faults)})
+    for (std::size_t i = 0; i < list->size(); ++i) need((*list)[i], key + std::to_string(i));
+  for (const auto& [key, list] : {std::pair("zones/target/", &s.zones.target), std::pair("zones/protected/", &s.zones.protected_shapes)})
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const ShapeSpec& shape = (*list)[i];
+      const std::string place = key + std::to_string(i);
+      const bool column = shape.kind == ShapeSpec::Kind::column;
+      if (shape.kind == ShapeSpec::Kind::tissue) need(shape.tissue, place + "/tissue");
+      if (column && shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
+      if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
+        need(shape.bottom.tissue, place + "/bottom");
+    }
+  return problems;
+}
+
+void require_tissues(const Scenario& scenario, const Tooth& tooth) {
+  if (const auto missing = missing_tissues(scenario, tooth); !missing.empty()) throw Error(missing[0].where, missing[0].what, missing[0].what_to_do);
+}
+
+Problem problem_at(const Scenario& s, const std::string& place, const std::string& what, const std::string& what_to_do) {
+  // the place itself, else what holds it
+  for (std::string key = place;; key.erase(key.rfind('/'))) {
+    const auto at = s.places.find(key);
+    if (at != s.places.end())
+      return {s.path + ":" + std::to_string(at->second.line) + ":" + std::to_string(at->second.column), what, what_to_do, at->second.line,
+              at->second.column};
+    if (key.rfind('/') == std::string::npos) return {s.path, what, what_to_do};
+  }
 }
 
 }  // namespace cavum

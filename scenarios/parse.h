@@ -9,19 +9,33 @@
 
 namespace cavum {
 
-/// One mistake: `where` is file:line:column.
+/// One mistake, or a warning of what is legal but unwise: `where` is file:line:column.
 struct Problem {
   std::string where, what, what_to_do;
   int line = 0, column = 0;
-  [[nodiscard]] std::string text() const { return where + ": " + what + "; " + what_to_do; }
+  bool warning = false;
+  [[nodiscard]] std::string text() const { return where + ": " + (warning ? "warning: " : "") + what + "; " + what_to_do; }
 };
+
+/// A scenario that is to be examined with, or one that an exam has run with already: rules that came later do not bind that one.
+enum class Reading { to_be_run, recorded };
 
 /// All mistakes of a scenario file, in the order of the file; empty when it is sound. `path` names the file in them.
 [[nodiscard]] std::vector<Problem> check_scenario(const std::string& text, const std::string& path);
 /// Throws Error naming the first mistake, and how many there are.
-[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path);
+[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
+/// Both at once: what could be read of a file, and its mistakes.
+struct ReadScenario {
+  Scenario scenario;
+  std::vector<Problem> problems;
+};
+[[nodiscard]] ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
 [[nodiscard]] Scenario load_scenario(const std::string& path);
-/// Throws Error when a tissue that must, or must not, be opened is none of the tooth's: misspelt, it would never be touched.
+/// A problem that stands at one of the scenario's `places`, or at the nearest one that holds it.
+[[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const std::string& what, const std::string& what_to_do);
+/// Every tissue that zones or perforation name and the tooth does not have.
+[[nodiscard]] std::vector<Problem> missing_tissues(const Scenario& scenario, const Tooth& tooth);
+/// Throws Error when a tissue that the scenario names is none of the tooth's: misspelt, it would never be touched.
 void require_tissues(const Scenario& scenario, const Tooth& tooth);
 /// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]).
 [[nodiscard]] RubricSpec parse_rubric(const std::string& text, const std::string& path);
@@ -29,8 +43,5 @@ void require_tissues(const Scenario& scenario, const Tooth& tooth);
 /// The tooth file of a scenario: beside the scenario file, else in ../teeth of it, else data/teeth of the
 /// working directory. Throws Error when none is there.
 [[nodiscard]] std::string find_tooth_file(const Scenario& scenario);
-
-/// A commented scenario to start from; it passes `check_scenario`.
-[[nodiscard]] std::string scenario_template();
 
 }  // namespace cavum

@@ -6,6 +6,6 @@
 
 namespace cavum {
 
-[[nodiscard]] ZoneSpec read_zones(const toml::table& table, ProblemList& problems);
+[[nodiscard]] ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& places, ProblemList& problems);
 
 }  // namespace cavum

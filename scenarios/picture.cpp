@@ -9,22 +9,25 @@
 
 #include "engine/base/text.h"
 #include "scenarios/relief.h"
+#include "scenarios/shape.h"
 
 namespace cavum {
 namespace {
 
+struct Palette {
+  const char *enamel, *dentin, *pulp, *periodontium, *other;
+  const char *removed, *leeway, *overcut;
+  const char *target_line, *leeway_line, *container_line, *guard_line;
+  double line_px;
+};
 // Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
-constexpr const char* k_enamel_colour = "#eef2f6";
-constexpr const char* k_dentin_colour = "#f2dfa6";
-constexpr const char* k_pulp_colour = "#e7a6a1";
-constexpr const char* k_periodontium_colour = "#cfd8cf";
-constexpr const char* k_other_colour = "#d8c7e0";
-constexpr const char* k_removed_colour = "#56b4e9";
-constexpr const char* k_overcut_colour = "#d55e00";
-constexpr const char* k_leeway_colour = "#f0b74d";
-constexpr const char* k_target_line = "#0072b2";
-constexpr const char* k_leeway_line = "#8a6d00";
-constexpr const char* k_container_line = "#8c2d04";
+constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0", "#56b4e9", "#f0b74d",
+                          "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+// For candidates who need stronger contrasts: light and dark alone tell the tissues apart.
+constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#0047ab", "#ff8c00",
+                           "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
+
+const Palette& palette_of(bool high_contrast) { return high_contrast ? k_strong : k_usual; }
 
 std::string number(double v) {
   std::string s = fixed(v, 2);
@@ -33,18 +36,18 @@ std::string number(double v) {
   return s == "-0" ? "0" : s;
 }
 
-const char* tissue_colour(std::uint8_t t) {
+const char* tissue_colour(const Palette& colours, std::uint8_t t) {
   switch (t) {
     case k_enamel:
-      return k_enamel_colour;
+      return colours.enamel;
     case k_dentin:
-      return k_dentin_colour;
+      return colours.dentin;
     case k_pulp:
-      return k_pulp_colour;
+      return colours.pulp;
     case k_periodontium:
-      return k_periodontium_colour;
+      return colours.periodontium;
     default:
-      return k_other_colour;
+      return colours.other;
   }
 }
 
@@ -124,21 +127,22 @@ int top_of(const Octree& tree, int x, int y) {
   return -1;
 }
 
-const char* finding_colour(Zone zone) {
+const char* finding_colour(const Palette& colours, Zone zone) {
   switch (zone) {
     case Zone::target:
-      return k_removed_colour;
+      return colours.removed;
     case Zone::leeway_sides:
     case Zone::leeway_bottom:
-      return k_leeway_colour;
+      return colours.leeway;
     default:
-      return k_overcut_colour;
+      return colours.overcut;
   }
 }
 
 }  // namespace
 
 std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap& zones, const PictureSpec& spec) {
+  const Palette& colours = palette_of(spec.high_contrast);
   const Octree& tree = before.octree;
   const double leaf = tree.leaf_mm();
   Window w{spec.view, {0, 0, 0}, tree.size(), 0, 0, 0};
@@ -151,11 +155,12 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   w.height = spec.view == View::mesio_distal || spec.view == View::bucco_lingual ? w.high.z - w.low.z : w.high.y - w.low.y;
 
   const double px = spec.scale_px_per_mm * leaf;
-  const double title_px = spec.title.empty() ? 0 : 22, width_px = w.width * px, height_px = w.height * px;
+  constexpr double k_caption_px = 16, k_scale_px = 18;  // bands above and below the picture
+  const double title_px = (spec.title.empty() ? 0 : 20) + k_caption_px, width_px = w.width * px, height_px = w.height * px + k_scale_px;
   std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width_px) + "' height='" + number(height_px + title_px) +
                     "' viewBox='0 0 " + number(width_px) + " " + number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" +
                     xml_text(spec.title) + "</title>\n" + "<rect width='100%' height='100%' fill='#ffffff'/>\n";
-  if (title_px > 0) svg += "<text x='4' y='15' font-size='13' fill='#222222'>" + xml_text(spec.title) + "</text>\n";
+  if (!spec.title.empty()) svg += "<text x='4' y='15' font-size='13' fill='#222222'>" + xml_text(spec.title) + "</text>\n";
   svg += "<g transform='translate(0 " + number(title_px) + ") scale(" + number(px) + ")'>\n";
 
   // For the view from above each column shows its highest leaf.
@@ -181,7 +186,7 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
       };
       const int slope = height(column + 3, row - 3) - height(column - 3, row + 3);
       std::string dark = slope < -5 ? "#000000;0.24" : slope < -2 ? "#000000;0.14" : slope < 0 ? "#000000;0.07" : "";
-      if (top_after[i] < 0) return {"", k_overcut_colour, ""};
+      if (top_after[i] < 0) return {"", colours.overcut, ""};
       std::string found;
       if (top_after[i] < top[i]) {
         Zone worst = Zone::target;  // of the removed leaves of this column
@@ -192,15 +197,15 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
           if (!mild || worst == Zone::target) worst = zone;
           if (!mild) break;
         }
-        found = finding_colour(worst);
+        found = finding_colour(colours, worst);
       }
-      return {tissue_colour(tree.tissue({column, row, top[i]})), found, dark};
+      return {tissue_colour(colours, tree.tissue({column, row, top[i]})), found, dark};
     }
     const IVec3 at = w.leaf(column, row);
     const auto t = tree.tissue(at);
     if (t == k_air) return {};
-    if (after != nullptr && after->tissue(at) == k_air) return {"", finding_colour(zones.zone(at)), ""};
-    return {tissue_colour(t), "", ""};
+    if (after != nullptr && after->tissue(at) == k_air) return {"", finding_colour(colours, zones.zone(at)), ""};
+    return {tissue_colour(colours, t), "", ""};
   };
   for (int row = 0; row < w.height; ++row) {
     std::array<std::string, 3> current;
@@ -251,9 +256,18 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   };
   svg += line(contour(w.width, w.height,
                       in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}), 0.0),
-              k_container_line, px, 1.0, "");
-  svg += line(contour(w.width, w.height, in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), 0.0), k_leeway_line, px, 1.0, "");
-  svg += line(contour(w.width, w.height, distance, 0.0), k_target_line, px, 1.8, "");
+              colours.container_line, px, colours.line_px, "");
+  svg += line(contour(w.width, w.height, in_zones({Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), 0.0), colours.leeway_line, px,
+              colours.line_px, "");
+  svg += line(contour(w.width, w.height, distance, 0.0), colours.target_line, px, 1.8 * colours.line_px, "");
+  if (spec.guard != nullptr && spec.view != View::occlusal) {
+    const auto guarded = [&](int c, int r) {
+      const IVec3 at = w.leaf(c, r);
+      return tree.tissue(at) == k_air ? 1.0 : spec.guard->distance_mm(tree.centre_mm(at));
+    };
+    const std::string dash = number(5 / px) + " " + number(3 / px);
+    svg += line(contour(w.width, w.height, guarded, 0.0), colours.guard_line, px, 1.4 * colours.line_px, dash.c_str());
+  }
   svg += "</g>\n";
   // a millimetre, and which way is which
   const auto caption = [&](double x, double y, const std::string& text, const char* anchor) {
@@ -261,10 +275,10 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   };
   const double bottom = height_px + title_px;
   svg += "<path d='M6 " + number(bottom - 6) + "h" + number(spec.scale_px_per_mm) + "' stroke='#222222' stroke-width='2'/>\n";
-  caption(8 + spec.scale_px_per_mm, bottom - 3, "1 mm", "start");
+  caption(10 + spec.scale_px_per_mm, bottom - 3, "1 mm", "start");
   const bool from_side = spec.view == View::mesio_distal || spec.view == View::bucco_lingual;
-  caption(width_px - 4, title_px + 12, spec.view == View::bucco_lingual ? "buccal &#8594;" : "mesial &#8594;", "end");
-  caption(4, title_px + 12, from_side ? "&#8593; occlusal" : "&#8593; buccal", "start");
+  caption(width_px - 4, title_px - 4, spec.view == View::bucco_lingual ? "buccal &#8594;" : "mesial &#8594;", "end");
+  caption(4, title_px - 4, from_side ? "&#8593; occlusal" : "&#8593; buccal", "start");
   svg += "</svg>\n";
   return svg;
 }
@@ -272,10 +286,13 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
 std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones) {
   const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
   const double low = zones.target_low_mm().z + 0.3 * (zones.target_high_mm().z - zones.target_low_mm().z);
-  const PictureSpec specs[] = {{View::mesio_distal, middle.y, 30, "section mesial-distal, y = " + number(middle.y) + " mm"},
-                               {View::bucco_lingual, middle.x, 30, "section buccal-lingual, x = " + number(middle.x) + " mm"},
-                               {View::horizontal, low, 30, "section across, z = " + number(low) + " mm"},
-                               {View::occlusal, 0, 30, "from above"}};
+  const bool strong = scenario.accommodations.high_contrast;
+  ShapeMaker maker(tooth, scenario.path);
+  const auto guard = scenario.zones.protected_shapes.empty() ? nullptr : maker.make(scenario.zones.protected_shapes);
+  const PictureSpec specs[] = {{View::mesio_distal, middle.y, 30, "section mesial-distal, y = " + number(middle.y) + " mm", strong, guard.get()},
+                               {View::bucco_lingual, middle.x, 30, "section buccal-lingual, x = " + number(middle.x) + " mm", strong, guard.get()},
+                               {View::horizontal, low, 30, "section across, z = " + number(low) + " mm", strong, guard.get()},
+                               {View::occlusal, 0, 30, "from above", strong, guard.get()}};
   const auto size_of = [](const std::string& svg, const char* key) {
     const auto at = svg.find(key);
     return std::stod(svg.substr(at + std::string(key).size()));
@@ -294,26 +311,34 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
     x += size_of(svg, "width='") + 14;
     width = std::max(width, x);
   }
+  const std::string legend = legend_svg(false, strong);
+  const double title_px = 9.0 * static_cast<double>(scenario.title.size() + tooth.name.size() + 2);
+  width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
   const double height = row_y + row_height + 40;
   return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width) + "' height='" + number(height) + "' font-family='sans-serif'>\n" +
          "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>" +
-         xml_text(scenario.title + " (" + tooth.name + ")") + "</text>\n" + body + "<g transform='translate(10 " + number(height - 30) + ")'>" +
-         legend_svg(false) + "</g>\n</svg>\n";
+         xml_text(scenario.title + ": " + tooth.name) + "</text>\n" + body + "<g transform='translate(10 " + number(height - 30) + ")'>" + legend +
+         "</g>\n</svg>\n";
 }
 
-std::string legend_svg(bool with_removed) {
+std::string legend_svg(bool with_removed, bool high_contrast) {
+  const Palette& colours = palette_of(high_contrast);
   struct Entry {
     const char *colour, *text;
     bool is_line;
   };
-  std::vector<Entry> entries{{k_enamel_colour, "enamel", false},   {k_dentin_colour, "dentin", false},
-                             {k_pulp_colour, "pulp", false},       {k_periodontium_colour, "periodontium", false},
-                             {k_target_line, "target", true},      {k_leeway_line, "leeway", true},
-                             {k_container_line, "container", true}};
+  std::vector<Entry> entries{{colours.enamel, "enamel", false},
+                             {colours.dentin, "dentin", false},
+                             {colours.pulp, "pulp", false},
+                             {colours.periodontium, "periodontium", false},
+                             {colours.target_line, "target", true},
+                             {colours.leeway_line, "leeway", true},
+                             {colours.container_line, "container", true}};
+  if (!with_removed) entries.push_back({colours.guard_line, "protected", true});
   if (with_removed) {
-    entries.push_back({k_removed_colour, "removed, target", false});
-    entries.push_back({k_leeway_colour, "removed, leeway", false});
-    entries.push_back({k_overcut_colour, "removed, damage", false});
+    entries.push_back({colours.removed, "removed, target", false});
+    entries.push_back({colours.leeway, "removed, leeway", false});
+    entries.push_back({colours.overcut, "removed, damage", false});
   }
   std::string svg, items;
   double x = 4;

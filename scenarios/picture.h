@@ -9,6 +9,8 @@
 
 namespace cavum {
 
+class Shape;
+
 /// Which way one looks: the two axes of the picture, to the right and up.
 enum class View : std::uint8_t {
   mesio_distal,   ///< right = mesial, up = occlusal; cut across buccal-lingual
@@ -22,6 +24,8 @@ struct PictureSpec {
   double at_mm = 0.0;  ///< where the section is cut, along the axis looked at
   double scale_px_per_mm = 24.0;
   std::string title;
+  bool high_contrast = false;    ///< stronger colours and lines
+  const Shape* guard = nullptr;  ///< what is protected, drawn as a dashed line in sections; may be null
 };
 
 /// One picture, a complete `<svg>` element. `after` may be null (nothing was removed yet); then only the zones show.
@@ -31,6 +35,6 @@ struct PictureSpec {
 [[nodiscard]] std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones);
 
 /// The key to the colours, an `<svg>` element. `with_removed` adds what a graded section shows.
-[[nodiscard]] std::string legend_svg(bool with_removed);
+[[nodiscard]] std::string legend_svg(bool with_removed, bool high_contrast = false);
 
 }  // namespace cavum

@@ -6,10 +6,17 @@
 #include "scenarios/names.h"
 
 namespace cavum {
+namespace {
+
+/// Ticks that the exam's clock has counted: pauses stand outside.
+std::int64_t clock(const RunnerState& s) noexcept { return s.ticks - s.paused_ticks; }
+
+}  // namespace
 
 const char* event_name(ExamEventKind kind) noexcept {
-  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed", "step_time_limit", "time_limit",
-                                     "point_not_allowed", "over_speed",     "aim_reached", "perforation",     "finished"};
+  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed",  "step_time_limit", "time_limit",
+                                     "point_not_allowed", "over_speed",     "aim_reached",  "perforation",     "finished",
+                                     "pause_started",     "pause_ended",    "pause_refused"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -18,13 +25,20 @@ const char* finish_name(Finish finish) noexcept {
   return k_names[static_cast<std::size_t>(finish)];
 }
 
-std::int64_t time_in_ticks(double seconds, double extra_percent) noexcept {
-  const double ticks = seconds * k_ticks_per_second * (100.0 + extra_percent) / 100.0;
+std::int64_t time_in_ticks(double seconds, double extra_percent, double extra_s) noexcept {
+  const double ticks = seconds * k_ticks_per_second * (100.0 + extra_percent) / 100.0 + extra_s * k_ticks_per_second;
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(ticks + 0.5));
 }
 
+std::int64_t exam_limit_ticks(const Scenario& s) noexcept {
+  return time_in_ticks(s.time_limit_s, s.accommodations.extra_time_percent, s.accommodations.extra_time_s);
+}
+
 Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray)
-    : scenario_(scenario), zones_(zones), limit_ticks_(time_in_ticks(scenario.time_limit_s, scenario.accommodations.extra_time_percent)) {
+    : scenario_(scenario),
+      zones_(zones),
+      limit_ticks_(exam_limit_ticks(scenario)),
+      longest_pause_ticks_(time_in_ticks(scenario.pauses.longest_s, 0)) {
   for (const auto& q : k_live_quantities) names_.emplace_back(q.name);
   for (const auto& t : tooth.tissues) {
     names_.push_back("touched_" + t.name);
@@ -52,7 +66,9 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
     try {
       CompiledStep compiled{Expression(step.complete_when, names_, values_), {}, std::numeric_limits<std::int64_t>::max()};
       if (!step.fail_when.empty()) compiled.fail.emplace_back(step.fail_when, names_, values_);
-      if (step.time_limit_s) compiled.limit_ticks = time_in_ticks(*step.time_limit_s, scenario.accommodations.extra_time_percent);
+      const double extra_s = scenario.time_limit_s > 0 ? scenario.accommodations.extra_time_s / scenario.time_limit_s : 0.0;  // per second
+      if (step.time_limit_s)
+        compiled.limit_ticks = time_in_ticks(*step.time_limit_s, scenario.accommodations.extra_time_percent, *step.time_limit_s * extra_s);
       steps_.push_back(std::move(compiled));
     } catch (const std::runtime_error& e) {
       throw wrong(step, e);
@@ -100,8 +116,8 @@ void Runner::fill_values(const RunnerState& s, const TickInput& input, const Tic
   double removed = 0;
   for (const auto n : s.removed_in_zone) removed += static_cast<double>(n);
   const double quantity[] = {
-      static_cast<double>(s.ticks + 1) * k_tick_s,
-      static_cast<double>(s.ticks + 1 - s.step_start) * k_tick_s,
+      static_cast<double>(clock(s) + 1) * k_tick_s,
+      static_cast<double>(clock(s) + 1 - s.step_start) * k_tick_s,
       100.0 * static_cast<double>(s.removed_in_zone[static_cast<std::size_t>(Zone::target)]) / static_cast<double>(zones_.count(Zone::target)),
       removed * leaf,
       zone_mm3(Zone::leeway_sides) + zone_mm3(Zone::leeway_bottom),
@@ -131,14 +147,40 @@ void Runner::fill_values(const RunnerState& s, const TickInput& input, const Tic
 
 void Runner::next_step(RunnerState& state) const noexcept {
   ++state.step;
-  state.step_start = state.ticks + 1;
+  state.step_start = clock(state) + 1;
   if (static_cast<std::size_t>(state.step) < steps_.size()) emit(state, ExamEventKind::step_started, state.step);
+}
+
+bool Runner::pause(RunnerState& state, const TickInput& input, const TickOutput& output) const noexcept {
+  const PauseSpec& spec = scenario_.pauses;
+  if (spec.count == 0) return false;
+  const bool held = (input.flags & (spec.button == 1 ? k_button_1 : k_button_2)) != 0, pressed = held && !state.pause_button;
+  state.pause_button = held;
+  if (state.pause_start >= 0) {
+    if (!pressed && state.ticks - state.pause_start < longest_pause_ticks_) return true;
+    state.pause_start = -1;
+    emit(state, ExamEventKind::pause_ended, state.pauses - 1);
+    return false;
+  }
+  if (!pressed) return false;
+  if (state.pauses >= spec.count || output.rpm > 0) {
+    emit(state, ExamEventKind::pause_refused, state.pauses);
+    return false;
+  }
+  state.pause_start = state.ticks;
+  emit(state, ExamEventKind::pause_started, state.pauses++);
+  return true;
 }
 
 void Runner::advance(RunnerState& state, const TickInput& input, const TickOutput& output, std::span<const RemovedLeaf> removed) noexcept {
   if (state.finish != Finish::running) return;
   if (state.ticks == 0) emit(state, ExamEventKind::step_started, 0);
   count(state, removed);
+  if (pause(state, input, output)) {
+    ++state.paused_ticks;
+    ++state.ticks;
+    return;
+  }
   if (output.contact) state.depth_mm = std::max(state.depth_mm, zones_.opening_z_mm() - output.proxy_mm.z);
   state.peak_force_n = std::max(state.peak_force_n, length(output.rendered_force_n));
   if (input.point != state.last_point && !allowed_[input.point]) emit(state, ExamEventKind::point_not_allowed, input.point);
@@ -156,7 +198,7 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
     next_step(state);
   } else {
     const bool failed = !step.fail.empty() && step.fail[0].is_true();
-    const bool late = state.ticks + 1 - state.step_start >= step.limit_ticks;
+    const bool late = clock(state) + 1 - state.step_start >= step.limit_ticks;
     if (failed || late) {
       emit(state, failed ? ExamEventKind::step_failed : ExamEventKind::step_time_limit, state.step);
       end = scenario_.steps[at].failure_ends_exam;
@@ -167,7 +209,7 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
     finish(state, Finish::failed);
   else if (static_cast<std::size_t>(state.step) >= steps_.size())
     finish(state, Finish::completed);
-  else if (state.ticks + 1 >= limit_ticks_) {
+  else if (clock(state) + 1 >= limit_ticks_) {
     emit(state, ExamEventKind::time_limit, 0);
     finish(state, Finish::time);
   }

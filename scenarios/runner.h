@@ -29,6 +29,9 @@ enum class ExamEventKind : std::uint8_t {
   aim_reached,        ///< index = tissue id, first leaf of a tissue under perforation.aims
   perforation,        ///< index = tissue id, first leaf of a tissue under perforation.faults
   finished,           ///< index = Finish
+  pause_started,      ///< its tick is the first that does not count; index = which pause, from 0
+  pause_ended,        ///< its tick counts again; index = which pause
+  pause_refused,      ///< the button was pressed when none was left or the handpiece turned; index = pauses taken so far
 };
 [[nodiscard]] const char* event_name(ExamEventKind kind) noexcept;
 
@@ -46,8 +49,12 @@ enum class Finish : std::uint8_t { running, completed, failed, time, ended };
 /// Everything that changes during an exam, outside the servo.
 struct RunnerState {
   static constexpr std::size_t k_most_events = 256;
-  std::int64_t ticks = 0;  ///< done so far
-  std::int64_t step_start = 0;
+  std::int64_t ticks = 0;         ///< done so far
+  std::int64_t step_start = 0;    ///< on the exam's clock
+  std::int64_t paused_ticks = 0;  ///< of `ticks`; the exam's clock shows the others
+  std::int64_t pause_start = -1;  ///< tick in which the running pause began, -1 outside
+  std::int32_t pauses = 0;        ///< begun so far
+  bool pause_button = false;      ///< was held in the last tick
   std::int32_t step = 0;
   Finish finish = Finish::running;
   std::array<std::uint64_t, k_zones> removed_in_zone{};  ///< leaves; index Zone::none = outside
@@ -73,7 +80,9 @@ class Runner {
   /// The candidate stops before the end (device lost, operator done): the exam is over with `ended`.
   void end(RunnerState& state) noexcept;
 
-  /// Ticks until time is up, extra time included.
+  /// True when the next tick falls into a pause, if the button is not pressed in it: the handpiece must be off.
+  [[nodiscard]] static bool paused(const RunnerState& state) noexcept { return state.finish == Finish::running && state.pause_start >= 0; }
+  /// Ticks of the exam's clock until time is up, extra time included.
   [[nodiscard]] std::int64_t limit_ticks() const noexcept { return limit_ticks_; }
   /// What the candidate is asked to do now; empty when the exam is over.
   [[nodiscard]] const std::string& instruction(const RunnerState& state) const noexcept;
@@ -90,6 +99,8 @@ class Runner {
   static void emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf = {}) noexcept;
   void count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept;
   void fill_values(const RunnerState& state, const TickInput& input, const TickOutput& output) noexcept;
+  /// Begins and ends pauses; true when this tick is one of a pause.
+  [[nodiscard]] bool pause(RunnerState& state, const TickInput& input, const TickOutput& output) const noexcept;
   void next_step(RunnerState& state) const noexcept;
   void finish(RunnerState& state, Finish how) const noexcept;
 
@@ -101,10 +112,12 @@ class Runner {
   std::vector<CompiledStep> steps_;
   std::array<std::uint8_t, 256> role_{};  // 1 aim, 2 fault, by tissue id
   std::array<bool, 256> allowed_{};       // by point of the tray
-  std::int64_t limit_ticks_ = 0;
+  std::int64_t limit_ticks_ = 0, longest_pause_ticks_ = 0;
 };
 
-/// Seconds of a scenario as whole ticks, extra time added; at least one.
-[[nodiscard]] std::int64_t time_in_ticks(double seconds, double extra_percent) noexcept;
+/// Seconds of a scenario as whole ticks (the nearest), extra time added; at least one.
+[[nodiscard]] std::int64_t time_in_ticks(double seconds, double extra_percent, double extra_s = 0.0) noexcept;
+/// Ticks of a scenario's time limit with what its accommodations add.
+[[nodiscard]] std::int64_t exam_limit_ticks(const Scenario& scenario) noexcept;
 
 }  // namespace cavum

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,8 +59,8 @@ struct ShapeSpec {
   double taper_deg = 0.0;       ///< column: its walls open by this angle towards the occlusal side
   std::string tissue = "pulp";  ///< tissue: the leaves of this tissue ...
   TissuePart part = TissuePart::all;
-  double offset_mm = 0.0;  ///< ... grown by this much
-  int line = 0;            ///< in the scenario file, for messages
+  double offset_mm = 0.0;    ///< ... grown by this much
+  int line = 0, column = 0;  ///< in the scenario file, for messages
 };
 
 /// Width of a zone beside and below the target, mm, measured from the target's surface.
@@ -85,7 +86,6 @@ struct StepSpec {
 /// Which tissues may be broken into, and which must not.
 struct PerforationSpec {
   std::vector<std::string> aims, faults;
-  std::string source{};  ///< file:line:column of the table
 };
 
 struct CriterionSpec {
@@ -102,11 +102,26 @@ struct RubricSpec {
   std::vector<CriterionSpec> criteria;
 };
 
-/// Changes granted to one candidate; recorded with the result.
+/// Changes granted to one candidate; recorded with the result. An exam may be begun with others than its file says.
 struct Accommodations {
-  double extra_time_percent = 0.0;
+  double extra_time_percent = 0.0;  ///< of every time limit
+  double extra_time_s = 0.0;        ///< besides, of the exam's limit; steps get as much in proportion
   bool left_handed = false;
   bool high_contrast = false;
+  friend bool operator==(const Accommodations&, const Accommodations&) = default;
+};
+
+/// Breaks that the candidate may take with a button of the stylus while the handpiece stands still. In a break the clock of
+/// exam and step stands still, the handpiece stays off, and no condition is looked at.
+struct PauseSpec {
+  int count = 0;           ///< breaks allowed; 0 = none
+  double longest_s = 0.0;  ///< after which a break ends by itself
+  int button = 2;          ///< 1 or 2: pressed once to begin, once more to go on
+};
+
+/// Where something stands in the file, from 1; 0 = not written.
+struct Place {
+  int line = 0, column = 0;
 };
 
 struct Scenario {
@@ -118,10 +133,12 @@ struct Scenario {
   double time_limit_s = 0.0;
   double force_limit_n = 0.0;  ///< pressing harder than this counts as force over limit; 0 = no limit
   Accommodations accommodations;
+  PauseSpec pauses;
   std::vector<StepSpec> steps;
   ZoneSpec zones;
   PerforationSpec perforation;
   RubricSpec rubric;
+  std::map<std::string, Place> places;  ///< by "time_limit_s", "points/2", "steps/0/complete_when", "zones/target/1", "rubric/criteria/3/metric" ...
 };
 
 }  // namespace cavum

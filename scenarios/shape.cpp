@@ -206,6 +206,10 @@ class Combined final : public Shape {
 
 }  // namespace
 
+std::string place_text(const std::string& file, const ShapeSpec& spec) {
+  return file + ":" + std::to_string(spec.line) + ":" + std::to_string(spec.column);
+}
+
 struct ShapeMaker::Cache {
   std::optional<ColumnMap> surface;
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
@@ -226,7 +230,7 @@ std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
 }
 
 std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
-  const std::string where = where_ + ":" + std::to_string(spec.line);
+  const std::string where = place_text(where_, spec);
   const auto relief_of = [&](const std::string& tissue, TissuePart part) -> const TissueRelief& {
     const std::pair<std::string, bool> key{tissue, part == TissuePart::chamber};
     auto found = cache_->relief.find(key);

@@ -18,6 +18,9 @@ class Shape {
   [[nodiscard]] virtual double distance_mm(Vec3 p) const noexcept = 0;
 };
 
+/// "file:line:column" of a shape.
+[[nodiscard]] std::string place_text(const std::string& file, const ShapeSpec& spec);
+
 /// Makes bodies for one tooth; keeps what they have in common (surface, pulp chamber).
 class ShapeMaker {
  public:

@@ -41,6 +41,22 @@ double PlayedMotion::progress() const noexcept {
   return d > 0 ? std::min(1.0, static_cast<double>(tick_) * k_tick_s / d) : 1.0;
 }
 
+InputSource::Rest PlayedMotion::rest() noexcept {
+  Rest rest;
+  TickInput input;
+  while (next({}, {}, input)) {
+    ++rest.ticks;
+    rest.pedal_ticks += input.pedal_q16 > 0 ? 1 : 0;
+  }
+  return rest;
+}
+
+SimulatedCandidate make_simulated_candidate(const ExamSetup& setup, const std::string& skill, std::uint64_t seed, const OmniModel& omni) {
+  std::vector<ContactTool> tray;
+  for (const auto& p : setup.points) tray.push_back(make_contact_tool(p));
+  return {make_candidate(skill, setup.scenario, setup.zones, setup.tooth, tray, seed), omni};
+}
+
 void run_exam(Exam& exam, InputSource& source, const std::function<void(const Exam&, double)>& watch) {
   constexpr std::int64_t k_watch_ticks = 50;
   TickInput input;
@@ -49,6 +65,8 @@ void run_exam(Exam& exam, InputSource& source, const std::function<void(const Ex
     if (watch && exam.state().tick % k_watch_ticks == 0) watch(exam, source.progress());
   }
   if (!exam.over()) exam.end();
+  if (exam.runner_state().finish != Finish::time) return;
+  if (const auto rest = source.rest(); rest.ticks > 0) exam.note_late(rest.ticks, rest.pedal_ticks);
 }
 
 }  // namespace cavum

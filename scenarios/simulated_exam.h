@@ -20,6 +20,11 @@ class InputSource {
   [[nodiscard]] virtual bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept = 0;
   /// How far it has come, 0..1.
   [[nodiscard]] virtual double progress() const noexcept = 0;
+  /// What it would still do if the exam were not over. Moves it to its end.
+  struct Rest {
+    std::int64_t ticks = 0, pedal_ticks = 0;
+  };
+  [[nodiscard]] virtual Rest rest() noexcept { return {}; }
 };
 
 /// Operator and hand on a simulated Omni.
@@ -29,6 +34,8 @@ class SimulatedCandidate final : public InputSource {
   [[nodiscard]] Vec3 start_mm() const noexcept override { return candidate_.hands.start_mm(); }
   [[nodiscard]] bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept override;
   [[nodiscard]] double progress() const noexcept override { return candidate_.hands.progress(); }
+  /// The diamond point of the tray that was chosen for the target.
+  [[nodiscard]] std::uint8_t point() const noexcept { return candidate_.point; }
 
  private:
   Candidate candidate_;
@@ -45,6 +52,7 @@ class PlayedMotion final : public InputSource {
   [[nodiscard]] Vec3 start_mm() const noexcept override { return motion_.samples.front().pose.tip_mm; }
   [[nodiscard]] bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept override;
   [[nodiscard]] double progress() const noexcept override;
+  [[nodiscard]] Rest rest() noexcept override;
 
  private:
   Motion motion_;
@@ -52,7 +60,12 @@ class PlayedMotion final : public InputSource {
   std::int64_t tick_ = 0;
 };
 
-/// Runs the exam until it is over or the input ends, then ends it. `watch` is called every 50 ticks.
+/// Operator and hand for an exam. Throws Error when no point of its tray fits into the target.
+[[nodiscard]] SimulatedCandidate make_simulated_candidate(const ExamSetup& setup, const std::string& skill, std::uint64_t seed,
+                                                          const OmniModel& omni);
+
+/// Runs the exam until it is over or the input ends, then ends it. What the input still holds when time is up is noted, not run. `watch` is called
+/// every 50 ticks.
 void run_exam(Exam& exam, InputSource& input, const std::function<void(const Exam&, double progress)>& watch = {});
 
 }  // namespace cavum

@@ -89,7 +89,8 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   const ZoneSpec& spec = scenario.zones;
   ShapeMaker maker(tooth, scenario.path);
   const auto target = maker.make(spec.target);
-  const Box box = find_target(*target, tooth, scenario.path);
+  const std::string where = spec.target.empty() ? scenario.path : place_text(scenario.path, spec.target[0]);
+  const Box box = find_target(*target, tooth, where);
   const double leaf = tree.leaf_mm();
 
   ZoneMap map;
@@ -126,13 +127,13 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
     const double steps = static_cast<double>((up - down) / stride);
     return steps > 0 ? (static_cast<double>(level[up]) - static_cast<double>(level[down])) / steps : 0.0;
   };
-  struct Place {
+  struct OnSurface {
     Vec3 at, normal;  // leaves from the first one's centre; unit, out of the target
     bool found = false;
   };
   // the surface point nearest to a point `from` that lies within about a leaf of the surface; all in leaves
   const auto on_surface = [&](Vec3 from) {
-    Place place;
+    OnSurface place;
     const IVec3 c{static_cast<int>(std::clamp(from.x + 0.5, 0.0, size.x - 1.0)), static_cast<int>(std::clamp(from.y + 0.5, 0.0, size.y - 1.0)),
                   static_cast<int>(std::clamp(from.z + 0.5, 0.0, size.z - 1.0))};
     const std::size_t o = static_cast<std::size_t>(c.x) + static_cast<std::size_t>(c.y) * sy + static_cast<std::size_t>(c.z) * sz;
@@ -162,11 +163,11 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
         const auto o = static_cast<std::size_t>(other);
         const Vec3 here{double(x), double(y), double(z)},
             there{static_cast<double>(o % sy), static_cast<double>(o % sz / sy), static_cast<double>(o / sz)};
-        Place place = on_surface(there);
+        OnSurface place = on_surface(there);
         if (!place.found) place.at = there;
-        const Place foot = on_surface(here - place.normal * dot(here - place.at, place.normal));
+        const OnSurface foot = on_surface(here - place.normal * dot(here - place.at, place.normal));
         if (foot.found && length(here - foot.at) < length(here - place.at)) place = foot;
-        const Place own = dot(there - here, there - here) < 4 ? on_surface(here) : Place{};
+        const OnSurface own = dot(there - here, there - here) < 4 ? on_surface(here) : OnSurface{};
         if (own.found && length(here - own.at) < length(here - place.at)) place = own;
         const Vec3 normal = length(place.normal) > 0.5 ? place.normal : inside[i] != 0 ? there - here : here - there;
         nearest[i] = {static_cast<float>(place.at.x), static_cast<float>(place.at.y), static_cast<float>(place.at.z), wall_of(normal), true};
@@ -256,7 +257,7 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
           }
         }
       }
-  if (map.count(Zone::target) == 0) throw Error(scenario.path, "the target holds no leaf of the tooth '" + tooth.name + "'", "make it larger");
+  if (map.count(Zone::target) == 0) throw Error(where, "the target holds no leaf of the tooth '" + tooth.name + "'", "make it larger");
   map.target_low_mm_ = map.centre_mm(first) - Vec3{0.5, 0.5, 0.5} * leaf;
   map.target_high_mm_ = map.centre_mm(last) + Vec3{0.5, 0.5, 0.5} * leaf;
   map.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map.target_high_mm_.z;

@@ -25,6 +25,7 @@ struct Options {
   std::uint64_t seed = 1;
   int delay_ticks = 1;
   bool json = false, quiet = false, resume = false, end = false, model_given = false;
+  Grant grant;
 };
 
 /// One line on the terminal that shows time, step and removal; nothing when the output is no terminal.
@@ -82,11 +83,9 @@ std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vec
 
 std::unique_ptr<InputSource> make_source(const Options& o, const ExamSetup& setup) {
   if (!o.motion.empty()) return read_motion(o.motion, setup.point_names);
-  std::vector<ContactTool> tray;
-  for (const auto& p : setup.points) tray.push_back(make_contact_tool(p));
   OmniModel omni;
   omni.delay_ticks = o.delay_ticks;
-  return std::make_unique<SimulatedCandidate>(make_candidate(o.operator_name, setup.scenario, setup.zones, setup.tooth, tray, o.seed), omni);
+  return std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, o.operator_name, o.seed, omni));
 }
 
 std::string source_name(const Options& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
@@ -105,6 +104,7 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
   options.device = source_name(o);
   options.notes = source_notes(o);
   if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
+  options.grant = o.grant;
   return prepare_exam(o.scenario, options);
 }
 
@@ -157,6 +157,8 @@ void require_same(const Options& o, const SessionSetup& held) {
   if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, "candidate ('" + held.candidate + "')");
   if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
   if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, "tooth");
+  for (const auto& [key, value] : notes_of(o.grant))
+    if (std::find(held.notes.begin(), held.notes.end(), std::pair(key, value)) == held.notes.end()) differs(key + " " + value, "accommodation");
   const std::string near_file = o.scenario.empty() ? "data/scenarios/any.toml" : o.scenario;
   if (o.model_given && force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
   if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml) differs("--rubric " + o.rubric, "rubric");
@@ -204,6 +206,10 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
+  exam->add_option("--extra-time-percent", o->grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
+  exam->add_option("--extra-time-s", o->grant.extra_time_s, "the same in seconds; both add up");
+  exam->add_flag("--left-handed,!--right-handed", o->grant.left_handed, "for this candidate; recorded and shown with the result");
+  exam->add_flag("--high-contrast,!--normal-contrast", o->grant.high_contrast, "for this candidate; recorded and shown with the result");
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(CLI::NonNegativeNumber)->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");

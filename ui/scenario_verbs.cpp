@@ -1,15 +1,25 @@
-// `cavum scenario check | show | new`: authoring help.
+// `cavum scenario check | show | solve | new`: authoring help.
+#include <unistd.h>
+
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
+#include "grading/result_json.h"
+#include "grading/session_input.h"
+#include "scenarios/check.h"
 #include "scenarios/exam.h"
 #include "scenarios/parse.h"
 #include "scenarios/picture.h"
+#include "scenarios/simulated_exam.h"
+#include "scenarios/template.h"
 #include "scenarios/zone_map.h"
 #include "ui/print_json.h"
 #include "ui/verbs.h"
@@ -18,39 +28,38 @@ namespace cavum {
 namespace {
 
 struct Options {
-  std::string scenario, tooth, out;
+  std::string scenario, tooth, tooth_kind = "molar", task = "class_1", out, model = "consistent";
+  std::uint64_t seed = 1;
   bool json = false, force = false;
 };
 
 int check(const Options& o) {
-  std::vector<Problem> problems = check_scenario(read_text_file(o.scenario), o.scenario);
-  if (problems.empty()) {
-    // the zones must also fit the tooth, when it is there
-    try {
-      const Scenario s = load_scenario(o.scenario);
-      const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
-      static_cast<void>(build_zones(s, tooth));
-      require_tissues(s, tooth);
-      for (const auto& name : s.points) static_cast<void>(find_data_file("points", name + ".toml", o.scenario));
-    } catch (const Error& e) {
-      const std::string text = e.what();
-      const auto at = text.find(": "), then = text.find("; ");
-      problems.push_back({text.substr(0, at), text.substr(at + 2, then - at - 2), text.substr(then + 2), 0, 0});
-    }
-  }
+  const CheckedScenario checked = check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
   if (o.json) {
-    nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", problems.empty()}, {"problems", nlohmann::ordered_json::array()}};
-    for (const auto& p : problems)
-      j["problems"].push_back({{"where", p.where}, {"line", p.line}, {"column", p.column}, {"what", p.what}, {"what_to_do", p.what_to_do}});
+    nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
+    for (const auto& p : checked.problems)
+      j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
+                               {"where", p.where},
+                               {"line", p.line},
+                               {"column", p.column},
+                               {"what", p.what},
+                               {"what_to_do", p.what_to_do}});
+    j["expert_s"] = checked.expert_s ? nlohmann::ordered_json(std::round(*checked.expert_s)) : nlohmann::ordered_json(nullptr);
     print_json(j);
   } else {
-    for (const auto& p : problems) std::cout << p.text() << "\n";
-    if (problems.empty()) std::cout << o.scenario << ": sound\n";
+    for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
+    if (checked.sound()) {
+      const auto n = checked.problems.size();
+      std::cout << o.scenario << ": sound" << (n == 0 ? "" : ", with " + std::to_string(n) + (n == 1 ? " warning" : " warnings"));
+      if (checked.expert_s) std::cout << "; the built-in expert needs about " << fixed(*checked.expert_s, 0) << " s";
+      std::cout << "\n";
+    }
   }
-  return problems.empty() ? 0 : 1;
+  return checked.sound() ? 0 : 1;
 }
 
 int show(const Options& o) {
+  if (!o.out.ends_with(".svg")) throw Error(o.out, "the zones are drawn as SVG only", "use a name ending in .svg");
   require_writable(o.out);
   const Scenario s = load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
@@ -71,9 +80,101 @@ int show(const Options& o) {
   return 0;
 }
 
+/// Where a session is kept that nobody asked to keep; gone at the end.
+class ScratchSession {
+ public:
+  ScratchSession() : folder_(std::filesystem::temp_directory_path() / ("cavum-solve-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~ScratchSession() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  ScratchSession(const ScratchSession&) = delete;
+  ScratchSession& operator=(const ScratchSession&) = delete;
+  [[nodiscard]] std::string file() const { return (folder_ / "solve.cavum").string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// What `solve` found out; `result` is missing when the expert could not even begin.
+struct Solved {
+  std::optional<Result> result;
+  std::string point;
+  std::vector<std::string> reasons;  ///< why it was not passed
+};
+
+/// The built-in expert takes the exam.
+Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& session) {
+  Solved solved;
+  std::unique_ptr<SimulatedCandidate> expert;
+  try {
+    expert = std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, "expert", o.seed, OmniModel{}));
+  } catch (const Error& e) {
+    solved.reasons.emplace_back(e.what());
+    return solved;
+  }
+  solved.point = setup.point_names[expert->point()];
+  const auto exam = Exam::start(setup, session, expert->start_mm());
+  run_exam(*exam, *expert);
+  exam->recorder().flush();
+  const auto graded = load_for_grading(SessionReader(session), exam->tooth_now());
+  const Result& r = solved.result.emplace(grade(graded->input(), graded->rubric));
+  exam->close(to_json(r).dump());
+  if (r.verdict == Verdict::pass) return solved;
+  solved.reasons = r.verdict_reasons;
+  if (r.progress.finish == "time") solved.reasons.push_back("time was up after " + fixed(r.motion.time_s, 1) + " s: the expert was not finished");
+  for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
+    solved.reasons.push_back("step " + setup.scenario.steps[i].id + " was not completed (" + setup.scenario.steps[i].complete_when + ")");
+  for (const auto& c : r.criteria)
+    if (c.points < c.max) solved.reasons.push_back("criterion " + c.id + ": " + c.reason);
+  return solved;
+}
+
+int solve(const Options& o) {
+  if (!o.out.empty()) require_writable(o.out);
+  ExamOptions options;
+  options.candidate = "built-in expert";
+  options.tooth_file = o.tooth;
+  options.force_model = o.model;
+  options.device = "simulated Omni, operator expert";
+  options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
+  const auto setup = prepare_exam(o.scenario, options);
+  const ScratchSession scratch;
+  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file() : o.out);
+  const bool passed = solved.result && solved.result->verdict == Verdict::pass;
+  const double limit_s = static_cast<double>(exam_limit_ticks(setup->scenario)) * k_tick_s;
+  if (o.json) {
+    nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
+    if (solved.result) {
+      j["point"] = solved.point;
+      auto result = to_json(*solved.result);
+      for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
+    }
+    j["reasons"] = solved.reasons;
+    j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
+    print_json(j);
+    return passed ? 0 : 1;
+  }
+  std::cout << setup->scenario.id << " on " << setup->tooth.name << ": "
+            << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
+  if (solved.result) {
+    const Result& r = *solved.result;
+    std::cout << "score  " << fixed(r.points, 1) << " of " << fixed(r.max_points, 1) << " points, " << verdict_name(r.verdict) << "; pass mark "
+              << fixed(r.pass_percent, 0) << " %" << (r.compensatory ? "" : " of each criterion") << "\ntime   " << fixed(r.motion.time_s, 1)
+              << " s of " << fixed(limit_s, 1) << " s (" << fixed(100 * r.motion.time_s / limit_s, 0) << " %), with " << solved.point << "\nsteps  "
+              << r.progress.steps_completed << " of " << r.progress.steps << " completed, ended: " << r.progress.finish << "\n";
+    for (const auto& c : r.criteria) std::cout << "  " << c.id << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << c.reason << "\n";
+  }
+  for (const auto& reason : solved.reasons) std::cout << "because: " << reason << "\n";
+  if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
+  return passed ? 0 : 1;
+}
+
 int make_new(const Options& o) {
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  write_text_file(o.out, scenario_template());
+  write_text_file(o.out, scenario_template(o.tooth_kind, o.task));
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
   return 0;
 }
@@ -85,7 +186,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("scenario", "Write and check exam scenarios");
   verb->require_subcommand(1);
 
-  auto* checks = verb->add_subcommand("check", "Name every mistake of a scenario file");
+  auto* checks = verb->add_subcommand("check", "Name every mistake of a scenario file, and warn of what is unwise");
   checks->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
   checks->add_option("--tooth", o->tooth, "check the zones against this tooth instead");
   checks->add_flag("--json", o->json, "one JSON object on standard output");
@@ -98,7 +199,20 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   shows->add_flag("--json", o->json, "one JSON object on standard output");
   shows->callback([o, &exit_code] { exit_code = show(*o); });
 
+  auto* solves = verb->add_subcommand("solve", "Prove that the task can be passed: the built-in expert takes it");
+  solves->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
+  solves->add_option("--tooth", o->tooth, "solve it on this tooth instead");
+  solves->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  solves->add_option("--seed", o->seed, "of the expert's tremor")->capture_default_str();
+  solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
+  solves->add_flag("--json", o->json, "one JSON object on standard output");
+  solves->callback([o, &exit_code] { exit_code = solve(*o); });
+
   auto* news = verb->add_subcommand("new", "Write a commented scenario to start from");
+  std::string known;
+  for (const auto& c : template_choices()) known += (known.empty() ? "" : ", ") + c.tooth + " " + c.task;
+  news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
+  news->add_option("--task", o->task, "kind of task")->capture_default_str();
   news->add_option("--out", o->out, "file to write")->required();
   news->add_flag("--force", o->force, "overwrite");
   news->callback([o, &exit_code] { exit_code = make_new(*o); });

@@ -209,6 +209,37 @@ TEST(Grade, WhatIsDoneAfterTheEndDoesNotCount) {
   EXPECT_FALSE(r.notes.empty());
 }
 
+TEST(Grade, PausesAreTakenOffTheTimeToTheTickAndListed) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 400);  // 401 ticks
+  const Result whole = c.graded();
+  c.events.push_back({100, "pause_started", "{\"pause\":0}"});
+  c.events.push_back({250, "pause_ended", "{\"pause\":0}"});
+  c.events.push_back({300, "pause_refused", "{\"pauses\":1}"});
+  const Result r = c.graded();
+  EXPECT_NEAR(whole.motion.time_s - r.motion.time_s, 0.150, 1e-12);
+  EXPECT_DOUBLE_EQ(whole.motion.idle_s - r.motion.idle_s, 0.2);  // two tenths of a second lie in the pause, at least in part
+  ASSERT_EQ(r.pauses.size(), 1u);
+  EXPECT_EQ(r.pauses[0].begin, 100);
+  EXPECT_EQ(r.pauses[0].end, 250);
+  EXPECT_EQ(r.pauses_refused, 1);
+  EXPECT_EQ(r.notes.size(), whole.notes.size() + 2);
+  EXPECT_DOUBLE_EQ(r.volumes.removed.mm3, whole.volumes.removed.mm3);
+}
+
+TEST(Grade, WorkAfterTimeWasUpIsShownAndDoesNotCount) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 10);
+  c.events.push_back({10, "finished", "{\"how\":\"time\"}"});
+  const Result before = c.graded();
+  c.events.push_back({10, "late_work", "{\"ticks\":2500,\"pedal_ticks\":1200}"});
+  const Result r = c.graded();
+  EXPECT_EQ(r.late_work.ticks, 2500);
+  EXPECT_EQ(r.points, before.points);
+  ASSERT_EQ(r.notes.size(), before.notes.size() + 1);
+  EXPECT_NE(r.notes.back().find("2.500 s after time was up, with the pedal pressed for 1.200 s"), std::string::npos) << r.notes.back();
+}
+
 TEST(Grade, DisagreementOfListAndFinalToothGoesToReview) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);

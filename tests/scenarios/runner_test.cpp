@@ -66,6 +66,76 @@ TEST(Runner, ExtraTimeIsExactToTheTick) {
   EXPECT_EQ(exam.state.ticks, 1251);
 }
 
+TEST(Runner, ExtraSecondsAddToThePercentAndReachStepsInProportion) {
+  Scenario s = scenario_with("complete_when = \"target_removed_percent >= 99\"\n", "complete_when = \"0\"\ntime_limit_s = 4\n");
+  s.accommodations.extra_time_percent = 25;
+  s.accommodations.extra_time_s = 2.003;
+  Exam exam(std::move(s));
+  EXPECT_EQ(exam.runner.limit_ticks(), 12500 + 2003);
+  while (exam.events(ExamEventKind::step_time_limit).empty()) exam.tick();
+  EXPECT_EQ(exam.state.ticks, 5000 + 801);  // 4 s are two fifths of the exam: 2.003 s * 0.4 = 801.2 ticks more
+}
+
+/// A scenario of `limit_s` with two pauses of at most 0.25 s, on button 2.
+Scenario pausing(const std::string& limit_s) {
+  return scenario_with("time_limit_s = 10", "time_limit_s = " + limit_s + "\n[pauses]\ncount = 2\nlongest_s = 0.25");
+}
+
+TEST(Runner, APauseStopsTheClockToTheTick) {
+  Exam exam(pausing("1"));
+  const auto step = [&](std::uint16_t buttons) {
+    TickInput in;
+    in.flags = buttons;
+    exam.runner.advance(exam.state, in, {}, {});
+  };
+  for (int i = 0; i < 100; ++i) step(0);
+  step(k_button_2);                               // tick 100 is the first of the pause
+  for (int i = 0; i < 29; ++i) step(k_button_2);  // holding it changes nothing
+  for (int i = 0; i < 20; ++i) step(0);
+  EXPECT_TRUE(Runner::paused(exam.state));
+  step(k_button_2);  // tick 150 counts again
+  EXPECT_FALSE(Runner::paused(exam.state));
+  EXPECT_EQ(exam.state.paused_ticks, 50);
+  EXPECT_DOUBLE_EQ(exam.runner.values()[0], 0.101);  // time_s
+  while (exam.state.finish == Finish::running) step(0);
+  EXPECT_EQ(exam.state.finish, Finish::time);
+  EXPECT_EQ(exam.state.ticks, 1050);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_started).at(0).tick, 100);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick, 150);
+}
+
+TEST(Runner, APauseEndsByItselfAndTheThirdIsRefused) {
+  Exam exam(pausing("1"));
+  const auto step = [&](std::uint16_t buttons, double rpm = 0) {
+    TickInput in;
+    in.flags = buttons;
+    TickOutput out;
+    out.rpm = rpm;
+    exam.runner.advance(exam.state, in, out, {});
+  };
+  step(k_button_2, 5000);  // the handpiece turns
+  EXPECT_EQ(exam.events(ExamEventKind::pause_refused).size(), 1u);
+  for (int pause = 0; pause < 3; ++pause) {
+    step(0);
+    step(k_button_2);
+    for (int i = 0; i < 300; ++i) step(0);
+  }
+  EXPECT_EQ(exam.events(ExamEventKind::pause_started).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_refused).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick - exam.events(ExamEventKind::pause_started).at(0).tick, 250);
+  while (exam.state.finish == Finish::running) step(0);
+  EXPECT_EQ(exam.state.ticks, 1500);
+}
+
+TEST(Runner, WithoutPausesTheButtonMeansNothing) {
+  Exam exam(scenario_with());
+  TickInput in;
+  in.flags = k_button_2;
+  exam.runner.advance(exam.state, in, {}, {});
+  EXPECT_FALSE(Runner::paused(exam.state));
+  EXPECT_TRUE(exam.events(ExamEventKind::pause_refused).empty());
+}
+
 TEST(Runner, WorkAfterTheEndDoesNotCount) {
   Exam exam(scenario_with("time_limit_s = 10", "time_limit_s = 0.005"));
   for (int i = 0; i < 5; ++i) exam.tick();

@@ -122,6 +122,99 @@ TEST_F(CommandLine, AMisspeltTissueOrPointIsFoundBeforeAnyExam) {
   }
 }
 
+TEST_F(CommandLine, EveryTemplateIsSolvedByTheExpertInAboutTheTimeThatCheckSays) {
+  for (const auto& [tooth, task] : {std::pair<std::string, std::string>{"block", "class_1"},
+                                    {"block", "slot"},
+                                    {"block", "cross"},
+                                    {"molar", "class_1"},
+                                    {"molar", "class_2"},
+                                    {"molar", "slot"},
+                                    {"molar", "access"}}) {
+    const std::string file = path(tooth + task + ".toml");
+    ASSERT_EQ(run("scenario new --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);
+    const Ran check = run("scenario check " + file + " --json");
+    EXPECT_EQ(check.exit_code, 0) << check.out;
+    const Ran solve = run("scenario solve " + file + " --json");
+    EXPECT_EQ(solve.exit_code, 0) << solve.out << solve.err;
+    const json said = json::parse(check.out), done = json::parse(solve.out);
+    EXPECT_TRUE(said["problems"].empty());
+    EXPECT_TRUE(done["passed"].get<bool>());
+    EXPECT_EQ(done["steps"]["completed"], done["steps"]["count"]) << file;
+    const double ratio = said["expert_s"].get<double>() / done["time_s"].get<double>();
+    EXPECT_GT(ratio, 0.7) << file;
+    EXPECT_LT(ratio, 1.7) << file;
+  }
+}
+
+TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
+  std::string text = read_text_file(k_block);
+  text.replace(text.find("time_limit_s = 120"), 18, "time_limit_s = 8");
+  write_text_file(path("hasty.toml"), text);
+  const std::string tooth = " --tooth " + std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block.cvt";
+  const Ran check = run("scenario check " + path("hasty.toml") + tooth);
+  EXPECT_EQ(check.exit_code, 0) << "warnings alone are no mistakes\n" << check.out;
+  EXPECT_NE(check.out.find("hasty.toml:7:16: warning: the built-in expert needs about"), std::string::npos) << check.out;
+  const Ran solve = run("scenario solve " + path("hasty.toml") + tooth + " --out " + path("hasty.cavum"));
+  EXPECT_EQ(solve.exit_code, 1);
+  EXPECT_NE(solve.out.find("time was up after 8.0 s"), std::string::npos) << solve.out;
+  EXPECT_NE(solve.out.find("step cavity was not completed"), std::string::npos) << solve.out;
+  EXPECT_EQ(run("replay " + path("hasty.cavum") + " --verify").exit_code, 0);
+  expect_refused("scenario solve " + path("none.toml"), {"none.toml"});
+  expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png", ".svg"});
+  expect_refused("scenario new --tooth incisor --task access --out " + path("i.toml"), {"--tooth incisor", "molar with access"});
+}
+
+/// A stylus that drills a block from above, rests with the handpiece off between 6 s and 10 s, and drills on to 20 s. Button 2 goes down
+/// at 8.000 s and at 9.500 s.
+std::string drilling_with_a_break() {
+  std::string csv = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2\n";
+  char line[120];
+  for (int i = 0; i <= 2000; ++i) {
+    const double t = i * 0.01;
+    const double z = t < 1 ? 2 - 1.5 * t : t < 6 ? 0.5 - 0.3 * (t - 1) : t < 10 ? 2 : 2 - 0.4 * (t - 10);
+    const bool drills = (t >= 1 && t < 6) || t >= 10, button = (i >= 800 && i < 820) || (i >= 950 && i < 960);
+    std::snprintf(line, sizeof line, "%.3f,0,0,%.5f,1,0,0,0,%d,0,%d\n", t, z, drills ? 1 : 0, button ? 1 : 0);
+    csv += line;
+  }
+  return csv;
+}
+
+TEST_F(CommandLine, LimitPauseAndExtraTimeAreExactToTheTickAndRecorded) {
+  std::string text = read_text_file(k_block);
+  text.replace(text.find("time_limit_s = 120"), 18, "time_limit_s = 10\n[pauses]\ncount = 1\nlongest_s = 60\n");
+  write_text_file(path("pause.toml"), text);
+  write_text_file(path("break.csv"), drilling_with_a_break());
+  const std::string exam = "exam " + path("pause.toml") + " --tooth " + std::string(CAVUM_SOURCE_DIR) +
+                           "/tests/replay/block.cvt --candidate A --json --motion " + path("break.csv") + " --out ";
+  const Ran plain = run(exam + path("plain.cavum"));
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  const json without = json::parse(plain.out);
+  EXPECT_EQ(without["time_s"], 10.0);
+  EXPECT_EQ(without["finish"], "time");
+  EXPECT_FALSE(without.contains("accommodations"));
+  EXPECT_EQ(without["late_work"]["ticks"], 20001 - 11500);
+  const Ran longer = run(exam + path("longer.cavum") + " --extra-time-percent 10 --extra-time-s 0.501 --left-handed --report " + path("longer.html"));
+  ASSERT_EQ(longer.exit_code, 0) << longer.err;
+  const json with = json::parse(longer.out);
+  EXPECT_EQ(with["time_s"], 11.501);
+  EXPECT_EQ(with["time_limit_s"], 11.501);
+  EXPECT_EQ(with["pauses"]["ticks"], 1500);
+  EXPECT_EQ(with["pauses"]["list"][0]["from_tick"], 8000);
+  EXPECT_EQ(with["accommodations"]["left_handed"], true);
+  EXPECT_EQ(with["accommodations"]["extra_time_s"], 0.501);
+  EXPECT_NE(read_text_file(path("longer.html")).find("left-handed"), std::string::npos);
+  EXPECT_EQ(SessionReader(path("plain.cavum")).inputs().size(), 11500u);
+  EXPECT_EQ(SessionReader(path("longer.cavum")).inputs().size(), 13001u);
+  EXPECT_EQ(run("replay " + path("longer.cavum") + " --verify").exit_code, 0);
+  const Ran again = run("grade " + path("longer.cavum") + " --json");
+  json stored = json::parse(again.out);
+  EXPECT_EQ(stored["accommodations"], with["accommodations"]);
+  EXPECT_EQ(stored["score"], with["score"]);
+  expect_refused(
+      "exam " + path("pause.toml") + " --candidate A --motion " + path("break.csv") + " --extra-time-percent 900 --out " + path("no.cavum"),
+      {"extra time in percent is 900"});
+}
+
 TEST_F(CommandLine, NoviceLosesPointsWithTheWallNamed) {
   const json result = exam(k_data + "/scenarios/molar_access.toml", "novice");
   EXPECT_NE(result["verdict"], "pass");

@@ -1,0 +1,19 @@
+// Warnings of what is legal but unwise in a scenario on its tooth: a target that opens what must stay closed, a leeway wider than
+// the wall, a limit shorter than the built-in expert needs, marks that nobody can win or lose, points and steps without use.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/instrument/diamond_point.h"
+#include "scenarios/parse.h"
+#include "scenarios/zone_map.h"
+
+namespace cavum {
+
+/// Everything to warn of, in no order. `points` are the allowed ones, in the scenario's order. `expert_s` becomes the time that the
+/// built-in expert will need, about, when it can do the task at all.
+[[nodiscard]] std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
+                                          std::optional<double>& expert_s);
+
+}  // namespace cavum

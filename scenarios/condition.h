@@ -1,0 +1,25 @@
+// What can be said of a condition without running it: whether it is a condition at all, and whether it can come
+// true at all. Reads the grammar of expression.h from the outside in.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace cavum {
+
+/// Values that a live quantity can have.
+struct ValueRange {
+  double low = 0.0, high = 0.0;
+};
+
+enum class Outlook { never, perhaps, always };
+
+/// False for an expression whose value is a number ("target_removed_percent"): the exam would take any but 0 for yes. Quantities
+/// that are 0 or 1, and the numbers 0 and 1 themselves, are conditions.
+[[nodiscard]] bool is_condition(const std::string& text);
+
+/// Whether a condition can be true when each quantity keeps to its range. Judges comparisons of one quantity with a number,
+/// joined by && and ||; everything else is `perhaps`.
+[[nodiscard]] Outlook judge_condition(const std::string& text, const std::map<std::string, ValueRange>& ranges);
+
+}  // namespace cavum
