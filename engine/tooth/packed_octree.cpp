@@ -150,23 +150,32 @@ class Walk {
     return code_byte(coder_, rare_tissue_, tissue);
   }
 
+  static constexpr int step_of(int x, int y, int z) { return x + k_edge * (y + k_edge * z); }
+
   /// Fills `window` with the 4x4x4 leaves of a brick and two around. `of(ref)` gives a brick's 64 leaves, or none; then `other(ref)` is all of it.
   template <class Value, std::size_t N, class Of, class Other>
   void gather(IVec3 brick, std::array<Value, N>& window, const Of& of, const Other& other) const {
-    constexpr std::array<int, 4> first{0, k_margin, k_margin + 4, k_edge};  // where the lower, own and upper brick begin
+    constexpr std::array<int, 3> k_begin{0, k_margin, k_margin + 4};  // in the window, of the lower, the own and the upper brick
     for (int z = 0; z < 3; ++z)
       for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x) {
-          const auto a = [&first](int i) { return first[static_cast<std::size_t>(i)]; };
           const std::uint32_t ref = lattice_[brick + IVec3{x - 1, y - 1, z - 1}];
-          const auto* leaves = of(ref);
+          const auto* const leaves = of(ref);
           const Value all = leaves == nullptr ? other(ref) : Value{};
-          for (int k = a(z); k < a(z + 1); ++k)
-            for (int j = a(y); j < a(y + 1); ++j)
-              for (int i = a(x); i < a(x + 1); ++i) {
-                const int leaf = ((i + 2) & 3) | ((j + 2) & 3) << 2 | ((k + 2) & 3) << 4;
-                window[static_cast<std::size_t>(i + k_edge * (j + k_edge * k))] = leaves == nullptr ? all : static_cast<Value>(leaves[leaf]);
-              }
+          const int from_y = y == 0 ? 2 : 0, from_z = z == 0 ? 2 : 0, rows_y = y == 1 ? 4 : 2, rows_z = z == 1 ? 4 : 2;
+          Value* const to = window.data() +
+                            step_of(k_begin[static_cast<std::size_t>(x)], k_begin[static_cast<std::size_t>(y)], k_begin[static_cast<std::size_t>(z)]);
+          for (int k = 0; k < rows_z; ++k)
+            for (int j = 0; j < rows_y; ++j) {
+              Value* const row = to + step_of(0, j, k);
+              const int first = (from_y + j) * 4 + (from_z + k) * 16;
+              if (leaves == nullptr)
+                std::fill_n(row, x == 1 ? 4 : 2, all);
+              else if (x == 1)
+                std::copy_n(leaves + first, 4, row);
+              else
+                std::copy_n(leaves + first + (x == 0 ? 2 : 0), 2, row);
+            }
         }
   }
 
@@ -183,7 +192,6 @@ class Walk {
     return window;
   }
 
-  static constexpr int step_of(int x, int y, int z) { return x + k_edge * (y + k_edge * z); }
   [[nodiscard]] static constexpr int place_of(std::size_t leaf) {
     const int i = static_cast<int>(leaf);
     return FitWindow::index(i & 3, i >> 2 & 3, i >> 4);
