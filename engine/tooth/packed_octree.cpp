@@ -16,6 +16,8 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/range_coder.h"
+#include "engine/tooth/brick_lattice.h"
+#include "engine/tooth/leaf_layers.h"
 #include "engine/tooth/octree.h"
 #include "engine/tooth/surface_fit.h"
 
@@ -25,38 +27,10 @@ namespace {
 constexpr std::size_t k_leaves = Octree::k_brick_leaves;
 constexpr std::size_t k_head_bytes = 4 * sizeof(double) + 3 * sizeof(std::int32_t);
 constexpr std::uint32_t k_most_bricks = 1u << 24;
-constexpr int k_edge = FitWindow::k_edge, k_margin = FitWindow::k_margin;
 
 /// The three streams of Octree::write, with distance codes instead of their differences.
 struct Streams {
   Bytes shape, tissue, distance;
-};
-
-/// What each brick of the lattice is: a uniform tissue 0..255, not known yet, or a brick by its number.
-class Lattice {
- public:
-  static constexpr std::uint32_t k_unknown = 256, k_first_brick = 257;
-  explicit Lattice(int levels) : edge_((1 << levels) + 2), cell_(static_cast<std::size_t>(edge_) * edge_ * edge_, k_air) {
-    fill({0, 0, 0}, levels, k_unknown);
-  }
-  [[nodiscard]] std::uint32_t operator[](IVec3 brick) const noexcept { return cell_[index(brick)]; }
-  void fill(IVec3 low, int level, std::uint32_t what) noexcept {
-    const int n = 1 << level;
-    for (int z = 0; z < n; ++z)
-      for (int y = 0; y < n; ++y) {
-        const auto row = cell_.begin() + static_cast<std::ptrdiff_t>(index(low + IVec3{0, y, z}));
-        std::fill(row, row + n, what);
-      }
-  }
-
- private:
-  [[nodiscard]] std::size_t index(IVec3 b) const noexcept {
-    return (static_cast<std::size_t>(b.z + 1) * static_cast<std::size_t>(edge_) + static_cast<std::size_t>(b.y + 1)) *
-               static_cast<std::size_t>(edge_) +
-           static_cast<std::size_t>(b.x + 1);
-  }
-  int edge_;  // bricks along an edge, with one of air around
-  std::vector<std::uint32_t> cell_;
 };
 
 /// One walk that writes (Coder = RangeEncoder) or reads (RangeDecoder) all three streams.
@@ -72,13 +46,12 @@ class Walk {
     for (std::size_t i = 0; i < brick_.size(); ++i) code_labels(i);
     if constexpr (Coder::k_decodes) streams_.distance.resize(full_brick_.size() * k_leaves);
     sort_into_layers();
-    for (std::uint8_t layer = 0; layer < k_layers; ++layer)
+    for (std::size_t layer = 0; layer < k_leaf_layers; ++layer)
       for (std::size_t i = 0; i < full_brick_.size(); ++i)
-        if ((layers_of_[i] >> layer & 1) != 0) code_distances(i, layer);
+        if (layers_[i][layer] != 0) code_distances(i, layer);
   }
 
  private:
-  static constexpr std::uint8_t k_layers = 7;      // squared distance to the other kind 1..6 leaves, then all others
   static constexpr std::uint16_t k_not_yet = 256;  // a label that is not known yet
   static constexpr std::uint32_t k_no_full = ~0u;
   struct Brick {
@@ -103,8 +76,8 @@ class Walk {
     std::size_t uniform_around = 0, full_around = 0;
     for (std::size_t i = 0; i < around.size(); ++i) {
       around[i] = lattice_[low + step[i]];
-      uniform_around = 2 * uniform_around + (around[i] < Lattice::k_unknown);
-      full_around = 2 * full_around + (around[i] >= Lattice::k_first_brick && brick_[around[i] - Lattice::k_first_brick].full != k_no_full);
+      uniform_around = 2 * uniform_around + (around[i] < BrickLattice::k_unknown);
+      full_around = 2 * full_around + (around[i] >= BrickLattice::k_first_brick && brick_[around[i] - BrickLattice::k_first_brick].full != k_no_full);
     }
     const bool uniform = coder_.code(uniform_[static_cast<std::size_t>(level)][uniform_around], kind == 0);
     if (uniform) {
@@ -121,7 +94,7 @@ class Walk {
       const bool full = coder_.code(full_[full_around], kind == 3);
       emit(full ? 3 : 2);
       if (brick_.size() == most_bricks_ || (full && full_brick_.size() == most_full_)) throw_damaged();
-      lattice_.fill(low, 0, Lattice::k_first_brick + static_cast<std::uint32_t>(brick_.size()));
+      lattice_.fill(low, 0, BrickLattice::k_first_brick + static_cast<std::uint32_t>(brick_.size()));
       brick_.push_back({low, full ? static_cast<std::uint32_t>(full_brick_.size()) : k_no_full});
       if (full) full_brick_.push_back(static_cast<std::uint32_t>(brick_.size() - 1));
     }
@@ -150,42 +123,13 @@ class Walk {
     return code_byte(coder_, rare_tissue_, tissue);
   }
 
-  static constexpr int step_of(int x, int y, int z) { return x + k_edge * (y + k_edge * z); }
-
-  /// Fills `window` with the 4x4x4 leaves of a brick and two around. `of(ref)` gives a brick's 64 leaves, or none; then `other(ref)` is all of it.
-  template <class Value, std::size_t N, class Of, class Other>
-  void gather(IVec3 brick, std::array<Value, N>& window, const Of& of, const Other& other) const {
-    constexpr std::array<int, 3> k_begin{0, k_margin, k_margin + 4};  // in the window, of the lower, the own and the upper brick
-    for (int z = 0; z < 3; ++z)
-      for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x) {
-          const std::uint32_t ref = lattice_[brick + IVec3{x - 1, y - 1, z - 1}];
-          const auto* const leaves = of(ref);
-          const Value all = leaves == nullptr ? other(ref) : Value{};
-          const int from_y = y == 0 ? 2 : 0, from_z = z == 0 ? 2 : 0, rows_y = y == 1 ? 4 : 2, rows_z = z == 1 ? 4 : 2;
-          Value* const to = window.data() +
-                            step_of(k_begin[static_cast<std::size_t>(x)], k_begin[static_cast<std::size_t>(y)], k_begin[static_cast<std::size_t>(z)]);
-          for (int k = 0; k < rows_z; ++k)
-            for (int j = 0; j < rows_y; ++j) {
-              Value* const row = to + step_of(0, j, k);
-              const int first = (from_y + j) * 4 + (from_z + k) * 16;
-              if (leaves == nullptr)
-                std::fill_n(row, x == 1 ? 4 : 2, all);
-              else if (x == 1)
-                std::copy_n(leaves + first, 4, row);
-              else
-                std::copy_n(leaves + first + (x == 0 ? 2 : 0), 2, row);
-            }
-        }
-  }
-
   [[nodiscard]] LabelWindow labels_around(IVec3 brick, std::size_t known_bricks) const {
     LabelWindow window;
-    gather(
+    lattice_.gather(
         brick, window,
         [&](std::uint32_t ref) {
-          return ref >= Lattice::k_first_brick && ref - Lattice::k_first_brick < known_bricks
-                     ? &streams_.tissue[(ref - Lattice::k_first_brick) * k_leaves]
+          return ref >= BrickLattice::k_first_brick && ref - BrickLattice::k_first_brick < known_bricks
+                     ? &streams_.tissue[(ref - BrickLattice::k_first_brick) * k_leaves]
                      : nullptr;
         },
         [](std::uint32_t ref) { return static_cast<std::uint16_t>(std::min<std::uint32_t>(ref, k_not_yet)); });
@@ -199,10 +143,10 @@ class Walk {
 
   void code_labels(std::size_t number) {
     // Leaves coded before this one, the nearest first, and three that may be known when they lie in uniform cells.
-    constexpr std::array<int, 16> k_step{step_of(-1, 0, 0),  step_of(0, -1, 0),   step_of(0, 0, -1), step_of(-1, -1, 0),
-                                         step_of(-1, 0, -1), step_of(0, -1, -1),  step_of(1, -1, 0), step_of(1, 0, -1),
-                                         step_of(0, 1, -1),  step_of(-1, -1, -1), step_of(-2, 0, 0), step_of(0, -2, 0),
-                                         step_of(0, 0, -2),  step_of(1, 0, 0),    step_of(0, 1, 0),  step_of(0, 0, 1)};
+    constexpr std::array<int, 16> k_step{window_step(-1, 0, 0),  window_step(0, -1, 0),   window_step(0, 0, -1), window_step(-1, -1, 0),
+                                         window_step(-1, 0, -1), window_step(0, -1, -1),  window_step(1, -1, 0), window_step(1, 0, -1),
+                                         window_step(0, 1, -1),  window_step(-1, -1, -1), window_step(-2, 0, 0), window_step(0, -2, 0),
+                                         window_step(0, 0, -2),  window_step(1, 0, 0),    window_step(0, 1, 0),  window_step(0, 0, 1)};
     LabelWindow window = labels_around(brick_[number].at, number);
     std::uint8_t* const labels = &streams_.tissue[number * k_leaves];
     std::array<std::uint16_t, k_step.size()> around;
@@ -224,69 +168,42 @@ class Walk {
   /// Which layer each leaf of the full bricks belongs to, and a guess of the distances next to the surface.
   void sort_into_layers() {
     leaf_.resize(full_brick_.size() * k_leaves);
-    layer_.resize(full_brick_.size() * k_leaves);
-    layers_of_.resize(full_brick_.size());
+    layers_.reserve(full_brick_.size());
     for (std::size_t i = 0; i < full_brick_.size(); ++i) {
-      const Brick& brick = brick_[full_brick_[i]];
-      const LabelWindow labels = labels_around(brick.at, brick_.size());
-      std::array<std::uint64_t, k_edge> solid{};  // a bit for each leaf of a z-layer of the window
+      const LabelWindow labels = labels_around(brick_[full_brick_[i]].at, brick_.size());
+      WindowBits solid{};
       for (std::size_t j = 0; j < labels.size(); ++j) solid[j >> 6] |= std::uint64_t{solid_[labels[j] & 255]} << (j & 63);
-      for (std::size_t leaf = 0; leaf < k_leaves; ++leaf) {
-        const std::size_t at = i * k_leaves + leaf;
-        layer_[at] = k_layers - 1;
-        leaf_[at].code = 0;
-      }
-      std::array<std::uint64_t, k_edge> found{};
-      for (int squared = 1; squared < k_layers; ++squared) {
-        std::array<std::uint64_t, k_edge> near{};
-        for (int z = -2; z <= 2; ++z)
-          for (int y = -2; y <= 2; ++y)
-            for (int x = -2; x <= 2; ++x) {
-              if (x * x + y * y + z * z != squared) continue;
-              const int shift = x + k_edge * y;
-              for (std::size_t k = k_margin; k < k_margin + 4; ++k) {
-                const std::uint64_t other = solid[static_cast<std::size_t>(static_cast<int>(k) + z)];
-                near[k] |= (shift < 0 ? other << -shift : other >> shift) ^ solid[k];
-              }
-            }
-        for (std::size_t leaf = 0; leaf < k_leaves; ++leaf) {
-          const auto place = static_cast<std::size_t>(place_of(leaf));
-          if (((near[place >> 6] & ~found[place >> 6]) >> (place & 63) & 1) != 0)
-            layer_[i * k_leaves + leaf] = static_cast<std::uint8_t>(squared - 1);
+      layers_.push_back(leaf_layers(solid));
+      constexpr std::array<std::int8_t, 3> k_usual{28, 55, 70};
+      for (std::size_t layer = 0; layer < k_usual.size(); ++layer)
+        for (std::uint64_t left = layers_[i][layer]; left != 0; left &= left - 1) {
+          const auto leaf = static_cast<std::size_t>(std::countr_zero(left));
+          const bool is_solid = solid_[streams_.tissue[full_brick_[i] * k_leaves + leaf]];
+          leaf_[i * k_leaves + leaf] = {static_cast<std::int8_t>(is_solid ? -k_usual[layer] : k_usual[layer]), FitLeaf::k_guess};
         }
-        for (std::size_t k = 0; k < found.size(); ++k) found[k] |= near[k];
-      }
-      for (std::size_t leaf = 0; leaf < k_leaves; ++leaf) {
-        constexpr std::array<std::int8_t, 3> k_usual{28, 55, 70};
-        const std::size_t at = i * k_leaves + leaf;
-        const std::uint8_t layer = layer_[at];
-        layers_of_[i] = static_cast<std::uint8_t>(layers_of_[i] | 1u << layer);
-        const bool is_solid = solid_[streams_.tissue[full_brick_[i] * k_leaves + leaf]];
-        if (layer < k_usual.size()) leaf_[at] = {static_cast<std::int8_t>(is_solid ? -k_usual[layer] : k_usual[layer]), FitLeaf::k_guess};
-      }
     }
   }
 
-  void code_distances(std::size_t number, std::uint8_t layer) {
+  void code_distances(std::size_t number, std::size_t layer) {
     const std::uint32_t brick = full_brick_[number];
-    FitWindow window;
-    gather(
-        brick_[brick].at, window.leaf,
-        [&](std::uint32_t ref) -> const FitLeaf* {
-          if (ref < Lattice::k_first_brick) return nullptr;
-          const std::uint32_t full = brick_[ref - Lattice::k_first_brick].full;
-          return full == k_no_full ? nullptr : &leaf_[full * k_leaves];
-        },
-        [](std::uint32_t) { return FitLeaf{}; });
-    for (std::size_t leaf = 0; leaf < k_leaves; ++leaf) {
+    const bool far = layer + 1 == k_leaf_layers;  // all distances there are, but for what a carve left behind
+    if (!far)
+      lattice_.gather(
+          brick_[brick].at, window_.leaf,
+          [&](std::uint32_t ref) -> const FitLeaf* {
+            if (ref < BrickLattice::k_first_brick) return nullptr;
+            const std::uint32_t full = brick_[ref - BrickLattice::k_first_brick].full;
+            return full == k_no_full ? nullptr : &leaf_[full * k_leaves];
+          },
+          [](std::uint32_t) { return FitLeaf{}; });
+    for (std::uint64_t left = layers_[number][layer]; left != 0; left &= left - 1) {
+      const auto leaf = static_cast<std::size_t>(std::countr_zero(left));
       const std::size_t at = number * k_leaves + leaf;
-      if (layer_[at] != layer) continue;
       const int sign = solid_[streams_.tissue[brick * k_leaves + leaf]] ? -1 : 1;
       const auto known = static_cast<std::int8_t>(streams_.distance[at]);
-      FitLeaf& here = window.leaf[static_cast<std::size_t>(place_of(leaf))];
+      FitLeaf& here = window_.leaf[static_cast<std::size_t>(place_of(leaf))];
       int expected = k_distance_far;
-      std::size_t context = k_fit_contexts;  // beyond the layers all distances are far, but for what a carve left behind
-      if (layer + 1 < k_layers) context = fit(window, place_of(leaf), sign, layer == 0, expected);
+      const std::size_t context = far ? k_fit_contexts : fit(window_, place_of(leaf), sign, layer == 0, expected);
       const int off = code_residual(residual_[context], sign * known - expected);
       const auto code = static_cast<std::int8_t>(static_cast<std::uint8_t>(sign * (expected + off)));
       streams_.distance[at] = static_cast<std::uint8_t>(code);
@@ -331,16 +248,16 @@ class Walk {
 
   Coder& coder_;
   Streams& streams_;
-  Lattice lattice_;
+  BrickLattice lattice_;
   std::size_t most_bricks_, most_full_;
   std::array<bool, 256> solid_{};
   std::size_t at_ = 0;  // in the shape stream
   std::vector<Brick> brick_;
   std::vector<std::uint32_t> full_brick_;  // its number among all bricks
-  std::vector<FitLeaf> leaf_;              // leaves of the full bricks, as far as known
-  std::vector<std::uint8_t> layer_;        // of each of them
-  std::vector<std::uint8_t> layers_of_;    // layers that occur in a full brick, as bits
-  std::uint32_t candidate_ = 0;            // the tissue that is asked about
+  FitWindow window_;
+  std::vector<FitLeaf> leaf_;       // leaves of the full bricks, as far as known
+  std::vector<LeafLayers> layers_;  // of each full brick
+  std::uint32_t candidate_ = 0;     // the tissue that is asked about
 
   static constexpr std::size_t k_label_context = 13;
   std::array<std::array<AdaptiveBit, 512>, 9> uniform_;

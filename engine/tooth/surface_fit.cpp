@@ -10,11 +10,11 @@ typedef std::int16_t Shorts [[gnu::vector_size(16)]];
 typedef float Floats [[gnu::vector_size(16)]];
 typedef double Two [[gnu::vector_size(16)]];
 
-/// Neighbours at squared distance g, 1..6, are group g: how many, and their weight: r^-6 for the near plane, r^-2 for the wide one. A guess
+/// Neighbours at squared distance g, 1..5, are group g: how many, and their weight: r^-6 for the near plane, r^-2 for the wide one. A guess
 /// weighs 1 wherever it is. All sums of a group fit into 16 bits, and weighted sums stay below 2^24: exact in a float.
-constexpr std::array<std::size_t, 7> k_count{0, 6, 12, 8, 6, 24, 24};
-constexpr std::array<float, 7> k_near_weight{0, 4096, 512, 152, 64, 33, 19}, k_wide_weight{0, 1800, 900, 600, 450, 360, 300};
-constexpr std::size_t k_neighbours = 80;
+constexpr std::array<std::size_t, 6> k_count{0, 6, 12, 8, 6, 24};
+constexpr std::array<float, 6> k_near_weight{0, 4096, 512, 152, 64, 33}, k_wide_weight{0, 1800, 900, 600, 450, 360};
+constexpr std::size_t k_neighbours = 56;
 
 /// What a neighbour at x, y, z adds to the normal equations.
 struct Neighbour {
@@ -26,7 +26,7 @@ struct Neighbour {
 const std::array<Neighbour, k_neighbours> k_around = [] {  // group after group
   std::array<Neighbour, k_neighbours> around{};
   std::size_t n = 0;
-  for (int squared = 1; squared <= 6; ++squared)
+  for (int squared = 1; squared <= 5; ++squared)
     for (int z = -2; z <= 2; ++z)
       for (int y = -2; y <= 2; ++y)
         for (int x = -2; x <= 2; ++x) {

@@ -29,7 +29,7 @@ struct SurfaceFit {
   int error_8 = -1;               ///< mean error of the known leaves around in 1/8 codes, 0..320; -1 when none is known
 };
 
-/// Expectation at `window.leaf[index]` from the known and guessed leaves up to sqrt(6) leaves away. IEEE double + - * / on whole
+/// Expectation at `window.leaf[index]` from the known and guessed leaves up to sqrt(5) leaves away. IEEE double + - * / on whole
 /// numbers in a fixed order, so every build gets the same bits (as the physics does).
 [[nodiscard]] SurfaceFit fit_surface(const FitWindow& window, int index) noexcept;
 
