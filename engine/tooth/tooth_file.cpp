@@ -1,36 +1,64 @@
-// Compact tooth file, version 1, little-endian:
-//   "CVTOOTH1"            8 bytes
-//   u64 body size         bytes of the body before compression
-//   u64 packed size       bytes that follow
-//   zstd frame            the body
+// Compact tooth file, version 2, little-endian:
+//   "CVTOOTH2"            8 bytes
+//   name, source          each u32 length + text
+//   tissue count u8, each tissue {u8 id, u8 solid, name}
+//   packed octree         see packed_octree.cpp
 //   SHA-256               32 bytes, over all of the above
-// Body: name, source (u32 length + text), tissue count u8, each tissue {u8 id, u8 solid, name}, then the
-// octree (Octree::write: leaf, origin, size, and three streams: shape, labels, distance differences).
+// Version 1 is read, too:
+//   "CVTOOTH1", u64 size of the body, u64 packed size, zstd frame of that size, SHA-256 as above
+//   with name, source and tissues as above in the body, then the octree as Octree::write writes it
 #include <zstd.h>
 
 #include <algorithm>
-#include <memory>
+#include <string_view>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
+#include "engine/tooth/packed_octree.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
 namespace {
 
-constexpr char k_magic[] = "CVTOOTH1";
-constexpr std::uint64_t k_largest_body = 1ULL << 31;
+constexpr std::string_view k_magic = "CVTOOTH2", k_magic_1 = "CVTOOTH1";
+constexpr std::uint64_t k_largest_body_1 = 1ULL << 31;
 
-void write_content(const Tooth& tooth, ByteWriter& out) {
+void write_tissues(const Tooth& tooth, ByteWriter& out) {
   out.put(static_cast<std::uint8_t>(tooth.tissues.size()));
   for (const auto& t : tooth.tissues) {
     out.put(t.id);
     out.put(static_cast<std::uint8_t>(t.solid));
     out.put_string(t.name);
   }
-  tooth.octree.write(out);
+}
+
+Tooth read_all_but_octree(ByteReader& in) {
+  Tooth tooth;
+  tooth.name = one_line(in.get_string());
+  tooth.source = one_line(in.get_string());
+  tooth.tissues.resize(in.get<std::uint8_t>());
+  for (auto& t : tooth.tissues) {
+    t.id = in.get<std::uint8_t>();
+    t.solid = in.get<std::uint8_t>() != 0;
+    t.name = in.get_string();
+    if (!is_plain_text(t.name)) in.fail("the name of tissue " + std::to_string(t.id) + " cannot be read");
+  }
+  return tooth;
+}
+
+Tooth read_body_1(ByteReader& in, const std::string& where) {
+  const auto body_size = in.get<std::uint64_t>();
+  const auto packed = in.get_bytes(in.get<std::uint64_t>());
+  if (body_size > k_largest_body_1) in.fail("the sizes in the header do not fit the file");
+  Bytes body(body_size);
+  const auto n = ZSTD_decompress(body.data(), body.size(), packed.data(), packed.size());
+  if (ZSTD_isError(n) || n != body_size) in.fail("the compressed data are damaged");
+  ByteReader from(body, where);
+  Tooth tooth = read_all_but_octree(from);
+  tooth.octree = Octree::read(from, tooth.tissues);
+  return tooth;
 }
 
 }  // namespace
@@ -49,52 +77,41 @@ std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
 }
 
 Bytes save_tooth(const Tooth& tooth) {
-  ByteWriter body;
-  body.put_string(tooth.name);
-  body.put_string(tooth.source);
-  write_content(tooth, body);
-  Bytes packed(ZSTD_compressBound(body.bytes().size()));
-  const auto n = ZSTD_compress(packed.data(), packed.size(), body.bytes().data(), body.bytes().size(), 19);
-  if (ZSTD_isError(n)) throw Error("tooth", ZSTD_getErrorName(n), "free some memory and try again");
   ByteWriter out;
-  for (const char* c = k_magic; *c != 0; ++c) out.put(*c);
-  out.put(static_cast<std::uint64_t>(body.bytes().size()));
-  out.put(static_cast<std::uint64_t>(n));
-  out.put_bytes(std::span(packed).first(n));
-  const Sha256 sum = sha256(out.bytes());
-  out.put_bytes(sum);
+  for (const char c : k_magic) out.put(c);
+  out.put_string(tooth.name);
+  out.put_string(tooth.source);
+  write_tissues(tooth, out);
+  ByteWriter canonical;
+  tooth.octree.write(canonical);
+  ByteReader from(canonical.bytes(), "tooth");
+  pack_octree(from, tooth.tissues, out);
+  out.put_bytes(sha256(out.bytes()));
   return out.take();
 }
 
 Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) {
-  ByteReader in(bytes, where);
-  const auto magic = in.get_bytes(std::min<std::size_t>(8, bytes.size()));
-  if (!std::equal(magic.begin(), magic.end(), k_magic, k_magic + 8))
-    throw Error(where, "not a Cavum tooth file of version 1", "make or import the tooth again with `cavum tooth`");
-  const auto body_size = in.get<std::uint64_t>();
-  const auto packed_size = in.get<std::uint64_t>();
-  if (body_size > k_largest_body || packed_size > in.left()) in.fail("the sizes in the header do not fit the file");
-  const auto packed = in.get_bytes(packed_size);
-  const auto sum = in.get_bytes(32);
-  if (in.left() != 0) in.fail("data after the end");
-  const Sha256 expected = sha256(bytes.first(bytes.size() - 32));
-  if (!std::equal(sum.begin(), sum.end(), expected.begin())) in.fail("the checksum does not match");
-  Bytes body(body_size);
-  const auto n = ZSTD_decompress(body.data(), body.size(), packed.data(), packed.size());
-  if (ZSTD_isError(n) || n != body_size) in.fail("the compressed data are damaged");
-
-  ByteReader from(body, where);
+  const auto begins_with = [&bytes](std::string_view magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+  };
+  const bool first_version = begins_with(k_magic_1);
+  if (!first_version && !begins_with(k_magic))
+    throw Error(where, "not a Cavum tooth file of version 1 or 2", "make or import the tooth again with `cavum tooth`");
+  if (bytes.size() < k_magic.size() + sizeof(Sha256)) throw Error(where, "the data end too early", "the file is incomplete: use an intact copy");
+  const auto signed_bytes = bytes.first(bytes.size() - sizeof(Sha256));
+  const Sha256 sum = sha256(signed_bytes);
+  ByteReader in(signed_bytes.subspan(k_magic.size()), where);
+  if (!std::equal(sum.begin(), sum.end(), bytes.begin() + static_cast<std::ptrdiff_t>(signed_bytes.size()))) in.fail("the checksum does not match");
   Tooth tooth;
-  tooth.name = one_line(from.get_string());
-  tooth.source = one_line(from.get_string());
-  tooth.tissues.resize(from.get<std::uint8_t>());
-  for (auto& t : tooth.tissues) {
-    t.id = from.get<std::uint8_t>();
-    t.solid = from.get<std::uint8_t>() != 0;
-    t.name = from.get_string();
-    if (!is_plain_text(t.name)) from.fail("the name of tissue " + std::to_string(t.id) + " cannot be read");
+  if (first_version) {
+    tooth = read_body_1(in, where);
+  } else {
+    tooth = read_all_but_octree(in);
+    const Bytes canonical = unpack_octree(in, tooth.tissues);
+    ByteReader from(canonical, where);
+    tooth.octree = Octree::read(from, tooth.tissues);
   }
-  tooth.octree = Octree::read(from, tooth.tissues);
+  if (in.left() != 0) in.fail("data after the end");
   return tooth;
 }
 
@@ -104,7 +121,8 @@ Tooth load_tooth_file(const std::string& path) { return load_tooth(read_file(pat
 
 std::string tooth_hash(const Tooth& tooth) {
   ByteWriter content;
-  write_content(tooth, content);
+  write_tissues(tooth, content);
+  tooth.octree.write(content);
   return to_hex(sha256(content.bytes()));
 }
 

@@ -135,42 +135,9 @@ TEST(Octree, MixesTheTissuesOfTheEightLeavesAroundAPlace) {
   }
 }
 
-TEST(ToothFile, SavesTheSameBytesAfterLoading) {
-  const Tooth tooth = small_block();
-  const Bytes once = save_tooth(tooth);
-  const Tooth again = load_tooth(once, "memory");
-  EXPECT_EQ(save_tooth(again), once);
-  EXPECT_EQ(tooth_hash(again), tooth_hash(tooth));
-  EXPECT_EQ(again.name, tooth.name);
-  EXPECT_EQ(again.tissues, tooth.tissues);
-  EXPECT_EQ(again.octree.to_grid().distance, tooth.octree.to_grid().distance);
-}
-
-TEST(ToothFile, EveryTruncationIsAnError) {
-  const Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
-  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
-}
-
-TEST(ToothFile, NamesThatCannotBeShownAreMadeReadableOrRefused) {
-  Tooth tooth = make_cube(0.5, "enamel", 0.1);
-  tooth.name = "z\xe4hne\n";
-  EXPECT_EQ(load_tooth(save_tooth(tooth), "t.cvt").name, "z?hne ");
-  tooth.tissues[0].name = "ena\xffmel";
-  EXPECT_NE(testing_basics::error_of([&] { (void)load_tooth(save_tooth(tooth), "t.cvt"); }).find("name of tissue 1"), std::string::npos);
-}
-
-TEST(ToothFile, EveryFlippedBitIsAnError) {
-  Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-    ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-  }
-}
-
-// Behind the checksum: an octree that was damaged before it was signed must still not crash the reader.
-TEST(ToothFile, DamagedOctreeBytesNeverCrash) {
-  Random random(testing_tooth::drawn_seed("ToothFile.DamagedOctreeBytesNeverCrash"));
+// An octree that was damaged before it was signed must still not crash the reader.
+TEST(Octree, DamagedBytesNeverCrash) {
+  Random random(testing_tooth::drawn_seed("Octree.DamagedBytesNeverCrash"));
   const Tooth tooth = small_block();
   ByteWriter out;
   tooth.octree.write(out);
