@@ -60,11 +60,12 @@ struct ShapeMeasures {
 struct PerforationEvent {
   std::int64_t tick = 0;       ///< onset of the drop
   std::int64_t seen_tick = 0;  ///< when the detector could say so
+  double sureness = 0.0;       ///< 0..1, of the detector; 0.5 = as likely as not
   Vec3 site_mm;                ///< tip
   double force_before_n = 0.0, force_after_n = 0.0;
   double advance_mm = 0.0;  ///< of the tip, against the force, while it dropped
   bool fault = false;       ///< by the place: outside target and leeway, or no aim in this scenario
-  bool confirmed = false;   ///< tissue of that kind was removed within 100 ms
+  bool confirmed = false;   ///< tissue of that kind was removed then
 };
 
 struct PerforationTruth {

@@ -121,6 +121,7 @@ Json to_json(const Result& r) {
                       {"site_mm", point(e.site_mm)},
                       {"force_before_n", rounded(e.force_before_n)},
                       {"force_after_n", rounded(e.force_after_n)},
+                      {"sureness", rounded(e.sureness)},
                       {"advance_mm", rounded(e.advance_mm)},
                       {"kind", e.fault ? "fault" : "aim"},
                       {"confirmed", e.confirmed}});
