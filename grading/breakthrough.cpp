@@ -228,6 +228,7 @@ std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, 
         if (!told && sure >= s.sure_from) {
           told = true;
           told_at = i;
+          if (advance < fall.advance_mm - s.gives_mm) spoilt = true;  // it is on its way back already
           const Vec3 came = f.tip_mm - before_mm, aside = came - direction * dot(came, direction);
           if (length(aside) > s.strays_mm + s.strays_share * std::max(0.0, -dot(came, direction))) spoilt = true;
           if (free_places.ahead(frames[at(onset)].tip_mm, f.tip_mm, s.near_air_mm, onset - count(0.2))) spoilt = true;

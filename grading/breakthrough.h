@@ -27,7 +27,8 @@ struct BreakthroughSettings {
   double level_memory_s = 1.6;     ///< the highest of those medians within this time is the level
   double longest_s = 1.2;          ///< a fall is watched for this long after it opened
   double give_way_mm = 0.11;       ///< a tip that goes back further than that against the push gives way
-  double confirm_s = 0.08;         ///< it must not give way so soon after the force is gone, either
+  double gives_mm = 0.06;          ///< nor may it have gone back by that much when the force is gone
+  double confirm_s = 0.03;         ///< it must not give way so soon after the force is gone, either
   double withdrawal_mm = 0.15;     ///< one that moves further than that towards the handle is withdrawn
   double slips_mm_s = 1.2;         ///< one that wanders sideways faster than that before the fall slips
   int bounces = 2;                 ///< one whose force fell that often in the 0.8 s before bounces
