@@ -54,6 +54,8 @@ struct ShapeMeasures {
   double bound_mm = 0.0;                                           ///< of every distance here
   std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
   double target_length_mm = 0.0, target_width_mm = 0.0, target_depth_mm = 0.0;
+  /// What is missing of the target's and what is too much, together: one does not make up for the other.
+  std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
 };
 
 /// A breakthrough seen in the force.
