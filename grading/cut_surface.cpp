@@ -201,11 +201,13 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   if (!of_cut.empty()) {
     m.length_mm = of_cut.length() * leaf_mm;
     m.width_mm = of_cut.width() * leaf_mm;
+  }
+  if (!of_common.empty()) {
     m.length_error_mm = (of_either.length() - of_common.length()) * leaf_mm;
     m.width_error_mm = (of_either.width() - of_common.width()) * leaf_mm;
   }
-  if (removed.count() > 0) {
-    m.depth_mm = zones.opening_z_mm() - deepest;
+  if (removed.count() > 0) m.depth_mm = zones.opening_z_mm() - deepest;
+  if (deepest_in_target < zones.target_high_mm().z) {
     m.depth_error_mm = std::max(target_bottom, std::min(zones.opening_z_mm(), deepest_in_target)) - std::min(deepest, target_bottom);
   }
   if (across > 0) m.taper_deg = atan_deg(up / across);

@@ -30,7 +30,7 @@ double wall_figure(const WallMeasures& w, const std::string& figure) {
 MetricValue worst_wall(const Result& r, std::size_t walls, const std::string& figure) {
   MetricValue worst{std::nullopt, r.shape.bound_mm};
   for (std::size_t w = 0; w < walls; ++w) {
-    if (r.shape.wall[w].samples == 0) continue;
+    if (r.shape.wall[w].samples == 0 && figure != "max_over_mm") continue;  // no overcut where nothing was cut
     const double v = wall_figure(r.shape.wall[w], figure);
     if (!worst.value || v > *worst.value) worst.value = v;
   }
@@ -48,7 +48,7 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
     for (const char* figure : {"mean_mm", "p95_mm", "max_over_mm", "max_under_mm"}) {
       if (metric != name + "_" + figure) continue;
       const WallMeasures& wall = r.shape.wall[w];
-      if (wall.samples == 0) return {std::nullopt, r.shape.bound_mm};
+      if (wall.samples == 0 && figure != std::string("max_over_mm")) return {std::nullopt, r.shape.bound_mm};
       return {wall_figure(wall, figure), r.shape.bound_mm};
     }
   }

@@ -8,9 +8,9 @@
 namespace cavum {
 namespace {
 
-/// Half a step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut exactly along the target's
+/// A step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut exactly along the target's
 /// surface removes all of the target.
-constexpr double k_half_code = 0.5 * k_distance_band_leaves / k_distance_far;
+constexpr double k_code = k_distance_band_leaves / k_distance_far;
 
 LeafParts whole(double share) {
   LeafParts parts;
@@ -148,9 +148,12 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
     const std::uint8_t held = before.tissue(leaf);
     if (held == k_air) return;
     const LeafParts in = late || d < -reach_mm ? whole(1.0) : shares.within(leaf, 0);
-    const double share = sum(in), left = share - sum_of_both(in, shares.removed(leaf, held));
+    const double share = sum(in);
+    if (share < k_code) return;
+    const double left = share - sum_of_both(in, shares.removed(leaf, held));
     target += share;
-    if (left < k_half_code) return;
+    v.target_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += share * leaf_mm3;
+    if (left < k_code) return;
     missed.leaves += left;
     v.missed_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += left * leaf_mm3;
     bool edge = left < 1;

@@ -57,9 +57,9 @@ double meet(double a, double b) { return a > 0 && b > 0 ? std::sqrt(a * a + b * 
 /// A cavity: what is cut, and the closed forms of what grading must find.
 struct Known {
   std::string target_toml;
-  std::function<double(Vec3)> cut;                 // signed distance
-  double target_mm3 = 0, removed_mm3 = 0;          // below z = 0
-  double sides_mm = 0, floor_mm = 0, furthest_mm = 0;  // overcut
+  std::function<double(Vec3)> cut;                      // signed distance
+  double target_mm3 = 0, removed_mm3 = 0;               // below z = 0
+  double sides_mm = 0, floor_mm = 0, furthest_mm = 0;   // overcut
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0;  // outline at z = 0
   double depth_mm = 0, taper_deg = 0;
   bool upright = false;
@@ -78,7 +78,8 @@ void outline_from(Known& k, const std::vector<Vec3>& points) {
 /// Where the line through two points meets the block's top.
 Vec3 at_top(Vec3 a, Vec3 b) { return a + (b - a) * (a.z / (a.z - b.z)); }
 
-/// Cylinder (slope 0) and cone: radius `r` at the lower face, growing by `slope` per mm. The cut is wider by `s` and deeper by `f`, perpendicular to the surface.
+/// Cylinder (slope 0) and cone: radius `r` at the lower face, growing by `slope` per mm. The cut is wider by `s` and deeper by `f`, perpendicular to
+/// the surface.
 Known round_body(Random& random, double most_tilt, double slope) {
   Known k;
   const double depth = random.uniform(1.8, 2.8), r = random.uniform(1.1, 1.5), s = random.uniform(0.02, 0.18), f = random.uniform(0.02, 0.18);
@@ -114,7 +115,8 @@ Known round_body(Random& random, double most_tilt, double slope) {
   std::vector<Vec3> rim;
   for (int i = 0; i < 7200; ++i) {
     const double a = i * k_pi_here / 3600, big = r + wider + slope * k_top;
-    rim.push_back(at_top(pose.world({(r + wider) * std::cos(a), (r + wider) * std::sin(a), 0}), pose.world({big * std::cos(a), big * std::sin(a), k_top})));
+    rim.push_back(
+        at_top(pose.world({(r + wider) * std::cos(a), (r + wider) * std::sin(a), 0}), pose.world({big * std::cos(a), big * std::sin(a), k_top})));
   }
   outline_from(k, rim);
   double lowest = 0;
@@ -243,8 +245,8 @@ void run(const char* name, const std::function<Known(Random&, bool upright)>& ma
     const bool upright = pose % 2 == 0;
     compare(make(random, upright), worst, std::string(name) + ", pose " + std::to_string(pose) + ", seed " + std::to_string(seed));
   }
-  std::printf("%-8s %d poses, largest errors: volume %.3f %% (%.2f of its bound), wall %.4f mm, outline %.4f mm, depth %.4f mm, taper %.3f deg\n", name,
-              k_poses, worst.volume_percent, worst.of_volume_bound, worst.wall_mm, worst.outline_mm, worst.depth_mm, worst.taper_deg);
+  std::printf("%-8s %d poses, largest errors: volume %.3f %% (%.2f of its bound), wall %.4f mm, outline %.4f mm, depth %.4f mm, taper %.3f deg\n",
+              name, k_poses, worst.volume_percent, worst.of_volume_bound, worst.wall_mm, worst.outline_mm, worst.depth_mm, worst.taper_deg);
 }
 
 TEST(KnownGeometry, CylinderAtRandomPoses) {
