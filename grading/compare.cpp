@@ -25,7 +25,9 @@ auto* find(List& list, const std::string& id) {
 }
 
 void changes_of_spec(const CriterionSpec& a, const CriterionSpec& b, std::vector<std::string>& why) {
-  const auto say = [&](const char* what, const std::string& from, const std::string& to) { why.push_back(std::string(what) + " " + from + " -> " + to); };
+  const auto say = [&](const char* what, const std::string& from, const std::string& to) {
+    why.push_back(std::string(what) + " " + from + " -> " + to);
+  };
   if (a.metric != b.metric) say("metric", a.metric, b.metric);
   if (!same(a.full, b.full)) say("full marks at", number(a.full), number(b.full));
   if (!same(a.zero, b.zero)) say("no marks at", number(a.zero), number(b.zero));
@@ -38,7 +40,9 @@ void changes_of_spec(const CriterionSpec& a, const CriterionSpec& b, std::vector
 
 std::optional<OldResult> read_old_result(const std::string& json_text) {
   const Json j = Json::parse(json_text, nullptr, false);
-  const auto number_of = [](const Json& from, const char* name) { return from.contains(name) && from[name].is_number() ? from[name].get<double>() : 0.0; };
+  const auto number_of = [](const Json& from, const char* name) {
+    return from.contains(name) && from[name].is_number() ? from[name].get<double>() : 0.0;
+  };
   if (!j.is_object() || !j.contains("verdict") || !j["verdict"].is_string() || !j.contains("score") || !j["score"].is_object()) return {};
   OldResult r;
   r.verdict = j["verdict"].get<std::string>();
@@ -135,7 +139,9 @@ std::string to_text(const Comparison& c) {
     s.resize(std::max(width, s.size() + 1), ' ');
     return s;
   };
-  const auto points = [&](const std::optional<double>& p, const std::optional<double>& max) { return p ? fixed(*p, 1) + " / " + fixed(*max, 1) : "-"; };
+  const auto points = [&](const std::optional<double>& p, const std::optional<double>& max) {
+    return p ? fixed(*p, 1) + " / " + fixed(*max, 1) : "-";
+  };
   std::string s = cell("", 20) + cell("old", 16) + cell("new", 16) + cell("change", 10) + "what changed\n";
   s += "  " + cell("verdict", 18) + cell(c.before.verdict, 16) + cell(c.verdict, 16) + cell("", 10);
   for (std::size_t i = 0; i < c.rules.size(); ++i) s += (i > 0 ? "; " : "") + c.rules[i];

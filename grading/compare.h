@@ -43,10 +43,11 @@ struct Comparison {
 
 /// `again` is the session graded by this program with its own scenario and rubric: what differs between it and the sealed
 /// result comes from the program, the rest from the new rubric or scenario.
-[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now, const RubricSpec& new_rubric);
+[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now,
+                                 const RubricSpec& new_rubric);
 
-/// {old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit, difference,
-/// changed[]}, rules[]}
+/// {old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit,
+/// difference, changed[]}, rules[]}
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] std::string to_text(const Comparison& comparison);
 

@@ -70,7 +70,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   out.points = c.points * share * out.work_share + 0.0;  // never -0
   out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
   if (share >= 1.0 && !out.critical_failed) {
-    out.reason = "full marks";
+    out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
   } else {
     const Loss loss = loss_of(r, c.metric);
     out.first = loss.first;

@@ -41,6 +41,14 @@ class RemovedMap {
       return first;
     }
 
+    [[nodiscard]] bool seen(IVec3 leaf) const noexcept {
+      const IVec3 l = leaf - low_;
+      if (l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return false;
+      return seen_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
+                       static_cast<std::size_t>(size_.x) +
+                   static_cast<std::size_t>(l.x)] != 0;
+    }
+
    private:
     IVec3 low_, size_;
     std::vector<std::uint8_t> seen_;

@@ -12,11 +12,14 @@ namespace {
 /// surface removes all of the target.
 constexpr double k_code = k_distance_band_leaves / k_distance_far;
 
-LeafParts whole(double share) {
-  LeafParts parts;
-  parts.fill(share);
-  return parts;
-}
+/// How much of a leaf, 0..1: all of it or nothing, or part by part.
+struct Share {
+  bool all_or_nothing = true;
+  bool all = false;
+  LeafParts parts;  // otherwise
+  explicit Share(bool is_all) : all(is_all) {}
+  explicit Share(const LeafParts& p) : all_or_nothing(false), parts(p) {}
+};
 
 /// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
 class Shares {
@@ -24,25 +27,25 @@ class Shares {
   Shares(const GradeInput& input, const RemovedMap& removed, bool by_parts)
       : input_(input), removed_(removed), leaf_mm_(input.zones.leaf_mm()), by_parts_(by_parts) {}
 
-  [[nodiscard]] LeafParts removed(IVec3 leaf, std::uint8_t tissue) const {
+  [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
     const bool gone = removed_.has(leaf);
-    if (!by_parts_ || !input_.before.octree.is_solid(tissue)) return whole(gone ? 1.0 : 0.0);
+    if (!by_parts_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
     const double centre = decode_distance(input_.after.distance_code(leaf));
-    if (gone ? centre > k_parts_reach_leaves : centre < -k_parts_reach_leaves) return whole(gone ? 1.0 : 0.0);
+    if (gone ? centre > k_parts_reach_leaves : centre < -k_parts_reach_leaves) return Share(gone);
     LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
     for (double& p : parts) p = share_beyond(p);
-    if (gone) return parts;
+    if (gone) return Share(parts);
     const LeafParts before = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l)); });
     for (std::size_t i = 0; i < k_parts; ++i) parts[i] = std::min(parts[i], share_beyond(-before[i]));
-    return parts;
+    return Share(parts);
   }
   /// Part of the leaf that lies nearer to the target than `level_mm`, or inside it.
-  [[nodiscard]] LeafParts within(IVec3 leaf, double level_mm) const {
+  [[nodiscard]] Share within(IVec3 leaf, double level_mm) const {
     const double centre = (level_mm - input_.zones.distance_mm(leaf)) / leaf_mm_;
-    if (std::fabs(centre) > k_parts_reach_leaves) return whole(centre > 0 ? 1.0 : 0.0);
+    if (std::fabs(centre) > k_parts_reach_leaves) return Share(centre > 0);
     LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
     for (double& p : parts) p = share_beyond(p);
-    return parts;
+    return Share(parts);
   }
 
  private:
@@ -52,14 +55,17 @@ class Shares {
   bool by_parts_;
 };
 
-double sum(const LeafParts& parts) {
+double sum(const Share& share) {
+  if (share.all_or_nothing) return share.all ? 1.0 : 0.0;
   double s = 0;
-  for (const double p : parts) s += p;
+  for (const double p : share.parts) s += p;
   return s / k_parts;
 }
-double sum_of_both(const LeafParts& a, const LeafParts& b) {
+double sum_of_both(const Share& a, const Share& b) {
+  if (a.all_or_nothing) return a.all ? sum(b) : 0.0;
+  if (b.all_or_nothing) return b.all ? sum(a) : 0.0;
   double s = 0;
-  for (std::size_t i = 0; i < k_parts; ++i) s += std::min(a[i], b[i]);
+  for (std::size_t i = 0; i < k_parts; ++i) s += std::min(a.parts[i], b.parts[i]);
   return s / k_parts;
 }
 
@@ -83,7 +89,7 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
   Count all;
 
   const auto add = [&](IVec3 leaf, std::uint8_t held, bool edge, std::int64_t tick) {
-    const LeafParts gone = shares.removed(leaf, held);
+    const Share gone = shares.removed(leaf, held);
     const double total = sum(gone);
     if (!(total > 0)) return;
     all.leaves += total;
@@ -145,12 +151,12 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
   zones.for_each_leaf([&](IVec3 leaf, Zone z) {
     const double d = zones.distance_mm(leaf);
     if (z != Zone::target && (late || d > reach_mm)) return;
-    const std::uint8_t held = before.tissue(leaf);
-    if (held == k_air) return;
-    const LeafParts in = late || d < -reach_mm ? whole(1.0) : shares.within(leaf, 0);
+    if (z != Zone::target && before.tissue(leaf) == k_air) return;
+    const Share in = late || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
     const double share = sum(in);
     if (share < k_code) return;
-    const double left = share - sum_of_both(in, shares.removed(leaf, held));
+    const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
+    const double left = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
     target += share;
     v.target_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += share * leaf_mm3;
     if (left < k_code) return;

@@ -97,7 +97,8 @@ void Finder::removed_leaves(const std::function<bool(const RemovedAt&)>& counts,
     item.unit = "mm3";
     const auto wall = static_cast<std::size_t>(in_.zones.wall(m.at));
     const Zone zone = in_.zones.zone(m.at);
-    item.what = "removed, at the furthest " + fixed(std::max(0.0, m.furthest), 2) + " mm beyond the target at " + wall_text(wall) + " (" + zone_name(zone) + ")";
+    item.what = "removed, at the furthest " + fixed(std::max(0.0, m.furthest), 2) + " mm beyond the target at " + wall_text(wall) + " (" +
+                zone_name(zone) + ")";
     if (as_volume) {
       const double now = before + static_cast<double>(m.leaves) * scale;
       item.points_lost = points_at(before) - points_at(now);
@@ -129,9 +130,8 @@ void Finder::missed() {
     Trace last;
   };
   std::array<Part, k_walls + 1> parts;
-  std::vector<std::uint8_t> gone(static_cast<std::size_t>(in_.zones.size().x) * static_cast<std::size_t>(in_.zones.size().y) *
-                                     static_cast<std::size_t>(in_.zones.size().z),
-                                 0);
+  std::vector<std::uint8_t> gone(
+      static_cast<std::size_t>(in_.zones.size().x) * static_cast<std::size_t>(in_.zones.size().y) * static_cast<std::size_t>(in_.zones.size().z), 0);
   const auto index = [&](IVec3 leaf) {
     const IVec3 l = leaf - in_.zones.low(), n = in_.zones.size();
     return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(n.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(n.x) +
@@ -333,7 +333,8 @@ void Finder::find() {
   if (m == "force_peak_n" || m == "force_mean_n" || m == "force_over_limit_s") {
     const double above = m == "force_over_limit_s" ? in_.scenario.force_limit_n : spec_.full;
     if (r_.motion.force_peak.tick >= 0) fact("pressed hardest", r_.motion.force_peak_n, "N", r_.motion.force_peak);
-    return ticks_where([&](std::int64_t i) { return force_n(record(i)) > above; }, k_moment_gap_ticks, "pressed with more than " + fixed(above, 2) + " N", true);
+    return ticks_where([&](std::int64_t i) { return force_n(record(i)) > above; }, k_moment_gap_ticks,
+                       "pressed with more than " + fixed(above, 2) + " N", true);
   }
   if (m == "handpiece_time_s")
     return ticks_where([&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, "the handpiece turned for", false);
@@ -402,8 +403,8 @@ Json to_json(const Why& w) {
 
 std::string to_text(const Why& w) {
   const auto& c = w.criterion;
-  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) + " lost\n  " +
-                  c.reason + "\n";
+  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
+                  " lost\n  " + c.reason + "\n";
   if (!w.items.empty()) s += "\n";
   for (const auto& i : w.items) {
     std::string time;
