@@ -27,17 +27,69 @@ struct Sample {
   Vec3 place;
 };
 
-/// Smallest and largest coordinate of a set of columns, in leaf faces.
+/// Smallest and largest x and y of an area, in leaves from the tooth's corner.
 struct Extent {
-  int low_x = 1 << 20, high_x = -1, low_y = 1 << 20, high_y = -1;
-  void add(int x, int y) {
-    low_x = std::min(low_x, x);
-    high_x = std::max(high_x, x + 1);
-    low_y = std::min(low_y, y);
-    high_y = std::max(high_y, y + 1);
-  }
-  [[nodiscard]] bool empty() const { return high_x < 0; }
+  double low_x = 1e9, high_x = -1e9, low_y = 1e9, high_y = -1e9;
+  [[nodiscard]] bool empty() const { return high_x < low_x; }
+  [[nodiscard]] double length() const { return empty() ? 0.0 : high_x - low_x; }
+  [[nodiscard]] double width() const { return empty() ? 0.0 : high_y - low_y; }
 };
+
+/// How far inside an area each column's topmost leaf lies (leaves, negative outside), over a box of columns.
+struct TopArea {
+  int x0, y0, nx, ny;
+  std::vector<double> inside;       // x fastest
+  std::vector<std::uint8_t> tooth;  // 1 where the column holds tooth
+  [[nodiscard]] std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
+  }
+};
+
+/// The furthest of a border known on parallel lines one apart. Between two lines it may run up to a corner: where the straight
+/// continuations from both sides meet, but half a leaf beyond the lines at most.
+double furthest(const std::vector<double>& border) {
+  constexpr double k_none = -1e9;
+  double best = k_none;
+  const auto n = border.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    best = std::max(best, border[i]);
+    if (i == 0 || i + 2 >= n || std::min({border[i - 1], border[i], border[i + 1], border[i + 2]}) == k_none) continue;
+    const double rise = border[i] - border[i - 1], fall = border[i + 1] - border[i + 2];
+    if (!(rise + fall > 0)) continue;
+    const double at = (border[i + 1] - border[i] + fall) / (rise + fall);  // from line i on
+    if (at > 0 && at < 1) best = std::max(best, std::min(border[i] + rise * at, std::max(border[i], border[i + 1]) + 0.5));
+  }
+  return best;
+}
+
+/// Where the area's border crosses the rows and files of the columns' centres: interpolated along them, at the leaf's face beside the tooth.
+Extent extent_of(const TopArea& area) {
+  Extent e;
+  const auto along = [&](int n, int lines, auto index, double first, double& low, double& high) {
+    std::vector<double> lows(static_cast<std::size_t>(lines), -1e9), highs = lows;  // lows with their sign turned
+    for (int line = 0; line < lines; ++line)
+      for (int i = 0; i < n; ++i) {
+        const double v = area.inside[index(i, line)];
+        if (area.tooth[index(i, line)] == 0 || !(v > 0)) continue;
+        const auto reach = [&](int to) {
+          if (to < 0 || to >= n || area.tooth[index(to, line)] == 0) return 0.5;
+          const double w = area.inside[index(to, line)];
+          return w > 0 ? 0.0 : v / (v - w);
+        };
+        auto& l = lows[static_cast<std::size_t>(line)];
+        auto& h = highs[static_cast<std::size_t>(line)];
+        l = std::max(l, -(first + i + 0.5 - reach(i - 1)));
+        h = std::max(h, first + i + 0.5 + reach(i + 1));
+      }
+    low = -furthest(lows);
+    high = furthest(highs);
+  };
+  along(
+      area.nx, area.ny, [&](int i, int line) { return area.at(i, line); }, area.x0, e.low_x, e.high_x);
+  along(
+      area.ny, area.nx, [&](int i, int line) { return area.at(line, i); }, area.y0, e.low_y, e.high_y);
+  return e;
+}
 
 WallMeasures summary(std::vector<Sample>& samples) {
   WallMeasures w;
@@ -67,15 +119,27 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   m.bound_mm = leaf_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
   Octree::Cursor cursor;
   std::array<std::vector<Sample>, k_walls> samples;
-  double lowest = 1e9, up = 0, across = 0;
-  const ColumnMap surface = surface_relief(input.before);
-  Extent cut, target;
+  std::array<Sample, k_walls> furthest{};
+  double deepest = 1e9, deepest_in_target = 1e9, up = 0, across = 0;
+  // distances in leaves, on the right side of the surface even where a code says otherwise
+  const auto gone_by = [&](IVec3 leaf) { return std::max(decode_distance(after.distance_code(leaf)), 0.01); };
+  const auto stays_by = [&](IVec3 leaf) { return std::max(-decode_distance(after.distance_code(leaf)), 0.01); };
+  IVec3 low{1 << 20, 1 << 20, 0}, high{-1, -1, 0};
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
     const Vec3 centre = zones.centre_mm(leaf);
-    if (leaf.z == top_leaf(surface, before, leaf.x, leaf.y)) cut.add(leaf.x, leaf.y);
-    lowest = std::min(lowest, centre.z - 0.5 * leaf_mm);
+    low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), 0};
+    high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), 0};
+    const IVec3 under = leaf + IVec3{0, 0, -1};
+    const double down = after.is_solid(after.tissue(under)) ? gone_by(leaf) / (gone_by(leaf) + stays_by(under)) : 0.5;
+    deepest = std::min(deepest, centre.z - down * leaf_mm);
+    if (zones.zone(leaf) == Zone::target) deepest_in_target = std::min(deepest_in_target, centre.z - down * leaf_mm);
+    const bool was_solid = before.is_solid(r.leaf.tissue);
+    const Wall towards = zones.wall(leaf);
+    if (const double beyond = zones.distance_mm(leaf);
+        was_solid && towards != Wall::opening && beyond > furthest[static_cast<std::size_t>(towards)].deviation_mm)
+      furthest[static_cast<std::size_t>(towards)] = {beyond, r.tick, centre};
     bool beside_solid = false;
     for (const IVec3 step : k_six_neighbours) beside_solid = beside_solid || after.is_solid(after.tissue(leaf + step));
     if (!beside_solid) continue;
@@ -84,7 +148,7 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
     const Vec3 normal = steep > 0.1 ? s.gradient / steep : Vec3{0, 0, 0};  // out of the solid, into the cavity
     const Vec3 place = centre - normal * std::clamp(s.distance_mm, -leaf_mm, leaf_mm);
     const double deviation = zones.distance_mm(place);
-    if (!before.is_solid(r.leaf.tissue) && deviation > 0) continue;
+    if (!was_solid && deviation > 0) continue;
     const Wall wall = zones.wall(zones.in_box(before.leaf_at(place)) ? before.leaf_at(place) : leaf);
     if (wall == Wall::opening) continue;
     samples[static_cast<std::size_t>(wall)].push_back({deviation, r.tick, place});
@@ -93,20 +157,59 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
       across += std::sqrt(normal.x * normal.x + normal.y * normal.y);
     }
   }
-  for (std::size_t w = 0; w < k_walls; ++w) m.wall[w] = summary(samples[w]);
-  zones.for_each_target_leaf([&](IVec3 leaf) {
-    if (leaf.z == top_leaf(surface, before, leaf.x, leaf.y)) target.add(leaf.x, leaf.y);
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    m.wall[w] = summary(samples[w]);
+    // where the whole wall is gone, no surface is left to tell how far it went
+    if (furthest[w].deviation_mm <= m.wall[w].max_over_mm) continue;
+    m.wall[w].max_over_mm = furthest[w].deviation_mm;
+    m.wall[w].worst_over = {furthest[w].tick, furthest[w].place};
+  }
+
+  const ColumnMap surface = surface_relief(input.before);
+  TopArea cut, target;
+  double target_bottom = zones.target_high_mm().z;
+  zones.for_each_leaf([&](IVec3 leaf, Zone z) {
+    if (z != Zone::target) return;
+    low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), 0};
+    high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), 0};
+    const double inside = std::max(-zones.distance_mm(leaf), 0.01 * leaf_mm), below = zones.distance_mm(leaf + IVec3{0, 0, -1});
+    const double down = below < 0 ? 1.0 : inside / (inside + below);
+    target_bottom = std::min(target_bottom, zones.centre_mm(leaf).z - down * leaf_mm);
   });
-  if (!target.empty()) {
-    m.target_length_mm = (target.high_x - target.low_x) * leaf_mm;
-    m.target_width_mm = (target.high_y - target.low_y) * leaf_mm;
+  cut.x0 = target.x0 = low.x - 1;
+  cut.y0 = target.y0 = low.y - 1;
+  cut.nx = target.nx = high.x - low.x + 3;
+  cut.ny = target.ny = high.y - low.y + 3;
+  TopArea common = cut, either = cut;
+  for (int y = 0; y < cut.ny; ++y)
+    for (int x = 0; x < cut.nx; ++x) {
+      const int top = top_leaf(surface, before, cut.x0 + x, cut.y0 + y);
+      const IVec3 leaf{cut.x0 + x, cut.y0 + y, top};
+      const double in_cut = top < 0 ? -1.0 : removed.has(leaf) ? gone_by(leaf) : -stays_by(leaf);
+      const double in_target = top < 0 ? -1.0 : -zones.distance_mm(leaf) / leaf_mm;
+      cut.inside.push_back(in_cut);
+      target.inside.push_back(in_target);
+      common.inside.push_back(std::min(in_cut, in_target));
+      either.inside.push_back(std::max(in_cut, in_target));
+      cut.tooth.push_back(top < 0 ? 0 : 1);
+    }
+  target.tooth = common.tooth = either.tooth = cut.tooth;
+  const Extent of_cut = extent_of(cut), of_target = extent_of(target), of_common = extent_of(common), of_either = extent_of(either);
+  m.target_length_mm = of_target.length() * leaf_mm;
+  m.target_width_mm = of_target.width() * leaf_mm;
+  m.target_depth_mm = zones.opening_z_mm() - target_bottom;
+  if (!of_cut.empty()) {
+    m.length_mm = of_cut.length() * leaf_mm;
+    m.width_mm = of_cut.width() * leaf_mm;
   }
-  m.target_depth_mm = zones.opening_z_mm() - zones.target_low_mm().z;
-  if (!cut.empty()) {
-    m.length_mm = (cut.high_x - cut.low_x) * leaf_mm;
-    m.width_mm = (cut.high_y - cut.low_y) * leaf_mm;
+  if (!of_common.empty()) {
+    m.length_error_mm = (of_either.length() - of_common.length()) * leaf_mm;
+    m.width_error_mm = (of_either.width() - of_common.width()) * leaf_mm;
   }
-  if (removed.count() > 0) m.depth_mm = zones.opening_z_mm() - lowest;
+  if (removed.count() > 0) m.depth_mm = zones.opening_z_mm() - deepest;
+  if (deepest_in_target < zones.target_high_mm().z) {
+    m.depth_error_mm = std::max(target_bottom, std::min(zones.opening_z_mm(), deepest_in_target)) - std::min(deepest, target_bottom);
+  }
   if (across > 0) m.taper_deg = atan_deg(up / across);
   return m;
 }

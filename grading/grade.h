@@ -35,6 +35,10 @@ struct MetricValue {
 };
 [[nodiscard]] MetricValue metric_value(const Result& measured, const std::string& metric);
 
+/// What was not done cannot be done well: the points of a criterion that judges care (everything that an untouched tooth would
+/// do best in) count in proportion until this much of the target was removed; for a wall, of the target towards it.
+inline constexpr double k_care_counts_percent = 50.0;
+
 /// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
 void mark(Result& result, const RubricSpec& rubric);
 

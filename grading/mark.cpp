@@ -3,120 +3,48 @@
 
 #include "engine/base/text.h"
 #include "grading/grade.h"
+#include "grading/loss.h"
 #include "scenarios/names.h"
 
 namespace cavum {
 namespace {
 
-std::string when(const Trace& t) { return fixed(t.t_s(), 2) + " s (tick " + std::to_string(t.tick) + ")"; }
-std::string place(Vec3 p) { return "[" + fixed(p.x, 2) + ", " + fixed(p.y, 2) + ", " + fixed(p.z, 2) + "] mm"; }
-
-std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
-  return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) - by_wall.begin());
+/// Metrics that an untouched tooth does badly in of itself: they measure the work, not the care taken with it.
+bool measures_work(const std::string& metric) {
+  for (const char* name : {"target_removed_percent", "missed_mm3", "dice", "steps_completed", "outline_width_mm", "outline_length_mm",
+                           "outline_width_error_mm", "outline_length_error_mm", "depth_mm", "depth_error_mm"})
+    if (metric == name) return true;
+  return false;
 }
 
-std::string wall_text(std::size_t wall) {
-  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal opening"
-         : wall == static_cast<std::size_t>(Wall::floor) ? "the floor"
-                                                         : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
-}
-
-struct Loss {
-  std::string text;
-  Trace first;
+struct Work {
+  double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
+  std::string where;
+  [[nodiscard]] double share() const { return std::min(1.0, percent / k_care_counts_percent); }
 };
 
-Loss missed_target(const Result& r) {
-  const auto w = largest(r.volumes.missed_by_wall_mm3);
-  return {fixed(r.volumes.missed.mm3, 2) + " mm3 of the target left standing, most of it towards " + wall_text(w) + " (" +
-              fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
-          {}};
-}
-
-Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
-  Loss loss;
-  double most = 0;
-  std::size_t wall = 0;
-  Zone worst = *zones.begin();
-  double sum = 0;
-  for (const Zone z : zones) {
-    const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
-    sum += v.removed.mm3;
-    const auto w = largest(v.by_wall_mm3);
-    if (v.by_wall_mm3[w] > most) {
-      most = v.by_wall_mm3[w];
-      wall = w;
-      worst = z;
+/// How much of the work was done that a criterion judges the care of.
+Work work_done(const Result& r, const std::string& metric) {
+  const auto towards = [&](std::size_t first, std::size_t end, const std::string& where) -> Work {
+    double all = 0, missed = 0;
+    for (std::size_t w = first; w < end; ++w) {
+      all += r.volumes.target_by_wall_mm3[w];
+      missed += r.volumes.missed_by_wall_mm3[w];
     }
-    if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
-  }
-  loss.text = fixed(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) +
-              " at " + wall_text(wall) + " (" + fixed(most, 2) + " mm3)";
-  if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
-  return loss;
-}
-
-Loss at_walls(const Result& r, std::size_t first, std::size_t end, bool over) {
-  std::size_t worst = end;
-  for (std::size_t w = first; w < end; ++w) {
-    const WallMeasures& m = r.shape.wall[w];
-    if (m.samples == 0) continue;
-    const auto size = [&](std::size_t i) { return over ? r.shape.wall[i].max_over_mm : r.shape.wall[i].max_under_mm; };
-    if (worst == end || size(w) > size(worst)) worst = w;
-  }
-  if (worst == end) return {"no cut surface there", {}};
-  const WallMeasures& m = r.shape.wall[worst];
-  const Trace& t = over ? m.worst_over : m.worst_under;
-  Loss loss{{}, t};
-  loss.text = over ? wall_text(worst) + " overcut by up to " + fixed(m.max_over_mm, 2) + " mm"
-                   : wall_text(worst) + " left up to " + fixed(m.max_under_mm, 2) + " mm thick";
-  if (t.tick >= 0) loss.text += ", at " + place(t.site_mm) + ", cut at " + when(t);
-  return loss;
-}
-
-Loss loss_of(const Result& r, const std::string& metric) {
-  if (metric == "target_removed_percent" || metric == "missed_mm3") return missed_target(r);
-  if (metric == "dice") {
-    Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
-    return {missed_target(r).text + "; beyond the target " + over.text, over.first};
-  }
-  if (metric == "outside_mm3") return removed_in(r, {Zone::none});
-  if (metric == "protected_mm3") return removed_in(r, {Zone::protected_});
-  if (metric == "leeway_sides_mm3") return removed_in(r, {Zone::leeway_sides});
-  if (metric == "leeway_bottom_mm3") return removed_in(r, {Zone::leeway_bottom});
-  if (metric == "container_sides_mm3") return removed_in(r, {Zone::container_sides});
-  if (metric == "container_bottom_mm3") return removed_in(r, {Zone::container_bottom});
-  if (metric == "container_mm3") return removed_in(r, {Zone::container_sides, Zone::container_bottom});
-  if (metric == "overcut_mm3") return removed_in(r, {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
-  const bool under = metric.find("under") != std::string::npos;
-  if (metric.rfind("side_walls_", 0) == 0) return at_walls(r, 0, 4, !under);
-  if (metric.rfind("walls_", 0) == 0) return at_walls(r, 0, k_walls, !under);
+    if (all > 0) return {100 * (1 - missed / all), where};
+    return {r.volumes.target.mm3 > 0 ? r.volumes.target_removed_percent : 100.0, ""};
+  };
+  if (measures_work(metric)) return {};
+  if (metric.rfind("side_walls_", 0) == 0) return towards(0, 4, " towards the side walls");
   for (std::size_t w = 0; w < k_walls; ++w)
-    if (metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return at_walls(r, w, w + 1, !under);
-  if (metric == "perforated" || metric == "perforation_volume_mm3") {
-    const PerforationTruth& t = r.perforation.fault;
-    if (!t.perforated) return {"no faulty breakthrough", {}};
-    return {t.tissue + " touched at " + when(t.first) + " at " + place(t.first.site_mm) + ", " + fixed(t.volume_mm3, 3) + " mm3 in all", t.first};
-  }
-  if (metric == "perforation_events") {
-    for (const auto& e : r.perforation.events)
-      if (e.fault) return {"a drop in force from " + fixed(e.force_before_n, 2) + " N at " + when({e.tick, e.site_mm}), {e.tick, e.site_mm}};
-    return {"no faulty breakthrough seen in the force", {}};
-  }
-  if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
-  if (metric == "force_peak_n")
-    return {"pressed hardest at " + when(r.motion.force_peak) + " at " + place(r.motion.force_peak.site_mm), r.motion.force_peak};
-  if (metric == "force_over_limit_s" && r.motion.first_over_limit.tick >= 0)
-    return {"above the limit first at " + when(r.motion.first_over_limit), r.motion.first_over_limit};
-  if (metric == "violations" && r.progress.first_violation.tick >= 0)
-    return {"first at " + when(r.progress.first_violation), r.progress.first_violation};
-  if (metric == "depth_error_mm" && r.shape.depth_mm)
-    return {"depth " + fixed(*r.shape.depth_mm, 2) + " mm instead of " + fixed(r.shape.target_depth_mm, 2) + " mm", {}};
-  if (metric == "outline_width_error_mm" && r.shape.width_mm)
-    return {"width " + fixed(*r.shape.width_mm, 2) + " mm instead of " + fixed(r.shape.target_width_mm, 2) + " mm", {}};
-  if (metric == "outline_length_error_mm" && r.shape.length_mm)
-    return {"length " + fixed(*r.shape.length_mm, 2) + " mm instead of " + fixed(r.shape.target_length_mm, 2) + " mm", {}};
-  return {};
+    if (metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return towards(w, w + 1, " towards " + wall_text(w));
+  return towards(0, k_walls + 1, "");
+}
+
+/// The question whether something was broken into that must not be: what force and tissue may disagree on.
+bool asks_for_perforation(const Result& r, const std::string& metric) {
+  return metric == "perforated" || metric == "perforation_volume_mm3" || metric == "perforation_events" ||
+         (r.perforation.fault.perforated && metric == "touched_" + r.perforation.fault.tissue + "_mm3");
 }
 
 CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
@@ -127,6 +55,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   out.unit = std::string(metric_unit(c.metric));
   if (out.unit.empty() && c.metric.ends_with("_mm3")) out.unit = "mm3";
   out.max = c.points;
+  out.doubtful = !r.perforation.agree() && asks_for_perforation(r, c.metric);
   const MetricValue v = metric_value(r, c.metric);
   out.value = v.value;
   out.bound = v.bound;
@@ -135,19 +64,48 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
     out.critical_failed = c.critical_below.has_value();
     return out;
   }
+  const Work work = work_done(r, c.metric);
   const double share = std::clamp((*v.value - c.zero) / (c.full - c.zero), 0.0, 1.0);
-  out.points = c.points * share + 0.0;  // never -0
+  out.work_share = work.share();
+  out.points = c.points * share * out.work_share + 0.0;  // never -0
   out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
   if (share >= 1.0 && !out.critical_failed) {
-    out.reason = "full marks";
-    return out;
+    out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
+  } else {
+    const Loss loss = loss_of(r, c.metric);
+    out.first = loss.first;
+    const std::string unit = out.unit.empty() ? "" : out.unit == "%" ? " %" : " " + out.unit;
+    out.reason = fixed(*v.value, 2) + unit + " where " + fixed(c.full, 2) + unit + " gives full marks" + (loss.text.empty() ? "" : ": " + loss.text);
   }
-  const Loss loss = loss_of(r, c.metric);
-  out.first = loss.first;
-  const std::string unit = out.unit.empty() ? "" : out.unit == "%" ? " %" : " " + out.unit;
-  out.reason = fixed(*v.value, 2) + unit + " where " + fixed(c.full, 2) + unit + " gives full marks" + (loss.text.empty() ? "" : ": " + loss.text);
-  if (out.critical_failed) out.reason += "; this alone fails the exam";
+  if (out.critical_failed)
+    out.reason += out.doubtful ? "; this alone would fail the exam, but force and tissue disagree on it" : "; this alone fails the exam";
+  if (out.work_share < 1)
+    out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + fixed(work.percent, 1) + " % of the target" + work.where +
+                  " was removed, and care counts in full from " + fixed(k_care_counts_percent, 0) + " % on";
   return out;
+}
+
+/// What counts against the pass mark: all points together, or each criterion by itself.
+struct Standing {
+  double percent = 100.0;
+  std::string which;
+};
+
+/// `in_favour`: as if what force and tissue disagree on were decided for the candidate.
+Standing standing_of(const Result& r, bool in_favour) {
+  const auto points = [&](const CriterionResult& c) { return in_favour && c.doubtful ? c.max : c.points; };
+  Standing s;
+  if (r.compensatory) {
+    double sum = 0;
+    for (const auto& c : r.criteria) sum += points(c);
+    return {r.max_points > 0 ? 100 * sum / r.max_points : 0, "the sum"};
+  }
+  for (const auto& c : r.criteria) {
+    if (!(c.max > 0)) continue;
+    const double percent = 100 * points(c) / c.max;
+    if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id};
+  }
+  return s;
 }
 
 }  // namespace
@@ -164,41 +122,28 @@ void mark(Result& r, const RubricSpec& rubric) {
     r.points += r.criteria.back().points;
     r.max_points += r.criteria.back().max;
   }
-  // What counts against the pass mark: all points together, or each criterion by itself.
-  double lowest = 100;
-  std::string which;
-  if (rubric.compensatory) {
-    lowest = r.max_points > 0 ? 100 * r.points / r.max_points : 0;
-    which = "the sum";
-  } else {
-    for (const auto& c : r.criteria) {
-      if (!(c.max > 0)) continue;
-      const double percent = 100 * c.points / c.max;
-      if (percent < lowest || which.empty()) {
-        lowest = percent;
-        which = "criterion " + c.id;
-      }
-    }
-  }
-  bool critical = false;
+  bool critical = false;  // and beyond doubt
   for (const auto& c : r.criteria) {
     if (!c.critical_failed) continue;
-    critical = true;
+    critical = critical || !c.doubtful;
     r.verdict_reasons.push_back("critical criterion " + c.id + ": " + c.reason);
   }
-  const std::string standing = which + " reaches " + fixed(lowest, 1) + " %, the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
-  const bool band = std::fabs(lowest - rubric.pass_percent) < rubric.borderline_percent;
-  r.verdict = critical || lowest < rubric.pass_percent ? Verdict::fail : Verdict::pass;
+  const Standing standing = standing_of(r, false);
+  const bool doubt = !r.perforation.agree(), band = std::fabs(standing.percent - rubric.pass_percent) < rubric.borderline_percent;
+  std::string text = standing.which + " reaches " + fixed(standing.percent, 1) + " %, the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
+  r.verdict = critical || standing.percent < rubric.pass_percent ? Verdict::fail : Verdict::pass;
   if (!critical && band) {
     r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(standing + ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %");
-  } else {
-    r.verdict_reasons.push_back(standing);
+    text += ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %";
   }
-  if (!r.perforation.agree()) {
-    r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(r.perforation.detected() ? "the force shows a faulty breakthrough, the tissue does not: a person decides"
-                                                         : "the tissue shows a faulty breakthrough, the force does not: a person decides");
+  r.verdict_reasons.push_back(text);
+  if (doubt) {
+    const std::string what = r.perforation.detected() ? "the force shows a faulty breakthrough, the tissue does not"
+                                                      : "the tissue shows a faulty breakthrough, the force does not";
+    // a person is asked only where the answer matters
+    const bool open = !critical && standing_of(r, true).percent > rubric.pass_percent - rubric.borderline_percent;
+    if (open) r.verdict = Verdict::review;
+    r.verdict_reasons.push_back(what + (open ? ": a person decides" : "; the exam is failed either way"));
   }
   for (const auto& note : r.notes)
     if (note.find("a person must") != std::string::npos) {

@@ -30,16 +30,11 @@ double wall_figure(const WallMeasures& w, const std::string& figure) {
 MetricValue worst_wall(const Result& r, std::size_t walls, const std::string& figure) {
   MetricValue worst{std::nullopt, r.shape.bound_mm};
   for (std::size_t w = 0; w < walls; ++w) {
-    if (r.shape.wall[w].samples == 0) continue;
+    if (r.shape.wall[w].samples == 0 && figure != "max_over_mm") continue;  // no overcut where nothing was cut
     const double v = wall_figure(r.shape.wall[w], figure);
     if (!worst.value || v > *worst.value) worst.value = v;
   }
   return worst;
-}
-
-MetricValue length_of(const Result& r, std::optional<double> v, double target, bool error) {
-  if (!v) return {std::nullopt, r.shape.bound_mm};
-  return {error ? std::fabs(*v - target) : *v, r.shape.bound_mm};
 }
 
 }  // namespace
@@ -53,7 +48,7 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
     for (const char* figure : {"mean_mm", "p95_mm", "max_over_mm", "max_under_mm"}) {
       if (metric != name + "_" + figure) continue;
       const WallMeasures& wall = r.shape.wall[w];
-      if (wall.samples == 0) return {std::nullopt, r.shape.bound_mm};
+      if (wall.samples == 0 && figure != std::string("max_over_mm")) return {std::nullopt, r.shape.bound_mm};
       return {wall_figure(wall, figure), r.shape.bound_mm};
     }
   }
@@ -81,12 +76,12 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   if (metric == "side_walls_p95_mm") return worst_wall(r, 4, "p95_mm");
   if (metric == "walls_max_over_mm") return worst_wall(r, k_walls, "max_over_mm");
   if (metric == "walls_max_under_mm") return worst_wall(r, k_walls, "max_under_mm");
-  if (metric == "outline_width_mm") return length_of(r, r.shape.width_mm, 0, false);
-  if (metric == "outline_length_mm") return length_of(r, r.shape.length_mm, 0, false);
-  if (metric == "outline_width_error_mm") return length_of(r, r.shape.width_mm, r.shape.target_width_mm, true);
-  if (metric == "outline_length_error_mm") return length_of(r, r.shape.length_mm, r.shape.target_length_mm, true);
-  if (metric == "depth_mm") return length_of(r, r.shape.depth_mm, 0, false);
-  if (metric == "depth_error_mm") return length_of(r, r.shape.depth_mm, r.shape.target_depth_mm, true);
+  if (metric == "outline_width_mm") return {r.shape.width_mm, r.shape.bound_mm};
+  if (metric == "outline_length_mm") return {r.shape.length_mm, r.shape.bound_mm};
+  if (metric == "outline_width_error_mm") return {r.shape.width_error_mm, r.shape.bound_mm};
+  if (metric == "outline_length_error_mm") return {r.shape.length_error_mm, r.shape.bound_mm};
+  if (metric == "depth_mm") return {r.shape.depth_mm, r.shape.bound_mm};
+  if (metric == "depth_error_mm") return {r.shape.depth_error_mm, r.shape.bound_mm};
   if (metric == "taper_deg") return {r.shape.taper_deg, 1.0};
   if (metric == "time_s") return exact(m.time_s);
   if (metric == "handpiece_time_s") return exact(m.handpiece_time_s);

@@ -38,7 +38,7 @@ struct VolumeMeasures {
   double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
   double dice = 0.0;
   std::array<ZoneVolume, k_zones> zone;  ///< by Zone; none = outside
-  std::array<double, k_walls + 1> missed_by_wall_mm3{};
+  std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{};
   std::array<Volume, 256> tissue;  ///< removed, by tissue id
 };
 
@@ -54,6 +54,8 @@ struct ShapeMeasures {
   double bound_mm = 0.0;                                           ///< of every distance here
   std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
   double target_length_mm = 0.0, target_width_mm = 0.0, target_depth_mm = 0.0;
+  /// What is missing of the target's and what is too much, together: one does not make up for the other. None where nothing of the target was cut.
+  std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
 };
 
 /// A breakthrough seen in the force.
@@ -116,8 +118,10 @@ struct CriterionResult {
   std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
   double bound = 0.0;
   double points = 0.0, max = 0.0;
+  double work_share = 1.0;  ///< of its points that count, for not enough of the work was done that it judges
   bool critical_failed = false;
-  Trace first;  ///< where the loss began
+  bool doubtful = false;  ///< it asks for a perforation, and force and tissue disagree about that
+  Trace first;            ///< where the loss began
 };
 
 enum class Verdict { pass, fail, review };

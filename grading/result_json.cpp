@@ -62,7 +62,7 @@ Json to_json(const Result& r) {
                 {"pass_percent", r.pass_percent},
                 {"borderline_percent", r.borderline_percent}};
   j["criteria"] = Json::array();
-  for (const auto& c : r.criteria)
+  for (const auto& c : r.criteria) {
     j["criteria"].push_back({{"id", c.id},
                              {"title", c.title},
                              {"metric", c.metric},
@@ -75,6 +75,9 @@ Json to_json(const Result& r) {
                              {"reason", c.reason},
                              {"first_tick", tick_of(c.first)},
                              {"first_t_s", time_of(c.first)}});
+    if (c.work_share < 1) j["criteria"].back()["work_share"] = rounded(c.work_share);
+    if (c.doubtful) j["criteria"].back()["doubtful"] = true;
+  }
   Json tissues = Json::object();
   for (const auto& t : r.tissues) tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
   const auto mm3 = [&](Zone z) { return rounded(zone(z).removed.mm3); };

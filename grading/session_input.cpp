@@ -31,8 +31,18 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->records = reader.records();
   s->removed = reader.removed();
   s->events = reader.events();
+  s->sealed_result_json = reader.result_json();
+  s->notes = setup.notes;
   s->facts = {setup.candidate, setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(s->before)};
   return s;
+}
+
+void use_scenario(GradedSession& session, Scenario scenario) {
+  require_tissues(scenario, session.before);
+  scenario.accommodations = granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
+  session.zones = build_zones(scenario, session.before);
+  session.rubric = scenario.rubric;
+  session.scenario = std::move(scenario);
 }
 
 }  // namespace cavum

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grading/grade.h"
@@ -20,6 +21,8 @@ struct GradedSession {
   std::vector<RemovedAt> removed;
   std::vector<SessionEvent> events;
   ReportFacts facts;
+  std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
+  std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
   [[nodiscard]] GradeInput input() const { return {scenario, before, zones, after.octree, inputs, records, removed, events}; }
 };
 
@@ -27,5 +30,9 @@ struct GradedSession {
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
 /// The same for an exam that is just ending, with the tooth as it is now.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
+
+/// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
+/// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit.
+void use_scenario(GradedSession& session, Scenario scenario);
 
 }  // namespace cavum

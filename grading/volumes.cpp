@@ -1,62 +1,181 @@
 #include "grading/volumes.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "grading/leaf_parts.h"
 
 namespace cavum {
+namespace {
+
+/// A step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut exactly along the target's
+/// surface removes all of the target.
+constexpr double k_code = k_distance_band_leaves / k_distance_far;
+
+/// How much of a leaf, 0..1: all of it or nothing, or part by part.
+struct Share {
+  bool all_or_nothing = true;
+  bool all = false;
+  LeafParts parts;  // otherwise
+  explicit Share(bool is_all) : all(is_all) {}
+  explicit Share(const LeafParts& p) : all_or_nothing(false), parts(p) {}
+};
+
+/// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
+class Shares {
+ public:
+  Shares(const GradeInput& input, const RemovedMap& removed, bool by_parts)
+      : input_(input), removed_(removed), leaf_mm_(input.zones.leaf_mm()), by_parts_(by_parts) {}
+
+  [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
+    const bool gone = removed_.has(leaf);
+    if (!by_parts_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
+    const double centre = decode_distance(input_.after.distance_code(leaf));
+    if (gone ? centre > k_parts_reach_leaves : centre < -k_parts_reach_leaves) return Share(gone);
+    LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
+    for (double& p : parts) p = share_beyond(p);
+    if (gone) return Share(parts);
+    const LeafParts before = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l)); });
+    for (std::size_t i = 0; i < k_parts; ++i) parts[i] = std::min(parts[i], share_beyond(-before[i]));
+    return Share(parts);
+  }
+  /// Part of the leaf that lies nearer to the target than `level_mm`, or inside it.
+  [[nodiscard]] Share within(IVec3 leaf, double level_mm) const {
+    const double centre = (level_mm - input_.zones.distance_mm(leaf)) / leaf_mm_;
+    if (std::fabs(centre) > k_parts_reach_leaves) return Share(centre > 0);
+    LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
+    for (double& p : parts) p = share_beyond(p);
+    return Share(parts);
+  }
+
+ private:
+  const GradeInput& input_;
+  const RemovedMap& removed_;
+  double leaf_mm_;
+  bool by_parts_;
+};
+
+double sum(const Share& share) {
+  if (share.all_or_nothing) return share.all ? 1.0 : 0.0;
+  double s = 0;
+  for (const double p : share.parts) s += p;
+  return s / k_parts;
+}
+double sum_of_both(const Share& a, const Share& b) {
+  if (a.all_or_nothing) return a.all ? sum(b) : 0.0;
+  if (b.all_or_nothing) return b.all ? sum(a) : 0.0;
+  double s = 0;
+  for (std::size_t i = 0; i < k_parts; ++i) s += std::min(a.parts[i], b.parts[i]);
+  return s / k_parts;
+}
+
+/// Leaves, as a sum of shares, and how many of them lie on a border.
+struct Count {
+  double leaves = 0;
+  std::uint64_t border = 0;
+};
+
+}  // namespace
 
 VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   const ZoneMap& zones = input.zones;
+  const Octree& before = input.before.octree;
   const double leaf_mm3 = zones.leaf_volume_mm3();
+  const bool late = std::any_of(input.removed.begin(), input.removed.end(), [&](const RemovedAt& r) { return r.tick > last_tick; });
+  const Shares shares(input, removed, !late);
   VolumeMeasures v;
-  std::array<std::uint64_t, k_zones> count{}, border{};
-  std::array<std::uint64_t, 256> tissue{}, tissue_border{};
-  std::uint64_t removed_border = 0;
-  std::size_t kept = 0;
+  std::array<Count, k_zones> zone{};
+  std::array<Count, 256> tissue{};
+  Count all;
+
+  const auto add = [&](IVec3 leaf, std::uint8_t held, bool edge, std::int64_t tick) {
+    const Share gone = shares.removed(leaf, held);
+    const double total = sum(gone);
+    if (!(total > 0)) return;
+    all.leaves += total;
+    all.border += edge || total < 1 ? 1 : 0;
+    const Zone own = zones.zone(leaf);
+    const Wall wall = zones.wall(leaf);
+    const auto give = [&](Zone z, double share) {
+      if (!(share > 0)) return;
+      const auto i = static_cast<std::size_t>(z);
+      zone[i].leaves += share;
+      zone[i].border += edge || share < 1 ? 1 : 0;
+      v.zone[i].by_wall_mm3[static_cast<std::size_t>(wall)] += share * leaf_mm3;
+      Trace& first = v.zone[i].first;
+      if (tick >= 0 && own == z && (first.tick < 0 || tick < first.tick)) first = {tick, zones.centre_mm(leaf)};
+    };
+    if (late || !zones.in_box(leaf)) return give(own, total);
+    const double target = sum_of_both(gone, shares.within(leaf, 0));
+    give(Zone::target, target);
+    if (own == Zone::protected_) return give(Zone::protected_, total - target);
+    const ZoneSpec& spec = input.scenario.zones;
+    const bool bottom = wall == Wall::floor;
+    const double leeway_mm = bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm;
+    const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
+    const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
+    const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
+    give(bottom ? Zone::leeway_bottom : Zone::leeway_sides, leeway - target);
+    give(bottom ? Zone::container_bottom : Zone::container_sides, container - leeway);
+    give(Zone::none, total - container);
+  };
+
+  std::vector<IVec3> beside;  // leaves that stayed beside removed ones, each once
+  RemovedMap::Marks seen = removed.marks();
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
-    ++kept;
-    const Zone zone = zones.zone(leaf);
-    const auto z = static_cast<std::size_t>(zone);
     // a border leaf is one beside which something else begins: tissue that stayed, or another zone
+    const Zone own = zones.zone(leaf);
     bool edge = false, zone_edge = false;
     for (const IVec3 step : k_six_neighbours) {
-      const IVec3 n = leaf + step;
-      const bool stays = !removed.has(n);
+      const bool stays = !removed.has(leaf + step);
       edge = edge || stays;
-      zone_edge = zone_edge || stays || zones.zone(n) != zone;
+      zone_edge = zone_edge || stays || zones.zone(leaf + step) != own;
     }
-    removed_border += edge ? 1 : 0;
-    ++count[z];
-    border[z] += zone_edge ? 1 : 0;
-    ++tissue[r.leaf.tissue];
-    tissue_border[r.leaf.tissue] += zone_edge ? 1 : 0;
-    v.zone[z].by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += leaf_mm3;
-    if (v.zone[z].first.tick < 0) v.zone[z].first = {r.tick, zones.centre_mm(leaf)};
+    tissue[r.leaf.tissue].leaves += 1;
+    tissue[r.leaf.tissue].border += zone_edge ? 1 : 0;
+    add(leaf, r.leaf.tissue, edge, r.tick);
+    if (late) continue;
+    for (int i = 0; i < 27; ++i) {
+      const IVec3 n = leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+      if (!removed.has(n) && seen.first_time(n)) beside.push_back(n);
+    }
   }
-  const auto volume = [&](std::uint64_t leaves, std::uint64_t at_border) {
-    return Volume{static_cast<double>(leaves) * leaf_mm3, 0.5 * static_cast<double>(at_border) * leaf_mm3};
-  };
-  for (std::size_t z = 0; z < k_zones; ++z) v.zone[z].removed = volume(count[z], border[z]);
-  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume(tissue[t], tissue_border[t]);
-  std::uint64_t missed = 0, missed_border = 0;
-  zones.for_each_target_leaf([&](IVec3 leaf) {
-    if (removed.has(leaf)) return;
-    ++missed;
-    v.missed_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += leaf_mm3;
-    for (const IVec3 step : k_six_neighbours)
-      if (removed.has(leaf + step) || zones.zone(leaf + step) != Zone::target) {
-        ++missed_border;
-        break;
-      }
+  for (const IVec3 leaf : beside)
+    if (const std::uint8_t held = before.tissue(leaf); before.is_solid(held)) add(leaf, held, true, -1);
+
+  Count missed;
+  double target = 0;
+  const double reach_mm = k_parts_reach_leaves * zones.leaf_mm();
+  zones.for_each_leaf([&](IVec3 leaf, Zone z) {
+    const double d = zones.distance_mm(leaf);
+    if (z != Zone::target && (late || d > reach_mm)) return;
+    if (z != Zone::target && before.tissue(leaf) == k_air) return;
+    const Share in = late || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
+    const double share = sum(in);
+    if (share < k_code) return;
+    const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
+    const double left = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
+    target += share;
+    v.target_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += share * leaf_mm3;
+    if (left < k_code) return;
+    missed.leaves += left;
+    v.missed_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += left * leaf_mm3;
+    bool edge = left < 1;
+    for (const IVec3 step : k_six_neighbours) edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != Zone::target;
+    missed.border += edge ? 1 : 0;
   });
-  const std::uint64_t target = zones.count(Zone::target), hit = count[static_cast<std::size_t>(Zone::target)];
-  v.target = volume(target, zones.target_border_leaves());
-  v.removed = volume(kept, removed_border);
-  v.missed = volume(missed, missed_border);
-  v.target_removed_percent = 100.0 * static_cast<double>(hit) / static_cast<double>(target);
+
+  const auto volume = [&](const Count& c) { return Volume{c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; };
+  for (std::size_t z = 0; z < k_zones; ++z) v.zone[z].removed = volume(zone[z]);
+  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume(tissue[t]);
+  v.target = volume({target, zones.target_border_leaves()});
+  v.removed = volume(all);
+  v.missed = volume(missed);
+  v.target_removed_percent = 100.0 * (target - missed.leaves) / target;
   v.target_removed_bound_percent = 100.0 * v.missed.bound_mm3 / v.target.mm3;
-  v.dice = 2.0 * static_cast<double>(hit) / static_cast<double>(kept + target);
+  v.dice = 2.0 * (target - missed.leaves) / (all.leaves + target);
   return v;
 }
 

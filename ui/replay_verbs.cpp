@@ -15,6 +15,7 @@
 #include "engine/session/station_key.h"
 #include "engine/session/verify.h"
 #include "ui/print_json.h"
+#include "ui/session_files.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -48,19 +49,6 @@ Outcome verify_timed(const std::string& path, const std::string& station_key) {
   }
   o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return o;
-}
-
-std::vector<std::string> sessions_in(const std::string& folder) {
-  std::vector<std::string> found;
-  try {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-      if (entry.path().extension() == ".cavum") found.push_back(entry.path().string());
-  } catch (const std::filesystem::filesystem_error& e) {
-    throw Error(folder, e.code().message(), "check the folder and its permissions");
-  }
-  if (found.empty()) throw Error(folder, "holds no .cavum file", "name a session or a folder of sessions");
-  std::sort(found.begin(), found.end());
-  return found;
 }
 
 json to_json(const VerifyReport& r) {

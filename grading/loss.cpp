@@ -1,0 +1,118 @@
+#include "grading/loss.h"
+
+#include <algorithm>
+
+#include "engine/base/text.h"
+
+namespace cavum {
+
+std::string when(const Trace& t) { return fixed(t.t_s(), 2) + " s (tick " + std::to_string(t.tick) + ")"; }
+std::string place(Vec3 p) { return "[" + fixed(p.x, 2) + ", " + fixed(p.y, 2) + ", " + fixed(p.z, 2) + "] mm"; }
+std::string wall_text(std::size_t wall) {
+  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal opening"
+         : wall == static_cast<std::size_t>(Wall::floor) ? "the floor"
+                                                         : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
+}
+
+namespace {
+
+std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
+  return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) - by_wall.begin());
+}
+
+Loss missed_target(const Result& r) {
+  const auto w = largest(r.volumes.missed_by_wall_mm3);
+  return {fixed(r.volumes.missed.mm3, 2) + " mm3 of the target left standing, most of it towards " + wall_text(w) + " (" +
+              fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
+          {}};
+}
+
+Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
+  Loss loss;
+  double most = 0;
+  std::size_t wall = 0;
+  Zone worst = *zones.begin();
+  double sum = 0;
+  for (const Zone z : zones) {
+    const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
+    sum += v.removed.mm3;
+    const auto w = largest(v.by_wall_mm3);
+    if (v.by_wall_mm3[w] > most) {
+      most = v.by_wall_mm3[w];
+      wall = w;
+      worst = z;
+    }
+    if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
+  }
+  loss.text = fixed(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) +
+              " at " + wall_text(wall) + " (" + fixed(most, 2) + " mm3)";
+  if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
+  return loss;
+}
+
+Loss at_walls(const Result& r, std::size_t first, std::size_t end, bool over) {
+  std::size_t worst = end;
+  for (std::size_t w = first; w < end; ++w) {
+    const WallMeasures& m = r.shape.wall[w];
+    if (m.samples == 0 && !(m.max_over_mm > 0)) continue;
+    const auto size = [&](std::size_t i) { return over ? r.shape.wall[i].max_over_mm : r.shape.wall[i].max_under_mm; };
+    if (worst == end || size(w) > size(worst)) worst = w;
+  }
+  if (worst == end) return {"nothing was cut there", {}};
+  const WallMeasures& m = r.shape.wall[worst];
+  const Trace& t = over ? m.worst_over : m.worst_under;
+  Loss loss{{}, t};
+  loss.text = over ? wall_text(worst) + " overcut by up to " + fixed(m.max_over_mm, 2) + " mm"
+                   : wall_text(worst) + " left up to " + fixed(m.max_under_mm, 2) + " mm thick";
+  if (t.tick >= 0) loss.text += ", at " + place(t.site_mm) + ", cut at " + when(t);
+  return loss;
+}
+
+}  // namespace
+
+Loss loss_of(const Result& r, const std::string& metric) {
+  if (metric == "target_removed_percent" || metric == "missed_mm3") return missed_target(r);
+  if (metric == "dice") {
+    Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
+    return {missed_target(r).text + "; beyond the target " + over.text, over.first};
+  }
+  if (metric == "outside_mm3") return removed_in(r, {Zone::none});
+  if (metric == "protected_mm3") return removed_in(r, {Zone::protected_});
+  if (metric == "leeway_sides_mm3") return removed_in(r, {Zone::leeway_sides});
+  if (metric == "leeway_bottom_mm3") return removed_in(r, {Zone::leeway_bottom});
+  if (metric == "container_sides_mm3") return removed_in(r, {Zone::container_sides});
+  if (metric == "container_bottom_mm3") return removed_in(r, {Zone::container_bottom});
+  if (metric == "container_mm3") return removed_in(r, {Zone::container_sides, Zone::container_bottom});
+  if (metric == "overcut_mm3") return removed_in(r, {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
+  const bool under = metric.find("under") != std::string::npos;
+  if (metric.rfind("side_walls_", 0) == 0) return at_walls(r, 0, 4, !under);
+  if (metric.rfind("walls_", 0) == 0) return at_walls(r, 0, k_walls, !under);
+  for (std::size_t w = 0; w < k_walls; ++w)
+    if (metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return at_walls(r, w, w + 1, !under);
+  if (metric == "perforated" || metric == "perforation_volume_mm3") {
+    const PerforationTruth& t = r.perforation.fault;
+    if (!t.perforated) return {"no faulty breakthrough", {}};
+    return {t.tissue + " touched at " + when(t.first) + " at " + place(t.first.site_mm) + ", " + fixed(t.volume_mm3, 3) + " mm3 in all", t.first};
+  }
+  if (metric == "perforation_events") {
+    for (const auto& e : r.perforation.events)
+      if (e.fault) return {"a drop in force from " + fixed(e.force_before_n, 2) + " N at " + when({e.tick, e.site_mm}), {e.tick, e.site_mm}};
+    return {"no faulty breakthrough seen in the force", {}};
+  }
+  if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
+  if (metric == "force_peak_n")
+    return {"pressed hardest at " + when(r.motion.force_peak) + " at " + place(r.motion.force_peak.site_mm), r.motion.force_peak};
+  if (metric == "force_over_limit_s" && r.motion.first_over_limit.tick >= 0)
+    return {"above the limit first at " + when(r.motion.first_over_limit), r.motion.first_over_limit};
+  if (metric == "violations" && r.progress.first_violation.tick >= 0)
+    return {"first at " + when(r.progress.first_violation), r.progress.first_violation};
+  if (metric == "depth_error_mm" && r.shape.depth_mm)
+    return {"depth " + fixed(*r.shape.depth_mm, 2) + " mm instead of " + fixed(r.shape.target_depth_mm, 2) + " mm", {}};
+  if (metric == "outline_width_error_mm" && r.shape.width_mm)
+    return {"width " + fixed(*r.shape.width_mm, 2) + " mm instead of " + fixed(r.shape.target_width_mm, 2) + " mm", {}};
+  if (metric == "outline_length_error_mm" && r.shape.length_mm)
+    return {"length " + fixed(*r.shape.length_mm, 2) + " mm instead of " + fixed(r.shape.target_length_mm, 2) + " mm", {}};
+  return {};
+}
+
+}  // namespace cavum

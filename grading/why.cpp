@@ -1,0 +1,428 @@
+#include "grading/why.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "grading/loss.h"
+#include "grading/motion.h"
+
+namespace cavum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Finder {
+ public:
+  Finder(const GradeInput& input, const Result& result, const CriterionSpec& spec, Why& why) : in_(input), r_(result), spec_(spec), why_(why) {
+    end_ = static_cast<std::int64_t>(std::min(input.inputs.size(), input.records.size()));
+    for (const auto& e : input.events)
+      if (e.kind == "finished") end_ = std::min(end_, e.tick + 1);
+    if (input.inputs.empty()) end_ = std::int64_t{1} << 31;
+  }
+  void find();
+
+ private:
+  void fact(const std::string& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}) {
+    WhyItem item;
+    item.what = what;
+    item.amount = amount;
+    item.unit = unit;
+    if (t.tick >= 0) {
+      item.tick = item.end_tick = t.tick;
+      item.site_mm = t.site_mm;
+    }
+    why_.items.push_back(std::move(item));
+  }
+  /// Points that a value of the metric is worth.
+  [[nodiscard]] double points_at(double value) const {
+    return why_.criterion.work_share * spec_.points * std::clamp((value - spec_.zero) / (spec_.full - spec_.zero), 0.0, 1.0);
+  }
+  [[nodiscard]] Vec3 tip(std::int64_t tick) const {
+    const auto& t = in_.inputs[static_cast<std::size_t>(tick)].tip_nm;
+    return {t[0] * 1e-6, t[1] * 1e-6, t[2] * 1e-6};
+  }
+  void removed_leaves(const std::function<bool(const RemovedAt&)>& counts, bool as_volume);
+  void in_zones(std::initializer_list<Zone> zones);
+  void missed();
+  void walls(std::size_t first, std::size_t end, const std::string& figure);
+  void ticks_where(const std::function<bool(std::int64_t)>& counts, std::int64_t gap, const std::string& what, bool with_force);
+  void steps();
+  void perforation();
+  void shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error);
+
+  const GradeInput& in_;
+  const Result& r_;
+  const CriterionSpec& spec_;
+  Why& why_;
+  std::int64_t end_ = 0;
+};
+
+/// Moments in which such leaves went: how much, where most of it lay, and how far from the target.
+void Finder::removed_leaves(const std::function<bool(const RemovedAt&)>& counts, bool as_volume) {
+  struct Moment {
+    std::int64_t from, to;
+    std::size_t leaves = 0;
+    double furthest = -1e9;
+    IVec3 at;
+  };
+  std::vector<Moment> moments;
+  std::size_t all = 0;
+  for (const auto& r : in_.removed) {
+    if (r.tick >= end_ || !counts(r)) continue;
+    if (moments.empty() || r.tick > moments.back().to + k_moment_gap_ticks) moments.push_back({r.tick, r.tick, 0, -1e9, {}});
+    Moment& m = moments.back();
+    m.to = r.tick;
+    ++m.leaves;
+    ++all;
+    if (const double d = in_.zones.distance_mm(r.leaf.leaf()); d > m.furthest) {
+      m.furthest = d;
+      m.at = r.leaf.leaf();
+    }
+  }
+  const double leaf_mm3 = in_.zones.leaf_volume_mm3(), value = why_.criterion.value.value_or(0);
+  // the value is counted by parts of leaves: the moments, counted in whole ones, share it
+  const double scale = all > 0 ? value / static_cast<double>(all) : 0.0;
+  double before = 0;
+  std::vector<WhyItem> items;
+  for (const auto& m : moments) {
+    WhyItem item;
+    item.tick = m.from;
+    item.end_tick = m.to;
+    item.site_mm = in_.zones.centre_mm(m.at);
+    item.amount = static_cast<double>(m.leaves) * leaf_mm3;
+    item.unit = "mm3";
+    const auto wall = static_cast<std::size_t>(in_.zones.wall(m.at));
+    const Zone zone = in_.zones.zone(m.at);
+    item.what = "removed, at the furthest " + fixed(std::max(0.0, m.furthest), 2) + " mm beyond the target at " + wall_text(wall) + " (" +
+                zone_name(zone) + ")";
+    if (as_volume) {
+      const double now = before + static_cast<double>(m.leaves) * scale;
+      item.points_lost = points_at(before) - points_at(now);
+      before = now;
+    }
+    items.push_back(std::move(item));
+  }
+  if (items.size() > k_most_moments) {  // the largest, still in order of time
+    std::vector<double> sizes;
+    for (const auto& i : items) sizes.push_back(*i.amount);
+    std::nth_element(sizes.begin(), sizes.begin() + k_most_moments, sizes.end(), std::greater<>());
+    const double least = sizes[k_most_moments];
+    why_.left_out += items.size();
+    std::erase_if(items, [&](const WhyItem& i) { return *i.amount <= least; });
+    why_.left_out -= items.size();
+  }
+  for (auto& i : items) why_.items.push_back(std::move(i));
+}
+
+void Finder::in_zones(std::initializer_list<Zone> zones) {
+  removed_leaves([&](const RemovedAt& r) { return std::find(zones.begin(), zones.end(), in_.zones.zone(r.leaf.leaf())) != zones.end(); }, true);
+}
+
+/// What of the target stayed, wall by wall, and when the candidate last cut of the target there.
+void Finder::missed() {
+  struct Part {
+    double sum = 0;
+    Vec3 middle;
+    Trace last;
+  };
+  std::array<Part, k_walls + 1> parts;
+  std::vector<std::uint8_t> gone(
+      static_cast<std::size_t>(in_.zones.size().x) * static_cast<std::size_t>(in_.zones.size().y) * static_cast<std::size_t>(in_.zones.size().z), 0);
+  const auto index = [&](IVec3 leaf) {
+    const IVec3 l = leaf - in_.zones.low(), n = in_.zones.size();
+    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(n.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(n.x) +
+           static_cast<std::size_t>(l.x);
+  };
+  for (const auto& r : in_.removed) {
+    const IVec3 leaf = r.leaf.leaf();
+    if (r.tick >= end_ || in_.zones.zone(leaf) != Zone::target) continue;
+    gone[index(leaf)] = 1;
+    parts[static_cast<std::size_t>(in_.zones.wall(leaf))].last = {r.tick, in_.zones.centre_mm(leaf)};
+  }
+  in_.zones.for_each_target_leaf([&](IVec3 leaf) {
+    if (gone[index(leaf)] != 0) return;
+    Part& p = parts[static_cast<std::size_t>(in_.zones.wall(leaf))];
+    p.sum += 1;
+    p.middle += in_.zones.centre_mm(leaf);
+  });
+  for (std::size_t w = 0; w <= k_walls; ++w) {
+    const double mm3 = r_.volumes.missed_by_wall_mm3[w];
+    if (!(mm3 > 0)) continue;
+    const Part& p = parts[w];
+    std::string what = "of the target left towards " + wall_text(w);
+    if (p.sum > 0) what += ", its middle at " + place(p.middle / p.sum);
+    what += p.last.tick >= 0 ? "; the target was last cut there at " + when(p.last) : "; nothing of the target was cut there";
+    fact(what, mm3, "mm3");
+    if (p.last.tick >= 0) {
+      why_.items.back().tick = why_.items.back().end_tick = p.last.tick;
+      why_.items.back().site_mm = p.last.site_mm;
+    }
+    if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = (spec_.points - why_.criterion.points) * mm3 / r_.volumes.missed.mm3;
+  }
+}
+
+void Finder::walls(std::size_t first, std::size_t end, const std::string& figure) {
+  for (std::size_t w = first; w < end; ++w) {
+    const WallMeasures& m = r_.shape.wall[w];
+    if (m.samples == 0 && !(m.max_over_mm > 0)) {
+      fact(wall_text(w) + ": nothing was cut there");
+      continue;
+    }
+    fact(wall_text(w) + ": mean " + fixed(m.mean_mm, 2) + " mm, 95th percentile " + fixed(m.p95_mm, 2) + " mm, of " + std::to_string(m.samples) +
+         " places (+ = overcut, bound " + fixed(r_.shape.bound_mm, 2) + " mm)");
+    if (m.worst_over.tick >= 0) fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over);
+    if (m.worst_under.tick >= 0) fact(wall_text(w) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under);
+  }
+  if (figure.find("under") != std::string::npos) return;
+  const double full = std::max(0.0, spec_.full);
+  removed_leaves(
+      [&](const RemovedAt& r) {
+        const auto w = static_cast<std::size_t>(in_.zones.wall(r.leaf.leaf()));
+        return w >= first && w < end && in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.distance_mm(r.leaf.leaf()) > full;
+      },
+      false);
+}
+
+/// Stretches of ticks of which something holds.
+void Finder::ticks_where(const std::function<bool(std::int64_t)>& counts, std::int64_t gap, const std::string& what, bool with_force) {
+  std::vector<WhyItem> items;
+  std::int64_t held = 0;
+  double peak = 0;
+  const auto close = [&] {
+    if (items.empty()) return;
+    WhyItem& i = items.back();
+    i.amount = with_force ? peak : static_cast<double>(held) * k_tick_s;
+    i.unit = with_force ? "N" : "s";
+    if (with_force) i.what += ", " + fixed(static_cast<double>(held) * k_tick_s, 3) + " s of it; the peak is given";
+  };
+  const auto n = std::min<std::int64_t>(end_, static_cast<std::int64_t>(in_.inputs.size()));
+  for (std::int64_t i = 0; i < n; ++i) {
+    if (!counts(i)) continue;
+    if (items.empty() || i > items.back().end_tick + gap) {
+      close();
+      held = 0;
+      peak = 0;
+      items.emplace_back();
+      items.back().tick = i;
+      items.back().what = what;
+    }
+    items.back().end_tick = i;
+    ++held;
+    const double f = force_n(in_.records[static_cast<std::size_t>(i)]);
+    if (f > peak || held == 1) {
+      peak = std::max(peak, f);
+      items.back().site_mm = tip(i);
+    }
+  }
+  close();
+  if (items.size() > k_most_moments) {
+    std::vector<double> sizes;
+    for (const auto& i : items) sizes.push_back(*i.amount);
+    std::nth_element(sizes.begin(), sizes.begin() + k_most_moments, sizes.end(), std::greater<>());
+    const double least = sizes[k_most_moments];
+    why_.left_out += items.size();
+    std::erase_if(items, [&](const WhyItem& i) { return *i.amount <= least; });
+    why_.left_out -= items.size();
+  }
+  for (auto& i : items) why_.items.push_back(std::move(i));
+}
+
+/// The exam as a row of events, each with what it took since the one before.
+void Finder::steps() {
+  std::int64_t last = 0;
+  for (const auto& e : in_.events) {
+    const auto detail = Json::parse(e.detail_json, nullptr, false);
+    std::string what = e.kind;
+    std::replace(what.begin(), what.end(), '_', ' ');
+    if (detail.is_object())
+      for (const char* key : {"step", "how", "tissue"})
+        if (detail.contains(key) && detail[key].is_string()) what += " (" + detail[key].get<std::string>() + ")";
+    WhyItem item;
+    item.tick = item.end_tick = e.tick;
+    item.what = what + ", after";
+    item.amount = static_cast<double>(e.tick - last) * k_tick_s;
+    item.unit = "s since the event before";
+    if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = tip(e.tick);
+    why_.items.push_back(std::move(item));
+    last = e.tick;
+  }
+}
+
+void Finder::perforation() {
+  const PerforationMeasures& p = r_.perforation;
+  const auto truth = [&](const char* kind, const PerforationTruth& t) {
+    if (!t.perforated) return fact(std::string("tissue: no ") + kind);
+    fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first);
+  };
+  truth("fault", p.fault);
+  truth("aim", p.aim);
+  if (p.events.empty()) fact("force: no breakthrough seen");
+  for (const auto& e : p.events) {
+    fact(std::string("force: ") + (e.fault ? "fault" : "aim") + ", a fall from " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) +
+             " N while the tip went on by " + fixed(e.advance_mm, 2) + " mm; " + (e.confirmed ? "confirmed" : "not confirmed") + " by the tissue",
+         e.force_before_n - e.force_after_n, "N", {e.tick, e.site_mm});
+    why_.items.back().end_tick = e.seen_tick;
+  }
+  fact(p.agree() ? "force and tissue agree about faults" : "force and tissue disagree about faults");
+}
+
+void Finder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
+  fact(name + " of the cavity", found, "mm");
+  fact(name + " of the target", wanted, "mm");
+  fact("missing and too much together", error, "mm");
+  // the leaves at the ends tell when that was cut
+  struct End {
+    const char* what;
+    Vec3 direction;
+  };
+  const bool deep = name == "depth", along_x = name == "length";
+  const std::vector<End> ends = deep      ? std::vector<End>{{"deepest", {0, 0, -1}}}
+                                : along_x ? std::vector<End>{{"furthest mesial", {1, 0, 0}}, {"furthest distal", {-1, 0, 0}}}
+                                          : std::vector<End>{{"furthest buccal", {0, 1, 0}}, {"furthest lingual", {0, -1, 0}}};
+  for (const End& end : ends) {
+    Trace t;
+    double most = -1e9;
+    for (const auto& r : in_.removed) {
+      if (r.tick >= end_) continue;
+      const Vec3 at = in_.zones.centre_mm(r.leaf.leaf());
+      if (dot(at, end.direction) <= most) continue;
+      most = dot(at, end.direction);
+      t = {r.tick, at};
+    }
+    if (t.tick >= 0) fact(std::string(end.what) + " place removed", most, "mm from the tooth's origin", t);
+  }
+}
+
+void Finder::find() {
+  const std::string& m = spec_.metric;
+  const auto starts = [&](const char* with) { return m.rfind(with, 0) == 0; };
+  if (m == "target_removed_percent" || m == "missed_mm3") return missed();
+  if (m == "dice") {
+    missed();
+    return removed_leaves([&](const RemovedAt& r) { return in_.zones.zone(r.leaf.leaf()) != Zone::target; }, false);
+  }
+  if (m == "outside_mm3") return in_zones({Zone::none});
+  if (m == "protected_mm3") return in_zones({Zone::protected_});
+  if (m == "leeway_sides_mm3") return in_zones({Zone::leeway_sides});
+  if (m == "leeway_bottom_mm3") return in_zones({Zone::leeway_bottom});
+  if (m == "container_sides_mm3") return in_zones({Zone::container_sides});
+  if (m == "container_bottom_mm3") return in_zones({Zone::container_bottom});
+  if (m == "container_mm3") return in_zones({Zone::container_sides, Zone::container_bottom});
+  if (m == "overcut_mm3") return in_zones({Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
+  if (m == "removed_mm3") return removed_leaves([](const RemovedAt&) { return true; }, true);
+  if (starts("perforat")) return perforation();
+  if (starts("touched_")) {
+    std::uint8_t id = k_air;
+    for (const auto& t : r_.tissues)
+      if (m == "touched_" + t.name + "_mm3") id = t.id;
+    return removed_leaves([&](const RemovedAt& r) { return r.leaf.tissue == id; }, true);
+  }
+  if (starts("side_walls_")) return walls(0, 4, m);
+  if (starts("walls_")) return walls(0, k_walls, m);
+  for (std::size_t w = 0; w < k_walls; ++w)
+    if (starts((std::string(wall_name(static_cast<Wall>(w))) + "_").c_str())) return walls(w, w + 1, m);
+  if (starts("outline_length")) return shape("length", r_.shape.length_mm, r_.shape.target_length_mm, r_.shape.length_error_mm);
+  if (starts("outline_width")) return shape("width", r_.shape.width_mm, r_.shape.target_width_mm, r_.shape.width_error_mm);
+  if (starts("depth")) return shape("depth", r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm);
+  if (m == "taper_deg") return walls(0, 4, m);
+  const auto record = [&](std::int64_t i) -> const TickRecord& { return in_.records[static_cast<std::size_t>(i)]; };
+  if (m == "force_peak_n" || m == "force_mean_n" || m == "force_over_limit_s") {
+    const double above = m == "force_over_limit_s" ? in_.scenario.force_limit_n : spec_.full;
+    if (r_.motion.force_peak.tick >= 0) fact("pressed hardest", r_.motion.force_peak_n, "N", r_.motion.force_peak);
+    return ticks_where([&](std::int64_t i) { return force_n(record(i)) > above; }, k_moment_gap_ticks,
+                       "pressed with more than " + fixed(above, 2) + " N", true);
+  }
+  if (m == "handpiece_time_s")
+    return ticks_where([&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, "the handpiece turned for", false);
+  if (m == "violations" || m == "steps_completed" || m == "steps_failed" || m == "time_s" || m == "idle_s" || m == "path_mm") {
+    if (m == "time_s") fact("time that counts, pauses taken off", r_.motion.time_s, "s");
+    if (m == "time_s" || m == "idle_s") fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
+    steps();
+    if (m == "time_s" || m == "idle_s" || m == "path_mm")
+      ticks_where([&](std::int64_t i) { return record(i).rpm < k_turning_rpm && record(i).removed == 0; }, 0, "the handpiece stood still for", false);
+    return;
+  }
+  fact("no moments are known for this measure");
+}
+
+}  // namespace
+
+Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric, const std::string& criterion_id) {
+  Why w;
+  std::string known;
+  for (std::size_t i = 0; i < rubric.criteria.size(); ++i) {
+    known += (known.empty() ? "" : ", ") + rubric.criteria[i].id;
+    if (rubric.criteria[i].id != criterion_id) continue;
+    w.criterion = result.criteria.at(i);
+    Finder(input, result, rubric.criteria[i], w).find();
+    std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
+    return w;
+  }
+  throw Error("--why", "the rubric has no criterion '" + criterion_id + "'", "use one of: " + known);
+}
+
+namespace {
+double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
+}  // namespace
+
+Json to_json(const Why& w) {
+  const auto& c = w.criterion;
+  Json items = Json::array();
+  for (const auto& i : w.items) {
+    const auto time = [](std::int64_t tick) { return tick < 0 ? Json(nullptr) : Json(rounded(static_cast<double>(tick) * k_tick_s)); };
+    const auto number = [](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
+    items.push_back({{"t_s", time(i.tick)},
+                     {"to_t_s", time(i.end_tick)},
+                     {"tick", i.tick < 0 ? Json(nullptr) : Json(i.tick)},
+                     {"to_tick", i.end_tick < 0 ? Json(nullptr) : Json(i.end_tick)},
+                     {"site_mm", i.site_mm ? Json::array({rounded(i.site_mm->x), rounded(i.site_mm->y), rounded(i.site_mm->z)}) : Json(nullptr)},
+                     {"amount", number(i.amount)},
+                     {"unit", i.unit},
+                     {"points_lost", number(i.points_lost)},
+                     {"what", i.what}});
+  }
+  return {{"criterion",
+           {{"id", c.id},
+            {"title", c.title},
+            {"metric", c.metric},
+            {"value", c.value ? Json(rounded(*c.value)) : Json(nullptr)},
+            {"unit", c.unit},
+            {"bound", rounded(c.bound)},
+            {"points", rounded(c.points)},
+            {"max", rounded(c.max)},
+            {"critical_failed", c.critical_failed},
+            {"reason", c.reason}}},
+          {"points_lost", rounded(c.max - c.points)},
+          {"moments", items},
+          {"moments_left_out", w.left_out}};
+}
+
+std::string to_text(const Why& w) {
+  const auto& c = w.criterion;
+  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
+                  " lost\n  " + c.reason + "\n";
+  if (!w.items.empty()) s += "\n";
+  for (const auto& i : w.items) {
+    std::string time;
+    if (i.tick >= 0) {
+      time = fixed(static_cast<double>(i.tick) * k_tick_s, 3);
+      if (i.end_tick > i.tick) time += " to " + fixed(static_cast<double>(i.end_tick) * k_tick_s, 3);
+      time += " s";
+    }
+    time.resize(std::max<std::size_t>(time.size(), 22), ' ');
+    std::string amount = i.amount ? fixed(*i.amount, 3) + " " + i.unit : "";
+    s += "  " + time + "  " + i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
+    if (i.site_mm) s += ", at " + place(*i.site_mm);
+    if (i.tick >= 0) s += ", tick " + std::to_string(i.tick);
+    if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";
+    s += "\n";
+  }
+  if (w.left_out > 0) s += "  and " + std::to_string(w.left_out) + " smaller moments\n";
+  return s;
+}
+
+}  // namespace cavum

@@ -1,0 +1,273 @@
+// Cylinder, box, cone and ball cavities cut in a block of 0.05 mm leaves at 20 random poses each, against closed forms that know nothing of
+// leaves: volumes, wall distances, taper and outline, each within its limit and within the bound that the result states.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+
+#include "engine/base/random.h"
+#include "grading/grade.h"
+#include "tests/grading/carved.h"
+
+namespace cavum {
+namespace {
+
+using testing::Carved;
+using testing::dentin_block;
+using testing::scenario_text;
+
+constexpr double k_pi_here = 3.14159265358979323846, k_leaf = 0.05, k_top = 6.0;  // bodies rise this far from their lower face, beyond the block
+constexpr int k_poses = 20;
+
+std::uint64_t new_seed() {
+  const char* wanted = std::getenv("CAVUM_TEST_SEED");
+  const auto seed = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : static_cast<std::uint64_t>(std::time(nullptr));
+  std::printf("CAVUM_TEST_SEED=%llu\n", static_cast<unsigned long long>(seed));
+  return seed;
+}
+
+/// A body standing at `at`, its axis tilted by `tilt` towards `azimuth` and turned about it by `turn` (radians).
+struct Pose {
+  Vec3 at, x, y, z;
+  Pose(Random& random, double depth, double most_tilt) {
+    at = {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -depth};
+    const double tilt = random.uniform(0, most_tilt) * k_pi_here / 180, azimuth = random.uniform(0, 2 * k_pi_here);
+    z = {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+    const Vec3 x0 = normalized(Vec3{1, 0, 0} - z * z.x), y0 = cross(z, x0);
+    const double turn = random.uniform(0, 2 * k_pi_here);
+    x = x0 * std::cos(turn) + y0 * std::sin(turn);
+    y = y0 * std::cos(turn) - x0 * std::sin(turn);
+  }
+  [[nodiscard]] Vec3 local(Vec3 p) const { return {dot(p - at, x), dot(p - at, y), dot(p - at, z)}; }
+  [[nodiscard]] Vec3 world(Vec3 q) const { return at + x * q.x + y * q.y + z * q.z; }
+};
+
+std::string number(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.15g", v);
+  return text;
+}
+std::string vector(Vec3 v) { return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]"; }
+
+double meet(double a, double b) { return a > 0 && b > 0 ? std::sqrt(a * a + b * b) : std::max(a, b); }
+
+/// A cavity: what is cut, and the closed forms of what grading must find.
+struct Known {
+  std::string target_toml;
+  std::function<double(Vec3)> cut;                      // signed distance
+  double target_mm3 = 0, removed_mm3 = 0;               // below z = 0
+  double sides_mm = 0, floor_mm = 0, furthest_mm = 0;   // overcut
+  double low_x = 0, high_x = 0, low_y = 0, high_y = 0;  // outline at z = 0
+  double depth_mm = 0, taper_deg = 0;
+  bool upright = false;
+};
+
+void outline_from(Known& k, const std::vector<Vec3>& points) {
+  k.low_x = k.low_y = 1e9;
+  k.high_x = k.high_y = -1e9;
+  for (const Vec3 p : points) {
+    k.low_x = std::min(k.low_x, p.x);
+    k.high_x = std::max(k.high_x, p.x);
+    k.low_y = std::min(k.low_y, p.y);
+    k.high_y = std::max(k.high_y, p.y);
+  }
+}
+/// Where the line through two points meets the block's top.
+Vec3 at_top(Vec3 a, Vec3 b) { return a + (b - a) * (a.z / (a.z - b.z)); }
+
+/// Cylinder (slope 0) and cone: radius `r` at the lower face, growing by `slope` per mm. The cut is wider by `s` and deeper by `f`, perpendicular to
+/// the surface.
+Known round_body(Random& random, double most_tilt, double slope) {
+  Known k;
+  const double depth = random.uniform(1.8, 2.8), r = random.uniform(1.1, 1.5), s = random.uniform(0.02, 0.18), f = random.uniform(0.02, 0.18);
+  const Pose pose(random, depth, most_tilt);
+  k.upright = most_tilt == 0;
+  k.target_toml = "[[zones.target]]\nshape = \"cone\"\nat_mm = " + vector(pose.at) + "\naxis = " + vector(pose.z) + "\nradius_mm = " + number(r) +
+                  "\ntop_radius_mm = " + number(r + slope * k_top) + "\nheight_mm = " + number(k_top) + "\n";
+  const double cosine = 1 / std::sqrt(1 + slope * slope), wider = s / cosine;
+  k.cut = [=](Vec3 p) {
+    const Vec3 q = pose.local(p);
+    return meet((std::sqrt(q.x * q.x + q.y * q.y) - r - wider - slope * q.z) * cosine, -f - q.z);
+  };
+  // a cone cut obliquely is a third of its elliptic base times its height; the axis passes through the ellipse's middle only for a cylinder
+  const auto volume = [&](double radius, double below) {
+    const Vec3 low = pose.world({0, 0, -below});
+    const double c = pose.z.z, axis = -low.z / c;  // length of the axis up to the top face
+    const double foot = radius - slope * below;
+    if (slope == 0) return k_pi_here * foot * foot * axis;
+    const double to_apex = foot / slope, t2 = slope * slope, sine2 = 1 - c * c;
+    const double height = (to_apex + axis) * c;  // of the apex under the top face
+    const double e = c * c - t2 * sine2;         // ellipse of the section: areas from the plane's distance to the apex
+    const double area = k_pi_here * t2 * height * height / (e * std::sqrt(e));
+    return area * height / 3 - k_pi_here * foot * foot * to_apex / 3;
+  };
+  k.target_mm3 = volume(r, 0);
+  k.removed_mm3 = volume(r + wider, f);
+  k.sides_mm = s;
+  k.floor_mm = f;
+  // the lower edge of the cut from the lower edge of the target
+  const double edge = r + wider - slope * f;
+  k.furthest_mm = std::sqrt((edge - r) * (edge - r) + f * f);
+  k.furthest_mm = std::max(k.furthest_mm, std::max(s, f));
+  std::vector<Vec3> rim;
+  for (int i = 0; i < 7200; ++i) {
+    const double a = i * k_pi_here / 3600, big = r + wider + slope * k_top;
+    rim.push_back(
+        at_top(pose.world({(r + wider) * std::cos(a), (r + wider) * std::sin(a), 0}), pose.world({big * std::cos(a), big * std::sin(a), k_top})));
+  }
+  outline_from(k, rim);
+  double lowest = 0;
+  for (int i = 0; i < 3600; ++i) {
+    const double a = i * k_pi_here / 1800;
+    lowest = std::min(lowest, pose.world({edge * std::cos(a), edge * std::sin(a), -f}).z);
+  }
+  k.depth_mm = -lowest;
+  k.taper_deg = std::atan(slope) * 180 / k_pi_here;
+  return k;
+}
+
+Known box_body(Random& random, double most_tilt) {
+  Known k;
+  const double depth = random.uniform(1.8, 2.8), a = random.uniform(1.2, 1.9), b = random.uniform(0.9, 1.4);
+  const double s = random.uniform(0.02, 0.18), f = random.uniform(0.02, 0.18);
+  const Pose pose(random, depth, most_tilt);
+  k.upright = most_tilt == 0;
+  std::string points;
+  for (const Vec3 p : {Vec3{-a, -b, 0}, {a, -b, 0}, {a, b, 0}, {-a, b, 0}}) {
+    const Vec3 q = pose.x * p.x + pose.y * p.y;
+    points += (points.empty() ? "" : ", ") + ("[" + number(q.x) + ", " + number(q.y) + "]");
+  }
+  // as the corners are given in the tilted frame by `turn_deg`, the angle of our x from the frame's own
+  const Vec3 x0 = std::fabs(pose.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - pose.z * pose.z.x) : Vec3{0, 1, 0}, y0 = cross(pose.z, x0);
+  const double turn = std::atan2(dot(pose.x, y0), dot(pose.x, x0)) * 180 / k_pi_here;
+  k.target_toml = "[[zones.target]]\nshape = \"box\"\nat_mm = " + vector(pose.world({0, 0, k_top / 2})) + "\naxis = " + vector(pose.z) +
+                  "\nturn_deg = " + number(turn) + "\nsize_mm = " + vector({2 * a, 2 * b, k_top}) + "\n";
+  k.cut = [=](Vec3 p) {
+    const Vec3 q = pose.local(p);
+    return meet(meet(std::fabs(q.x) - a - s, std::fabs(q.y) - b - s), -f - q.z);
+  };
+  const auto volume = [&](double half_a, double half_b, double below) { return 4 * half_a * half_b * (-pose.world({0, 0, -below}).z / pose.z.z); };
+  k.target_mm3 = volume(a, b, 0);
+  k.removed_mm3 = volume(a + s, b + s, f);
+  k.sides_mm = s;
+  k.floor_mm = f;
+  k.furthest_mm = std::sqrt(2 * s * s + f * f);
+  std::vector<Vec3> rim;
+  double lowest = 0;
+  for (const Vec3 p : {Vec3{-a - s, -b - s, -f}, {a + s, -b - s, -f}, {a + s, b + s, -f}, {-a - s, b + s, -f}}) {
+    rim.push_back(at_top(pose.world(p), pose.world(p + Vec3{0, 0, k_top})));
+    lowest = std::min(lowest, pose.world(p).z);
+  }
+  outline_from(k, rim);
+  k.depth_mm = -lowest;
+  return k;
+}
+
+Known ball_body(Random& random) {
+  Known k;
+  const double r = random.uniform(1.4, 1.9), s = random.uniform(0.02, 0.18), deep = random.uniform(0.2, 0.9);  // of the centre, below the top
+  const Vec3 at{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -deep};
+  k.target_toml = "[[zones.target]]\nshape = \"ball\"\nat_mm = " + vector(at) + "\nradius_mm = " + number(r) + "\n";
+  k.cut = [=](Vec3 p) { return length(p - at) - r - s; };
+  const auto volume = [&](double radius) {  // the ball without its cap above the top
+    const double cap = radius - deep;
+    return k_pi_here * (4.0 / 3 * radius * radius * radius - cap * cap * (radius - cap / 3));
+  };
+  k.target_mm3 = volume(r);
+  k.removed_mm3 = volume(r + s);
+  k.sides_mm = k.floor_mm = k.furthest_mm = s;
+  const double rim = std::sqrt((r + s) * (r + s) - deep * deep);
+  outline_from(k, {at + Vec3{rim, rim, 0}, at - Vec3{rim, rim, 0}});
+  k.depth_mm = deep + r + s;
+  return k;
+}
+
+/// The largest of what was found wrong, by figure.
+struct Worst {
+  double volume_percent = 0, wall_mm = 0, taper_deg = 0, outline_mm = 0, depth_mm = 0;
+  double of_volume_bound = 0;  // error of a volume, as a share of its stated bound
+};
+
+void compare(const Known& k, Worst& worst, const std::string& where) {
+  SCOPED_TRACE(where);
+  static const Tooth block = dentin_block(3.8, 3.6, k_leaf);
+  Carved c(scenario_text(k.target_toml), block);
+  c.carve(k.cut, 0);
+  const Result r = c.graded();
+  const auto volume = [&](const char* name, const Volume& found, double truth, double scale) {
+    worst.volume_percent = std::max(worst.volume_percent, 100 * std::fabs(found.mm3 - truth) / scale);
+    worst.of_volume_bound = std::max(worst.of_volume_bound, std::fabs(found.mm3 - truth) / found.bound_mm3);
+    EXPECT_NEAR(found.mm3, truth, 0.005 * scale) << name;
+    EXPECT_NEAR(found.mm3, truth, found.bound_mm3) << name << ": outside its bound";
+  };
+  volume("target", r.volumes.target, k.target_mm3, k.target_mm3);
+  volume("removed", r.volumes.removed, k.removed_mm3, k.removed_mm3);
+  volume("target removed", r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed, k.target_mm3, k.target_mm3);
+  Volume beyond;  // the zones beyond the target, which are thin: against what was removed
+  for (std::size_t z = 0; z < k_zones; ++z) {
+    if (z == static_cast<std::size_t>(Zone::target)) continue;
+    beyond.mm3 += r.volumes.zone[z].removed.mm3;
+    beyond.bound_mm3 += r.volumes.zone[z].removed.bound_mm3;
+  }
+  volume("overcut", beyond, k.removed_mm3 - k.target_mm3, k.removed_mm3);
+  EXPECT_NEAR(r.volumes.dice, 2 * k.target_mm3 / (k.target_mm3 + k.removed_mm3), 0.005);
+  EXPECT_NEAR(r.volumes.target_removed_percent, 100, 1e-9);
+  const auto distance = [&](double& kept, const char* name, double found, double truth) {
+    kept = std::max(kept, std::fabs(found - truth));
+    EXPECT_NEAR(found, truth, std::min(k_leaf, r.shape.bound_mm)) << name;
+  };
+  double furthest = 0;
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const WallMeasures& m = r.shape.wall[w];
+    ASSERT_GT(m.samples, 0u) << wall_name(static_cast<Wall>(w));
+    const bool floor = w == static_cast<std::size_t>(Wall::floor);
+    distance(worst.wall_mm, wall_name(static_cast<Wall>(w)), m.mean_mm, floor ? k.floor_mm : k.sides_mm);
+    furthest = std::max(furthest, m.max_over_mm);
+    EXPECT_LE(m.max_under_mm, r.shape.bound_mm);
+  }
+  distance(worst.wall_mm, "furthest", furthest, k.furthest_mm);
+  distance(worst.outline_mm, "length", *r.shape.length_mm, k.high_x - k.low_x);
+  distance(worst.outline_mm, "width", *r.shape.width_mm, k.high_y - k.low_y);
+  distance(worst.depth_mm, "depth", *r.shape.depth_mm, k.depth_mm);
+  if (!k.upright) return;
+  worst.taper_deg = std::max(worst.taper_deg, std::fabs(*r.shape.taper_deg - k.taper_deg));
+  EXPECT_NEAR(*r.shape.taper_deg, k.taper_deg, 1.0);
+}
+
+void run(const char* name, const std::function<Known(Random&, bool upright)>& make) {
+  const std::uint64_t seed = new_seed();
+  Random random(seed);
+  Worst worst;
+  for (int pose = 0; pose < k_poses; ++pose) {
+    const bool upright = pose % 2 == 0;
+    compare(make(random, upright), worst, std::string(name) + ", pose " + std::to_string(pose) + ", seed " + std::to_string(seed));
+  }
+  std::printf("%-8s %d poses, largest errors: volume %.3f %% (%.2f of its bound), wall %.4f mm, outline %.4f mm, depth %.4f mm, taper %.3f deg\n",
+              name, k_poses, worst.volume_percent, worst.of_volume_bound, worst.wall_mm, worst.outline_mm, worst.depth_mm, worst.taper_deg);
+}
+
+TEST(KnownGeometry, CylinderAtRandomPoses) {
+  run("cylinder", [](Random& random, bool upright) { return round_body(random, upright ? 0 : 15, 0.0); });
+}
+TEST(KnownGeometry, BoxAtRandomPoses) {
+  run("box", [](Random& random, bool upright) { return box_body(random, upright ? 0 : 15); });
+}
+TEST(KnownGeometry, ConeAtRandomPoses) {
+  run("cone", [](Random& random, bool upright) {
+    const double slope = std::tan(random.uniform(3, 15) * k_pi_here / 180);
+    return round_body(random, upright ? 0 : 15, slope);
+  });
+}
+TEST(KnownGeometry, BallAtRandomPoses) {
+  run("ball", [](Random& random, bool) {
+    Known k = ball_body(random);
+    k.upright = false;  // a ball has no taper
+    return k;
+  });
+}
+
+}  // namespace
+}  // namespace cavum
