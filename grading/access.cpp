@@ -12,7 +12,8 @@ namespace {
 class Marks {
  public:
   explicit Marks(const ZoneMap& zones)
-      : low_(zones.low()), size_(zones.size()),
+      : low_(zones.low()),
+        size_(zones.size()),
         mark_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0) {}
   [[nodiscard]] std::uint8_t at(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;

@@ -33,10 +33,10 @@ inline constexpr MarginSpec k_expert_margin{0.03, 0.03};
 struct ReachMap {
   int nx = 0, ny = 0;
   double step_mm = 0.1;
-  Mat3 tool;                        ///< from the tool's frame to the tooth's
-  double bottom_mm = 0, top_mm = 0; ///< heights between which the target lies
-  Vec3 origin_mm;                 ///< centre of column (0,0); z = height to start from, above the tooth
-  std::vector<double> lowest_mm;  ///< lowest tip height; k_unreachable where the point does not fit at all
+  Mat3 tool;                         ///< from the tool's frame to the tooth's
+  double bottom_mm = 0, top_mm = 0;  ///< heights between which the target lies
+  Vec3 origin_mm;                    ///< centre of column (0,0); z = height to start from, above the tooth
+  std::vector<double> lowest_mm;     ///< lowest tip height; k_unreachable where the point does not fit at all
 
   static constexpr double k_unreachable = 1e9;
   [[nodiscard]] std::size_t index(int x, int y) const noexcept {

@@ -12,6 +12,7 @@
 namespace cavum {
 
 /// Seconds for `way` with `tool`, held as `held` turns it (from its frame to the tooth's), at full speed of the handpiece.
-[[nodiscard]] double expert_time_s(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const ContactTool& tool, const Skill& skill);
+[[nodiscard]] double expert_time_s(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const ContactTool& tool,
+                                   const Skill& skill);
 
 }  // namespace cavum

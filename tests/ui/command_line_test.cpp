@@ -129,7 +129,10 @@ TEST_F(CommandLine, EveryTemplateIsSolvedByTheExpertInAboutTheTimeThatCheckSays)
                                     {"molar", "class_1"},
                                     {"molar", "class_2"},
                                     {"molar", "slot"},
-                                    {"molar", "access"}}) {
+                                    {"molar", "access"},
+                                    {"premolar", "access"},
+                                    {"incisor", "access"},
+                                    {"carious_molar", "lesion"}}) {
     const std::string file = path(tooth + task + ".toml");
     ASSERT_EQ(run("scenario new --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);
     const Ran check = run("scenario check " + file + " --json");
