@@ -90,8 +90,7 @@ TEST(Access, ATargetsTaperIsThatOfItsShapeAndAStraightHoleIsOffByIt) {
 
 // A target that leans: the roof is above along its axis, not along z.
 TEST(Access, LooksAlongTheAxisOfALeaningTarget) {
-  const std::string leaning =
-      "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -2.2]\nsize_mm = [2.4, 1.4, 5.4]\naxis = [0.3, 0, 0.95394]\n";
+  const std::string leaning = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -2.2]\nsize_mm = [2.4, 1.4, 5.4]\naxis = [0.3, 0, 0.95394]\n";
   Carved c(opening_pulp(leaning), chambered_block(0.05));
   EXPECT_NEAR(c.zones.approach().x, 0.3, 1e-4);
   const AccessMeasures whole = c.graded().access;
