@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/access.h"
 #include "grading/cut_surface.h"
 #include "grading/motion.h"
 #include "grading/perforation.h"
@@ -120,6 +121,7 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   const RemovedMap removed(input.removed, last_tick);
   r.volumes = measure_volumes(input, removed, last_tick);
   r.shape = measure_shape(input, removed, last_tick);
+  r.access = measure_access(input, removed, last_tick);
   r.pauses = find_pauses(input, ticks);
   for (const auto& e : input.events) r.pauses_refused += is_kind(e, ExamEventKind::pause_refused) ? 1 : 0;
   r.late_work = find_late_work(input);

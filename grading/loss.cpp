@@ -100,6 +100,12 @@ Loss loss_of(const Result& r, const std::string& metric) {
     return {"no faulty breakthrough seen in the force", {}};
   }
   if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
+  if (metric == "overhang_mm3") return {"roof left above the chamber, around " + place(r.access.overhang_middle_mm), {}};
+  if (metric == "canals_covered_percent") return {"hard tissue stands over the mouths around " + place(r.access.canals_covered_mm), {}};
+  if (metric == "floor_cut_mm3")
+    return {"beginning at " + when(r.access.floor_first) + " at " + place(r.access.floor_first.site_mm), r.access.floor_first};
+  if (metric == "taper_error_deg")
+    return {"the walls open by " + fixed(*r.shape.taper_deg, 1) + " instead of " + fixed(*r.access.target_taper_deg, 1) + " degrees", {}};
   if (metric == "force_peak_n")
     return {"pressed hardest at " + when(r.motion.force_peak) + " at " + place(r.motion.force_peak.site_mm), r.motion.force_peak};
   if (metric == "force_over_limit_s" && r.motion.first_over_limit.tick >= 0)

@@ -11,8 +11,9 @@ namespace {
 
 /// Metrics that an untouched tooth does badly in of itself: they measure the work, not the care taken with it.
 bool measures_work(const std::string& metric) {
-  for (const char* name : {"target_removed_percent", "missed_mm3", "dice", "steps_completed", "outline_width_mm", "outline_length_mm",
-                           "outline_width_error_mm", "outline_length_error_mm", "depth_mm", "depth_error_mm"})
+  for (const char* name :
+       {"target_removed_percent", "missed_mm3", "dice", "steps_completed", "outline_width_mm", "outline_length_mm", "outline_width_error_mm",
+        "outline_length_error_mm", "depth_mm", "depth_error_mm", "overhang_mm3", "canals_covered_percent"})
     if (metric == name) return true;
   return false;
 }

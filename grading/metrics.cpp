@@ -83,6 +83,13 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   if (metric == "depth_mm") return {r.shape.depth_mm, r.shape.bound_mm};
   if (metric == "depth_error_mm") return {r.shape.depth_error_mm, r.shape.bound_mm};
   if (metric == "taper_deg") return {r.shape.taper_deg, 1.0};
+  if (metric == "taper_error_deg") {
+    if (!r.shape.taper_deg || !r.access.target_taper_deg) return {std::nullopt, 1.0};
+    return {std::fabs(*r.shape.taper_deg - *r.access.target_taper_deg), 1.0};
+  }
+  if (metric == "overhang_mm3") return r.access.overhang ? of_volume(*r.access.overhang) : MetricValue{};
+  if (metric == "canals_covered_percent") return {r.access.canals_covered_percent, r.access.canals_bound_percent};
+  if (metric == "floor_cut_mm3") return of_volume(r.access.floor_cut);
   if (metric == "time_s") return exact(m.time_s);
   if (metric == "handpiece_time_s") return exact(m.handpiece_time_s);
   if (metric == "idle_s") return exact(m.idle_s);

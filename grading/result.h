@@ -58,6 +58,17 @@ struct ShapeMeasures {
   std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
 };
 
+/// Straight-line access; see grading/access.h.
+struct AccessMeasures {
+  std::optional<Volume> overhang;                ///< roof left above the aim; none when the target holds none of it
+  std::optional<double> canals_covered_percent;  ///< of the canals' mouths; none without canals
+  double canals_bound_percent = 0.0;
+  Vec3 overhang_middle_mm, canals_covered_mm;  ///< middle of what is left over, and of the mouths under it
+  Volume floor_cut;                            ///< hard tissue removed below the target
+  Trace floor_first;
+  std::optional<double> target_taper_deg;
+};
+
 /// A breakthrough seen in the force.
 struct PerforationEvent {
   std::int64_t tick = 0;       ///< onset of the drop
@@ -137,6 +148,7 @@ struct Result {
   std::vector<CriterionResult> criteria;
   VolumeMeasures volumes;
   ShapeMeasures shape;
+  AccessMeasures access;
   PerforationMeasures perforation;
   MotionMeasures motion;
   ProgressMeasures progress;

@@ -116,6 +116,12 @@ Json to_json(const Result& r) {
                 {"target_width_mm", rounded(r.shape.target_width_mm)},
                 {"target_depth_mm", rounded(r.shape.target_depth_mm)},
                 {"bound_mm", rounded(r.shape.bound_mm)}};
+  if (r.access.overhang) {  // only where the task opens something
+    j["access"] = {{"overhang_mm3", rounded(r.access.overhang->mm3)},
+                   {"canals_covered_percent", optional(r.access.canals_covered_percent)},
+                   {"floor_cut_mm3", rounded(r.access.floor_cut.mm3)},
+                   {"target_taper_deg", optional(r.access.target_taper_deg)}};
+  }
   Json events = Json::array();
   for (const auto& e : r.perforation.events)
     events.push_back({{"t_s", rounded(static_cast<double>(e.tick) * k_tick_s)},

@@ -153,8 +153,8 @@ void Adviser::time(std::optional<double>& expert_s) {
   if (best < k_poor_share)
     warn("points", "no allowed point removes more than " + percent(best) + " of the target", "allow one that fits, or make the target wider");
   if (chosen.index == tray.size()) return;
-  const auto way = plan_cut(chosen.map, zones_, tooth_, PlanOptions{});
-  expert_s = expert_time_s(way, tooth_, tray[chosen.index], make_skill("expert", 1));
+  const auto way = plan_cut(chosen.map, tooth_, PlanOptions{});
+  expert_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
   if (*expert_s > limit_s_)
     warn("time_limit_s", "the built-in expert needs about " + fixed(*expert_s, 0) + " s, and the limit is " + plain_number(limit_s_) + " s",
          "allow more time, or see what `cavum scenario solve` reaches");
@@ -173,7 +173,9 @@ Ranges Adviser::common_ranges() const {
   r["time_s"] = r["handpiece_time_s"] = r["idle_s"] = {0, limit_s_};
   r["target_removed_percent"] = {0, 100};
   r["missed_mm3"] = {0, zones_.target_mm3()};
-  r["removed_mm3"] = {0, all};
+  r["removed_mm3"] = r["floor_cut_mm3"] = {0, all};
+  r["overhang_mm3"] = {0, zones_.target_mm3()};
+  r["canals_covered_percent"] = {0, 100};
   r["dice"] = {0, 1};
   r["protected_mm3"] = {0, volume({Zone::protected_})};
   r["leeway_sides_mm3"] = {0, volume({Zone::leeway_sides})};

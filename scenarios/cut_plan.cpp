@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "scenarios/distance_transform.h"
 
@@ -144,62 +145,95 @@ std::vector<Vec3> corners(const ReachMap& map, const std::vector<Column>& loop, 
 /// Builds the list of waypoints, lifting between distant places and marking those close to a void tissue.
 class Way {
  public:
-  Way(const Tooth& tooth, double air_z) : tooth_(tooth), air_z_(air_z) {}
+  Way(const Tooth& tooth, const ReachMap& map) : tooth_(tooth), tool_(map.tool), air_z_(map.origin_mm.z + k_above_mm) {}
 
   void follow(const std::vector<Vec3>& loop) {
     if (loop.empty()) return;
     if (points_.empty() || length(points_.back().tip_mm - loop.front()) > k_lift_over_mm) {
       lift();
-      const Vec3 over{loop.front().x, loop.front().y, air_z_};
-      points_.push_back({over, false, false});
+      points_.push_back({in_air(loop.front()), false, false});
     }
     for (const auto& p : loop) points_.push_back({p, true, near_void(p)});
   }
   void lift() {
     if (points_.empty()) return;
     const Vec3 p = points_.back().tip_mm;
-    if (p.z < air_z_) points_.push_back({{p.x, p.y, air_z_}, false, false});
+    if (tool_.transposed(p).z < air_z_) points_.push_back({in_air(p), false, false});
   }
   [[nodiscard]] std::vector<Waypoint> take() { return std::move(points_); }
 
  private:
+  /// The place above `p` where the point is clear of the tooth.
+  [[nodiscard]] Vec3 in_air(Vec3 p) const {
+    const Vec3 l = tool_.transposed(p);
+    return tool_ * Vec3{l.x, l.y, air_z_};
+  }
   [[nodiscard]] bool near_void(Vec3 tip) const {
     for (double below = -0.2; below <= 0.8; below += 0.1) {
-      const auto t = tooth_.octree.tissue_at(tip - Vec3{0, 0, below});
+      const auto t = tooth_.octree.tissue_at(tip - tool_ * Vec3{0, 0, below});
       if (t != k_air && !tooth_.octree.is_solid(t)) return true;
     }
     return false;
   }
   const Tooth& tooth_;
+  Mat3 tool_;
   double air_z_;
   std::vector<Waypoint> points_;
 };
 
-/// True when the head of an upright point with its tip at `tip` would remove some of the target.
-bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const DiamondPoint& point, Vec3 tip) {
+/// True when the head of a point held as in `map`, with its tip at `tip`, would remove some of the target.
+bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const DiamondPoint& point, const ReachMap& map, Vec3 tip) {
   constexpr double k_step_mm = 0.1;
   constexpr double k_s = 0.70710678118654752;
   constexpr Vec3 k_around[] = {{0, 0, 0},  {1, 0, 0},       {k_s, k_s, 0}, {0, 1, 0},     {-k_s, k_s, 0},
                                {-1, 0, 0}, {-k_s, -k_s, 0}, {0, -1, 0},    {k_s, -k_s, 0}};
   for (double h = k_step_mm / 2; h < point.cutting_length_mm; h += k_step_mm)
     for (const Vec3 way : k_around) {
-      const Vec3 p = tip + way * point.profile.radius_mm(h) + Vec3{0, 0, h};
+      const Vec3 p = tip + map.tool * (way * point.profile.radius_mm(h) + Vec3{0, 0, h});
       if (zones.distance_mm(p) < 0 && tooth.octree.tissue_at(p) != k_air) return true;
     }
   return false;
 }
 
+/// A box in the tool's frame, mm.
+struct Box {
+  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  void hold(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+Box box_of_target(const ZoneMap& zones, const Mat3& tool) {
+  Box box;
+  zones.for_each_target_leaf([&](IVec3 leaf) { box.hold(tool.transposed(zones.centre_mm(leaf))); });
+  const Vec3 half = Vec3{1, 1, 1} * (0.5 * zones.leaf_mm());
+  return {box.low - half, box.high + half};
+}
+
+/// Highest place of the tooth's lattice in the tool's frame.
+double top_of(const Octree& tree, const Mat3& tool) {
+  Box box;
+  const Vec3 size = Vec3{double(tree.size().x), double(tree.size().y), double(tree.size().z)} * tree.leaf_mm();
+  for (int k = 0; k < 8; ++k)
+    box.hold(tool.transposed(tree.origin_mm() + Vec3{(k & 1) != 0 ? size.x : 0, (k & 2) != 0 ? size.y : 0, (k & 4) != 0 ? size.z : 0}));
+  return box.high.z;
+}
+
 }  // namespace
 
-ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, double margin_mm) {
-  const Vec3 low = zones.target_low_mm(), high = zones.target_high_mm();
+ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin) {
   ReachMap map;
+  map.tool = rotation(rotation_between({0, 0, 1}, zones.approach()));
+  const auto [low, high] = box_of_target(zones, map.tool);
+  map.bottom_mm = low.z;
+  map.top_mm = high.z;
   const double plan_area = (high.x - low.x) * (high.y - low.y);
   map.step_mm = std::max(plan_area < 16.0 ? 0.05 : 0.1, zones.leaf_mm());  // a small target is worth a closer look
   const int border = static_cast<int>(1.2 / map.step_mm);                  // columns around the target: tooth that the shank could meet
   const int nx = static_cast<int>((high.x - low.x) / map.step_mm) + 2 + 2 * border,
             ny = static_cast<int>((high.y - low.y) / map.step_mm) + 2 + 2 * border;
-  const double top = tooth.octree.origin_mm().z + tooth.octree.size().z * tooth.octree.leaf_mm();
+  const double top = top_of(tooth.octree, map.tool);
   map.nx = nx;
   map.ny = ny;
   map.origin_mm = {low.x - border * map.step_mm, low.y - border * map.step_mm, top};
@@ -207,7 +241,7 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
   map.lowest_mm.assign(columns, ReachMap::k_unreachable);
 
   // For every height the free radius around each column: an upright body of revolution fits where no slice is wider.
-  const double dz = 0.1, base = low.z - 0.3;
+  const double dz = 0.1, base = low.z - 0.3 - std::max(0.0, margin.bottom_mm - k_expert_margin.bottom_mm);
   const int slices = static_cast<int>((top - base) / dz) + 1;
   std::vector<float> free_mm(columns * static_cast<std::size_t>(slices));
   std::vector<std::uint8_t> forbidden(columns);
@@ -216,7 +250,8 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
     for (int y = 0; y < ny; ++y)
       for (int x = 0; x < nx; ++x) {
         const Vec3 p = map.at(x, y, base + k * dz);
-        const double outside = zones.distance_mm(p) - margin_mm;
+        const bool bottom = zones.wall(tooth.octree.leaf_at(p)) == Wall::floor;
+        const double outside = zones.distance_mm(p) - (bottom ? margin.bottom_mm : margin.sides_mm);
         forbidden[map.index(x, y)] = outside > 0 && tooth.octree.tissue_at(p) != k_air;
         beyond[map.index(x, y)] = outside;
       }
@@ -244,13 +279,30 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
       lowest = base + k * dz;
     }
     const Vec3 tip = map.at(static_cast<int>(c) % nx, static_cast<int>(c) / nx, lowest);
-    if (lowest > high.z || !cuts_target(zones, tooth, tool.point, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
+    if (lowest > high.z || !cuts_target(zones, tooth, tool.point, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
   }
   return map;
 }
 
+ReachMap middle_of(ReachMap map, double percent) {
+  int low_x = map.nx, high_x = -1, low_y = map.ny, high_y = -1;
+  for (int y = 0; y < map.ny; ++y)
+    for (int x = 0; x < map.nx; ++x) {
+      if (map.lowest_mm[map.index(x, y)] >= ReachMap::k_unreachable) continue;
+      low_x = std::min(low_x, x);
+      high_x = std::max(high_x, x);
+      low_y = std::min(low_y, y);
+      high_y = std::max(high_y, y);
+    }
+  const auto off_middle = [percent](int v, int low, int high) { return std::abs(2 * v - low - high) * 100.0 > percent * (high - low + 1); };
+  for (int y = 0; y < map.ny; ++y)
+    for (int x = 0; x < map.nx; ++x)
+      if (off_middle(x, low_x, high_x) || off_middle(y, low_y, high_y)) map.lowest_mm[map.index(x, y)] = ReachMap::k_unreachable;
+  return map;
+}
+
 double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
-  const double low_z = zones.target_low_mm().z, high_z = zones.target_high_mm().z, dz = 0.1;
+  const double low_z = map.bottom_mm, high_z = map.top_mm, dz = 0.1;
   const auto slices = static_cast<std::size_t>((high_z - low_z) / dz) + 1;
   const auto columns = map.lowest_mm.size();
   std::vector<std::uint8_t> covered(columns * slices);
@@ -283,12 +335,12 @@ double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, c
   return all > 0 ? reached / all : 0;
 }
 
-std::vector<Waypoint> plan_cut(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const PlanOptions& options) {
+std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth, const PlanOptions& options) {
   double deepest = ReachMap::k_unreachable;
   for (const double z : map.lowest_mm) deepest = std::min(deepest, z);
   if (deepest == ReachMap::k_unreachable) return {};
-  const double top = zones.target_high_mm().z;
-  Way way(tooth, map.origin_mm.z + k_above_mm);
+  const double top = map.top_mm;
+  Way way(tooth, map);
   std::vector<std::uint8_t> inside(map.lowest_mm.size());
   const int layers = std::max(1, static_cast<int>((top - deepest) / options.layer_mm + 0.999));
   for (int i = 1; i <= layers; ++i) {
@@ -314,24 +366,22 @@ std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth,
   constexpr double k_furthest_mm = 6.0, k_beyond_mm = 0.8;
   const double leaf = zones.leaf_mm();
   double shortest = k_furthest_mm;
-  Vec3 from, to;
+  Vec3 air, from, to;
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
       const double z = map.lowest_mm[map.index(x, y)];
       if (z >= ReachMap::k_unreachable) continue;
-      const Vec3 start = map.at(x, y, z);
       for (double down = 0; down < shortest; down += leaf) {
-        const Vec3 p = start - Vec3{0, 0, down};
-        if (tooth.octree.tissue_at(p) != fault) continue;
+        if (tooth.octree.tissue_at(map.at(x, y, z - down)) != fault) continue;
         shortest = down;
-        from = start;
-        to = p - Vec3{0, 0, k_beyond_mm};
+        air = map.at(x, y, map.origin_mm.z + k_above_mm);
+        from = map.at(x, y, z);
+        to = map.at(x, y, z - down - k_beyond_mm);
         break;
       }
     }
   if (shortest >= k_furthest_mm) return {};
-  const double air_z = map.origin_mm.z + k_above_mm;
-  return {{{from.x, from.y, air_z}, false, false}, {from, true, false}, {to, true, false}, {{to.x, to.y, air_z}, false, false}};
+  return {{air, false, false}, {from, true, false}, {to, true, false}, {air, false, false}};
 }
 
 }  // namespace cavum

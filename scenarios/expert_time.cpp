@@ -16,7 +16,8 @@ constexpr double k_cell_mm = 0.1;
 /// What is still there of the tooth around the way, in cells.
 class Remains {
  public:
-  Remains(const std::vector<Waypoint>& way, const Tooth& tooth, const DiamondPoint& point) : point_(point) {
+  /// `way` and all places are in the tool's frame.
+  Remains(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const DiamondPoint& point) : point_(point) {
     low_ = high_ = way.front().tip_mm;
     for (const auto& w : way) {
       low_ = {std::min(low_.x, w.tip_mm.x), std::min(low_.y, w.tip_mm.y), std::min(low_.z, w.tip_mm.z)};
@@ -30,7 +31,7 @@ class Remains {
     for (int z = 0; z < n_.z; ++z)
       for (int y = 0; y < n_.y; ++y)
         for (int x = 0; x < n_.x; ++x)
-          solid_[index(x, y, z)] = tooth.octree.is_solid(tooth.octree.tissue_at(low_ + Vec3{x + 0.5, y + 0.5, z + 0.5} * k_cell_mm)) ? 1 : 0;
+          solid_[index(x, y, z)] = tooth.octree.is_solid(tooth.octree.tissue_at(held * (low_ + Vec3{x + 0.5, y + 0.5, z + 0.5} * k_cell_mm))) ? 1 : 0;
   }
   /// Takes away what the head fills with its tip at `tip`; how many cells that was.
   int take(Vec3 tip) {
@@ -70,9 +71,11 @@ class Remains {
 
 }  // namespace
 
-double expert_time_s(const std::vector<Waypoint>& way, const Tooth& tooth, const ContactTool& tool, const Skill& skill) {
-  if (way.size() < 2) return 0.0;
-  Remains remains(way, tooth, tool.point);
+double expert_time_s(const std::vector<Waypoint>& tooth_way, const Mat3& held, const Tooth& tooth, const ContactTool& tool, const Skill& skill) {
+  if (tooth_way.size() < 2) return 0.0;
+  std::vector<Waypoint> way = tooth_way;
+  for (auto& w : way) w.tip_mm = held.transposed(w.tip_mm);
+  Remains remains(way, held, tooth, tool.point);
   double time_s = 1.5;  // until the handpiece turns, and the rest at the end
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Vec3 from = way[i - 1].tip_mm, whole = way[i].tip_mm - from;

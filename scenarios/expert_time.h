@@ -11,7 +11,8 @@
 
 namespace cavum {
 
-/// Seconds for `way` with `tool`, upright, at full speed of the handpiece.
-[[nodiscard]] double expert_time_s(const std::vector<Waypoint>& way, const Tooth& tooth, const ContactTool& tool, const Skill& skill);
+/// Seconds for `way` with `tool`, held as `held` turns it (from its frame to the tooth's), at full speed of the handpiece.
+[[nodiscard]] double expert_time_s(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const ContactTool& tool,
+                                   const Skill& skill);
 
 }  // namespace cavum

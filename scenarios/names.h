@@ -39,7 +39,7 @@ inline constexpr std::array<NamedQuantity, 22> k_live_quantities{{
 }};
 
 /// Measures a criterion may use.
-inline constexpr std::array<NamedQuantity, 61> k_metrics{{
+inline constexpr std::array<NamedQuantity, 65> k_metrics{{
     {"target_removed_percent", "%", "of the target's volume"},
     {"missed_mm3", "mm3", "target left standing"},
     {"removed_mm3", "mm3", "all tissue removed"},
@@ -84,6 +84,10 @@ inline constexpr std::array<NamedQuantity, 61> k_metrics{{
     {"depth_mm", "mm", "deepest point below the occlusal opening"},
     {"depth_error_mm", "mm", "difference from the target's"},
     {"taper_deg", "deg", "opening of the side walls towards the occlusal side"},
+    {"taper_error_deg", "deg", "difference from the target's"},
+    {"overhang_mm3", "mm3", "roof of the target left above what the task opens (perforation.aims)"},
+    {"canals_covered_percent", "%", "of the canals' mouths, under hard tissue left on the straight line out"},
+    {"floor_cut_mm3", "mm3", "hard tissue removed below the target"},
     {"time_s", "s", "until the exam ended"},
     {"handpiece_time_s", "s", "with the handpiece turning"},
     {"idle_s", "s", "neither moving nor cutting"},

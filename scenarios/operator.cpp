@@ -24,7 +24,7 @@ constexpr double k_give_up_s = 1.5;    // without getting nearer
 Skill make_skill(const std::string& name, std::uint64_t seed) {
   Skill s;
   s.name = name;
-  if (name == "expert") return s;
+  if (name == "expert" || name == "careless") return s;
   if (name == "perforator") {
     s.perforates = true;
     return s;
@@ -44,19 +44,20 @@ Skill make_skill(const std::string& name, std::uint64_t seed) {
     s.hand.stiffness_n_per_mm = 1.2;
     return s;
   }
-  throw Error("operator '" + name + "'", "is not known", "use expert, novice or perforator");
+  throw Error("operator '" + name + "'", "is not known", "use expert, novice, perforator or careless");
 }
 
-Operator::Operator(Skill skill, std::vector<Waypoint> way, std::uint64_t seed) : skill_(std::move(skill)), way_(std::move(way)), random_(seed) {
+Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::uint64_t seed)
+    : skill_(std::move(skill)), way_(std::move(way)), approach_(approach), random_(seed) {
   double top = -1e9, bottom = 1e9;
   for (const auto& w : way_) {
-    top = std::max(top, w.tip_mm.z);
-    bottom = std::min(bottom, w.tip_mm.z);
+    top = std::max(top, dot(w.tip_mm, approach_));
+    bottom = std::min(bottom, dot(w.tip_mm, approach_));
   }
   for (auto& w : way_) {
     if (!w.cut) continue;
     w.tip_mm += skill_.offset_mm;
-    w.tip_mm.z = std::max(w.tip_mm.z, bottom + skill_.stops_short * (top - bottom));
+    w.tip_mm += approach_ * std::max(0.0, bottom + skill_.stops_short * (top - bottom) - dot(w.tip_mm, approach_));
   }
   memory_.resize(static_cast<std::size_t>(skill_.reaction_s / k_tick_s) + 1);
   for (auto& m : memory_) m.proxy_mm = start_mm();
@@ -75,9 +76,8 @@ bool Operator::retreat(Vec3 from_mm) noexcept {
   if (next_ + 1 >= way_.size() || way_.size() == way_.capacity()) return false;
   // held up: out of the cavity, and in again above the place after the next
   const Vec3 to = way_[next_ + 1].tip_mm;
-  const double air_z = start_mm().z;
-  way_[next_] = {{from_mm.x, from_mm.y, air_z}, true, false};  // turning, so that a ledge gives way
-  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {{to.x, to.y, air_z}, false, false});
+  way_[next_] = {in_air(from_mm), true, false};  // turning, so that a ledge gives way
+  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {in_air(to), false, false});
   from_mm_ = from_mm;
   best_mm_ = 1e9;
   stuck_s_ = 0;
@@ -157,7 +157,7 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
   chosen.index = tray.size();
   double best_score = 0;
   for (std::size_t i = 0; i < tray.size(); ++i) {
-    ReachMap map = reach_map(zones, tooth, tray[i], PlanOptions{}.margin_mm);
+    ReachMap map = reach_map(zones, tooth, tray[i], k_expert_margin);
     chosen.covers.push_back(coverage(map, zones, tooth, tray[i]));
     // a head shorter than the target is deep leaves ledges that hold up its neck
     const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
@@ -171,13 +171,30 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
   return chosen;
 }
 
+namespace {
+
+/// Where the careless candidate goes, with the point that an expert would have chosen.
+ReachMap careless_map(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const ContactTool& point) {
+  const CarelessSpec& c = scenario.careless;
+  const MarginSpec margin{k_expert_margin.sides_mm + c.sides_mm, k_expert_margin.bottom_mm + c.bottom_mm};
+  return middle_of(reach_map(zones, tooth, point, margin), c.opening_percent);
+}
+
+}  // namespace
+
 Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                          const std::vector<ContactTool>& tray, std::uint64_t seed) {
-  const Skill skill = make_skill(skill_name, seed);
-  const ChosenPoint chosen = choose_point(zones, tooth, tray);
-  if (chosen.index == tray.size())
-    throw Error(scenario.path.empty() ? "scenario" : scenario.path, "no allowed diamond point fits into the target", "allow a thinner one");
-  auto way = plan_cut(chosen.map, zones, tooth, PlanOptions{});
+  Skill skill = make_skill(skill_name, seed);
+  const std::string where = scenario.path.empty() ? "scenario" : scenario.path;
+  ChosenPoint chosen = choose_point(zones, tooth, tray);
+  if (chosen.index == tray.size()) throw Error(where, "no allowed diamond point fits into the target", "allow a thinner one");
+  if (skill.name == "careless") {
+    if (scenario.careless.fails_by.empty()) throw Error(where, "does not say what a careless candidate does", "add [careless] to it");
+    skill.perforates = scenario.careless.perforates;
+    chosen.map = careless_map(scenario, zones, tooth, tray[chosen.index]);
+  }
+  auto way = plan_cut(chosen.map, tooth, PlanOptions{});
+  if (way.empty()) throw Error(where, "the careless candidate finds nothing to cut", "let [careless] leave more of the target");
   if (skill.perforates)
     for (const auto& fault : scenario.perforation.faults) {
       bool present = false;
@@ -188,7 +205,7 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       way.insert(way.end(), deeper.begin(), deeper.end());
       break;
     }
-  return {Operator(skill, std::move(way), seed), static_cast<std::uint8_t>(chosen.index)};
+  return {Operator(skill, std::move(way), zones.approach(), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 
 }  // namespace cavum

@@ -28,7 +28,8 @@ struct Skill {
   HandModel hand;
 };
 
-/// `expert`, `novice` or `perforator`; the seed draws the novice's habits. Throws Error on another name.
+/// `expert`, `novice`, `perforator`, or `careless`, who has an expert's hand and makes the mistake that the scenario names; the seed draws the
+/// novice's habits. Throws Error on another name.
 [[nodiscard]] Skill make_skill(const std::string& name, std::uint64_t seed);
 
 /// What the candidate wants in one tick.
@@ -40,13 +41,15 @@ struct Intent {
 
 class Operator {
  public:
-  /// Follows `way`; see plan_cut.
-  Operator(Skill skill, std::vector<Waypoint> way, std::uint64_t seed);
+  /// Follows `way` (see plan_cut) with the handpiece held along `approach`, unit, out of the tooth.
+  Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::uint64_t seed);
 
   [[nodiscard]] Vec3 start_mm() const noexcept { return way_.empty() ? Vec3{0, 0, 20} : way_.front().tip_mm; }
   /// `seen` is the last tick's output.
   [[nodiscard]] Intent act(const TickOutput& seen, double dt_s) noexcept;
   [[nodiscard]] const Skill& skill() const noexcept { return skill_; }
+  /// From the tool's frame to the tooth's; the same all the time.
+  [[nodiscard]] Quat rotation() const noexcept { return rotation_between({0, 0, 1}, approach_); }
   /// Done so far, 0..1.
   [[nodiscard]] double progress() const noexcept { return way_.empty() ? 1.0 : static_cast<double>(next_) / static_cast<double>(way_.size()); }
 
@@ -57,10 +60,13 @@ class Operator {
     bool contact = false;
   };
   bool retreat(Vec3 from_mm) noexcept;
+  /// `p` lifted along the approach to the height of the ways through the air.
+  [[nodiscard]] Vec3 in_air(Vec3 p) const noexcept { return p + approach_ * dot(start_mm() - p, approach_); }
   [[nodiscard]] Sight delayed(const TickOutput& seen, double dt_s) noexcept;
 
   Skill skill_;
   std::vector<Waypoint> way_;
+  Vec3 approach_;
   Random random_;
   std::vector<Sight> memory_;  // ring of the last sights
   std::size_t now_ = 0;
@@ -78,7 +84,8 @@ struct ChosenPoint {
 [[nodiscard]] ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray);
 
 /// The plan and the candidate for a scenario laid into a tooth: the mounted point is the first one allowed
-/// that removes the target best. Throws Error when no allowed point fits into the target.
+/// that removes the target best. Throws Error when no allowed point fits into the target, or when `careless` is asked for
+/// and the scenario has no [careless].
 struct Candidate {
   Operator hands;
   std::uint8_t point = 0;

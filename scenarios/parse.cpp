@@ -154,6 +154,24 @@ PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
   return p;
 }
 
+CarelessSpec read_careless(const toml::table& table, const RubricSpec& rubric, ProblemList& problems) {
+  CheckedTable t(table, "[careless]", problems);
+  CarelessSpec c;
+  c.fails_by = t.text("fails_by", "", true);
+  c.sides_mm = t.number("sides_mm", -3, 0.9, 0);
+  c.bottom_mm = t.number("bottom_mm", -3, 3, 0);
+  c.opening_percent = t.number("opening_percent", 10, 100, 100);
+  c.perforates = t.truth("perforates", false);
+  std::vector<std::string> ids;
+  for (const auto& criterion : rubric.criteria) ids.push_back(criterion.id);
+  if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
+    t.problem("fails_by", "the rubric has no criterion '" + c.fails_by + "'", suggestion(c.fails_by, ids));
+  if (c == CarelessSpec{.fails_by = c.fails_by})
+    t.problem("fails_by", "nothing is done carelessly", "set sides_mm, bottom_mm, opening_percent or perforates");
+  t.finish();
+  return c;
+}
+
 /// The button of pauses cannot also be asked for in a condition.
 void check_pause_button(const Scenario& s, ProblemList& problems) {
   if (s.pauses.count == 0) return;
@@ -217,6 +235,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     pt.finish();
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
+  if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s.rubric, problems);
   t.finish();
   return s;
 }

@@ -102,6 +102,17 @@ struct RubricSpec {
   std::vector<CriterionSpec> criteria;
 };
 
+/// The mistake that the task exists to catch, made by the simulated candidate `careless`: it cuts as an expert would who has
+/// understood the target wrongly, and the exam must fail it by criterion `fails_by`.
+struct CarelessSpec {
+  std::string fails_by;            ///< empty: the scenario says nothing of it
+  double sides_mm = 0.0;           ///< this far beyond the target's sides (negative: it stays away from them)
+  double bottom_mm = 0.0;          ///< and below its floor
+  double opening_percent = 100.0;  ///< cuts only in the middle of the outline: of its length and width
+  bool perforates = false;         ///< goes on through the floor into the first tissue of perforation.faults that lies below
+  friend bool operator==(const CarelessSpec&, const CarelessSpec&) = default;
+};
+
 /// Changes granted to one candidate; recorded with the result. An exam may be begun with others than its file says.
 struct Accommodations {
   double extra_time_percent = 0.0;  ///< of every time limit
@@ -138,6 +149,7 @@ struct Scenario {
   ZoneSpec zones;
   PerforationSpec perforation;
   RubricSpec rubric;
+  CarelessSpec careless;
   std::map<std::string, Place> places;  ///< by "time_limit_s", "points/2", "steps/0/complete_when", "zones/target/1", "rubric/criteria/3/metric" ...
 };
 

@@ -12,8 +12,11 @@ namespace {
 struct ToothKind {
   std::string_view word, file, how;  ///< as --tooth names it; file of data/teeth; where it comes from
 };
-constexpr std::array<ToothKind, 2> k_teeth{{
+constexpr std::array<ToothKind, 5> k_teeth{{
     {"molar", "lower_molar.cvt", "lower first molar, ships with Cavum"},
+    {"premolar", "upper_premolar.cvt", "upper second premolar, ships with Cavum"},
+    {"incisor", "upper_incisor.cvt", "upper central incisor, ships with Cavum"},
+    {"carious_molar", "molar_lesion.cvt", "lower first molar with a hidden lesion: cavum tooth make molar --lesion 0.2,0,-1.1,1.5,1.1,0.75"},
     {"block", "block.cvt",
      "ships with Cavum: cavum tooth make block --size-mm 10,10,6 --layers enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3 --leaf-mm 0.05"},
 }};
@@ -34,12 +37,17 @@ shape = "tissue"
 tissue = "pulp"
 offset_mm = 0.5
 )";
+constexpr std::string_view k_lesion_guard = R"([[zones.protected]]                  # must stay, even inside leeway and container; may be left out
+shape = "tissue"
+tissue = "pulp"
+offset_mm = 0.3
+)";
 constexpr std::string_view k_root_guard = R"([[zones.protected]]                  # must stay, even inside leeway and container; may be left out
 shape = "tissue"
 tissue = "periodontium"
 )";
 
-constexpr std::array<Task, 7> k_tasks{{
+constexpr std::array<Task, 10> k_tasks{{
     {"molar", "access", Kind::access, "Access to the pulp chamber", "Remove the whole roof of the pulp chamber; leave walls and floor.",
      R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
      R"(# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to the chamber's floor.
@@ -85,6 +93,52 @@ height_mm = 6
 outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
 )",
      k_pulp_guard},
+    {"premolar", "access", Kind::access, "Access to the pulp chamber",
+     "Remove the whole roof of the pulp chamber with both horns; spare the mesial and distal walls.",
+     R"(["cylinder-round-1.0", "endo-access-1.0", "round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
+     R"(# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canal begins.
+[[zones.target]]
+shape = "column"
+outline = { kind = "projection", tissue = "pulp", part = "chamber", offset_mm = 0.1, rounding_mm = 0.55 }
+bottom = { kind = "tissue_floor", tissue = "pulp", part = "chamber" }
+)",
+     k_root_guard},
+    {"incisor", "access", Kind::access, "Access to the pulp chamber",
+     "From the lingual side: remove roof, horns and lingual shoulder; leave the labial wall.",
+     R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
+     R"(# A triangle with rounded corners in the lingual fossa, along an axis that leans 30 degrees towards lingual: the first body's axis is the
+# way in. In the prism's frame y runs to incisal; at_mm is the middle of its lower face.
+[[zones.target]]
+shape = "prism"
+at_mm = [0, 0, -3.0]
+axis = [0, -0.5, 0.8660254]
+height_mm = 12
+outline = { kind = "polygon", points_mm = [[-0.95, 2.65], [-0.45, 0.05], [0.45, 0.05], [0.95, 2.65]], offset_mm = 0.55 }
+
+# Nothing labial of the pulp: a plane just inside its labial wall.
+[[zones.target]]
+shape = "box"
+combine = "subtract"
+at_mm = [0, 4.04, -0.255]
+size_mm = [12, 6, 24]
+axis = [0, 0.085, 0.9964]
+)",
+     k_root_guard},
+    {"carious_molar", "lesion", Kind::cavity, "Removal of a hidden lesion",
+     "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])",
+     600, "[]", R"(["pulp", "periodontium"])",
+     R"(# The lesion itself ...
+[[zones.target]]
+shape = "tissue"
+tissue = "lesion"
+
+# ... and the way to it: its shadow, down to its roof.
+[[zones.target]]
+shape = "column"
+outline = { kind = "projection", tissue = "lesion", rounding_mm = 0.55 }
+bottom = { kind = "tissue_roof", tissue = "lesion" }
+)",
+     k_lesion_guard},
     {"block", "class_1", Kind::cavity, "Cavity like a class I in a block", "4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor.",
      R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 480, "[]", R"(["pulp"])",
      R"(# A stroke of 1.4 mm with half circles at its ends, 4.4 mm long in all.
@@ -170,7 +224,7 @@ complete_when = "touched_pulp > 0.05"
 [[steps]]
 id = "roof"
 instruction = "Remove the rest of the roof. Do not touch the floor. Release the pedal and lift off when done."
-complete_when = "target_removed_percent >= 90 && pedal < 0.05 && contact == 0"
+complete_when = "target_removed_percent >= 85 && pedal < 0.05 && contact == 0"
 )";
 
 constexpr std::string_view k_shapes = R"(
@@ -248,6 +302,14 @@ full = 0
 zero = 1
 points = 10
 critical_above = 0.5
+
+# What the task exists to catch: the simulated candidate `careless` does it, and must fail by that criterion
+# (cavum exam FILE --operator careless ...).
+# [careless]
+# sides_mm = 0.6                     # beyond the target's sides; bottom_mm: below its floor; both may be negative
+# opening_percent = 100              # less: opens only the middle of the outline
+# perforates = false                 # true: goes on through the floor into a tissue under faults
+# fails_by = "walls"
 )";
 
 std::string line(const std::string& text, const std::string& comment) {

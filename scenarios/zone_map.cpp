@@ -96,6 +96,8 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   ZoneMap map;
   map.leaf_mm_ = leaf;
   map.origin_mm_ = tree.origin_mm();
+  constexpr double k_steep = 0.5;  // cosine: flatter ways in are no way for a handpiece
+  if (const Vec3 axis = spec.target.empty() ? Vec3{0, 0, 1} : spec.target[0].axis; axis.z >= k_steep) map.approach_ = axis;
   const double margin_mm = std::max({spec.leeway.sides_mm, spec.leeway.bottom_mm, spec.container.sides_mm, spec.container.bottom_mm}) + 0.25;
   const int margin = static_cast<int>(margin_mm / leaf) + 2;
   const IVec3 n = tree.size(), high{std::min(n.x, box.high.x + margin), std::min(n.y, box.high.y + margin), std::min(n.z, box.high.z + margin)};

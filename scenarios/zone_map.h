@@ -61,6 +61,9 @@ class ZoneMap {
   [[nodiscard]] Vec3 target_high_mm() const noexcept { return target_high_mm_; }
   /// Mean height of the tooth's surface over the target: the level of the occlusal opening.
   [[nodiscard]] double opening_z_mm() const noexcept { return opening_z_mm_; }
+  /// The way in, pointing out of the tooth, unit: the axis of the target's first body where the scenario turns it (an incisor is entered
+  /// from its lingual side), within 60° of occlusal; else +z.
+  [[nodiscard]] Vec3 approach() const noexcept { return approach_; }
   /// Calls `visit(leaf)` for every target leaf, z slowest.
   template <class Visit>
   void for_each_target_leaf(const Visit& visit) const {
@@ -94,6 +97,7 @@ class ZoneMap {
   std::uint64_t target_border_ = 0;
   Vec3 target_low_mm_, target_high_mm_;
   double opening_z_mm_ = 0.0;
+  Vec3 approach_{0, 0, 1};
 };
 
 /// Lays the zones into a tooth (the whole one, before the exam). Throws Error when the target is empty or

@@ -198,7 +198,8 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("scenario", o->scenario, "scenario file (.toml)");
   exam->add_option("--candidate", o->candidate, "candidate's pseudonym");
   auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
-  auto* name = exam->add_option("--operator", o->operator_name, "simulated candidate: expert, novice or perforator");
+  auto* name = exam->add_option("--operator", o->operator_name,
+                                "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
   auto* device = exam->add_option("--device", o->device, "haptic device by name, as `cavum devices` lists it");
   motion->excludes(name);
   device->excludes(name)->excludes(motion);

@@ -18,6 +18,7 @@
 #include "engine/tooth/make_incisor.h"
 #include "engine/tooth/make_molar.h"
 #include "engine/tooth/make_premolar.h"
+#include "engine/tooth/plant_lesion.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/checked_toml.h"
@@ -157,17 +158,26 @@ void notice_part_leaves(const std::vector<double>& sizes_mm, double leaf_mm, con
   }
 }
 
+/// The tooth with the lesion that --lesion asks for; as it is without.
+Tooth with_lesion(Tooth tooth, const std::string& text) {
+  if (text.empty()) return tooth;
+  const auto n = parse_numbers(text, "--lesion");
+  if (n.size() != 6) throw Error("--lesion", "needs six numbers, '" + text + "' has " + std::to_string(n.size()), "write them as x,y,z,rx,ry,rz");
+  return plant_lesion(std::move(tooth), {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+}
+
 void add_make(CLI::App& tooth) {
   auto* make = tooth.add_subcommand("make", "Build a tooth from formulae");
   make->require_subcommand(1);
 
   struct Common {
-    std::string out;
+    std::string out, lesion;
     bool json = false;
   };
   const auto common = [](CLI::App* app) {
     auto c = std::make_shared<Common>();
     app->add_option("--out", c->out, "Tooth file to write (.cvt)")->required();
+    app->add_option("--lesion", c->lesion, "x,y,z,rx,ry,rz, mm: softened dentin in an ellipsoid, hidden under a sound surface");
     app->add_flag("--json", c->json, "One JSON object on stdout");
     return c;
   };
@@ -184,7 +194,7 @@ void add_make(CLI::App& tooth) {
   molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
   molar->callback([=] {
     require_writable(mc->out);
-    finish(make_molar(*shape), mc->out, mc->json);
+    finish(with_lesion(make_molar(*shape), mc->lesion), mc->out, mc->json);
   });
 
   auto* premolar = make->add_subcommand("premolar", "A parametric upper second premolar");
@@ -196,7 +206,7 @@ void add_make(CLI::App& tooth) {
   premolar->add_option("--occlusal-enamel-mm", premolar_shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
   premolar->add_option("--lateral-enamel-mm", premolar_shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
   premolar->add_option("--chamber-roof-mm", premolar_shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
-  premolar->callback([=] { finish(make_premolar(*premolar_shape), pc->out, pc->json); });
+  premolar->callback([=] { finish(with_lesion(make_premolar(*premolar_shape), pc->lesion), pc->out, pc->json); });
 
   auto* incisor = make->add_subcommand("incisor", "A parametric upper central incisor");
   auto incisor_shape = std::make_shared<IncisorShape>();
@@ -206,7 +216,7 @@ void add_make(CLI::App& tooth) {
   incisor->add_option("--incisal-enamel-mm", incisor_shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
   incisor->add_option("--lateral-enamel-mm", incisor_shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
   incisor->add_option("--chamber-top-mm", incisor_shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
-  incisor->callback([=] { finish(make_incisor(*incisor_shape), ic->out, ic->json); });
+  incisor->callback([=] { finish(with_lesion(make_incisor(*incisor_shape), ic->lesion), ic->out, ic->json); });
 
   auto* block = make->add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
   struct BlockArgs {
@@ -222,7 +232,7 @@ void add_make(CLI::App& tooth) {
     require_writable(bc->out);
     const Vec3 size = parse_vec(ba->size, "--size-mm");
     const std::vector<Layer> layers = parse_layers(ba->layers);
-    const Tooth made = make_block(size, layers, ba->leaf_mm);
+    const Tooth made = with_lesion(make_block(size, layers, ba->leaf_mm), bc->lesion);
     notice_unknown_tissues(made);
     notice_part_leaves({size.x, size.y, size.z}, ba->leaf_mm, "a side");
     for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, ba->leaf_mm, ("layer '" + layer.tissue + "'").c_str());
@@ -241,7 +251,7 @@ void add_make(CLI::App& tooth) {
   cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   cube->callback([=] {
     require_writable(cc->out);
-    const Tooth made = make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm);
+    const Tooth made = with_lesion(make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm), cc->lesion);
     notice_unknown_tissues(made);
     notice_part_leaves({ca->edge_mm}, ca->leaf_mm, "an edge");
     finish(made, cc->out, cc->json);

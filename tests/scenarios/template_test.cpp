@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Template, ::testing::ValuesIn(template_choices()
                          [](const auto& test) { return test.param.tooth + "_" + test.param.task; });
 
 TEST(Templates, ThatDoNotExistAreRefusedWithTheListOfThoseThatDo) {
-  for (const auto& [tooth, task] : {std::pair("incisor", "access"), std::pair("molar", "lesion"), std::pair("", "")}) {
+  for (const auto& [tooth, task] : {std::pair("incisor", "class_2"), std::pair("molar", "lesion"), std::pair("", "")}) {
     try {
       static_cast<void>(scenario_template(tooth, task));
       ADD_FAILURE() << tooth << " " << task;

@@ -129,7 +129,10 @@ TEST_F(CommandLine, EveryTemplateIsSolvedByTheExpertInAboutTheTimeThatCheckSays)
                                     {"molar", "class_1"},
                                     {"molar", "class_2"},
                                     {"molar", "slot"},
-                                    {"molar", "access"}}) {
+                                    {"molar", "access"},
+                                    {"premolar", "access"},
+                                    {"incisor", "access"},
+                                    {"carious_molar", "lesion"}}) {
     const std::string file = path(tooth + task + ".toml");
     ASSERT_EQ(run("scenario new --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);
     const Ran check = run("scenario check " + file + " --json");
@@ -161,7 +164,7 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   EXPECT_EQ(run("replay " + path("hasty.cavum") + " --verify").exit_code, 0);
   expect_refused("scenario solve " + path("none.toml"), {"none.toml"});
   expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png", ".svg"});
-  expect_refused("scenario new --tooth incisor --task access --out " + path("i.toml"), {"--tooth incisor", "molar with access"});
+  expect_refused("scenario new --tooth incisor --task class_2 --out " + path("i.toml"), {"--tooth incisor", "molar with access"});
 }
 
 /// A stylus that drills a block from above, rests with the handpiece off between 6 s and 10 s, and drills on to 20 s. Button 2 goes down

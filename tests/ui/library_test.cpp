@@ -1,0 +1,102 @@
+// The tasks that ship: each is sound, leaves the expert time, is passed by him and failed by the careless candidate for the very
+// reason that the scenario names. From the files in data/scenarios to the verdict, in one process.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+#include "grading/result_json.h"
+#include "grading/session_input.h"
+#include "scenarios/check.h"
+#include "scenarios/simulated_exam.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string k_folder = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios";
+
+std::vector<std::string> tasks() {
+  std::vector<std::string> list;
+  for (const auto& entry : fs::directory_iterator(k_folder))
+    if (entry.path().extension() == ".toml") list.push_back(entry.path().stem().string());
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+std::string text_of(const Result& r) {
+  std::string all = std::string(verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + r.progress.finish + "\n";
+  for (const auto& reason : r.verdict_reasons) all += "  " + reason + "\n";
+  for (const auto& c : r.criteria) all += "  " + c.id + ": " + c.reason + "\n";
+  return all;
+}
+
+class Library : public ::testing::TestWithParam<std::string> {
+ protected:
+  [[nodiscard]] std::string file() const { return k_folder + "/" + GetParam() + ".toml"; }
+  [[nodiscard]] std::unique_ptr<ExamSetup> prepared() const {
+    ExamOptions options;
+    options.candidate = "simulated";
+    options.device = "simulated Omni";
+    return prepare_exam(file(), options);
+  }
+  /// Recorded and read back, with zones and tooth of the setup.
+  [[nodiscard]] Result taken_by(const std::string& who, const ExamSetup& setup) const {
+    const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000;
+    SimulatedCandidate candidate = make_simulated_candidate(setup, who, seed, OmniModel{});
+    const std::string session = folder_.file(who + ".cavum");
+    const auto exam = Exam::start(setup, session, candidate.start_mm());
+    run_exam(*exam, candidate);
+    exam->recorder().flush();
+    const SessionReader reader(session);
+    const auto inputs = reader.inputs();
+    const auto records = reader.records();
+    const auto removed = reader.removed();
+    const auto events = reader.events();
+    const Tooth after = exam->tooth_now();
+    Result r = grade({setup.scenario, setup.tooth, setup.zones, after.octree, inputs, records, removed, events}, setup.scenario.rubric);
+    exam->close(to_json(r).dump());
+    return r;
+  }
+  testing_basics::Folder folder_;
+};
+
+TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
+  const std::string text = read_text_file(file());
+  const CheckedScenario checked = check_whole(text, file());
+  for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
+  ASSERT_TRUE(checked.expert_s);
+  const Scenario s = parse_scenario(text, file());
+  EXPECT_LT(2 * *checked.expert_s, s.time_limit_s);
+  EXPECT_EQ(s.id, GetParam());
+  double points = 0;
+  for (const auto& c : s.rubric.criteria) points += c.points;
+  EXPECT_DOUBLE_EQ(points, 100);
+}
+
+TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
+  const auto setup = prepared();
+  const Result expert = taken_by("expert", *setup);
+  EXPECT_EQ(expert.verdict, Verdict::pass) << text_of(expert);
+  EXPECT_GE(expert.points, 90) << text_of(expert);
+  EXPECT_EQ(expert.progress.finish, "completed") << text_of(expert);
+
+  const std::string reason = setup->scenario.careless.fails_by;
+  ASSERT_FALSE(reason.empty()) << "a task that ships says what it is there to catch";
+  const Result careless = taken_by("careless", *setup);
+  EXPECT_EQ(careless.verdict, Verdict::fail) << text_of(careless);
+  EXPECT_NE(careless.progress.finish, "time") << "failed by a time-out instead";
+  const auto c = std::find_if(careless.criteria.begin(), careless.criteria.end(), [&](const auto& one) { return one.id == reason; });
+  ASSERT_NE(c, careless.criteria.end());
+  EXPECT_TRUE(c->critical_failed) << text_of(careless);
+  EXPECT_DOUBLE_EQ(c->points, 0) << text_of(careless);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(tasks()), [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace cavum
