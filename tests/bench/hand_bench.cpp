@@ -19,9 +19,11 @@ using namespace testing_engine;
 
 void print_tick(double t_s, double us, const TickOutput& out, const ServoState& state, double hop_mm) {
   const ContactState& c = state.contact;
-  std::printf("%9.5f s %6.1f us; looked up %4d, half spaces %3zu, proxy moved %.4f mm; X %.4f, owed %.4f mm; F %.3f N; normal %+.2f %+.2f %+.2f; removed %u%s\n",
-              t_s, us, c.looked_up, c.half_spaces.size(), hop_mm, out.penetration_mm, state.recession_mm, length(out.rendered_force_n), out.normal.x,
-              out.normal.y, out.normal.z, out.removed_count, state.carving.under_way() ? ", carving" : "");
+  std::printf(
+      "%9.5f s %6.1f us; looked up %4d, half spaces %3zu, proxy moved %.4f mm; X %.4f, owed %.4f mm; F %.3f N; normal %+.2f %+.2f %+.2f; removed "
+      "%u%s\n",
+      t_s, us, c.looked_up, c.half_spaces.size(), hop_mm, out.penetration_mm, state.recession_mm, length(out.rendered_force_n), out.normal.x,
+      out.normal.y, out.normal.z, out.removed_count, state.carving.under_way() ? ", carving" : "");
 }
 
 void drill(double seconds, double tick_s, double from_s, double to_s) {
@@ -62,8 +64,8 @@ void drill(double seconds, double tick_s, double from_s, double to_s) {
   std::printf("%zu ticks of %g ms, %zu leaves removed\n", ticks, tick_s * 1e3, removed);
   std::printf("  median %.2f  p99 %.1f  p99.9 %.1f  worst %.1f  mean %.2f us; more than 50 us: %zu\n", at(0.5), at(0.99), at(0.999), us.back(),
               sum / static_cast<double>(us.size()), over_50);
-  std::printf("  slowest tenth of a second: mean %.1f us, until %.2f s; force at most %.3f N a tick\n", slowest / static_cast<double>(window), slowest_at_s,
-              steepest_n);
+  std::printf("  slowest tenth of a second: mean %.1f us, until %.2f s; force at most %.3f N a tick\n", slowest / static_cast<double>(window),
+              slowest_at_s, steepest_n);
 }
 
 }  // namespace
