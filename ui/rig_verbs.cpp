@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -20,6 +21,22 @@ namespace cavum {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A number in low..high. CLI::Range lets NaN through.
+CLI::Validator between(double low, double high) {
+  const auto plain = [](double v) {
+    std::ostringstream text;
+    text << v;
+    return text.str();
+  };
+  const std::string range = plain(low) + " to " + plain(high);
+  return CLI::Validator(
+      [low, high, range](const std::string& text) {
+        double value = 0.0;
+        return CLI::detail::lexical_cast(text, value) && value >= low && value <= high ? std::string{} : "'" + text + "' is no number from " + range;
+      },
+      range);
+}
 
 struct Common {
   std::string out, point = "round-1.0";
@@ -177,9 +194,9 @@ void add_cube(CLI::App& rig, int& exit_code) {
   verb->add_option("--model", a->models, "force models: paper, consistent, or TOML files; each keeps its ratio c/√k")
       ->delimiter(',')
       ->capture_default_str();
-  verb->add_option("--k", a->options.k_n_per_mm, "stiffnesses, N/mm")->delimiter(',')->check(CLI::Range(0.0, 2.0))->capture_default_str();
+  verb->add_option("--k", a->options.k_n_per_mm, "stiffnesses, N/mm")->delimiter(',')->check(between(0.0, 2.0))->capture_default_str();
   verb->add_option("--csv", a->csv, "recordings of the first model at --csv-k; rig.toml with their units is written beside it");
-  verb->add_option("--csv-k", a->csv_k_n_per_mm, "stiffness that is recorded, N/mm")->capture_default_str();
+  verb->add_option("--csv-k", a->csv_k_n_per_mm, "stiffness that is recorded, N/mm")->check(between(0.0, 2.0))->capture_default_str();
   verb->callback([a, &exit_code] {
     run_cube(*a);
     exit_code = 0;
@@ -194,9 +211,7 @@ void add_tooth(CLI::App& rig, int& exit_code) {
   verb->add_option("--tooth", a->tooth, "tooth file (.cvt) instead of the shipped molar");
   verb->add_option("--model", a->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   verb->add_option("--at", a->at_mm, "x,y of the middle, mm, instead of the middle of the pulp's roof")->delimiter(',')->expected(2);
-  verb->add_option("--spread-mm", a->options.spread_mm, "runs lie at most this far from the middle")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
+  verb->add_option("--spread-mm", a->options.spread_mm, "runs lie at most this far from the middle")->check(between(0.0, 5.0))->capture_default_str();
   verb->callback([a, &exit_code] {
     run_tooth(*a);
     exit_code = 0;
@@ -210,18 +225,18 @@ void add_press(CLI::App& rig, int& exit_code) {
   PressOptions& o = a->options;
   add_common(*verb, *a, false);
   verb->add_option("--model", a->model, "take the rendering's constants from this force model: paper, consistent, or a TOML file");
-  verb->add_option("--k", o.k_n_per_mm, "stiffnesses, N/mm")->delimiter(',')->check(CLI::Range(0.05, 5.0))->capture_default_str();
+  verb->add_option("--k", o.k_n_per_mm, "stiffnesses, N/mm")->delimiter(',')->check(between(0.05, 5.0))->capture_default_str();
   verb->add_option("--c", a->damping, "dampings: paper (2√k), consistent (critical damping of the stylus), none")->delimiter(',');
   verb->add_option("--delay", o.delay_ticks, "ticks from command to force")->delimiter(',')->check(CLI::Range(0, 3))->capture_default_str();
-  verb->add_option("--hand", a->hand_n_per_m, "stiffnesses of the hand, N/m")->delimiter(',')->check(CLI::Range(10.0, 10000.0));
-  verb->add_option("--press", o.press_n, "loads, N")->delimiter(',')->check(CLI::Range(0.05, 3.0))->capture_default_str();
+  verb->add_option("--hand", a->hand_n_per_m, "stiffnesses of the hand, N/m")->delimiter(',')->check(between(10.0, 10000.0));
+  verb->add_option("--press", o.press_n, "loads, N")->delimiter(',')->check(between(0.05, 3.0))->capture_default_str();
   verb->add_option("--speed", o.contact_mm_s, "speeds at which contact is made, mm/s")
       ->delimiter(',')
-      ->check(CLI::Range(0.5, 500.0))
+      ->check(between(0.5, 500.0))
       ->capture_default_str();
-  verb->add_option("--hold-s", o.hold_s, "how long the press is held")->check(CLI::Range(0.5, 120.0))->capture_default_str();
-  verb->add_option("--hand-mass-kg", o.hand_mass_kg, "of the fingers")->check(CLI::Range(0.001, 2.0))->capture_default_str();
-  verb->add_option("--hand-damping", o.hand_damping_ratio, "damping ratio of the hand")->check(CLI::Range(0.0, 5.0))->capture_default_str();
+  verb->add_option("--hold-s", o.hold_s, "how long the press is held")->check(between(0.5, 120.0))->capture_default_str();
+  verb->add_option("--hand-mass-kg", o.hand_mass_kg, "of the fingers")->check(between(0.001, 2.0))->capture_default_str();
+  verb->add_option("--hand-damping", o.hand_damping_ratio, "damping ratio of the hand")->check(between(0.0, 5.0))->capture_default_str();
   verb->add_flag("--cells", a->cells, "a line for every press and contact");
   verb->callback([a, &exit_code] { exit_code = run_press(*a) ? 0 : 1; });
 }
@@ -231,8 +246,8 @@ void add_servo(CLI::App& rig, int& exit_code) {
       rig.add_subcommand("servo", "Does this computer keep the servo's time? Drills in real time and records it. Exit 1 when a tick was late");
   const auto a = std::make_shared<ServoArgs>();
   verb->add_option("--out", a->out, "session file to write (.cavum)")->required();
-  verb->add_option("--seconds", a->options.seconds, "how long")->check(CLI::Range(1.0, 36000.0))->capture_default_str();
-  verb->add_option("--tick-ms", a->tick_ms, "length of a tick")->check(CLI::Range(0.1, 10.0))->capture_default_str();
+  verb->add_option("--seconds", a->options.seconds, "how long")->check(between(1.0, 36000.0))->capture_default_str();
+  verb->add_option("--tick-ms", a->tick_ms, "length of a tick")->check(between(0.1, 10.0))->capture_default_str();
   verb->add_option("--point", a->point, "diamond point: a name of data/points, or a TOML file")->capture_default_str();
   verb->add_option("--model", a->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   verb->add_flag("--json", a->json, "one JSON object on standard output");

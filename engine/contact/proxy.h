@@ -49,6 +49,7 @@ struct ContactState {
   std::uint64_t means_edit = 0;
   Vec3 means_tip_mm, means_normal;
   bool means_late = false;            ///< they are those of the tick before
+  double stride_mm = 1.0;             ///< longest step, as long as it lasts: shortened where steps went forth and back
   int looked_up = 0;                  ///< places of the tooth that this tick asked for: what contact has cost
   std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with
   Octree::Cursor cursor;
@@ -58,13 +59,15 @@ struct ContactState {
 /// What one tick of contact found.
 struct ContactResult {
   bool touching = false;
+  bool on_its_way = false;    ///< the proxy goes on in the next tick: it has not arrived
   bool in_air = false;        ///< nothing of the tooth, not even void tissue, near any part of the tool
   Vec3 normal;                ///< out of the tooth, from the device to the proxy
   double penetration_mm = 0;  ///< X, before any recession that the cutting still owes
   Vec3 moved_mm;              ///< how far the proxy moved
 };
 
-/// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. Rotation follows the device.
+/// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth, and fewer where each needs much looking around.
+/// Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
 /// A sample touches solid tissue fully within 0.2 leaves of it and less and less up to 0.7; where it does not, void tissue

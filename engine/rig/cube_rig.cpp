@@ -118,7 +118,7 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint
       const Material& own = m.force.materials.find(k_tissue)->second;
       set.damping_ratio = own.voigt.damping_n_s_per_mm / std::sqrt(own.voigt.stiffness_n_per_mm);
       set.tau_s = material.tau_s;
-      servos.back().push_back(machine_servo(cube, point, force));
+      servos.back().push_back(machine_servo(cube, point, force, options.machine.omni));
       CubeRow row;
       row.k_n_per_mm = k;
       row.c_n_s_per_mm = material.voigt.damping_n_s_per_mm;

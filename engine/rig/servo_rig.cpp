@@ -6,22 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/det_math.h"
-#include "engine/device/simulated_stylus.h"
 #include "engine/session/simulation.h"
 #include "engine/tooth/make_block.h"
 
 namespace cavum {
 namespace {
-
-/// Down to the block, then in circles, pressing, and out of contact for a moment in every turn.
-HandIntent drilling_hand(double t_s) {
-  constexpr double k_radius_mm = 1.0, k_turn_s = 8.0, k_start_mm = 0.3, k_press_mm = 1.2, k_feed_mm_s = 0.06;
-  const SinCos turn = det_sincos(2 * k_pi * t_s / k_turn_s);
-  const double in_turn = t_s / k_turn_s - std::floor(t_s / k_turn_s);
-  const double lift_mm = std::max(0.0, 2.0 - 40.0 * std::fabs(in_turn - 0.95));
-  const double depth_mm = std::min(2.0 * t_s, k_start_mm + k_press_mm + k_feed_mm_s * t_s);
-  return {{k_radius_mm * turn.cos, k_radius_mm * turn.sin, k_start_mm - depth_mm + lift_mm}, t_s > 0.1 ? 1.0 : 0.0};
-}
 
 nlohmann::json histogram(const Lateness& l) {
   nlohmann::json bins = nlohmann::json::array();
@@ -41,6 +30,15 @@ void line(std::string& out, const char* format, Args... args) {
 }
 
 }  // namespace
+
+HandIntent drilling_hand(double t_s) {
+  constexpr double k_radius_mm = 1.0, k_turn_s = 8.0, k_start_mm = 0.3, k_press_mm = 1.2, k_feed_mm_s = 0.06;
+  const SinCos turn = det_sincos(2 * k_pi * t_s / k_turn_s);
+  const double in_turn = t_s / k_turn_s - std::floor(t_s / k_turn_s);
+  const double lift_mm = std::max(0.0, 2.0 - 40.0 * std::fabs(in_turn - 0.95));
+  const double depth_mm = std::min(2.0 * t_s, k_start_mm + k_press_mm + k_feed_mm_s * t_s);
+  return {{k_radius_mm * turn.cos, k_radius_mm * turn.sin, k_start_mm - depth_mm + lift_mm}, t_s > 0.1 ? 1.0 : 0.0};
+}
 
 SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& force_model_toml, double tick_s) {
   SessionSetup setup;

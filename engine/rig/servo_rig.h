@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "engine/device/simulated_stylus.h"
 #include "engine/servo/real_time.h"
 #include "engine/session/session.h"
 #include "engine/session/session_writer.h"
@@ -28,6 +29,9 @@ struct ServoRigResult {
 
 /// A 10 x 10 x 6 mm block of dentin under a film of enamel, one diamond point, ticks of `tick_s`: what run_servo_rig drills.
 [[nodiscard]] SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& force_model_toml, double tick_s = k_tick_s);
+
+/// What its hand wants at a time: down to the block, then in circles, pressing, and out of contact for a moment in every turn.
+[[nodiscard]] HandIntent drilling_hand(double t_s);
 
 /// Runs in real time and closes the session at `path`; its result is the JSON below. Throws Error when it cannot be
 /// recorded; whatever the servo does is in the result.

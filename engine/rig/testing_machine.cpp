@@ -54,8 +54,10 @@ ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_
   return model;
 }
 
-ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force) {
-  return make_servo_model(tooth, {point}, force, ServoConfig{});
+ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni) {
+  ServoConfig config;
+  config.position_quantum_mm = omni.quantum_mm;
+  return make_servo_model(tooth, {point}, force, config);
 }
 
 }  // namespace cavum

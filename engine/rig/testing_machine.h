@@ -50,7 +50,7 @@ class TestingMachine {
 /// every k, from `consistent` the critical damping of the stylus. Throws Error when the tissue has no material or k0 = 0.
 [[nodiscard]] ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm);
 
-/// A servo for a machine: one diamond point, the limits of the Omni.
-[[nodiscard]] ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force);
+/// A servo for a machine: one diamond point, the limits of the Omni, and, as in an exam with one, told the step of its encoder.
+[[nodiscard]] ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni);
 
 }  // namespace cavum

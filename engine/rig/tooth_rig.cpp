@@ -228,7 +228,7 @@ ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const 
   result.tooth = tooth.name;
   result.model = force.name;
   result.point = point.title;
-  const ServoModel servo = machine_servo(tooth, point, force);
+  const ServoModel servo = machine_servo(tooth, point, force, options.machine.omni);
   const auto middle = options.at_mm ? *options.at_mm : middle_of_roof(tooth.octree);
   result.options.at_mm = middle;
   result.runs.resize(static_cast<std::size_t>(options.runs));

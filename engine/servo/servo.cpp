@@ -176,10 +176,17 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
       state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
     else
       state.recession_mm = 0.0;
-    const TouchedMeans means =
-        !contact.in_air && (contact.touching || state.rpm > 0)
-            ? touched_means(state.tooth, tool, model.voids, model.tissue.data(), std::max(0.0, state.recession_mm), state.contact)
-            : TouchedMeans{};
+    const TouchedMeans before = state.contact.means;
+    TouchedMeans means = !contact.in_air && (contact.touching || state.rpm > 0)
+                             ? touched_means(state.tooth, tool, model.voids, model.tissue.data(), std::max(0.0, state.recession_mm), state.contact)
+                             : TouchedMeans{};
+    if (contact.on_its_way && was_touching && !means.touching) {
+      // A proxy between two places of contact touches nothing; what it left speaks until it arrives, or the force would drop out for a tick.
+      means.touching = before.touching;
+      means.of = before.of;
+      means.of.recession_per_s = 0.0;
+      state.contact.means = means;
+    }
     const double approach_mm = contact.touching ? -dot(device.tip_mm - state.last_tip_mm, contact.normal) : 0.0;
     const double penetration = contact.touching ? std::max(0.0, contact.penetration_mm - state.recession_mm) : 0.0;
     const Viscoelastic tissue{means.of.stiffness_n_per_mm, means.of.damping_n_s_per_mm};

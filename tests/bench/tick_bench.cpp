@@ -4,7 +4,9 @@
 //   tick_bench count LEAF            drills 2000 ticks in a block, for valgrind --tool=callgrind --toggle-collect='cavum::step*'
 #include <cstdio>
 #include <cstring>
+#include <optional>
 
+#include "engine/base/error.h"
 #include "engine/tooth/make_block.h"
 #include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"
@@ -88,15 +90,26 @@ double dense_scan_us(const TissueGrid& grid, const DiamondPoint& point, Vec3 tip
 }  // namespace
 }  // namespace cavum
 
-int main(int argc, char** argv) {
-  using namespace cavum;
+namespace cavum {
+namespace {
+
+int usage() {
+  std::fprintf(stderr, "tick_bench: use [TICKS [TOOTH.cvt]], 100 to 1000000 ticks, or count LEAF, 0.02 to 0.5 mm\n");
+  return 2;
+}
+
+int run(int argc, char** argv) {
   const DiamondPoint ball = testing_engine::diamond_point("round-1.0");
   const auto block = [](double leaf) { return make_block({4, 4, 5.6}, {{"enamel", 5.6}}, leaf); };
   if (argc > 2 && std::strcmp(argv[1], "count") == 0) {
+    if (!(std::atof(argv[2]) >= 0.02 && std::atof(argv[2]) <= 0.5)) return usage();
     (void)drill(block(std::atof(argv[2])), ball, {0, 0, 0}, 2000);
     return 0;
   }
   const int ticks = argc > 1 ? std::atoi(argv[1]) : 8000;
+  if (ticks < 100 || ticks > 1000000) return usage();
+  std::optional<Tooth> real;
+  if (argc > 2) real = load_tooth_file(argv[2]);
   std::printf("time on the processor; asking for it adds %.2f us to each tick\n", clock_cost_us());
   Quantiles at_005{};
   for (const double leaf : {0.1, 0.05, 0.025}) {
@@ -120,11 +133,23 @@ int main(int argc, char** argv) {
   line("block, round-1.0, out of contact", quantiles(in_air(tooth, ball, 0, ticks)));
   for (const auto& name : testing_engine::point_names())
     line(name.c_str(), quantiles(drill(tooth, testing_engine::diamond_point(name), {0, 0, 0}, ticks / 2)));
-  if (argc > 2) {
-    const Tooth real = load_tooth_file(argv[2]);
+  if (real) {
     // straight down from the first solid leaf over the middle of the crown
     Vec3 top{0, 0, 12};
-    while (top.z > -12 && !real.octree.is_solid(real.octree.tissue_at(top))) top.z -= 0.01;
-    line(real.name.c_str(), quantiles(drill(real, ball, top, ticks)));
+    while (top.z > -12 && !real->octree.is_solid(real->octree.tissue_at(top))) top.z -= 0.01;
+    line(real->name.c_str(), quantiles(drill(*real, ball, top, ticks)));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace cavum
+
+int main(int argc, char** argv) {
+  try {
+    return cavum::run(argc, argv);
+  } catch (const cavum::Error& e) {
+    std::fprintf(stderr, "tick_bench: %s\n", e.what());
+    return 2;
   }
 }

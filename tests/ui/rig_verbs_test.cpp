@@ -94,6 +94,9 @@ TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
   expect_refused("tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), "--at");
   expect_refused("press --c strong", "paper, consistent or none");
   expect_refused("press --k 0", "--k");
+  for (const char* nan : {"cube --k nan", "cube --csv-k nan", "tooth --spread-mm nan", "press --press nan", "press --hand nan", "press --k nan"})
+    expect_refused(nan, "'nan' is no number from");
+  expect_refused("servo --seconds nan --out " + path("s.cavum"), "'nan' is no number from");
   expect_refused("servo", "--out");
   write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
   expect_refused("tooth --model " + path("bad.toml"), "bad.toml:3");

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/session/session_reader.h"
+#include "engine/session/simulation.h"
 #include "engine/session/verify.h"
 #include "tests/engine/support/engine_testing.h"
 
@@ -48,6 +49,46 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     const VerifyReport report = verify_session(path);
     EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
     EXPECT_EQ(report.ticks, periods);
+  }
+}
+
+// The neck leans on the rim of the hole here and the head hangs on crests that lie between the samples of the neck. The proxy once went forth and
+// back over them, 4800 places looked up in every tick for seconds, and the force hopped. What is looked up is nearly all that contact costs, and no
+// clock disturbs it.
+TEST(ServoRig, NoHandMakesTheContactGoForthAndBack) {
+  for (const double tick_s : {0.001, 0.00025}) {
+    const SessionSetup setup = servo_rig_setup(point_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
+    Simulation simulation = make_simulation(setup, "test");
+    ServoState& state = simulation.state;
+    SimulatedStylus stylus({}, {}, tick_s, drilling_hand);
+    TickInput input = make_tick_input({setup.first_tip_mm(), {}}, 0, k_stylus_fresh, 0, {});
+    const auto ticks = static_cast<std::size_t>(25.0 / tick_s), window = static_cast<std::size_t>(0.1 / tick_s);
+    std::vector<int> looked_up;
+    int most = 0;
+    long in_window = 0, most_in_window = 0;
+    double steepest_n = 0.0, last_n = 0.0;
+    bool was_touching = false;
+    for (std::size_t i = 0; i < ticks; ++i) {
+      const DeviceReading r = stylus.read(tick_s);
+      input = make_tick_input(r.pose, r.pedal, r.flags, r.point, input);
+      const TickOutput out = step(simulation.model, state, input);
+      stylus.send_force(out.rendered_force_n);
+      looked_up.push_back(state.contact.looked_up);
+      most = std::max(most, looked_up.back());
+      in_window += looked_up.back() - (i >= window ? looked_up[i - window] : 0);
+      most_in_window = std::max(most_in_window, in_window);
+      const double force_n = length(out.rendered_force_n);
+      if (out.contact && was_touching) steepest_n = std::max(steepest_n, std::fabs(force_n - last_n));
+      last_n = force_n;
+      was_touching = out.contact;
+    }
+    const double mean = static_cast<double>(most_in_window) / static_cast<double>(window);
+    std::printf(
+        "ticks of %g ms: at most %d places looked up in a tick, %.0f in the mean of the worst tenth of a second; force at most %.3f N a tick\n",
+        tick_s * 1e3, most, mean, steepest_n);
+    EXPECT_LE(most, 2500) << "in a tick of " << tick_s;
+    EXPECT_LE(mean, 1000) << "ticks of " << tick_s;
+    EXPECT_LE(steepest_n, 0.15) << "ticks of " << tick_s;
   }
 }
 

@@ -41,6 +41,9 @@ class FaultyDevice final : public ServoDevice {
     if (!is_cut.exchange(true) && cut_after_ns < 0) cut_after_ns = monotonic_ns() - sent_ns;
   }
 
+  /// Time that has passed by the servo's schedule, up to the reading under way.
+  [[nodiscard]] double time_s() const noexcept { return time_s_; }
+
   std::vector<Sent> sent;  ///< servo thread; read after join
   std::int64_t reads = 0;
   std::atomic<bool> is_cut{false};
