@@ -21,7 +21,7 @@ struct BreakthroughSettings {
   double least_level_n = 0.08;     ///< a force below it tells nothing
   double opens_at = 0.5;           ///< of the level: a fall that far is looked at ...
   double rests_at = 0.09;          ///< ... and is as likely as not a breakthrough when it ends there
-  double dated_at = 0.8;           ///< of the level: the event's time is the last moment the force still had it
+  double dated_at = 0.77;          ///< of the level: the event's time is the last moment the force still had it
   double level_s = 0.32;           ///< median of the force over this long ...
   double level_gap_s = 0.04;       ///< ... ending this long before now
   double level_memory_s = 1.6;     ///< the highest of those medians within this time is the level

@@ -157,6 +157,7 @@ double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants*
 ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm) {
   ContactState state;
   state.proxy_mm = first_tip_mm;
+  state.device_mm = first_tip_mm;
   std::size_t samples = 0, patches = 0;
   for (const auto& t : tray) {
     samples = std::max(samples, t.samples.size());
@@ -191,7 +192,9 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     result.in_air = true;
   } else {
     // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves.
-    double most = state.touching ? std::min(state.stride_mm, leaf) : leaf;
+    // Shortened steps are never shorter than the device's own: they must not hold back a slide.
+    const double least = std::max(k_least_stride * leaf, length(device.tip_mm - state.device_mm));
+    double most = state.touching ? std::min(std::max(state.stride_mm, least), leaf) : leaf;
     double stride = std::min(state.touching ? k_resting_stride * leaf : leaf, most);
     bool turned_back = false;
     Vec3 last;
@@ -214,7 +217,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       const bool far = stepped_mm > k_turn_back_leaves * leaf;
       if (far && dot(stepped, last) < 0.0) {  // the device stands still within a tick
         turned_back = true;
-        most = stride = std::max(0.5 * stride, k_least_stride * leaf);
+        most = stride = std::min(std::max(0.5 * stride, least), leaf);
       }
       last = far ? stepped : Vec3{};
       if (stepped_mm > stride) {
@@ -234,6 +237,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     state.stride_mm = turned_back ? most : k_stride_growth * most;
   }
 
+  state.device_mm = device.tip_mm;
   result.moved_mm = state.proxy_mm - before;
   const Vec3 out = state.proxy_mm - device.tip_mm;
   result.penetration_mm = length(out);

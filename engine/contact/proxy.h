@@ -31,6 +31,7 @@ struct TouchedMeans {
 /// Travel is an upper bound of the way of a part of the tool: what the tip moved, and what the tool turned times the part's lever.
 struct ContactState {
   Vec3 proxy_mm;
+  Vec3 device_mm;  ///< of the last tick
   Mat3 rotation;
   Vec3 normal;  ///< last contact normal, out of the tooth; zero before the first contact
   bool touching = false;
