@@ -1,4 +1,5 @@
-// `cavum grade` beyond a single result: the worked page of grading/README.md row by row, why points were lost, and regrading beside the sealed result.
+// `cavum grade` beyond a single result: the worked page of grading/README.md row by row, why points were lost, and regrading beside the sealed
+// result.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -41,7 +42,8 @@ class GradeVerb : public testing::Test {
   /// The session of the worked page.
   [[nodiscard]] std::string hole(const std::string& name = "hole.cavum") const {
     EXPECT_EQ(run("tooth make block --size-mm 4,4,3 --layers enamel:2.5,pulp:0.5 --leaf-mm 0.05 --out " + path("hole.cvt")).exit_code, 0);
-    const Ran r = run("exam " + k_worked + ".toml --tooth " + path("hole.cvt") + " --candidate hand --motion " + k_worked + ".csv --out " + path(name));
+    const Ran r =
+        run("exam " + k_worked + ".toml --tooth " + path("hole.cvt") + " --candidate hand --motion " + k_worked + ".csv --out " + path(name));
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return path(name);
   }
@@ -63,17 +65,18 @@ TEST_F(GradeVerb, PrintsTheFiguresOfTheWorkedPage) {
   const json result = run_json("grade " + hole());
   // the closed forms once more, in full digits: the page's own column must not drift
   const double pi = std::acos(-1.0), disc = pi * 0.25, target = pi * 0.36, lag = 0.8 * 0.05 * 2.02 + 0.012 * 0.05;
-  const std::map<std::string, double> by_hand{{"/volumes/target_mm3", target},
-                                              {"/volumes/removed_mm3", disc * 1.1},
-                                              {"/volumes/missed_mm3", target - disc},
-                                              {"/volumes/target_removed_percent", 100 * disc / target},
-                                              {"/volumes/overcut/leeway_bottom_mm3", disc * 0.05},
-                                              {"/volumes/overcut/container_bottom_mm3", disc * 0.05},
-                                              {"/volumes/dice", 2 * disc / (target + disc * 1.1)},
-                                              {"/walls/floor/mean_mm", disc * 0.1 / (disc + 2 * pi * 0.5 * 0.2)},
-                                              {"/force/peak_n", lag},
-                                              {"/force/mean_n", lag * 22 / 40.1},
-                                              {"/score/points", 100 * disc / target - 50 + 30 * (0.1 - disc * 0.05) / 0.09 + 10 * 0.1 / 0.15 + 10 + 7.9995}};
+  const std::map<std::string, double> by_hand{
+      {"/volumes/target_mm3", target},
+      {"/volumes/removed_mm3", disc * 1.1},
+      {"/volumes/missed_mm3", target - disc},
+      {"/volumes/target_removed_percent", 100 * disc / target},
+      {"/volumes/overcut/leeway_bottom_mm3", disc * 0.05},
+      {"/volumes/overcut/container_bottom_mm3", disc * 0.05},
+      {"/volumes/dice", 2 * disc / (target + disc * 1.1)},
+      {"/walls/floor/mean_mm", disc * 0.1 / (disc + 2 * pi * 0.5 * 0.2)},
+      {"/force/peak_n", lag},
+      {"/force/mean_n", lag * 22 / 40.1},
+      {"/score/points", 100 * disc / target - 50 + 30 * (0.1 - disc * 0.05) / 0.09 + 10 * 0.1 / 0.15 + 10 + 7.9995}};
   std::istringstream page(read_text_file(k_source + "/grading/README.md"));
   std::string line;
   int rows = 0;
