@@ -61,6 +61,11 @@ std::optional<OldResult> read_old_result(const std::string& json_text) {
   return r;
 }
 
+std::string signed_points(double difference) {
+  const std::string text = fixed(difference, 1);
+  return text == "-0.0" || text[0] != '-' ? "+" + fixed(std::fabs(difference), 1) : text;
+}
+
 Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now, const RubricSpec& new_rubric) {
   Comparison c;
   c.before = sealed;
@@ -146,10 +151,10 @@ std::string to_text(const Comparison& c) {
   s += "  " + cell("verdict", 18) + cell(c.before.verdict, 16) + cell(c.verdict, 16) + cell("", 10);
   for (std::size_t i = 0; i < c.rules.size(); ++i) s += (i > 0 ? "; " : "") + c.rules[i];
   s += "\n  " + cell("points", 18) + cell(points(c.before.points, c.before.max), 16) + cell(points(c.points, c.max), 16) +
-       cell((c.points >= c.before.points ? "+" : "") + fixed(c.points - c.before.points, 1), 10) + "\n";
+       cell(signed_points(c.points - c.before.points), 10) + "\n";
   for (const auto& d : c.criteria) {
     s += "  " + cell(d.id, 18) + cell(points(d.old_points, d.old_max), 16) + cell(points(d.new_points, d.new_max), 16) +
-         cell((d.difference() >= 0 ? "+" : "") + fixed(d.difference(), 1), 10);
+         cell(signed_points(d.difference()), 10);
     for (std::size_t i = 0; i < d.why.size(); ++i) s += (i > 0 ? "; " : "") + d.why[i];
     if (!same(d.old_value, d.new_value) && d.old_value && d.new_value)
       s += (d.why.empty() ? "" : "; ") + ("value " + fixed(*d.old_value, 3) + " -> " + fixed(*d.new_value, 3)) + (d.unit.empty() ? "" : " " + d.unit);

@@ -46,6 +46,8 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now,
                                  const RubricSpec& new_rubric);
 
+/// "+1.5", "-0.3", "+0.0".
+[[nodiscard]] std::string signed_points(double difference);
 /// {old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit,
 /// difference, changed[]}, rules[]}
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);

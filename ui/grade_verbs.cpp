@@ -108,13 +108,12 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
       Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
       if (g.comparison) {
         const Comparison& c = *g.comparison;
-        const double difference = c.points - c.before.points;
-        std::string change = (difference >= 0 ? "+" : "") + fixed(difference, 1);
+        std::string change = signed_points(c.points - c.before.points);
         change.resize(std::max<std::size_t>(8, change.size() + 1), ' ');
         table += "  " + cell(c.before.verdict, c.before.points, c.before.max) + cell(now, c.points, c.max) + change + one_line(file) + "\n";
         for (const auto& d : c.criteria)
           if (std::fabs(d.difference()) >= 0.05) {
-            std::string line = "      " + d.id + " " + (d.difference() > 0 ? "+" : "") + fixed(d.difference(), 1);
+            std::string line = "      " + d.id + " " + signed_points(d.difference());
             for (std::size_t i = 0; i < d.why.size(); ++i) line += (i > 0 ? "; " : ": ") + d.why[i];
             table += line + "\n";
           }

@@ -63,8 +63,8 @@ int main(int argc, char** argv) {
     }
     std::printf("%.1f s of exam, leaf %.3f mm, %zu leaves removed (%.2f mm3)\n", static_cast<double>(session->inputs.size()) * 0.001, result.leaf_mm,
                 session->removed.size(), result.volumes.removed.mm3);
-    std::printf("load  %.2f s, peak %.0f MB\ngrade %.3f s, of it %.3f s on the processor (best run), peak %.0f MB\n", loaded - start, loaded_mb, best, best_cpu,
-                peak_mb());
+    std::printf("load  %.2f s, peak %.0f MB\ngrade %.3f s, of it %.3f s on the processor (best run), peak %.0f MB\n", loaded - start, loaded_mb, best,
+                best_cpu, peak_mb());
     const bool ok = best_cpu <= 1.0 && peak_mb() <= 500;
     std::printf("limits: grade <= 1 s beyond loading, memory <= 500 MB: %s\n", ok ? "kept" : "NOT KEPT");
     return ok ? 0 : 1;

@@ -1,0 +1,203 @@
+// `cavum grade` beyond a single result: the worked page of grading/README.md row by row, why points were lost, and regrading beside the sealed
+// result.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/base/file.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+const std::string k_source = CAVUM_SOURCE_DIR;
+const std::string k_worked = k_source + "/tests/grading/worked/hole";
+
+struct Ran {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+class GradeVerb : public testing::Test {
+ protected:
+  void SetUp() override { setenv("CAVUM_HOME", path("home").c_str(), 1); }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
+  [[nodiscard]] Ran run(const std::string& arguments) const {
+    const int status = std::system((std::string(CAVUM_BINARY) + " " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
+  }
+  [[nodiscard]] json run_json(const std::string& arguments) const {
+    const Ran r = run(arguments + " --json");
+    EXPECT_EQ(r.exit_code, 0) << arguments << r.err;
+    return json::parse(r.out, nullptr, false);
+  }
+  /// The session of the worked page.
+  [[nodiscard]] std::string hole(const std::string& name = "hole.cavum") const {
+    EXPECT_EQ(run("tooth make block --size-mm 4,4,3 --layers enamel:2.5,pulp:0.5 --leaf-mm 0.05 --out " + path("hole.cvt")).exit_code, 0);
+    const Ran r =
+        run("exam " + k_worked + ".toml --tooth " + path("hole.cvt") + " --candidate hand --motion " + k_worked + ".csv --out " + path(name));
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return path(name);
+  }
+  testing_basics::Folder folder_;
+};
+
+std::vector<std::string> cells(const std::string& row) {
+  std::vector<std::string> list;
+  std::istringstream in(row);
+  std::string cell;
+  while (std::getline(in, cell, '|')) {
+    const auto first = cell.find_first_not_of(' '), last = cell.find_last_not_of(' ');
+    list.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return list;
+}
+
+TEST_F(GradeVerb, PrintsTheFiguresOfTheWorkedPage) {
+  const json result = run_json("grade " + hole());
+  // the closed forms once more, in full digits: the page's own column must not drift
+  const double pi = std::acos(-1.0), disc = pi * 0.25, target = pi * 0.36, lag = 0.8 * 0.05 * 2.02 + 0.012 * 0.05;
+  const std::map<std::string, double> by_hand{
+      {"/volumes/target_mm3", target},
+      {"/volumes/removed_mm3", disc * 1.1},
+      {"/volumes/missed_mm3", target - disc},
+      {"/volumes/target_removed_percent", 100 * disc / target},
+      {"/volumes/overcut/leeway_bottom_mm3", disc * 0.05},
+      {"/volumes/overcut/container_bottom_mm3", disc * 0.05},
+      {"/volumes/dice", 2 * disc / (target + disc * 1.1)},
+      {"/walls/floor/mean_mm", disc * 0.1 / (disc + 2 * pi * 0.5 * 0.2)},
+      {"/force/peak_n", lag},
+      {"/force/mean_n", lag * 22 / 40.1},
+      {"/score/points", 100 * disc / target - 50 + 30 * (0.1 - disc * 0.05) / 0.09 + 10 * 0.1 / 0.15 + 10 + 7.9995}};
+  std::istringstream page(read_text_file(k_source + "/grading/README.md"));
+  std::string line;
+  int rows = 0;
+  std::size_t recomputed = 0;
+  while (std::getline(page, line)) {
+    if (line.rfind("| `/", 0) != 0) continue;
+    ++rows;
+    const auto cell = cells(line);
+    ASSERT_EQ(cell.size(), 6u) << line;
+    const std::string pointer = cell[1].substr(1, cell[1].size() - 2);
+    const double found = result.at(json::json_pointer(pointer)).get<double>();
+    const auto digits = cell[4].size() - cell[4].find('.') - 1;
+    const double rounding = 0.5000001 * std::pow(10.0, -static_cast<double>(digits));
+    EXPECT_NEAR(std::stod(cell[4]), found, rounding) << line << " prints " << found;
+    EXPECT_NEAR(std::stod(cell[3]), found, std::stod(cell[5]) + 2 * rounding) << line << ": outside the bound";
+    if (const auto hand = by_hand.find(pointer); hand != by_hand.end()) {
+      ++recomputed;
+      EXPECT_NEAR(std::stod(cell[3]), hand->second, rounding) << line;
+    }
+  }
+  EXPECT_GE(rows, 30);
+  EXPECT_EQ(recomputed, by_hand.size());
+  EXPECT_EQ(result["verdict"], "pass");
+}
+
+TEST_F(GradeVerb, WhyShowsTicksPlacesAndPointsThatAddUp) {
+  const std::string session = hole();
+  const json grade = run_json("grade " + session);
+  for (const auto& c : grade["criteria"]) {
+    const json why = run_json("grade " + session + " --why " + c["id"].get<std::string>());
+    EXPECT_EQ(why["criterion"]["points"], c["points"]);
+    EXPECT_EQ(why["criterion"]["reason"], c["reason"]);
+    EXPECT_FALSE(why["moments"].empty()) << c["id"];
+  }
+  const json floor = run_json("grade " + session + " --why floor");
+  double lost = 0;
+  for (const auto& m : floor["moments"]) {
+    lost += m["points_lost"].get<double>();
+    EXPECT_GT(m["t_s"].get<double>(), 20);  // below the leeway only late
+    EXPECT_NEAR(m["t_s"].get<double>() * 1000, m["tick"].get<double>(), 1e-6);
+    EXPECT_LT(m["site_mm"][2].get<double>(), -1.0);
+  }
+  EXPECT_NEAR(lost, floor["points_lost"].get<double>(), 1e-4);
+  const json removed = run_json("grade " + session + " --why removed");
+  double missed = 0;
+  for (const auto& m : removed["moments"]) missed += m["amount"].get<double>();
+  EXPECT_NEAR(missed, grade["volumes"]["missed_mm3"].get<double>(), 1e-4);
+  const Ran text = run("grade " + session + " --why floor");
+  EXPECT_NE(text.out.find("tick "), std::string::npos) << text.out;
+  const Ran unknown = run("grade " + session + " --why nonsense");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("use one of: removed, floor, walls, whole, time"), std::string::npos) << unknown.err;
+}
+
+TEST_F(GradeVerb, AnotherRubricGivesANewResultBesideTheSealedOne) {
+  const std::string session = hole(), bytes = read_text_file(session);
+  write_text_file(path("r.toml"), R"(rule = "compensatory"
+pass_percent = 90
+borderline_percent = 1
+[[criteria]]
+id = "removed"
+metric = "target_removed_percent"
+full = 60
+zero = 50
+points = 40
+[[criteria]]
+id = "hand"
+metric = "force_peak_n"
+full = 0.05
+zero = 0.15
+points = 10
+)");
+  const json j = run_json("grade " + session + " --rubric " + path("r.toml"));
+  const json& re = j["regrade"];
+  EXPECT_EQ(re["old"]["verdict"], "pass");
+  EXPECT_EQ(re["new"]["verdict"], j["verdict"]);
+  EXPECT_EQ(re["new"]["points"], j["score"]["points"]);
+  std::map<std::string, json> by_id;
+  for (const auto& c : re["criteria"]) by_id[c["id"]] = c;
+  EXPECT_DOUBLE_EQ(by_id.at("removed")["new_points"], 40);
+  EXPECT_NEAR(by_id.at("removed")["old_points"].get<double>(), 20.5, 0.1);
+  EXPECT_EQ(by_id.at("removed")["changed"], json::array({"full marks at 90 -> 60"}));
+  EXPECT_TRUE(by_id.at("hand")["old_points"].is_null());
+  EXPECT_TRUE(by_id.at("floor")["new_points"].is_null());
+  EXPECT_EQ(by_id.at("floor")["changed"], json::array({"no longer a criterion"}));
+  EXPECT_FALSE(re["rules"].empty());
+  EXPECT_FALSE(run_json("grade " + session).contains("regrade"));
+  EXPECT_EQ(read_text_file(session), bytes) << "a session is never written to";
+  const std::string out = "grade " + session + " --rubric " + path("r.toml") + " --out " + path("new.json");
+  EXPECT_EQ(run(out).exit_code, 0);
+  EXPECT_EQ(json::parse(read_text_file(path("new.json"))), j);
+  EXPECT_EQ(run(out).exit_code, 2) << "a result is never overwritten";
+}
+
+TEST_F(GradeVerb, ACorrectedScenarioIsMeasuredAnewForAWholeFolder) {
+  std::filesystem::create_directory(path("group"));
+  for (const char* name : {"group/a.cavum", "group/b.cavum"}) static_cast<void>(hole(name));
+  std::string text = read_text_file(k_worked + ".toml");
+  text.replace(text.find("radius_mm = 0.6"), 15, "radius_mm = 0.5");
+  text.replace(text.find("z_mm = -1.0"), 11, "z_mm = -1.1");
+  write_text_file(path("corrected.toml"), text);
+  const json one = run_json("grade " + path("group/a.cavum") + " --scenario " + path("corrected.toml"));
+  EXPECT_NEAR(one["volumes"]["target_mm3"].get<double>(), std::acos(-1.0) * 0.25 * 1.1, 0.01);
+  EXPECT_GT(one["volumes"]["target_removed_percent"], 99.0);
+  const json all = run_json("grade " + path("group") + " --scenario " + path("corrected.toml"));
+  ASSERT_EQ(all["sessions"].size(), 2u);
+  EXPECT_EQ(all["verdicts"], (json{{"stay pass", 2}}));
+  for (const auto& s : all["sessions"]) {
+    EXPECT_EQ(s["new"]["points"], one["score"]["points"]);
+    EXPECT_EQ(s["criteria"], one["regrade"]["criteria"]);
+    EXPECT_NE(s["criteria"][0]["changed"].dump().find("measured against the new scenario"), std::string::npos) << s["criteria"][0];
+  }
+  // a damaged session is a row of its own, and the others are graded
+  write_text_file(path("group/c.cavum"), "no session");
+  const Ran table = run("grade " + path("group") + " --scenario " + path("corrected.toml"));
+  EXPECT_EQ(table.exit_code, 1);
+  EXPECT_NE(table.out.find("cannot be graded"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("2 stay pass"), std::string::npos) << table.out;
+  EXPECT_EQ(run("grade " + path("group/a.cavum") + " " + path("group/b.cavum") + " --why floor").exit_code, 2);
+  EXPECT_EQ(run("grade " + path("group/a.cavum") + " --scenario " + k_worked + ".csv").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace cavum
