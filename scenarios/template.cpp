@@ -16,7 +16,7 @@ constexpr std::array<ToothKind, 5> k_teeth{{
     {"molar", "lower_molar.cvt", "lower first molar, ships with Cavum"},
     {"premolar", "upper_premolar.cvt", "upper second premolar, ships with Cavum"},
     {"incisor", "upper_incisor.cvt", "upper central incisor, ships with Cavum"},
-    {"carious_molar", "molar_lesion.cvt", "lower first molar with a hidden lesion: cavum tooth make molar --lesion 0.2,0,-1.1,1.5,1.1,0.75"},
+    {"carious_molar", "molar_lesion.cvt", "lower first molar with a hidden lesion: cavum tooth make molar --lesion 0.2,0,-0.85,1.5,1.1,0.55"},
     {"block", "block.cvt",
      "ships with Cavum: cavum tooth make block --size-mm 10,10,6 --layers enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3 --leaf-mm 0.05"},
 }};

@@ -164,7 +164,7 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   EXPECT_EQ(run("replay " + path("hasty.cavum") + " --verify").exit_code, 0);
   expect_refused("scenario solve " + path("none.toml"), {"none.toml"});
   expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png", ".svg"});
-  expect_refused("scenario new --tooth incisor --task class_2 --out " + path("i.toml"), {"--tooth incisor", "molar with access"});
+  expect_refused("scenario new --tooth canine --task access --out " + path("i.toml"), {"--tooth canine", "molar with access"});
 }
 
 /// A stylus that drills a block from above, rests with the handpiece off between 6 s and 10 s, and drills on to 20 s. Button 2 goes down
