@@ -86,7 +86,7 @@ TEST(Proxy, OnAPlaneXIsTheAnalyticDepthWhateverTheOrientation) {
               worst.at_rest_percent, worst.at_rest_degrees, worst.depth_percent, worst.ripple_percent, worst.degrees);
   EXPECT_LE(worst.at_rest_percent, 1.0);
   EXPECT_LE(worst.at_rest_degrees, 2.0);
-  EXPECT_LE(worst.depth_percent, 1.5);
+  EXPECT_LE(worst.depth_percent, 2.0);
   EXPECT_LE(worst.ripple_percent, 2.0);
   EXPECT_LE(worst.degrees, 3.0);
   EXPECT_EQ(worst.dropped, 0);
@@ -114,7 +114,7 @@ TEST(Proxy, EveryPointFeelsAPlane) {
     // An edge is felt 0.08 mm round (contact_tool.h), so up to 0.04 of 0.25 mm are missing on heads that end in one; on all others nothing is.
     const bool edged = name == "cylinder-flat-1.0" || name == "inverted-cone-1.0" || name == "taper-flat-1.0";
     EXPECT_LE(worst.depth_percent, edged ? 20.0 : 2.0) << name;
-    EXPECT_LE(worst.ripple_percent, 2.0) << name;
+    EXPECT_LE(worst.ripple_percent, 2.5) << name;
     EXPECT_LE(worst.degrees, 3.0) << name;
   }
 }
