@@ -19,11 +19,10 @@ constexpr double k_ahead_leaves = 1.6;   // so far before a sample its tissue is
 constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
 constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
-// Half spaces say little of a crest of tissue that lies between two samples: the proxy went forth and back over it, twelve times a tick. So when a
-// step of more than this turns back, the next ones are halved down to the least; from there they may double in every tick that sees no such turn.
-constexpr double k_turn_back_leaves = 0.2, k_least_stride = 0.002, k_stride_growth = 2.0;
-constexpr int k_most_looked_up = 1200,
-              k_most_unsure = 500;        // places looked up, after which a proxy goes on in the next tick; one whose steps are shortened
+// Half spaces say little of a crest of tissue between two samples: the proxy goes forth and back over it, and gathers anew each time. So a tick looks
+// up so many places at most, and the proxy goes on in the next. Fewer, or shorter steps after a turn, would be cheaper still, but a proxy that lags
+// cuts less: simulated candidates took 19 % longer with 600.
+constexpr int k_most_looked_up = 1200;
 constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
 
 /// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
@@ -191,10 +190,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     result.in_air = true;
   } else {
     // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves.
-    double most = state.touching ? std::min(state.stride_mm, leaf) : leaf;
-    double stride = std::min(state.touching ? k_resting_stride * leaf : leaf, most);
-    bool turned_back = false;
-    Vec3 last;
+    double stride = state.touching ? k_resting_stride * leaf : leaf;
     for (int i = 0; i < k_max_steps; ++i) {
       const Vec3 rest = device.tip_mm - state.proxy_mm;
       const double rest_mm = length(rest);
@@ -211,12 +207,6 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       solution.step -= since;
       Vec3 stepped = solution.feasible ? solution.step : Vec3{};
       double stepped_mm = length(stepped);
-      const bool far = stepped_mm > k_turn_back_leaves * leaf;
-      if (far && dot(stepped, last) < 0.0) {  // the device stands still within a tick
-        turned_back = true;
-        most = stride = std::max(0.5 * stride, k_least_stride * leaf);
-      }
-      last = far ? stepped : Vec3{};
       if (stepped_mm > stride) {
         stepped = stepped * (stride / stepped_mm);
         stepped_mm = stride;
@@ -227,11 +217,10 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       state.proxy_mm += stepped;
       state.moved_mm += stepped_mm;
       if (!blocked && rest_mm <= stride) break;
-      if (stepped_mm > 0.5 * stride) stride = most;
-      result.on_its_way = i + 1 == k_max_steps || state.looked_up > (most < leaf ? k_most_unsure : k_most_looked_up);
+      if (stepped_mm > 0.5 * stride) stride = leaf;
+      result.on_its_way = i + 1 == k_max_steps || state.looked_up > k_most_looked_up;
       if (result.on_its_way) break;
     }
-    state.stride_mm = turned_back ? most : k_stride_growth * most;
   }
 
   result.moved_mm = state.proxy_mm - before;
