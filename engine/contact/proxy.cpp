@@ -19,11 +19,10 @@ constexpr double k_ahead_leaves = 1.6;   // so far before a sample its tissue is
 constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
 constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
-// Half spaces say little of a crest of tissue that lies between two samples: the proxy went forth and back over it, twelve times a tick. So when a
-// step of more than this turns back, the next ones are halved down to the least; from there they may double in every tick that sees no such turn.
-constexpr double k_turn_back_leaves = 0.2, k_least_stride = 0.002, k_stride_growth = 2.0;
-constexpr int k_most_looked_up = 1200,
-              k_most_unsure = 500;        // places looked up, after which a proxy goes on in the next tick; one whose steps are shortened
+// Half spaces say little of a crest of tissue between two samples: the proxy goes forth and back over it, and gathers anew each time. So a tick looks
+// up so many places at most, and the proxy goes on in the next. Fewer, or shorter steps after a turn, would be cheaper still, but a proxy that lags
+// cuts less: simulated candidates took 19 % longer with 600.
+constexpr int k_most_looked_up = 1200;
 constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
 
 /// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
@@ -157,7 +156,6 @@ double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants*
 ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm) {
   ContactState state;
   state.proxy_mm = first_tip_mm;
-  state.device_mm = first_tip_mm;
   std::size_t samples = 0, patches = 0;
   for (const auto& t : tray) {
     samples = std::max(samples, t.samples.size());
@@ -192,12 +190,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     result.in_air = true;
   } else {
     // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves.
-    // Shortened steps are never shorter than the device's own: they must not hold back a slide.
-    const double least = std::max(k_least_stride * leaf, length(device.tip_mm - state.device_mm));
-    double most = state.touching ? std::min(std::max(state.stride_mm, least), leaf) : leaf;
-    double stride = std::min(state.touching ? k_resting_stride * leaf : leaf, most);
-    bool turned_back = false;
-    Vec3 last;
+    double stride = state.touching ? k_resting_stride * leaf : leaf;
     for (int i = 0; i < k_max_steps; ++i) {
       const Vec3 rest = device.tip_mm - state.proxy_mm;
       const double rest_mm = length(rest);
@@ -214,12 +207,6 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       solution.step -= since;
       Vec3 stepped = solution.feasible ? solution.step : Vec3{};
       double stepped_mm = length(stepped);
-      const bool far = stepped_mm > k_turn_back_leaves * leaf;
-      if (far && dot(stepped, last) < 0.0) {  // the device stands still within a tick
-        turned_back = true;
-        most = stride = std::min(std::max(0.5 * stride, least), leaf);
-      }
-      last = far ? stepped : Vec3{};
       if (stepped_mm > stride) {
         stepped = stepped * (stride / stepped_mm);
         stepped_mm = stride;
@@ -230,14 +217,12 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       state.proxy_mm += stepped;
       state.moved_mm += stepped_mm;
       if (!blocked && rest_mm <= stride) break;
-      if (stepped_mm > 0.5 * stride) stride = most;
-      result.on_its_way = i + 1 == k_max_steps || state.looked_up > (most < leaf ? k_most_unsure : k_most_looked_up);
+      if (stepped_mm > 0.5 * stride) stride = leaf;
+      result.on_its_way = i + 1 == k_max_steps || state.looked_up > k_most_looked_up;
       if (result.on_its_way) break;
     }
-    state.stride_mm = turned_back ? most : k_stride_growth * most;
   }
 
-  state.device_mm = device.tip_mm;
   result.moved_mm = state.proxy_mm - before;
   const Vec3 out = state.proxy_mm - device.tip_mm;
   result.penetration_mm = length(out);

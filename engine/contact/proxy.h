@@ -31,7 +31,6 @@ struct TouchedMeans {
 /// Travel is an upper bound of the way of a part of the tool: what the tip moved, and what the tool turned times the part's lever.
 struct ContactState {
   Vec3 proxy_mm;
-  Vec3 device_mm;  ///< of the last tick
   Mat3 rotation;
   Vec3 normal;  ///< last contact normal, out of the tooth; zero before the first contact
   bool touching = false;
@@ -50,7 +49,6 @@ struct ContactState {
   std::uint64_t means_edit = 0;
   Vec3 means_tip_mm, means_normal;
   bool means_late = false;            ///< they are those of the tick before
-  double stride_mm = 1.0;             ///< longest step, as long as it lasts: shortened where steps went forth and back
   int looked_up = 0;                  ///< places of the tooth that this tick asked for: what contact has cost
   std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with
   Octree::Cursor cursor;
