@@ -112,7 +112,7 @@ TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
         if (two.octree.edit_hash() == before) {
           ASSERT_EQ(removed_two.size(), listed);
         }
-        step = go_on_carving(spread, two.octree, point, static_cast<int>(random.below(3000)) + 1, removed_two);
+        step = go_on_carving(spread, two.octree, point, static_cast<int>(random.below(600)) + 1, removed_two);
         ASSERT_NE(step, CarvingStep::no_room);
         ASSERT_LT(calls, 100000) << "it never ends";
       }
