@@ -1,38 +1,45 @@
 #include "engine/contact/half_spaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cavum {
 namespace {
 
-constexpr double k_tolerance_mm = 1e-9;
+constexpr double k_enters_mm = 1e-8;  // a half space violated by more enters;
+constexpr double k_holds_mm = 1e-9;   // one that may leave is violated by less: else two that are nearly one would replace each other for ever
 constexpr double k_multiplier_tolerance = -1e-9;
+// Normals nearer to each other (rad), or to one plane, than that have no corner in reach. Cross products keep their digits where the
+// determinant of all the dot products loses them: the normals of a flat surface differ by 1e-3 to 1e-2 rad, by the rounding of distances.
+constexpr double k_parallel_rad = 1e-6;
 
 double violation(const HalfSpace& h, Vec3 s) noexcept { return -h.slack_mm - dot(h.normal, s); }
 
-/// Nearest point to `wanted` on the planes of 1 to 3 half spaces; false when singular or a plane would pull.
+/// Nearest point to `wanted` on the planes of 1 to 3 half spaces; false when they have no corner or a plane would pull.
 bool on_planes(Vec3 wanted, const HalfSpace* const* set, int n, Vec3& step) noexcept {
-  double b[3];
-  for (int i = 0; i < n; ++i) b[i] = violation(*set[i], wanted);
   double l[3] = {0, 0, 0};
-  const auto g = [&](int i, int j) { return dot(set[i]->normal, set[j]->normal); };
+  const Vec3 a = set[0]->normal;
+  const double va = violation(*set[0], wanted);
   if (n == 1) {
-    const double d = g(0, 0);
+    const double d = dot(a, a);
     if (d < 1e-6) return false;
-    l[0] = b[0] / d;
+    l[0] = va / d;
   } else if (n == 2) {
-    const double a = g(0, 0), c = g(0, 1), d = g(1, 1), det = a * d - c * c;
-    if (det < 1e-7 * a * d) return false;
-    l[0] = (b[0] * d - b[1] * c) / det;
-    l[1] = (b[1] * a - b[0] * c) / det;
+    const Vec3 b = set[1]->normal, edge = cross(a, b);
+    const double edge2 = dot(edge, edge);
+    if (edge2 < k_parallel_rad * k_parallel_rad * dot(a, a) * dot(b, b)) return false;
+    const double vb = violation(*set[1], wanted);
+    const Vec3 way = (cross(b, edge) * va + cross(edge, a) * vb) / edge2;
+    l[0] = dot(way, cross(b, edge)) / edge2;
+    l[1] = dot(way, cross(edge, a)) / edge2;
   } else {
-    const double a = g(0, 0), e = g(0, 1), f = g(0, 2), d = g(1, 1), h = g(1, 2), k = g(2, 2);
-    const double c0 = d * k - h * h, c1 = f * h - e * k, c2 = e * h - d * f;
-    const double det = a * c0 + e * c1 + f * c2;
-    if (det < 1e-9 * a * d * k) return false;
-    l[0] = (c0 * b[0] + c1 * b[1] + c2 * b[2]) / det;
-    l[1] = (c1 * b[0] + (a * k - f * f) * b[1] + (e * f - a * h) * b[2]) / det;
-    l[2] = (c2 * b[0] + (e * f - a * h) * b[1] + (a * d - e * e) * b[2]) / det;
+    const Vec3 b = set[1]->normal, c = set[2]->normal, bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    const double volume = dot(a, bc), least = k_parallel_rad * std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
+    if (std::fabs(volume) < least) return false;
+    const Vec3 way = (bc * va + ca * violation(*set[1], wanted) + ab * violation(*set[2], wanted)) / volume;
+    l[0] = dot(way, bc) / volume;
+    l[1] = dot(way, ca) / volume;
+    l[2] = dot(way, ab) / volume;
   }
   step = wanted;
   for (int i = 0; i < n; ++i) {
@@ -62,7 +69,7 @@ HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spac
   };
   for (int round = 0; round < 64; ++round) {
     const HalfSpace* worst = nullptr;
-    double worst_mm = k_tolerance_mm;
+    double worst_mm = k_enters_mm;
     for (const auto& h : half_spaces) {
       const double v = violation(h, step);
       if (v > worst_mm) {
@@ -82,7 +89,7 @@ HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spac
       Vec3 s;
       if (!on_planes(wanted, set, n, s)) return;
       for (int i = 0; i < n_active; ++i)
-        if (violation(*active[i], s) > 10 * k_tolerance_mm) return;
+        if (violation(*active[i], s) > k_holds_mm) return;
       for (int i = 0; i < n; ++i) best[i] = set[i];
       n_best = n;
       best_step = s;

@@ -19,11 +19,12 @@ constexpr double k_ahead_leaves = 1.6;   // so far before a sample its tissue is
 constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
 constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
-// Half spaces say little of a crest of tissue between two samples: the proxy goes forth and back over it, and gathers anew each time. So a tick looks
-// up so many places at most, and the proxy goes on in the next. Fewer, or shorter steps after a turn, would be cheaper still, but a proxy that lags
-// cuts less: simulated candidates took 19 % longer with 600.
-constexpr int k_most_looked_up = 1200;
-constexpr double k_resting_stride = 0.1;  // leaves: first stride of a tool that was already in contact
+// Half spaces say little of a crest of tissue between two samples, or of a sheet between head and neck: the proxy goes forth and back over it, and
+// gathers anew each time. So a step back makes the stride shorter, and a tick that stepped back looks up only so many places more: the proxy
+// goes on in the next tick. No tick looks up more than `k_most_looked_up`.
+constexpr int k_most_looked_up = 1200, k_most_going_back = 300;
+constexpr double k_resting_stride = 0.05;          // leaves: the shortest stride
+constexpr double k_shorter = 0.4, k_longer = 1.5;  // a stride after a step back, and after one onwards
 
 /// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
 double turn_bound_rad(const Mat3& a, const Mat3& b) noexcept {
@@ -110,18 +111,20 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
   const double leaf = tooth.leaf_mm();
   const Vec3 since = state.proxy_mm - state.gathered_mm;
   for (int round = 0; round < k_refinements && solution.feasible && solution.active.count > 0; ++round) {
-    if (length(solution.step - since) > stride_mm) break;  // it will be asked nearer by
+    const Vec3 way = solution.step - since;
+    const double way_mm = length(way);
+    const Vec3 there = way_mm > stride_mm ? since + way * (stride_mm / way_mm) : solution.step;
     bool refined = false;
     for (int i = 0; i < solution.active.count; ++i) {
       const Vec3 normal = normalized(state.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
       const Vec3 furthest = tool.furthest_along(state.rotation.transposed(-normal));
-      const auto s = tooth.sample(state.gathered_mm + solution.step + state.rotation * furthest, state.cursor);
+      const auto s = tooth.sample(state.gathered_mm + there + state.rotation * furthest, state.cursor);
       if (s.distance_mm >= -k_dead_leaves * leaf || dot(s.gradient, s.gradient) < 1e-3) continue;
       if (state.half_spaces.size() >= state.gathered_samples.size() + k_refined_room) {  // begin anew; the active ones go with them
         state.half_spaces.resize(state.gathered_samples.size());
         solution.active.count = 0;
       }
-      state.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, solution.step)});
+      state.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, there)});
       refined = true;
     }
     if (!refined) break;
@@ -189,8 +192,13 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     state.moved_mm += way_mm;
     result.in_air = true;
   } else {
-    // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves.
-    double stride = state.touching ? k_resting_stride * leaf : leaf;
+    // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves. Where the surface turns under a step
+    // the next one leads back: half as far, or the proxy would go forth and back for ever.
+    const double least_stride = k_resting_stride * leaf;
+    double& stride = state.stride_mm;
+    if (!state.touching) stride = leaf;
+    bool strode = false;
+    int times_back = 0;
     for (int i = 0; i < k_max_steps; ++i) {
       const Vec3 rest = device.tip_mm - state.proxy_mm;
       const double rest_mm = length(rest);
@@ -207,6 +215,9 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       solution.step -= since;
       Vec3 stepped = solution.feasible ? solution.step : Vec3{};
       double stepped_mm = length(stepped);
+      const bool long_step = stepped_mm > 0.5 * stride, back = long_step && state.touching && dot(stepped, state.last_step_mm) < 0.0;
+      times_back += back;
+      if (back) stride = std::max(k_shorter * stride, least_stride);
       if (stepped_mm > stride) {
         stepped = stepped * (stride / stepped_mm);
         stepped_mm = stride;
@@ -217,9 +228,15 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
       state.proxy_mm += stepped;
       state.moved_mm += stepped_mm;
       if (!blocked && rest_mm <= stride) break;
-      if (stepped_mm > 0.5 * stride) stride = leaf;
-      result.on_its_way = i + 1 == k_max_steps || state.looked_up > k_most_looked_up;
+      state.last_step_mm = stepped;
+      strode |= long_step;
+      if (long_step && !back) stride = std::min(k_longer * stride, leaf);
+      result.on_its_way = i + 1 == k_max_steps || state.looked_up > (times_back > 1 ? k_most_going_back : k_most_looked_up);
       if (result.on_its_way) break;
+    }
+    if (!strode) {  // at rest
+      stride = std::max(k_shorter * stride, least_stride);
+      state.last_step_mm = {};
     }
   }
 

@@ -36,6 +36,8 @@ struct ContactState {
   bool touching = false;
   int point = -1;                           ///< diamond point that the arrays belong to
   double moved_mm = 0.0, turned_rad = 0.0;  ///< of the tip and of the tool, so far
+  double stride_mm = 0.0;                   ///< the longest next step of the proxy
+  Vec3 last_step_mm;
   double tool_air_until_mm = 0.0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;
   ReservedVector<HalfSpace> half_spaces;           ///< about `gathered_mm`: one of each near sample, then refined ones
@@ -65,7 +67,8 @@ struct ContactResult {
   Vec3 moved_mm;              ///< how far the proxy moved
 };
 
-/// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth, and fewer where each needs much looking around.
+/// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. A step that leads back the way the one before came
+/// shortens the stride; a tick with two of them ends early, and the proxy goes on in the next.
 /// Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 

@@ -147,6 +147,7 @@ ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 fi
   state.tooth = tooth.octree;
   state.tooth.reserve_edits(k_edit_room);
   state.contact = make_contact_state(model.tray, first_tip_mm);
+  state.followed_edit = state.tooth.edit_hash();
   state.estimate = make_tip_estimate(make_tick_input({first_tip_mm, {}}, 0.0, 0, 0, {}).tip_nm);
   state.last_tip_mm = first_tip_mm;
   state.terms.count = model.force.terms.size();
@@ -170,12 +171,14 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     const Pose device{state.estimate.tip_mm, input.pose().rotation};
     const bool was_touching = state.contact.touching;
     const ContactResult contact = update_contact(state.tooth, tool, input.point, device, state.contact);
-    // What the proxy advanced along the contact is paid from the recession that was owed; so the surface recedes
-    // at exactly v·dt, whatever the rounding of a single carve.
-    if (contact.touching && was_touching)
-      state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
-    else
+    // What the proxy advanced along the contact when the tooth was carved is paid from the recession that was owed; so the surface
+    // recedes at exactly v·dt, whatever the rounding of a single carve. A proxy that only slides pays nothing: its normal is within a
+    // degree of the surface's, which over 2 mm would add up to half a leaf.
+    if (!contact.touching || !was_touching)
       state.recession_mm = 0.0;
+    else if (state.followed_edit != state.tooth.edit_hash())
+      state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
+    if (!contact.on_its_way) state.followed_edit = state.tooth.edit_hash();
     const TouchedMeans before = state.contact.means;
     TouchedMeans means = !contact.in_air && (contact.touching || state.rpm > 0)
                              ? touched_means(state.tooth, tool, model.voids, model.tissue.data(), std::max(0.0, state.recession_mm), state.contact)
@@ -242,7 +245,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
 }
 
 std::uint64_t state_hash(const ServoState& s) noexcept {
-  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash(),
+  const std::array<std::uint64_t, 5> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash(), s.followed_edit,
                                            s.carving.under_way() ? s.carving.plan.progress() : 0};
   const std::array<double, 17> parts{s.contact.proxy_mm.x, s.contact.proxy_mm.y,
                                      s.contact.proxy_mm.z, s.contact.normal.x,

@@ -58,9 +58,10 @@ struct ServoState {
   SafetyState safety;
   Vec3 last_tip_mm;
   double rpm = 0.0;
-  double recession_mm = 0.0;    ///< surface receded along the contact but not yet carved
-  double swept_mm = 0.0;        ///< way of the head since the last carve began
-  double carve_began_mm = 0.0;  ///< `recession_mm` when it began
+  double recession_mm = 0.0;        ///< surface receded along the contact but not yet carved
+  std::uint64_t followed_edit = 0;  ///< edit hash of the tooth that the proxy has followed
+  double swept_mm = 0.0;            ///< way of the head since the last carve began
+  double carve_began_mm = 0.0;      ///< `recession_mm` when it began
   HeadCarving carving;
   std::uint64_t trace_hash = 0;         ///< over every output so far
   ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once

@@ -86,8 +86,8 @@ TEST(Proxy, OnAPlaneXIsTheAnalyticDepthWhateverTheOrientation) {
               worst.at_rest_percent, worst.at_rest_degrees, worst.depth_percent, worst.ripple_percent, worst.degrees);
   EXPECT_LE(worst.at_rest_percent, 1.0);
   EXPECT_LE(worst.at_rest_degrees, 2.0);
-  EXPECT_LE(worst.depth_percent, 2.0);
-  EXPECT_LE(worst.ripple_percent, 2.0);
+  EXPECT_LE(worst.depth_percent, 1.0);
+  EXPECT_LE(worst.ripple_percent, 1.5);
   EXPECT_LE(worst.degrees, 3.0);
   EXPECT_EQ(worst.dropped, 0);
 }
@@ -113,8 +113,8 @@ TEST(Proxy, EveryPointFeelsAPlane) {
                 worst.depth_percent, worst.ripple_percent, worst.degrees);
     // An edge is felt 0.08 mm round (contact_tool.h), so up to 0.04 of 0.25 mm are missing on heads that end in one; on all others nothing is.
     const bool edged = name == "cylinder-flat-1.0" || name == "inverted-cone-1.0" || name == "taper-flat-1.0";
-    EXPECT_LE(worst.depth_percent, edged ? 20.0 : 2.0) << name;
-    EXPECT_LE(worst.ripple_percent, 2.5) << name;
+    EXPECT_LE(worst.depth_percent, edged ? 20.0 : 1.0) << name;
+    EXPECT_LE(worst.ripple_percent, 1.5) << name;
     EXPECT_LE(worst.degrees, 3.0) << name;
   }
 }
@@ -283,12 +283,13 @@ TEST(Proxy, InAirThereIsNoForceAndTheProxyIsTheDevice) {
     Rig rig(block, {point}, shipped_model("paper"), {0, 0, 3});
     Vec3 tip{0, 0, 3};
     for (int i = 0; i < 600; ++i) {
+      // Nothing may stand in the way: the tool turns where it is, then moves; both places are over the top face.
       const Quat turned = leaning(random, {0, 0, 1}, 1.2);
-      tip += random_direction(random) * 0.1;
-      const double over = height_over_plane_mm(point, tip, turned, {0, 0, 1}, 0);
-      if (over < 0.01) tip.z += 0.02 - over;  // just over the top face
-      tip.x = std::clamp(tip.x, -3.0, 3.0), tip.y = std::clamp(tip.y, -3.0, 3.0), tip.z = std::min(tip.z, 4.0);
-      if (height_over_plane_mm(point, tip, turned, {0, 0, 1}, 0) < 0.005) continue;
+      Vec3 next = tip + random_direction(random) * 0.1;
+      next = {std::clamp(next.x, -3.0, 3.0), std::clamp(next.y, -3.0, 3.0), std::min(next.z, 4.0)};
+      const double over = std::min(height_over_plane_mm(point, next, turned, {0, 0, 1}, 0), height_over_plane_mm(point, tip, turned, {0, 0, 1}, 0));
+      if (over < 0.005) continue;
+      tip = next;
       const TickOutput out = rig.tick(tip, 1.0, turned);
       ASSERT_EQ(out.model_force_n, 0.0) << name;
       ASSERT_EQ(out.penetration_mm, 0.0) << name;
