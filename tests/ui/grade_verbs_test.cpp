@@ -1,44 +1,25 @@
 // `cavum grade` beyond a single result: the worked page of grading/README.md row by row, why points were lost, and regrading beside the sealed
 // result.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/base/file.h"
-#include "tests/engine/support/basics.h"
+#include "tests/ui/program.h"
 
 namespace cavum {
 namespace {
 
 using nlohmann::json;
+using testing_ui::Ran;
 
 const std::string k_source = CAVUM_SOURCE_DIR;
 const std::string k_worked = k_source + "/tests/grading/worked/hole";
 
-struct Ran {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-class GradeVerb : public testing::Test {
+class GradeVerb : public testing_ui::Program {
  protected:
-  void SetUp() override { setenv("CAVUM_HOME", path("home").c_str(), 1); }
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
-  [[nodiscard]] Ran run(const std::string& arguments) const {
-    const int status = std::system((std::string(CAVUM_BINARY) + " " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
-  }
-  [[nodiscard]] json run_json(const std::string& arguments) const {
-    const Ran r = run(arguments + " --json");
-    EXPECT_EQ(r.exit_code, 0) << arguments << r.err;
-    return json::parse(r.out, nullptr, false);
-  }
   /// The session of the worked page.
   [[nodiscard]] std::string hole(const std::string& name = "hole.cavum") const {
     EXPECT_EQ(run("tooth make block --size-mm 4,4,3 --layers enamel:2.5,pulp:0.5 --leaf-mm 0.05 --out " + path("hole.cvt")).exit_code, 0);
@@ -47,7 +28,6 @@ class GradeVerb : public testing::Test {
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return path(name);
   }
-  testing_basics::Folder folder_;
 };
 
 std::vector<std::string> cells(const std::string& row) {
