@@ -236,6 +236,8 @@ constexpr std::string_view k_shapes = R"(
 #   prism    at_mm, height_mm, axis, turn_deg, outline
 #   column   outline, bottom, taper_deg: from the occlusal surface down to the bottom
 #   tissue   tissue, part, offset_mm: the leaves of a tissue, grown
+#   canal_cone  canals = "all" or "mesial", "distobuccal" ..., radius_mm (else the mouth's own), taper_deg, deeper_mm, axis: on the canals' mouths
+#   stl      file = "zone.stl": a closed surface in mm, in the tooth's frame, beside this file
 # outline = { kind = "circle", radius_mm } | { kind = "polygon", points_mm } | { kind = "stroke", points_mm, width_mm }
 #         | { kind = "projection", tissue, part = "all" or "chamber", rounding_mm }; all with offset_mm, the first three
 #           with centre_mm and from = "tooth" or "chamber"
