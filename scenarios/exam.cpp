@@ -97,7 +97,13 @@ std::string find_data_file(const std::string& folder, const std::string& name, c
 }
 
 std::string force_model_path(const std::string& wanted, const std::string& near_file) {
-  return wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file);
+  if (wanted.ends_with(".toml")) return wanted;
+  if (wanted.empty() || wanted.find('/') != std::string::npos) {
+    std::string known;
+    for (const auto& name : data_names("materials", near_file)) known += (known.empty() ? "" : ", ") + name;
+    throw Error("--model", "'" + wanted + "' is no force model", "name one of " + known + ", or a file ending in .toml");
+  }
+  return find_data_file("materials", wanted + ".toml", near_file);
 }
 
 std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }

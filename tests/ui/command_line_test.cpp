@@ -142,6 +142,36 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   expect_refused("scenario new --tooth canine --task access --out " + path("i.toml"), {"--tooth canine", "molar with access"});
 }
 
+TEST_F(CommandLine, SolveLetsTheCarelessCandidateFailByTheCriterionThatTheScenarioNames) {
+  const std::string tooth = " --tooth " + std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block.cvt";
+  std::string text = read_text_file(k_block);
+  text.replace(text.find("critical_above = 0.5"), 20, "critical_above = 0.5\n\n[careless]\nfails_by = \"perforation\"\nperforates = true");
+  write_text_file(path("deep.toml"), text);
+  const json deep = run_json("scenario solve " + path("deep.toml") + tooth + " --careless");
+  EXPECT_EQ(deep["passed"], true);
+  EXPECT_EQ(deep["careless"]["fails_by"], "perforation");
+  EXPECT_EQ(deep["careless"]["caught"], true) << deep["careless"];
+  EXPECT_EQ(deep["careless"]["verdict"], "fail");
+  EXPECT_NE(deep["careless"]["reason"].get<std::string>().find("pulp"), std::string::npos) << deep["careless"]["reason"];
+
+  // a mistake that the rubric forgives is not caught: the answer is no
+  text.replace(text.find("perforates = true"), 17, "sides_mm = 0.1");
+  write_text_file(path("mild.toml"), text);
+  const Ran mild = run("scenario solve " + path("mild.toml") + tooth + " --careless");
+  EXPECT_EQ(mild.exit_code, 1) << mild.out << mild.err;
+  EXPECT_NE(mild.out.find("the built-in expert passes"), std::string::npos) << mild.out;
+  EXPECT_NE(mild.out.find("careless: NOT failed by perforation"), std::string::npos) << mild.out;
+  expect_refused("scenario solve " + k_block + tooth + " --careless", {"block_cavity.toml: the scenario says nothing of a careless candidate"});
+}
+
+TEST_F(CommandLine, AForceModelThatIsNoneIsNamedAsItWasWritten) {
+  const std::string exam = "exam " + k_block + " --tooth " + std::string(CAVUM_SOURCE_DIR) +
+                           "/tests/replay/block.cvt --candidate A --operator expert --out " + path("a.cavum") + " --model ";
+  expect_refused(exam + "/etc/passwd", {"cavum: --model: '/etc/passwd' is no force model; name one of ", "consistent", "paper"});
+  expect_refused(exam + "nothing", {"materials/nothing.toml"});
+  EXPECT_FALSE(fs::exists(path("a.cavum")));
+}
+
 /// A stylus that drills a block from above, rests with the handpiece off between 6 s and 10 s, and drills on to 20 s. Button 2 goes down
 /// at 8.000 s and at 9.500 s.
 std::string drilling_with_a_break() {

@@ -111,6 +111,37 @@ TEST_F(GradeVerb, WhyShowsTicksPlacesAndPointsThatAddUp) {
   EXPECT_NE(unknown.err.find("use one of: removed, floor, walls, whole, time"), std::string::npos) << unknown.err;
 }
 
+TEST_F(GradeVerb, AZoneFromAnStlStaysWithTheSessionAndAChangedOneIsRefused) {
+  const std::string tooth = path("hole.cvt"), make = "tooth make block --leaf-mm 0.05 --out ";
+  ASSERT_EQ(run(make + tooth + " --size-mm 4,4,3 --layers enamel:2.5,pulp:0.5").exit_code, 0);
+  const auto box = [&](const char* size, const char* thick) {
+    ASSERT_EQ(run(make + path("b.cvt") + " --size-mm " + size + " --layers enamel:" + thick).exit_code, 0);
+    ASSERT_EQ(run("tooth mesh " + path("b.cvt") + " --tissue enamel --out " + path("box.stl")).exit_code, 0);
+  };
+  box("1.6,1.6,1", "1");
+  std::string text = read_text_file(k_worked + ".toml");
+  const auto zone = text.find("shape = \"column\""), end = text.find("[rubric]");
+  text.replace(zone, end - zone, "shape = \"stl\"\nfile = \"box.stl\"\n\n");
+  write_text_file(path("stl.toml"), text);
+  const json shown = run_json("scenario show " + path("stl.toml") + " --tooth " + tooth + " --out " + path("stl.svg"));
+  EXPECT_NEAR(shown["zones_mm3"]["target"].get<double>(), 1.6 * 1.6, 0.02);
+  const Ran exam = run("exam " + path("stl.toml") + " --tooth " + tooth + " --candidate a --operator expert --out " + path("s.cavum"));
+  ASSERT_EQ(exam.exit_code, 0) << exam.err;
+  const json first = run_json("grade " + path("s.cavum"));
+  EXPECT_GT(first["volumes"]["target_removed_percent"], 80);
+
+  std::filesystem::rename(path("box.stl"), path("kept.stl"));  // the session needs no file
+  EXPECT_EQ(run_json("grade " + path("s.cavum")), first);
+  EXPECT_EQ(run("replay " + path("s.cavum") + " --verify").exit_code, 0);
+  expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"), {"stl.toml:", "'box.stl': there is no such file"});
+  box("1.6,1.6,1.1", "1.1");
+  expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"),
+                 {"stl.toml:", "'box.stl' is not the surface that the session ran with (SHA-256 "});
+  std::filesystem::rename(path("kept.stl"), path("box.stl"));
+  const json again = run_json("grade " + path("s.cavum") + " --scenario " + path("stl.toml"));
+  EXPECT_EQ(again["score"], first["score"]);
+}
+
 TEST_F(GradeVerb, AnotherRubricGivesANewResultBesideTheSealedOne) {
   const std::string session = hole(), bytes = read_text_file(session);
   write_text_file(path("r.toml"), R"(rule = "compensatory"

@@ -28,6 +28,7 @@ TEST_F(RigVerbs, CubeWritesFiguresPictureAndRecordings) {
   EXPECT_TRUE(read_text_file(path("c.csv")).starts_with("session,t_s,x_mm,f_n"));
   EXPECT_NE(read_text_file(path("rig.toml")).find("k_n_per_mm = 0.8"), std::string::npos);
   const std::string svg = read_text_file(path("c.svg"));
+  EXPECT_NE(svg.find(", 1 run each"), std::string::npos) << "one run is no 1 runs";
   for (const char* words : {"<svg", "force, N", "spring coefficient k, N/mm", "eq. 6"}) EXPECT_NE(svg.find(words), std::string::npos) << words;
 }
 
