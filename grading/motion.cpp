@@ -16,10 +16,7 @@ MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const
     for (std::int64_t i = p.begin; i < std::min(p.end, ticks); ++i, ++standing) paused[static_cast<std::size_t>(i)] = 1;
   m.time_s = static_cast<double>(ticks - standing) * k_tick_s;
   m.late_ticks = static_cast<std::int64_t>(input.inputs.size()) - ticks;
-  const auto tip = [&](std::size_t i) {
-    const auto& t = input.inputs[i].tip_nm;
-    return Vec3{t[0] * 1e-6, t[1] * 1e-6, t[2] * 1e-6};
-  };
+  const auto tip = [&](std::size_t i) { return input.inputs[i].tip_mm(); };
   double sum = 0;
   std::int64_t turning = 0, cutting = 0, over = 0;
   for (std::size_t i = 0; i < n; ++i) {

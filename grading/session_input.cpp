@@ -4,6 +4,7 @@
 #include "engine/session/chain_check.h"
 #include "scenarios/accommodations.h"
 #include "scenarios/parse.h"
+#include "scenarios/surface_files.h"
 
 namespace cavum {
 
@@ -22,6 +23,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   const SessionSetup setup = reader.setup();
   auto s = std::make_unique<GradedSession>();
   s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario", Reading::recorded);
+  use_surfaces(s->scenario, setup.attachments);
   s->scenario.accommodations = granted(s->scenario.accommodations, setup.notes, path + ": accommodations");
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
   s->before = load_tooth(setup.tooth, path + ": tooth");
@@ -39,6 +41,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
 
 void use_scenario(GradedSession& session, Scenario scenario) {
   require_tissues(scenario, session.before);
+  require_same_surfaces(scenario, session.scenario);
   scenario.accommodations = granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
   session.zones = build_zones(scenario, session.before);
   session.rubric = scenario.rubric;

@@ -32,7 +32,8 @@ struct GradedSession {
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
-/// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit.
+/// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, or when an STL that the session ran
+/// with is another one by now.
 void use_scenario(GradedSession& session, Scenario scenario);
 
 }  // namespace cavum

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grading/leaf_parts.h"
+#include "scenarios/leaf_parts.h"
 
 namespace cavum {
 namespace {

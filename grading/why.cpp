@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "grading/loss.h"
+#include "grading/moments.h"
 #include "grading/motion.h"
 
 namespace cavum {
@@ -41,15 +42,14 @@ class Finder {
   [[nodiscard]] double points_at(double value) const {
     return why_.criterion.work_share * spec_.points * std::clamp((value - spec_.zero) / (spec_.full - spec_.zero), 0.0, 1.0);
   }
-  [[nodiscard]] Vec3 tip(std::int64_t tick) const {
-    const auto& t = in_.inputs[static_cast<std::size_t>(tick)].tip_nm;
-    return {t[0] * 1e-6, t[1] * 1e-6, t[2] * 1e-6};
-  }
   void removed_leaves(const std::function<bool(const RemovedAt&)>& counts, bool as_volume);
   void in_zones(std::initializer_list<Zone> zones);
   void missed();
   void walls(std::size_t first, std::size_t end, const std::string& figure);
-  void ticks_where(const std::function<bool(std::int64_t)>& counts, std::int64_t gap, const std::string& what, bool with_force);
+  void list_largest(std::vector<WhyItem> items) {
+    why_.left_out += keep_largest(items);
+    for (auto& i : items) why_.items.push_back(std::move(i));
+  }
   void steps();
   void perforation();
   void shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error);
@@ -61,61 +61,21 @@ class Finder {
   std::int64_t end_ = 0;
 };
 
-/// Moments in which such leaves went: how much, where most of it lay, and how far from the target.
+/// Moments in which such leaves went, and, where the value is a volume, what each of them cost.
 void Finder::removed_leaves(const std::function<bool(const RemovedAt&)>& counts, bool as_volume) {
-  struct Moment {
-    std::int64_t from, to;
-    std::size_t leaves = 0;
-    double furthest = -1e9;
-    IVec3 at;
-  };
-  std::vector<Moment> moments;
-  std::size_t all = 0;
-  for (const auto& r : in_.removed) {
-    if (r.tick >= end_ || !counts(r)) continue;
-    if (moments.empty() || r.tick > moments.back().to + k_moment_gap_ticks) moments.push_back({r.tick, r.tick, 0, -1e9, {}});
-    Moment& m = moments.back();
-    m.to = r.tick;
-    ++m.leaves;
-    ++all;
-    if (const double d = in_.zones.distance_mm(r.leaf.leaf()); d > m.furthest) {
-      m.furthest = d;
-      m.at = r.leaf.leaf();
-    }
-  }
-  const double leaf_mm3 = in_.zones.leaf_volume_mm3(), value = why_.criterion.value.value_or(0);
-  // the value is counted by parts of leaves: the moments, counted in whole ones, share it
-  const double scale = all > 0 ? value / static_cast<double>(all) : 0.0;
-  double before = 0;
-  std::vector<WhyItem> items;
-  for (const auto& m : moments) {
-    WhyItem item;
-    item.tick = m.from;
-    item.end_tick = m.to;
-    item.site_mm = in_.zones.centre_mm(m.at);
-    item.amount = static_cast<double>(m.leaves) * leaf_mm3;
-    item.unit = "mm3";
-    const auto wall = static_cast<std::size_t>(in_.zones.wall(m.at));
-    const Zone zone = in_.zones.zone(m.at);
-    item.what = "removed, at the furthest " + fixed(std::max(0.0, m.furthest), 2) + " mm beyond the target at " + wall_text(wall) + " (" +
-                zone_name(zone) + ")";
-    if (as_volume) {
-      const double now = before + static_cast<double>(m.leaves) * scale;
-      item.points_lost = points_at(before) - points_at(now);
+  std::vector<WhyItem> items = removal_moments(in_, end_, counts);
+  if (as_volume) {
+    double all = 0, before = 0;
+    for (const auto& i : items) all += *i.amount;
+    // the value is counted by parts of leaves: the moments, counted in whole ones, share it
+    const double scale = all > 0 ? why_.criterion.value.value_or(0) / all : 0.0;
+    for (auto& i : items) {
+      const double now = before + *i.amount * scale;
+      i.points_lost = points_at(before) - points_at(now);
       before = now;
     }
-    items.push_back(std::move(item));
   }
-  if (items.size() > k_most_moments) {  // the largest, still in order of time
-    std::vector<double> sizes;
-    for (const auto& i : items) sizes.push_back(*i.amount);
-    std::nth_element(sizes.begin(), sizes.begin() + k_most_moments, sizes.end(), std::greater<>());
-    const double least = sizes[k_most_moments];
-    why_.left_out += items.size();
-    std::erase_if(items, [&](const WhyItem& i) { return *i.amount <= least; });
-    why_.left_out -= items.size();
-  }
-  for (auto& i : items) why_.items.push_back(std::move(i));
+  list_largest(std::move(items));
 }
 
 void Finder::in_zones(std::initializer_list<Zone> zones) {
@@ -187,50 +147,6 @@ void Finder::walls(std::size_t first, std::size_t end, const std::string& figure
       false);
 }
 
-/// Stretches of ticks of which something holds.
-void Finder::ticks_where(const std::function<bool(std::int64_t)>& counts, std::int64_t gap, const std::string& what, bool with_force) {
-  std::vector<WhyItem> items;
-  std::int64_t held = 0;
-  double peak = 0;
-  const auto close = [&] {
-    if (items.empty()) return;
-    WhyItem& i = items.back();
-    i.amount = with_force ? peak : static_cast<double>(held) * k_tick_s;
-    i.unit = with_force ? "N" : "s";
-    if (with_force) i.what += ", " + fixed(static_cast<double>(held) * k_tick_s, 3) + " s of it; the peak is given";
-  };
-  const auto n = std::min<std::int64_t>(end_, static_cast<std::int64_t>(in_.inputs.size()));
-  for (std::int64_t i = 0; i < n; ++i) {
-    if (!counts(i)) continue;
-    if (items.empty() || i > items.back().end_tick + gap) {
-      close();
-      held = 0;
-      peak = 0;
-      items.emplace_back();
-      items.back().tick = i;
-      items.back().what = what;
-    }
-    items.back().end_tick = i;
-    ++held;
-    const double f = force_n(in_.records[static_cast<std::size_t>(i)]);
-    if (f > peak || held == 1) {
-      peak = std::max(peak, f);
-      items.back().site_mm = tip(i);
-    }
-  }
-  close();
-  if (items.size() > k_most_moments) {
-    std::vector<double> sizes;
-    for (const auto& i : items) sizes.push_back(*i.amount);
-    std::nth_element(sizes.begin(), sizes.begin() + k_most_moments, sizes.end(), std::greater<>());
-    const double least = sizes[k_most_moments];
-    why_.left_out += items.size();
-    std::erase_if(items, [&](const WhyItem& i) { return *i.amount <= least; });
-    why_.left_out -= items.size();
-  }
-  for (auto& i : items) why_.items.push_back(std::move(i));
-}
-
 /// The exam as a row of events, each with what it took since the one before.
 void Finder::steps() {
   std::int64_t last = 0;
@@ -246,7 +162,7 @@ void Finder::steps() {
     item.what = what + ", after";
     item.amount = static_cast<double>(e.tick - last) * k_tick_s;
     item.unit = "s since the event before";
-    if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = tip(e.tick);
+    if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = in_.inputs[static_cast<std::size_t>(e.tick)].tip_mm();
     why_.items.push_back(std::move(item));
     last = e.tick;
   }
@@ -333,17 +249,21 @@ void Finder::find() {
   if (m == "force_peak_n" || m == "force_mean_n" || m == "force_over_limit_s") {
     const double above = m == "force_over_limit_s" ? in_.scenario.force_limit_n : spec_.full;
     if (r_.motion.force_peak.tick >= 0) fact("pressed hardest", r_.motion.force_peak_n, "N", r_.motion.force_peak);
-    return ticks_where([&](std::int64_t i) { return force_n(record(i)) > above; }, k_moment_gap_ticks,
-                       "pressed with more than " + fixed(above, 2) + " N", true);
+    return list_largest(tick_stretches(
+        in_, end_, [&](std::int64_t i) { return force_n(record(i)) > above; }, k_moment_gap_ticks, "pressed with more than " + fixed(above, 2) + " N",
+        Stretch::peak_force));
   }
   if (m == "handpiece_time_s")
-    return ticks_where([&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, "the handpiece turned for", false);
+    return list_largest(tick_stretches(
+        in_, end_, [&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, "the handpiece turned for", Stretch::duration));
   if (m == "violations" || m == "steps_completed" || m == "steps_failed" || m == "time_s" || m == "idle_s" || m == "path_mm") {
     if (m == "time_s") fact("time that counts, pauses taken off", r_.motion.time_s, "s");
     if (m == "time_s" || m == "idle_s") fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
     steps();
     if (m == "time_s" || m == "idle_s" || m == "path_mm")
-      ticks_where([&](std::int64_t i) { return record(i).rpm < k_turning_rpm && record(i).removed == 0; }, 0, "the handpiece stood still for", false);
+      list_largest(tick_stretches(
+          in_, end_, [&](std::int64_t i) { return record(i).rpm < k_turning_rpm && record(i).removed == 0; }, 0, "the handpiece stood still for",
+          Stretch::duration));
     return;
   }
   fact("no moments are known for this measure");
@@ -363,66 +283,6 @@ Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric,
     return w;
   }
   throw Error("--why", "the rubric has no criterion '" + criterion_id + "'", "use one of: " + known);
-}
-
-namespace {
-double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
-}  // namespace
-
-Json to_json(const Why& w) {
-  const auto& c = w.criterion;
-  Json items = Json::array();
-  for (const auto& i : w.items) {
-    const auto time = [](std::int64_t tick) { return tick < 0 ? Json(nullptr) : Json(rounded(static_cast<double>(tick) * k_tick_s)); };
-    const auto number = [](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
-    items.push_back({{"t_s", time(i.tick)},
-                     {"to_t_s", time(i.end_tick)},
-                     {"tick", i.tick < 0 ? Json(nullptr) : Json(i.tick)},
-                     {"to_tick", i.end_tick < 0 ? Json(nullptr) : Json(i.end_tick)},
-                     {"site_mm", i.site_mm ? Json::array({rounded(i.site_mm->x), rounded(i.site_mm->y), rounded(i.site_mm->z)}) : Json(nullptr)},
-                     {"amount", number(i.amount)},
-                     {"unit", i.unit},
-                     {"points_lost", number(i.points_lost)},
-                     {"what", i.what}});
-  }
-  return {{"criterion",
-           {{"id", c.id},
-            {"title", c.title},
-            {"metric", c.metric},
-            {"value", c.value ? Json(rounded(*c.value)) : Json(nullptr)},
-            {"unit", c.unit},
-            {"bound", rounded(c.bound)},
-            {"points", rounded(c.points)},
-            {"max", rounded(c.max)},
-            {"critical_failed", c.critical_failed},
-            {"reason", c.reason}}},
-          {"points_lost", rounded(c.max - c.points)},
-          {"moments", items},
-          {"moments_left_out", w.left_out}};
-}
-
-std::string to_text(const Why& w) {
-  const auto& c = w.criterion;
-  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
-                  " lost\n  " + c.reason + "\n";
-  if (!w.items.empty()) s += "\n";
-  for (const auto& i : w.items) {
-    std::string time;
-    if (i.tick >= 0) {
-      time = fixed(static_cast<double>(i.tick) * k_tick_s, 3);
-      if (i.end_tick > i.tick) time += " to " + fixed(static_cast<double>(i.end_tick) * k_tick_s, 3);
-      time += " s";
-    }
-    time.resize(std::max<std::size_t>(time.size(), 22), ' ');
-    std::string amount = i.amount ? fixed(*i.amount, 3) + " " + i.unit : "";
-    s += "  " + time + "  " + i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
-    if (i.site_mm) s += ", at " + place(*i.site_mm);
-    if (i.tick >= 0) s += ", tick " + std::to_string(i.tick);
-    if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";
-    s += "\n";
-  }
-  if (w.left_out > 0) s += "  and " + std::to_string(w.left_out) + " smaller moments\n";
-  return s;
 }
 
 }  // namespace cavum

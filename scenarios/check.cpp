@@ -8,6 +8,7 @@
 #include "scenarios/advice.h"
 #include "scenarios/checked_toml.h"
 #include "scenarios/exam.h"
+#include "scenarios/surface_files.h"
 
 namespace cavum {
 namespace {
@@ -64,6 +65,8 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
   ReadScenario read = read_scenario(text, path);
   CheckedScenario checked{std::move(read.problems), {}};
   std::vector<Problem>& problems = checked.problems;
+  SurfaceFiles files;
+  for (auto& p : read_surfaces(read.scenario, files)) problems.push_back(std::move(p));
   const Scenario& s = read.scenario;
   const bool names_sound = checked.sound();
   const auto points = names_sound || !s.points.empty() ? read_points(s, problems) : std::vector<DiamondPoint>();

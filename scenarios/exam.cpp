@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "scenarios/surface_files.h"
 
 namespace cavum {
 namespace {
@@ -51,6 +52,7 @@ std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
 /// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
 void fill(ExamSetup& setup, const std::string& scenario_path, const std::string& tooth_path, const std::vector<std::string>& point_paths) {
   setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path, Reading::recorded);
+  use_surfaces(setup.scenario, setup.session.attachments);
   setup.scenario.accommodations = granted(setup.scenario.accommodations, setup.session.notes, scenario_path);
   setup.tooth = load_tooth(setup.session.tooth, tooth_path);
   for (std::size_t i = 0; i < setup.session.points_toml.size(); ++i) {
@@ -95,7 +97,13 @@ std::string find_data_file(const std::string& folder, const std::string& name, c
 }
 
 std::string force_model_path(const std::string& wanted, const std::string& near_file) {
-  return wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", near_file);
+  if (wanted.ends_with(".toml")) return wanted;
+  if (wanted.empty() || wanted.find('/') != std::string::npos) {
+    std::string known;
+    for (const auto& name : data_names("materials", near_file)) known += (known.empty() ? "" : ", ") + name;
+    throw Error("--model", "'" + wanted + "' is no force model", "name one of " + known + ", or a file ending in .toml");
+  }
+  return find_data_file("materials", wanted + ".toml", near_file);
 }
 
 std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }
@@ -104,7 +112,8 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   auto setup = std::make_unique<ExamSetup>();
   SessionSetup& s = setup->session;
   s.scenario_toml = read_text_file(scenario_path);
-  const Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
+  Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
+  if (const auto wrong = read_surfaces(scenario, s.attachments); !wrong.empty()) throw Error(wrong[0].where, wrong[0].what, wrong[0].what_to_do);
   s.candidate = options.candidate;
   s.device = options.device;
   require_sound(options.grant, "accommodations");

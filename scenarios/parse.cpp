@@ -12,6 +12,7 @@
 #include "scenarios/expression.h"
 #include "scenarios/names.h"
 #include "scenarios/parse_zones.h"
+#include "scenarios/surface_files.h"
 
 namespace cavum {
 namespace {
@@ -277,7 +278,12 @@ Scenario parse_scenario(const std::string& text, const std::string& path, Readin
   return std::move(read.scenario);
 }
 
-Scenario load_scenario(const std::string& path) { return parse_scenario(read_text_file(path), path); }
+Scenario load_scenario(const std::string& path) {
+  Scenario s = parse_scenario(read_text_file(path), path);
+  SurfaceFiles files;
+  throw_first(read_surfaces(s, files));
+  return s;
+}
 
 RubricSpec parse_rubric(const std::string& text, const std::string& path) {
   ProblemList problems(path);
@@ -320,7 +326,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
       const ShapeSpec& shape = (*list)[i];
       const std::string place = key + std::to_string(i);
       const bool column = shape.kind == ShapeSpec::Kind::column;
-      if (shape.kind == ShapeSpec::Kind::tissue) need(shape.tissue, place + "/tissue");
+      if (shape.kind == ShapeSpec::Kind::tissue || shape.kind == ShapeSpec::Kind::canal_cone) need(shape.tissue, place + "/tissue");
       if (column && shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
       if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
         need(shape.bottom.tissue, place + "/bottom");

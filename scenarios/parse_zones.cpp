@@ -1,5 +1,6 @@
 #include "scenarios/parse_zones.h"
 
+#include <array>
 #include <cmath>
 
 namespace cavum {
@@ -110,8 +111,8 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   s.line = static_cast<int>(table.source().begin.line);
   s.column = static_cast<int>(table.source().begin.column);
   places[at] = {s.line, s.column};
-  for (const char* key : {"tissue", "outline", "bottom"}) t.note(places, key, at + "/" + key);
-  const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue"}, 0, true);
+  for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, at + "/" + key);
+  const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone"}, 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
   s.kind = static_cast<Kind>(kind);
@@ -119,11 +120,14 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   const auto outline = [&] {
     if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
   };
+  const auto axis = [&] {
+    const Vec3 along = t.vector("axis", 3, {0, 0, 1});
+    if (length(along) < 1e-6) t.problem("axis", "'axis' has no direction", "write for example [0, 0, 1]");
+    s.axis = normalized(along);
+  };
   const auto pose = [&](bool turnable) {
     s.at_mm = t.vector("at_mm", 3, {}, true);
-    const Vec3 axis = t.vector("axis", 3, {0, 0, 1});
-    if (length(axis) < 1e-6) t.problem("axis", "'axis' has no direction", "write for example [0, 0, 1]");
-    s.axis = normalized(axis);
+    axis();
     if (turnable) s.turn_deg = t.number("turn_deg", -360, 360, 0);
   };
   switch (s.kind) {
@@ -164,6 +168,27 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
       s.part = read_part(t);
       s.offset_mm = t.number("offset_mm", -5, 5, 0);
       break;
+    case Kind::stl: {
+      s.file = t.text("file", "", true);
+      const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
+      if (!s.file.empty() && !named) t.problem("file", "'file' is no STL file", "name a closed surface in mm, in the tooth's frame, ending in .stl");
+      break;
+    }
+    case Kind::canal_cone: {
+      s.tissue = t.text("tissue", "pulp");
+      const std::size_t side =
+          t.word("canals", {"all", "mesial", "distal", "buccal", "lingual", "mesiobuccal", "mesiolingual", "distobuccal", "distolingual"}, 0);
+      constexpr std::array<std::array<int, 2>, 9> k_sides{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+      if (side != CheckedTable::k_wrong) {
+        s.canals_x = k_sides[side][0];
+        s.canals_y = k_sides[side][1];
+      }
+      s.radius_mm = t.number("radius_mm", 0.05, 5, 0);
+      s.taper_deg = t.number("taper_deg", 0, 45, 5);
+      s.deeper_mm = t.number("deeper_mm", -5, 5, 0);
+      axis();
+      break;
+    }
   }
   t.finish();
   return s;

@@ -149,8 +149,25 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   // the crown and what lies around the target; the tips of the roots are not needed
   w.low.z = std::max(0, tree.leaf_at(zones.target_low_mm() - Vec3{0, 0, 4.0}).z);
   w.high.z = std::min(w.high.z, tree.leaf_at(zones.target_high_mm() + Vec3{0, 0, 0.8}).z + 1);
+  const int below_target = w.low.z;
   const IVec3 probe = tree.leaf_at({spec.at_mm, spec.at_mm, spec.at_mm});
   w.depth = spec.view == View::mesio_distal ? probe.y : spec.view == View::bucco_lingual ? probe.x : probe.z;
+  // nor is a channel cut off that was drilled deeper
+  const bool upright = spec.view == View::mesio_distal || spec.view == View::bucco_lingual;
+  const int across = spec.view == View::bucco_lingual ? w.high.y : w.high.x;
+  const auto drilled = [&](int z) {
+    for (int i = 0; i < across; ++i) {
+      const IVec3 at = spec.view == View::bucco_lingual ? IVec3{w.depth, i, z} : IVec3{i, w.depth, z};
+      if (tree.tissue(at) != k_air && after->tissue(at) == k_air) return true;
+    }
+    return false;
+  };
+  constexpr double k_room_mm = 0.6;  // below it
+  for (int z = 0; after != nullptr && upright && z < below_target + static_cast<int>(k_room_mm / leaf); ++z)
+    if (drilled(z)) {
+      w.low.z = std::clamp(z - static_cast<int>(k_room_mm / leaf), 0, below_target);
+      break;
+    }
   w.width = spec.view == View::bucco_lingual ? w.high.y - w.low.y : w.high.x - w.low.x;
   w.height = spec.view == View::mesio_distal || spec.view == View::bucco_lingual ? w.high.z - w.low.z : w.high.y - w.low.y;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "scenarios/distance_transform.h"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr double k_narrow = 0.35;     // of the widest slice's area: from here on it is a canal
 constexpr double k_branch = 0.04;     // of the widest slice's area: what counts as a canal of its own
 constexpr double k_persist_mm = 0.3;  // a split must last this deep, or it is a ripple
+constexpr double k_mouth_mm2 = 0.02;  // the mouth of a canal 0.16 mm wide: less is a ripple of the floor
 
 struct Slices {
   IVec3 low, size;                 // of the tissue's box, leaves
@@ -43,26 +45,24 @@ Slices slices_of(const Tooth& tooth, std::uint8_t tissue) {
   return s;
 }
 
-struct SliceShape {
-  int area = 0;      // leaves
-  int branches = 0;  // connected pieces of at least `least` leaves
-};
+/// Leaves of a slice that hang together.
+using Piece = std::vector<IVec3>;
 
-SliceShape shape_of(const Slices& s, int z, int least) {
-  SliceShape shape;
+std::vector<Piece> pieces_of(const Slices& s, int z) {
+  std::vector<Piece> pieces;
   std::vector<std::uint8_t> seen(static_cast<std::size_t>(s.size.x) * static_cast<std::size_t>(s.size.y), 0);
   std::vector<IVec3> stack;
   for (int y = 0; y < s.size.y; ++y)
     for (int x = 0; x < s.size.x; ++x) {
       const auto flat = [&](int a, int b) { return static_cast<std::size_t>(b) * static_cast<std::size_t>(s.size.x) + static_cast<std::size_t>(a); };
       if (s.leaf[s.index(x, y, z)] == 0 || seen[flat(x, y)] != 0) continue;
-      int area = 0;
+      Piece& piece = pieces.emplace_back();
       stack.assign(1, {x, y, 0});
       seen[flat(x, y)] = 1;
       while (!stack.empty()) {
         const IVec3 at = stack.back();
         stack.pop_back();
-        ++area;
+        piece.push_back({at.x, at.y, z});
         for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}}) {
           const IVec3 n = at + step;
           if (n.x < 0 || n.y < 0 || n.x >= s.size.x || n.y >= s.size.y) continue;
@@ -71,31 +71,47 @@ SliceShape shape_of(const Slices& s, int z, int least) {
           stack.push_back(n);
         }
       }
-      shape.area += area;
-      shape.branches += area >= least ? 1 : 0;
     }
-  return shape;
+  return pieces;
+}
+
+int area_of(const std::vector<Piece>& pieces) {
+  std::size_t area = 0;
+  for (const auto& p : pieces) area += p.size();
+  return static_cast<int>(area);
 }
 
 /// Lowest slice of the chamber.
 int chamber_floor(const Slices& s, double leaf_mm) {
   std::vector<int> area;
-  for (int z = 0; z < s.size.z; ++z) area.push_back(shape_of(s, z, 1).area);
+  for (int z = 0; z < s.size.z; ++z) area.push_back(area_of(pieces_of(s, z)));
   const int widest = static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
   const int largest = area[static_cast<std::size_t>(widest)];
   const int least = std::max(1, static_cast<int>(k_branch * largest));
   const int persist = std::max(1, static_cast<int>(k_persist_mm / leaf_mm));
   int split_since = -1;
   for (int z = widest; z >= 0; --z) {
-    const SliceShape shape = shape_of(s, z, least);
-    if (shape.area < k_narrow * largest) return split_since >= 0 ? split_since + 1 : z + 1;
-    if (shape.branches < 2)
+    const std::vector<Piece> pieces = pieces_of(s, z);
+    if (area_of(pieces) < k_narrow * largest) return split_since >= 0 ? split_since + 1 : z + 1;
+    const auto branches = std::count_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return static_cast<int>(p.size()) >= least; });
+    if (branches < 2)
       split_since = -1;
     else if (split_since < 0)
       split_since = z;
     if (split_since >= 0 && split_since - z >= persist) return split_since + 1;
   }
   return 0;
+}
+
+/// Slices of a tissue that must be there.
+Slices required_slices(const Tooth& tooth, const std::string& tissue, const std::string& where) {
+  std::uint8_t id = k_air;
+  for (const auto& t : tooth.tissues)
+    if (t.name == tissue) id = t.id;
+  Slices s = slices_of(tooth, id);
+  if (id == k_air || s.leaf.empty())
+    throw Error(where, "the tooth '" + tooth.name + "' has no " + tissue, "choose a tooth with it, or a zone that does not need it");
+  return s;
 }
 
 }  // namespace
@@ -157,12 +173,7 @@ int top_leaf(const ColumnMap& surface, const Octree& tree, int x, int y) noexcep
 }
 
 TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const std::string& where) {
-  std::uint8_t id = k_air;
-  for (const auto& t : tooth.tissues)
-    if (t.name == tissue) id = t.id;
-  const Slices s = slices_of(tooth, id);
-  if (id == k_air || s.leaf.empty())
-    throw Error(where, "the tooth '" + tooth.name + "' has no " + tissue, "choose a tooth with it, or a zone that does not need it");
+  const Slices s = required_slices(tooth, tissue, where);
   const Octree& tree = tooth.octree;
   const int first = part == TissuePart::chamber ? chamber_floor(s, tree.leaf_mm()) : 0;
 
@@ -206,6 +217,26 @@ TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, Tissue
   relief.floor_mm.smooth(2);
   relief.roof_mm.smooth(2);
   return relief;
+}
+
+std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const std::string& where) {
+  const Slices s = required_slices(tooth, tissue, where);
+  const Octree& tree = tooth.octree;
+  const double leaf = tree.leaf_mm();
+  const int floor = chamber_floor(s, leaf);
+  std::vector<CanalMouth> mouths;
+  if (floor == 0) return mouths;
+  const int below = std::max(0, floor - 1 - static_cast<int>(k_persist_mm / leaf));
+  for (const auto& piece : pieces_of(s, floor - 1)) {
+    const auto area = static_cast<double>(piece.size());
+    const bool goes_on = std::any_of(piece.begin(), piece.end(), [&](IVec3 l) { return s.leaf[s.index(l.x, l.y, below)] != 0; });
+    if (!goes_on || area * leaf * leaf < k_mouth_mm2) continue;
+    Vec3 sum;
+    for (const IVec3 l : piece) sum += Vec3{double(l.x), double(l.y), 0};
+    const Vec3 in_leaves{s.low.x + sum.x / area + 0.5, s.low.y + sum.y / area + 0.5, double(s.low.z + floor)};
+    mouths.push_back({tree.origin_mm() + in_leaves * leaf, std::sqrt(area / k_pi) * leaf});
+  }
+  return mouths;
 }
 
 ColumnMap distance_to_edge(const ColumnMap& like, const std::vector<std::uint8_t>& inside, int padding) {

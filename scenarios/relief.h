@@ -45,6 +45,15 @@ inline constexpr double k_no_tooth_mm = -1e6;
 /// Throws Error when the tooth has no such tissue or no leaf of it. `where` names the asker.
 [[nodiscard]] TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const std::string& where);
 
+/// Where a canal leaves the chamber: the middle of its mouth on the chamber's floor, and the radius of a circle of the mouth's area.
+struct CanalMouth {
+  Vec3 at_mm;
+  double radius_mm = 0.0;
+};
+/// The mouths of all canals of a tissue's chamber: the pieces of it just below the floor that are no ripple (0.02 mm2 or more, and 0.3 mm deep).
+/// None when nothing goes on below the chamber. Throws Error as tissue_relief does.
+[[nodiscard]] std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const std::string& where);
+
 /// Signed distance (mm, negative inside) to the edge of a set of columns, padded by `padding` columns on each
 /// side; accurate to half a leaf.
 [[nodiscard]] ColumnMap distance_to_edge(const ColumnMap& like, const std::vector<std::uint8_t>& inside, int padding);

@@ -103,6 +103,7 @@ void Runner::finish(RunnerState& state, Finish how) const noexcept {
 void Runner::count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept {
   for (const auto& r : removed) {
     ++state.removed_in_zone[static_cast<std::size_t>(zones_.zone(r.leaf()))];
+    state.target_shares += zones_.target_share(r.leaf());
     const bool first = state.removed_of_tissue[r.tissue]++ == 0;
     if (!first || role_[r.tissue] == 0) continue;
     emit(state, role_[r.tissue] == 1 ? ExamEventKind::aim_reached : ExamEventKind::perforation, r.tissue, r.leaf());
@@ -118,7 +119,7 @@ void Runner::fill_values(const RunnerState& s, const TickInput& input, const Tic
   const double quantity[] = {
       static_cast<double>(clock(s) + 1) * k_tick_s,
       static_cast<double>(clock(s) + 1 - s.step_start) * k_tick_s,
-      100.0 * static_cast<double>(s.removed_in_zone[static_cast<std::size_t>(Zone::target)]) / static_cast<double>(zones_.count(Zone::target)),
+      100.0 * static_cast<double>(s.target_shares) / static_cast<double>(zones_.target_shares()),
       removed * leaf,
       zone_mm3(Zone::leeway_sides) + zone_mm3(Zone::leeway_bottom),
       zone_mm3(Zone::container_sides) + zone_mm3(Zone::container_bottom),

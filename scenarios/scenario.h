@@ -5,13 +5,17 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/hash.h"
 #include "engine/base/vec.h"
 
 namespace cavum {
+
+struct TriangleMesh;
 
 /// Which leaves of a tissue a shape speaks of. The chamber of a pulp is what lies above its floor: the
 /// level where, going down from the widest slice, the pulp parts into canals or narrows to a third.
@@ -45,22 +49,27 @@ struct BottomSpec {
 
 /// A body in the tooth frame, or one relative to a tissue. Bodies of a list are combined in their order.
 struct ShapeSpec {
-  enum class Kind { box, cylinder, cone, ball, prism, column, tissue };
+  enum class Kind { box, cylinder, cone, ball, prism, column, tissue, stl, canal_cone };
   enum class Combine { add, subtract, intersect };
   Kind kind = Kind::box;
   Combine combine = Combine::add;
-  Vec3 at_mm;             ///< centre of a box or ball; middle of the lower face of the others
-  Vec3 axis{0, 0, 1};     ///< from the lower face upwards, unit
-  double turn_deg = 0.0;  ///< about the axis
-  Vec3 size_mm;           ///< box
-  double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;
-  OutlineSpec outline;          ///< prism, column
-  BottomSpec bottom;            ///< column
-  double taper_deg = 0.0;       ///< column: its walls open by this angle towards the occlusal side
-  std::string tissue = "pulp";  ///< tissue: the leaves of this tissue ...
+  Vec3 at_mm;                                                    ///< centre of a box or ball; middle of the lower face of the others
+  Vec3 axis{0, 0, 1};                                            ///< from the lower face upwards, unit
+  double turn_deg = 0.0;                                         ///< about the axis
+  Vec3 size_mm;                                                  ///< box
+  double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;  ///< canal_cone: radius at the mouth, 0 = the mouth's own
+  OutlineSpec outline;                                           ///< prism, column
+  BottomSpec bottom;                                             ///< column
+  double taper_deg = 0.0;                                        ///< column, canal_cone: its walls open by this angle towards the occlusal side
+  std::string tissue = "pulp";                                   ///< tissue: the leaves of this tissue ...
   TissuePart part = TissuePart::all;
-  double offset_mm = 0.0;    ///< ... grown by this much
-  int line = 0, column = 0;  ///< in the scenario file, for messages
+  double offset_mm = 0.0;                       ///< ... grown by this much
+  std::string file;                             ///< stl: as written, relative to the scenario's file
+  Sha256 file_sha256{};                         ///< stl: of the file, once it was read
+  std::shared_ptr<const TriangleMesh> surface;  ///< stl: what the file holds, tooth frame; null until read_surfaces (surface_files.h)
+  int canals_x = 0, canals_y = 0;               ///< canal_cone: only canals on this side of the chamber's middle, +1 mesial / buccal; 0 = either
+  double deeper_mm = 0.0;                       ///< canal_cone: begins this far below the canal's mouth
+  int line = 0, column = 0;                     ///< in the scenario file, for messages
 };
 
 /// Width of a zone beside and below the target, mm, measured from the target's surface.

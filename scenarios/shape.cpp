@@ -8,7 +8,9 @@
 
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "scenarios/distance_transform.h"
+#include "scenarios/mesh_body.h"
 #include "scenarios/outline.h"
 
 namespace cavum {
@@ -204,6 +206,33 @@ class Combined final : public Shape {
   std::vector<std::pair<ShapeSpec::Combine, std::unique_ptr<Shape>>> parts_;
 };
 
+/// Cones that stand on the canals' mouths and open towards occlusal; like a column they have no upper end.
+std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Vec3 middle, const std::string& where) {
+  constexpr double k_out_of_any_tooth_mm = 60;
+  const SinCos taper = det_sincos(spec.taper_deg * k_pi / 180);
+  auto all = std::make_unique<Combined>();
+  std::string found;
+  bool any = false;
+  const auto mouths = canal_mouths(tooth, spec.tissue, where);
+  if (mouths.empty())
+    throw Error(where, "no canal leaves the " + spec.tissue + " of '" + tooth.name + "'", "choose a tooth with canals, or another shape");
+  for (const CanalMouth& mouth : mouths) {
+    found += (found.empty() ? "[" : ", [") + fixed(mouth.at_mm.x, 2) + ", " + fixed(mouth.at_mm.y, 2) + ", " + fixed(mouth.at_mm.z, 2) + "]";
+    const Vec3 off = mouth.at_mm - middle;
+    if (spec.canals_x * off.x < 0 || spec.canals_y * off.y < 0) continue;
+    any = true;
+    ShapeSpec cone = spec;
+    cone.at_mm = mouth.at_mm - spec.axis * spec.deeper_mm;
+    if (cone.radius_mm == 0) cone.radius_mm = mouth.radius_mm;
+    cone.height_mm = k_out_of_any_tooth_mm;
+    all->add(ShapeSpec::Combine::add, std::make_unique<Frustum>(cone, cone.radius_mm + cone.height_mm * taper.sin / taper.cos));
+  }
+  if (!any)
+    throw Error(where, "no canal lies on that side of the chamber's middle; the mouths are at " + found + " mm",
+                "choose another side in 'canals', or \"all\"");
+  return all;
+}
+
 }  // namespace
 
 std::string place_text(const std::string& file, const ShapeSpec& spec) {
@@ -253,6 +282,11 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
       return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? relief.lowest_mm : -1e9,
                                           spec.offset_mm);
     }
+    case ShapeSpec::Kind::stl:
+      if (spec.surface == nullptr) throw Error(where, "the surface '" + spec.file + "' was not read", "read it first");
+      return std::make_unique<MeshBody>(tooth_, *spec.surface);
+    case ShapeSpec::Kind::canal_cone:
+      return canal_cones(tooth_, spec, relief_of(spec.tissue, TissuePart::chamber).middle_mm, where);
     case ShapeSpec::Kind::column:
       break;
   }

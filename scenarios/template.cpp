@@ -32,6 +32,7 @@ struct Task {
   std::string_view zones, guard;
 };
 
+constexpr std::string_view k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
 constexpr std::string_view k_pulp_guard = R"([[zones.protected]]                  # must stay, even inside leeway and container; may be left out
 shape = "tissue"
 tissue = "pulp"
@@ -58,7 +59,7 @@ bottom = { kind = "tissue_floor", tissue = "pulp", part = "chamber" }
 )",
      k_root_guard},
     {"molar", "class_1", Kind::cavity, "Class I cavity along the central fissure", "Flat floor 1.8 mm below the fissure, 1.4 mm wide, upright walls.",
-     R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 480, "[]", R"(["pulp", "periodontium"])",
+     k_cavity_tray, 480, "[]", R"(["pulp", "periodontium"])",
      R"(# A stroke along the fissure: half circles of 0.7 mm at its ends, 4.4 mm long in all.
 [[zones.target]]
 shape = "column"
@@ -68,7 +69,7 @@ taper_deg = 0
 )",
      k_pulp_guard},
     {"molar", "class_2", Kind::cavity, "Class II cavity, mesial", "An occlusal step along the fissure, and a box through the mesial ridge.",
-     R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 900, "[]", R"(["pulp", "periodontium"])",
+     k_cavity_tray, 900, "[]", R"(["pulp", "periodontium"])",
      R"(# The occlusal step ...
 [[zones.target]]
 shape = "column"
@@ -83,8 +84,8 @@ height_mm = 6
 outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
 )",
      k_pulp_guard},
-    {"molar", "slot", Kind::cavity, "Slot at the mesial surface", "A box through the mesial ridge without a step in the fissure.",
-     R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 600, "[]", R"(["pulp", "periodontium"])",
+    {"molar", "slot", Kind::cavity, "Slot at the mesial surface", "A box through the mesial ridge without a step in the fissure.", k_cavity_tray, 600,
+     "[]", R"(["pulp", "periodontium"])",
      R"(# The box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
 [[zones.target]]
 shape = "prism"
@@ -140,7 +141,7 @@ bottom = { kind = "tissue_roof", tissue = "lesion" }
 )",
      k_lesion_guard},
     {"block", "class_1", Kind::cavity, "Cavity like a class I in a block", "4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor.",
-     R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 480, "[]", R"(["pulp"])",
+     k_cavity_tray, 480, "[]", R"(["pulp"])",
      R"(# A stroke of 1.4 mm with half circles at its ends, 4.4 mm long in all.
 [[zones.target]]
 shape = "column"
@@ -150,7 +151,7 @@ taper_deg = 0
 )",
      k_pulp_guard},
     {"block", "slot", Kind::cavity, "Slot through a block", "1.5 mm wide and 1.8 mm deep, from the middle of the block out through its mesial side.",
-     R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 480, "[]", R"(["pulp"])",
+     k_cavity_tray, 480, "[]", R"(["pulp"])",
      R"(# A box that stands out over the block: only tissue counts. at_mm is its centre.
 [[zones.target]]
 shape = "box"
@@ -158,8 +159,8 @@ at_mm = [3.0, 0, 0]
 size_mm = [6, 1.5, 3.6]
 )",
      k_pulp_guard},
-    {"block", "cross", Kind::cavity, "Cross in a block", "Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles.",
-     R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])", 600, "[]", R"(["pulp"])",
+    {"block", "cross", Kind::cavity, "Cross in a block", "Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles.", k_cavity_tray, 600,
+     "[]", R"(["pulp"])",
      R"(# One groove from mesial to distal ...
 [[zones.target]]
 shape = "column"
@@ -236,6 +237,8 @@ constexpr std::string_view k_shapes = R"(
 #   prism    at_mm, height_mm, axis, turn_deg, outline
 #   column   outline, bottom, taper_deg: from the occlusal surface down to the bottom
 #   tissue   tissue, part, offset_mm: the leaves of a tissue, grown
+#   canal_cone  canals = "all" or "mesial", "distobuccal" ..., radius_mm (else the mouth's own), taper_deg, deeper_mm, axis: on the canals' mouths
+#   stl      file = "zone.stl": a closed surface in mm, in the tooth's frame, beside this file
 # outline = { kind = "circle", radius_mm } | { kind = "polygon", points_mm } | { kind = "stroke", points_mm, width_mm }
 #         | { kind = "projection", tissue, part = "all" or "chamber", rounding_mm }; all with offset_mm, the first three
 #           with centre_mm and from = "tooth" or "chamber"

@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "scenarios/distance_transform.h"
+#include "scenarios/leaf_parts.h"
 #include "scenarios/shape.h"
 
 namespace cavum {
@@ -260,6 +261,24 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
         }
       }
   if (map.count(Zone::target) == 0) throw Error(where, "the target holds no leaf of the tooth '" + tooth.name + "'", "make it larger");
+
+  // 4. what of each leaf lies in the target: on its border, part by part
+  map.target_share_.assign(cells, 0);
+  i = 0;
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x, ++i) {
+        const double depth = -static_cast<double>(map.distance_mm_[i]) / leaf;
+        if (tissue[i] == k_air || depth < -k_parts_reach_leaves) continue;
+        double share = 1;
+        if (depth < k_parts_reach_leaves) {
+          const LeafParts parts = leaf_parts(map.low_ + IVec3{x, y, z}, [&](IVec3 l) { return -map.distance_mm(l) / leaf; });
+          share = 0;
+          for (const double p : parts) share += share_beyond(p) / k_parts;
+        }
+        map.target_share_[i] = static_cast<std::uint16_t>(share * ZoneMap::k_share_units + 0.5);
+        map.target_shares_ += map.target_share_[i];
+      }
   map.target_low_mm_ = map.centre_mm(first) - Vec3{0.5, 0.5, 0.5} * leaf;
   map.target_high_mm_ = map.centre_mm(last) + Vec3{0.5, 0.5, 0.5} * leaf;
   map.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map.target_high_mm_.z;

@@ -53,6 +53,11 @@ class ZoneMap {
   /// Leaves (with tissue) of each zone.
   [[nodiscard]] const std::array<std::uint64_t, k_zones>& counts() const noexcept { return counts_; }
   [[nodiscard]] std::uint64_t count(Zone z) const noexcept { return counts_[static_cast<std::size_t>(z)]; }
+  /// Part of a leaf that lies in the target as grading counts it (4x4x4 parts), in units of 1 / k_share_units; 0 without tissue.
+  [[nodiscard]] std::uint32_t target_share(IVec3 leaf) const noexcept { return in_box(leaf) ? target_share_[index(leaf)] : 0; }
+  /// Of all leaves together, more than 0.
+  [[nodiscard]] std::uint64_t target_shares() const noexcept { return target_shares_; }
+  static constexpr std::uint32_t k_share_units = 1 << 15;
   [[nodiscard]] double target_mm3() const noexcept { return static_cast<double>(count(Zone::target)) * leaf_volume_mm3(); }
   /// Target leaves with a neighbour that is not target: half of them bounds the error of the target's volume.
   [[nodiscard]] std::uint64_t target_border_leaves() const noexcept { return target_border_; }
@@ -93,6 +98,8 @@ class ZoneMap {
   IVec3 low_, size_;
   std::vector<std::uint8_t> zone_, wall_;
   std::vector<float> distance_mm_;
+  std::vector<std::uint16_t> target_share_;
+  std::uint64_t target_shares_ = 0;
   std::array<std::uint64_t, k_zones> counts_{};
   std::uint64_t target_border_ = 0;
   Vec3 target_low_mm_, target_high_mm_;

@@ -11,6 +11,8 @@
 namespace cavum {
 namespace {
 
+std::string runs_text(int n) { return std::to_string(n) + (n == 1 ? " run" : " runs"); }
+
 using Style = ChartSeries::Style;
 
 constexpr std::array k_colours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad"};
@@ -109,8 +111,7 @@ std::string cube_svg(const CubeResult& r) {
   force.x_range = rest.x_range = {{-0.03 * largest, 1.03 * largest}};
   const auto& m = r.options.machine;
   return charts_page(
-      "Virtual cubes on the testing machine, " + plain_number(m.speed_mm_s) + " mm/s, " + std::to_string(r.options.runs) + " runs each",
-      {force, rest},
+      "Virtual cubes on the testing machine, " + plain_number(m.speed_mm_s) + " mm/s, " + runs_text(r.options.runs) + " each", {force, rest},
       {"Bars: sd over the runs. Joint friction of the simulated Omni " + plain_number(m.omni.coulomb_n) + " N; load cell noise " +
        plain_number(m.noise_n) + " N and zero error " + plain_number(m.zero_n) + " N a run (assumed). Mean of the last 2 s of a steady cut."});
 }
@@ -128,8 +129,7 @@ std::string tooth_svg(const ToothRigResult& r) {
   fall.width_px = 440;
   double top = 0.1, last_s = 0;
   const auto add = [&](Chart& chart, const std::vector<BandPoint>& band) {
-    ChartSeries shade{"mean ± sd of " + std::to_string(r.counted) + " runs", k_colours[1], Style::band, {}, 1},
-        mean{"mean", k_colours[1], Style::line, {}, 2.2};
+    ChartSeries shade{"mean ± sd of " + runs_text(r.counted), k_colours[1], Style::band, {}, 1}, mean{"mean", k_colours[1], Style::line, {}, 2.2};
     for (const auto& p : band) {
       shade.points.push_back({p.t_s, p.force_n.mean, p.force_n.sd});
       mean.points.push_back({p.t_s, p.force_n.mean, 0});

@@ -30,7 +30,7 @@ namespace {
 struct Options {
   std::string scenario, tooth, tooth_kind = "molar", task = "class_1", out, model = "consistent";
   std::uint64_t seed = 1;
-  bool json = false, force = false;
+  bool json = false, force = false, careless = false;
 };
 
 int check(const Options& o) {
@@ -92,11 +92,22 @@ class ScratchSession {
   }
   ScratchSession(const ScratchSession&) = delete;
   ScratchSession& operator=(const ScratchSession&) = delete;
-  [[nodiscard]] std::string file() const { return (folder_ / "solve.cavum").string(); }
+  [[nodiscard]] std::string file(const std::string& who) const { return (folder_ / (who + ".cavum")).string(); }
 
  private:
   std::filesystem::path folder_;
 };
+
+/// A simulated candidate takes the exam; the session is sealed with the result.
+Result taken(const ExamSetup& setup, SimulatedCandidate& candidate, const std::string& session) {
+  const auto exam = Exam::start(setup, session, candidate.start_mm());
+  run_exam(*exam, candidate);
+  exam->recorder().flush();
+  const auto graded = load_for_grading(SessionReader(session), exam->tooth_now());
+  Result r = grade(graded->input(), graded->rubric);
+  exam->close(to_json(r).dump());
+  return r;
+}
 
 /// What `solve` found out; `result` is missing when the expert could not even begin.
 struct Solved {
@@ -116,12 +127,7 @@ Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& s
     return solved;
   }
   solved.point = setup.point_names[expert->point()];
-  const auto exam = Exam::start(setup, session, expert->start_mm());
-  run_exam(*exam, *expert);
-  exam->recorder().flush();
-  const auto graded = load_for_grading(SessionReader(session), exam->tooth_now());
-  const Result& r = solved.result.emplace(grade(graded->input(), graded->rubric));
-  exam->close(to_json(r).dump());
+  const Result& r = solved.result.emplace(taken(setup, *expert, session));
   if (r.verdict == Verdict::pass) return solved;
   solved.reasons = r.verdict_reasons;
   if (r.progress.finish == "time") solved.reasons.push_back("time was up after " + fixed(r.motion.time_s, 1) + " s: the expert was not finished");
@@ -130,6 +136,38 @@ Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& s
   for (const auto& c : r.criteria)
     if (c.points < c.max) solved.reasons.push_back("criterion " + c.id + ": " + c.reason);
   return solved;
+}
+
+/// The careless candidate's exam: whether it was failed, and by the criterion that the scenario names.
+struct Caught {
+  Result result;
+  CriterionResult criterion;
+  bool as_named = false;
+};
+
+Caught catch_careless(const Options& o, const ExamSetup& setup, const std::string& session) {
+  SimulatedCandidate candidate = make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
+  Caught c{taken(setup, candidate, session), {}, false};
+  for (const auto& one : c.result.criteria)
+    if (one.id == setup.scenario.careless.fails_by) c.criterion = one;
+  // running out of time is another reason than the one the task is there for
+  c.as_named = c.result.verdict == Verdict::fail && c.result.progress.finish != "time" && (c.criterion.critical_failed || c.criterion.points <= 0);
+  return c;
+}
+
+nlohmann::ordered_json to_json(const Caught& c) {
+  const auto result = to_json(c.result);
+  nlohmann::ordered_json j{{"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", c.criterion.reason}};
+  for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
+  return j;
+}
+
+std::string to_text(const Caught& c) {
+  std::string s = "careless: " + std::string(c.as_named ? "failed by " : "NOT failed by ") + c.criterion.id + " (" + c.criterion.reason + "); " +
+                  fixed(c.result.points, 1) + " of " + fixed(c.result.max_points, 1) + " points, " + verdict_name(c.result.verdict) + "\n";
+  if (!c.as_named)
+    for (const auto& reason : c.result.verdict_reasons) s += "because: " + reason + "\n";
+  return s;
 }
 
 int solve(const Options& o) {
@@ -141,9 +179,15 @@ int solve(const Options& o) {
   options.device = "simulated Omni, operator expert";
   options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
   const auto setup = prepare_exam(o.scenario, options);
+  if (o.careless && setup->scenario.careless.fails_by.empty())
+    throw Error(o.scenario, "the scenario says nothing of a careless candidate",
+                "add [careless] with the mistake it is to catch, or leave out --careless");
   const ScratchSession scratch;
-  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file() : o.out);
+  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file("expert") : o.out);
   const bool passed = solved.result && solved.result->verdict == Verdict::pass;
+  std::optional<Caught> careless;
+  if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless"));
+  const int answer = passed && (!o.careless || (careless && careless->as_named)) ? 0 : 1;
   const double limit_s = static_cast<double>(exam_limit_ticks(setup->scenario)) * k_tick_s;
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
@@ -153,9 +197,10 @@ int solve(const Options& o) {
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
     j["reasons"] = solved.reasons;
+    if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
     print_json(j);
-    return passed ? 0 : 1;
+    return answer;
   }
   std::cout << setup->scenario.id << " on " << setup->tooth.name << ": "
             << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
@@ -168,8 +213,9 @@ int solve(const Options& o) {
     for (const auto& c : r.criteria) std::cout << "  " << c.id << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << c.reason << "\n";
   }
   for (const auto& reason : solved.reasons) std::cout << "because: " << reason << "\n";
+  if (careless) std::cout << to_text(*careless);
   if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
-  return passed ? 0 : 1;
+  return answer;
 }
 
 int make_new(const Options& o) {
@@ -205,6 +251,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   solves->add_option("--seed", o->seed, "of the expert's tremor")->capture_default_str();
   solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
+  solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");
   solves->add_flag("--json", o->json, "one JSON object on standard output");
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
 

@@ -33,10 +33,10 @@ struct TickInput {
   std::uint8_t point = 0;                                      ///< which diamond point of the tray is mounted
   friend bool operator==(const TickInput&, const TickInput&) = default;
 
+  [[nodiscard]] Vec3 tip_mm() const noexcept { return {tip_nm[0] * 1e-6, tip_nm[1] * 1e-6, tip_nm[2] * 1e-6}; }
   [[nodiscard]] Pose pose() const noexcept {
     constexpr double q = 1.0 / (1 << 30);
-    return {{tip_nm[0] * 1e-6, tip_nm[1] * 1e-6, tip_nm[2] * 1e-6},
-            normalized(Quat{rotation_q30[0] * q, rotation_q30[1] * q, rotation_q30[2] * q, rotation_q30[3] * q})};
+    return {tip_mm(), normalized(Quat{rotation_q30[0] * q, rotation_q30[1] * q, rotation_q30[2] * q, rotation_q30[3] * q})};
   }
   [[nodiscard]] double pedal() const noexcept { return pedal_q16 / 65535.0; }
 };

@@ -1,11 +1,13 @@
 #include "engine/session/recorder.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -109,6 +111,28 @@ void sync_folder_of(const std::string& path) {
   ::close(fd);
 }
 
+constexpr char k_being_made[] = ".new-";
+
+/// A process that is killed while it begins a session leaves NAME.new-PID (and its journal) behind. Those of this name go when the next
+/// session of the name is begun, unless their process still runs. What cannot be removed stays: it harms nothing.
+void remove_leftovers(const std::string& path) {
+  const std::filesystem::path file(path);
+  const std::string begin = file.filename().string() + k_being_made;
+  std::error_code none;
+  std::vector<std::filesystem::path> gone;
+  for (const auto& entry : std::filesystem::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", none)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(begin)) continue;
+    int pid = 0;
+    const char* end = name.data() + name.size();
+    const auto number = std::from_chars(name.data() + begin.size(), end, pid);
+    const std::string_view rest(number.ptr, static_cast<std::size_t>(end - number.ptr));
+    if (number.ec != std::errc() || pid <= 0 || (!rest.empty() && rest != "-journal")) continue;
+    if (::kill(pid, 0) != 0 && errno == ESRCH) gone.push_back(entry.path());
+  }
+  for (const auto& leftover : gone) std::filesystem::remove(leftover, none);
+}
+
 }  // namespace
 
 void make_single_file(Database& database) {
@@ -137,7 +161,8 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   Recorder recorder(path, load_station_key(station_key_path()));
   const auto meta = meta_of(setup);
   const auto artifacts = artifacts_of(setup);
-  const std::string made = path + ".new-" + std::to_string(::getpid());  // of this process alone: two exams may be begun under one name at once
+  remove_leftovers(path);
+  const std::string made = path + k_being_made + std::to_string(::getpid());  // of this process alone: two exams may be begun under one name at once
   ::unlink(made.c_str());
   ::unlink((made + "-journal").c_str());
   try {

@@ -10,7 +10,6 @@ namespace cavum {
 namespace {
 
 constexpr int k_reach = 3;  // leaves around a surface that may still lie in the band
-constexpr float k_band = static_cast<float>(k_distance_band_leaves) + 0.25f;
 
 /// Closest point of triangle abc to p (by Voronoi regions of its corners, edges and face).
 Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
@@ -72,8 +71,8 @@ void check_lattice(IVec3 size, double leaf_mm, const std::string& where) {
     throw Error(where, std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger --leaf-mm, or check that the unit is mm");
 }
 
-BandDistance::BandDistance(const TissueGrid& grid)
-    : size_(grid.size), leaf_mm_(grid.leaf_mm), first_mm_(grid.centre_mm({0, 0, 0})), leaves_(grid.count(), k_no_surface) {}
+BandDistance::BandDistance(const TissueGrid& grid, float band_leaves)
+    : size_(grid.size), leaf_mm_(grid.leaf_mm), band_(band_leaves), first_mm_(grid.centre_mm({0, 0, 0})), leaves_(grid.count(), k_no_surface) {}
 
 void BandDistance::add(const TriangleMesh& mesh, const AcceptSurface& accept) {
   const auto low_leaf = [](double v, int n) { return std::clamp(static_cast<int>(std::ceil(std::clamp(v, -1e6, 1e6))), 0, n); };
@@ -87,16 +86,16 @@ void BandDistance::add(const TriangleMesh& mesh, const AcceptSurface& accept) {
     if (!(area > 1e-12)) continue;
     const Vec3 normal = across / area;
     const double plane = dot(normal, a);
-    const int x0 = low_leaf(std::min({a.x, b.x, c.x}) - k_band, size_.x), x1 = high_leaf(std::max({a.x, b.x, c.x}) + k_band, size_.x);
-    const int y0 = low_leaf(std::min({a.y, b.y, c.y}) - k_band, size_.y), y1 = high_leaf(std::max({a.y, b.y, c.y}) + k_band, size_.y);
-    const int z0 = low_leaf(std::min({a.z, b.z, c.z}) - k_band, size_.z), z1 = high_leaf(std::max({a.z, b.z, c.z}) + k_band, size_.z);
+    const int x0 = low_leaf(std::min({a.x, b.x, c.x}) - band_, size_.x), x1 = high_leaf(std::max({a.x, b.x, c.x}) + band_, size_.x);
+    const int y0 = low_leaf(std::min({a.y, b.y, c.y}) - band_, size_.y), y1 = high_leaf(std::max({a.y, b.y, c.y}) + band_, size_.y);
+    const int z0 = low_leaf(std::min({a.z, b.z, c.z}) - band_, size_.z), z1 = high_leaf(std::max({a.z, b.z, c.z}) + band_, size_.z);
     for (int z = z0; z <= z1; ++z)
       for (int y = y0; y <= y1; ++y) {
         float* row = leaves_.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(y)) *
                                           static_cast<std::size_t>(size_.x);
         for (int x = x0; x <= x1; ++x) {
           const Vec3 p{double(x), double(y), double(z)};
-          const double best = std::min(row[x], k_band);
+          const double best = std::min(row[x], band_);
           if (std::fabs(dot(normal, p) - plane) >= best) continue;  // its plane is already farther
           const Vec3 q = closest_on_triangle(p, a, b, c);
           const double d = length(p - q);

@@ -19,22 +19,27 @@ void check_lattice(IVec3 size, double leaf_mm, const std::string& where);
 /// Says whether a surface point counts: `point_mm` on a triangle, `normal` its unit outward normal.
 using AcceptSurface = std::function<bool(Vec3 point_mm, Vec3 normal)>;
 
-/// Unsigned distances, in leaves, from leaf centres to a surface; leaves farther than the band of the
-/// distance codes (plus a diagonal) keep `k_no_surface`.
+/// Unsigned distances, in leaves, from leaf centres to a surface; leaves farther than the band keep `k_no_surface`.
 class BandDistance {
  public:
   static constexpr float k_no_surface = 1e9f;
-  explicit BandDistance(const TissueGrid& grid);
+  /// What the distance codes hold, and a little.
+  static constexpr float k_code_band_leaves = static_cast<float>(k_distance_band_leaves) + 0.25f;
+  /// Of `grid` only the lattice counts.
+  explicit BandDistance(const TissueGrid& grid, float band_leaves = k_code_band_leaves);
   /// Takes the nearer of what is known and this mesh (exact point-to-triangle distance). Points that
   /// `accept` refuses do not count; an empty `accept` accepts all.
   void add(const TriangleMesh& mesh, const AcceptSurface& accept = {});
   /// Writes the codes of `grid`: sign from the labels, size from the distances, held within what the labels
   /// allow (the surface passes between a leaf and its nearest leaf of the other kind).
   void encode(TissueGrid& grid, const std::vector<Tissue>& tissues) const;
+  /// By TissueGrid::index.
+  [[nodiscard]] const std::vector<float>& leaves() const noexcept { return leaves_; }
 
  private:
   IVec3 size_;
   double leaf_mm_;
+  float band_;
   Vec3 first_mm_;  // centre of leaf (0,0,0)
   std::vector<float> leaves_;
 };

@@ -4,12 +4,11 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/random.h"
 #include "grading/result_json.h"
+#include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
 namespace cavum {
@@ -19,15 +18,9 @@ using testing::Carved;
 using testing::dentin_block;
 using testing::make_tooth;
 using testing::scenario_text;
+using testing_basics::drawn_seed;
 
 constexpr double k_pi_here = 3.14159265358979323846;
-
-std::uint64_t new_seed() {
-  const char* wanted = std::getenv("CAVUM_TEST_SEED");
-  const auto seed = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : static_cast<std::uint64_t>(std::time(nullptr));
-  std::printf("CAVUM_TEST_SEED=%llu\n", static_cast<unsigned long long>(seed));
-  return seed;
-}
 
 /// One criterion for every measure of which less, or none, is better.
 std::string criteria_of_care() {
@@ -110,11 +103,12 @@ struct Figure {
 };
 constexpr double k_grazed_mm3 = 0.004;  // four leaves of 0.1 mm: a tissue that is only grazed is hit or missed by whole leaves
 std::vector<Figure> turnable(const Result& r) {
+  EXPECT_TRUE(r.shape.depth_mm) << "something was cut, so it is somewhere deep";
   std::vector<Figure> list{{"target", r.volumes.target.mm3, r.volumes.target.bound_mm3},
                            {"removed", r.volumes.removed.mm3, r.volumes.removed.bound_mm3},
                            {"missed", r.volumes.missed.mm3, r.volumes.missed.bound_mm3},
                            {"percent", r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent},
-                           {"depth", *r.shape.depth_mm, r.shape.bound_mm},
+                           {"depth", r.shape.depth_mm.value_or(-1), r.shape.bound_mm},
                            {"pulp", r.volumes.tissue[k_pulp].mm3, r.volumes.tissue[k_pulp].bound_mm3 + k_grazed_mm3}};
   for (std::size_t z = 0; z < k_zones; ++z)
     list.push_back({zone_name(static_cast<Zone>(z)), r.volumes.zone[z].removed.mm3, r.volumes.zone[z].removed.bound_mm3, 1.0});
@@ -129,7 +123,7 @@ std::vector<Figure> turnable(const Result& r) {
 }
 
 TEST(Invariant, GradingTwiceIsIdentical) {
-  Random random(new_seed());
+  Random random(drawn_seed("Invariant.GradingTwiceIsIdentical"));
   for (int round = 0; round < 4; ++round) {
     const auto balls = random_balls(random, 6);
     Carved c = moved_scene({}, 0.1);
@@ -140,9 +134,9 @@ TEST(Invariant, GradingTwiceIsIdentical) {
 }
 
 TEST(Invariant, TurningAndMirroringToothAndScenarioTogetherChangesNothing) {
-  Random random(new_seed());
+  Random random(drawn_seed("Invariant.TurningAndMirroringToothAndScenarioTogetherChangesNothing"));
   double worst_volume = 0;
-  int walls = 0;
+  int walls = 0, outlines = 0;
   for (int round = 0; round < 4; ++round) {
     const auto balls = random_balls(random, 8);
     const Result first = graded_after({}, balls, 0.1);
@@ -166,7 +160,13 @@ TEST(Invariant, TurningAndMirroringToothAndScenarioTogetherChangesNothing) {
           ++walls;
           EXPECT_NEAR(one.mean_mm, other.mean_mm, 2 * first.shape.bound_mm) << w << " quarter " << quarter << mirrored;
         }
-        EXPECT_NEAR(*first.shape.length_mm, quarter % 2 == 0 ? *turned.shape.length_mm : *turned.shape.width_mm, 1e-6);
+        // in one of some sixteen rounds no ball reaches the top: no outline, and none when turned either
+        const auto& along = quarter % 2 == 0 ? turned.shape.length_mm : turned.shape.width_mm;
+        ASSERT_EQ(first.shape.length_mm.has_value(), along.has_value()) << "quarter " << quarter << mirrored;
+        if (along) {
+          ++outlines;
+          EXPECT_NEAR(*first.shape.length_mm, *along, 1e-6) << "quarter " << quarter << mirrored;
+        }
       }
     // any other turn: the raster lies differently, so within the bounds
     const double angle = random.uniform(0, 2 * k_pi_here);
@@ -178,11 +178,12 @@ TEST(Invariant, TurningAndMirroringToothAndScenarioTogetherChangesNothing) {
     }
   }
   EXPECT_GT(walls, 0);
+  EXPECT_GT(outlines, 0);
   std::printf("turned by any angle: volumes differ by %.3f %% at most (leaf 0.1 mm)\n", worst_volume);
 }
 
 TEST(Invariant, CuttingMoreOfTheTargetNeverLowersItsCriteria) {
-  const std::uint64_t seed = new_seed();
+  const std::uint64_t seed = drawn_seed("Invariant.CuttingMoreOfTheTargetNeverLowersItsCriteria");
   Random random(seed);
   for (int round = 0; round < 6; ++round) {
     Carved c = moved_scene({}, 0.1);
@@ -207,7 +208,7 @@ TEST(Invariant, CuttingMoreOfTheTargetNeverLowersItsCriteria) {
 TEST(Invariant, CuttingOutsideTheTargetRaisesNoCriterion) {
   // points; the bound of a volume is far wider. Parts of a leaf: a rib thinner than a leaf loses some when its other side is cut
   constexpr double k_rounding = 0.05;
-  const std::uint64_t seed = new_seed();
+  const std::uint64_t seed = drawn_seed("Invariant.CuttingOutsideTheTargetRaisesNoCriterion");
   Random random(seed);
   for (int round = 0; round < 8; ++round) {
     Carved c = moved_scene({}, 0.1);

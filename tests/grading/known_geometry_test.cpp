@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <functional>
 
 #include "engine/base/random.h"
 #include "grading/grade.h"
+#include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
 namespace cavum {
@@ -18,16 +17,10 @@ namespace {
 using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
+using testing_basics::drawn_seed;
 
 constexpr double k_pi_here = 3.14159265358979323846, k_leaf = 0.05, k_top = 6.0;  // bodies rise this far from their lower face, beyond the block
 constexpr int k_poses = 20;
-
-std::uint64_t new_seed() {
-  const char* wanted = std::getenv("CAVUM_TEST_SEED");
-  const auto seed = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : static_cast<std::uint64_t>(std::time(nullptr));
-  std::printf("CAVUM_TEST_SEED=%llu\n", static_cast<unsigned long long>(seed));
-  return seed;
-}
 
 /// A body standing at `at`, its axis tilted by `tilt` towards `azimuth` and turned about it by `turn` (radians).
 struct Pose {
@@ -238,7 +231,7 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
 }
 
 void run(const char* name, const std::function<Known(Random&, bool upright)>& make) {
-  const std::uint64_t seed = new_seed();
+  const std::uint64_t seed = drawn_seed(name);
   Random random(seed);
   Worst worst;
   for (int pose = 0; pose < k_poses; ++pose) {

@@ -29,6 +29,7 @@ std::vector<std::string> names() {
 /// All messages of a file as `cavum scenario check` prints them. The block is given by hand, so that only a file without it goes looking.
 std::string messages(const std::string& name) {
   const std::string file = name + ".toml", text = read_text_file(k_folder + "/" + file);
+  fs::current_path(k_folder);  // a zone's STL lies beside its file
   const bool own_tooth = text.find("\"block.cvt\"") != std::string::npos;
   std::string all;
   for (const auto& p : check_whole(text, file, own_tooth ? k_source + "/tests/replay/block.cvt" : "").problems) all += p.text() + "\n";

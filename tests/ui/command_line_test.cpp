@@ -2,7 +2,6 @@
 // resumes, and bad input, which must end with exit 2 and one line that names file and place.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,53 +10,29 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/base/file.h"
 #include "engine/base/random.h"
 #include "engine/session/session_reader.h"
-#include "tests/engine/support/basics.h"
+#include "tests/ui/program.h"
 
 namespace cavum {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing_ui::Ran;
 
 const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data";
 const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
 
-struct Ran {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-/// A folder of its own for each test, with a station key in it.
-class CommandLine : public testing::Test {
+class CommandLine : public testing_ui::Program {
  protected:
-  void SetUp() override { setenv("CAVUM_HOME", path("home").c_str(), 1); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
-  [[nodiscard]] Ran run(const std::string& arguments) const {
-    const int status = std::system((std::string(CAVUM_BINARY) + " " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
-  }
   [[nodiscard]] json exam(const std::string& scenario, const std::string& who, const std::string& more = "") const {
     const Ran r = run("exam " + scenario + " --candidate test --operator " + who + " --out " + path(who + ".cavum") + " --json " + more);
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return json::parse(r.out, nullptr, false);
   }
-  /// One line on stderr that holds all of `parts`, and exit 2.
-  void expect_refused(const std::string& arguments, const std::vector<std::string>& parts) const {
-    const Ran r = run(arguments);
-    EXPECT_EQ(r.exit_code, 2) << arguments << "\n" << r.out << r.err;
-    EXPECT_TRUE(r.err.starts_with("cavum: ")) << r.err;
-    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-    for (const auto& p : parts) EXPECT_NE(r.err.find(p), std::string::npos) << "'" << p << "' is missing in: " << r.err;
-  }
-
-  testing_basics::Folder folder_;
 };
 
 double best_gap_s(const json& result) {
@@ -165,6 +140,36 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   expect_refused("scenario solve " + path("none.toml"), {"none.toml"});
   expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png", ".svg"});
   expect_refused("scenario new --tooth canine --task access --out " + path("i.toml"), {"--tooth canine", "molar with access"});
+}
+
+TEST_F(CommandLine, SolveLetsTheCarelessCandidateFailByTheCriterionThatTheScenarioNames) {
+  const std::string tooth = " --tooth " + std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block.cvt";
+  std::string text = read_text_file(k_block);
+  text.replace(text.find("critical_above = 0.5"), 20, "critical_above = 0.5\n\n[careless]\nfails_by = \"perforation\"\nperforates = true");
+  write_text_file(path("deep.toml"), text);
+  const json deep = run_json("scenario solve " + path("deep.toml") + tooth + " --careless");
+  EXPECT_EQ(deep["passed"], true);
+  EXPECT_EQ(deep["careless"]["fails_by"], "perforation");
+  EXPECT_EQ(deep["careless"]["caught"], true) << deep["careless"];
+  EXPECT_EQ(deep["careless"]["verdict"], "fail");
+  EXPECT_NE(deep["careless"]["reason"].get<std::string>().find("pulp"), std::string::npos) << deep["careless"]["reason"];
+
+  // a mistake that the rubric forgives is not caught: the answer is no
+  text.replace(text.find("perforates = true"), 17, "sides_mm = 0.1");
+  write_text_file(path("mild.toml"), text);
+  const Ran mild = run("scenario solve " + path("mild.toml") + tooth + " --careless");
+  EXPECT_EQ(mild.exit_code, 1) << mild.out << mild.err;
+  EXPECT_NE(mild.out.find("the built-in expert passes"), std::string::npos) << mild.out;
+  EXPECT_NE(mild.out.find("careless: NOT failed by perforation"), std::string::npos) << mild.out;
+  expect_refused("scenario solve " + k_block + tooth + " --careless", {"block_cavity.toml: the scenario says nothing of a careless candidate"});
+}
+
+TEST_F(CommandLine, AForceModelThatIsNoneIsNamedAsItWasWritten) {
+  const std::string exam = "exam " + k_block + " --tooth " + std::string(CAVUM_SOURCE_DIR) +
+                           "/tests/replay/block.cvt --candidate A --operator expert --out " + path("a.cavum") + " --model ";
+  expect_refused(exam + "/etc/passwd", {"cavum: --model: '/etc/passwd' is no force model; name one of ", "consistent", "paper"});
+  expect_refused(exam + "nothing", {"materials/nothing.toml"});
+  EXPECT_FALSE(fs::exists(path("a.cavum")));
 }
 
 /// A stylus that drills a block from above, rests with the handpiece off between 6 s and 10 s, and drills on to 20 s. Button 2 goes down

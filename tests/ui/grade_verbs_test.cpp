@@ -1,44 +1,25 @@
 // `cavum grade` beyond a single result: the worked page of grading/README.md row by row, why points were lost, and regrading beside the sealed
 // result.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/base/file.h"
-#include "tests/engine/support/basics.h"
+#include "tests/ui/program.h"
 
 namespace cavum {
 namespace {
 
 using nlohmann::json;
+using testing_ui::Ran;
 
 const std::string k_source = CAVUM_SOURCE_DIR;
 const std::string k_worked = k_source + "/tests/grading/worked/hole";
 
-struct Ran {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-class GradeVerb : public testing::Test {
+class GradeVerb : public testing_ui::Program {
  protected:
-  void SetUp() override { setenv("CAVUM_HOME", path("home").c_str(), 1); }
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
-  [[nodiscard]] Ran run(const std::string& arguments) const {
-    const int status = std::system((std::string(CAVUM_BINARY) + " " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
-  }
-  [[nodiscard]] json run_json(const std::string& arguments) const {
-    const Ran r = run(arguments + " --json");
-    EXPECT_EQ(r.exit_code, 0) << arguments << r.err;
-    return json::parse(r.out, nullptr, false);
-  }
   /// The session of the worked page.
   [[nodiscard]] std::string hole(const std::string& name = "hole.cavum") const {
     EXPECT_EQ(run("tooth make block --size-mm 4,4,3 --layers enamel:2.5,pulp:0.5 --leaf-mm 0.05 --out " + path("hole.cvt")).exit_code, 0);
@@ -47,7 +28,6 @@ class GradeVerb : public testing::Test {
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return path(name);
   }
-  testing_basics::Folder folder_;
 };
 
 std::vector<std::string> cells(const std::string& row) {
@@ -129,6 +109,37 @@ TEST_F(GradeVerb, WhyShowsTicksPlacesAndPointsThatAddUp) {
   const Ran unknown = run("grade " + session + " --why nonsense");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("use one of: removed, floor, walls, whole, time"), std::string::npos) << unknown.err;
+}
+
+TEST_F(GradeVerb, AZoneFromAnStlStaysWithTheSessionAndAChangedOneIsRefused) {
+  const std::string tooth = path("hole.cvt"), make = "tooth make block --leaf-mm 0.05 --out ";
+  ASSERT_EQ(run(make + tooth + " --size-mm 4,4,3 --layers enamel:2.5,pulp:0.5").exit_code, 0);
+  const auto box = [&](const char* size, const char* thick) {
+    ASSERT_EQ(run(make + path("b.cvt") + " --size-mm " + size + " --layers enamel:" + thick).exit_code, 0);
+    ASSERT_EQ(run("tooth mesh " + path("b.cvt") + " --tissue enamel --out " + path("box.stl")).exit_code, 0);
+  };
+  box("1.6,1.6,1", "1");
+  std::string text = read_text_file(k_worked + ".toml");
+  const auto zone = text.find("shape = \"column\""), end = text.find("[rubric]");
+  text.replace(zone, end - zone, "shape = \"stl\"\nfile = \"box.stl\"\n\n");
+  write_text_file(path("stl.toml"), text);
+  const json shown = run_json("scenario show " + path("stl.toml") + " --tooth " + tooth + " --out " + path("stl.svg"));
+  EXPECT_NEAR(shown["zones_mm3"]["target"].get<double>(), 1.6 * 1.6, 0.02);
+  const Ran exam = run("exam " + path("stl.toml") + " --tooth " + tooth + " --candidate a --operator expert --out " + path("s.cavum"));
+  ASSERT_EQ(exam.exit_code, 0) << exam.err;
+  const json first = run_json("grade " + path("s.cavum"));
+  EXPECT_GT(first["volumes"]["target_removed_percent"], 80);
+
+  std::filesystem::rename(path("box.stl"), path("kept.stl"));  // the session needs no file
+  EXPECT_EQ(run_json("grade " + path("s.cavum")), first);
+  EXPECT_EQ(run("replay " + path("s.cavum") + " --verify").exit_code, 0);
+  expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"), {"stl.toml:", "'box.stl': there is no such file"});
+  box("1.6,1.6,1.1", "1.1");
+  expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"),
+                 {"stl.toml:", "'box.stl' is not the surface that the session ran with (SHA-256 "});
+  std::filesystem::rename(path("kept.stl"), path("box.stl"));
+  const json again = run_json("grade " + path("s.cavum") + " --scenario " + path("stl.toml"));
+  EXPECT_EQ(again["score"], first["score"]);
 }
 
 TEST_F(GradeVerb, AnotherRubricGivesANewResultBesideTheSealedOne) {

@@ -1,44 +1,20 @@
 // `cavum rig` as a user runs it: small experiments, their JSON and files, and bad input.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <nlohmann/json.hpp>
 
-#include "engine/base/file.h"
-#include "tests/engine/support/basics.h"
+#include "tests/ui/program.h"
 
 namespace cavum {
 namespace {
 
 using nlohmann::json;
+using testing_ui::Ran;
 
-struct Ran {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-class RigVerbs : public testing::Test {
- protected:
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
-  [[nodiscard]] Ran run(const std::string& arguments) const {
-    const int status = std::system((std::string(CAVUM_BINARY) + " rig " + arguments + " >" + path("out") + " 2>" + path("err")).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out")), read_text_file(path("err"))};
-  }
-  void expect_refused(const std::string& arguments, const std::string& part) const {
-    const Ran r = run(arguments);
-    EXPECT_EQ(r.exit_code, 2) << arguments << "\n" << r.err;
-    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-    EXPECT_TRUE(r.err.starts_with("cavum: ")) << r.err;
-    EXPECT_NE(r.err.find(part), std::string::npos) << "'" << part << "' is missing in: " << r.err;
-    EXPECT_EQ(r.out, "");
-  }
-  testing_basics::Folder folder_;
-};
+class RigVerbs : public testing_ui::Program {};
 
 TEST_F(RigVerbs, CubeWritesFiguresPictureAndRecordings) {
-  const Ran r = run("cube --runs 1 --k 0.4,0.8 --model consistent --json --out " + path("c.svg") + " --csv " + path("c.csv"));
+  const Ran r = run("rig cube --runs 1 --k 0.4,0.8 --model consistent --json --out " + path("c.svg") + " --csv " + path("c.csv"));
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const json j = json::parse(r.out);
   EXPECT_EQ(j["experiment"], "cube");
@@ -52,6 +28,7 @@ TEST_F(RigVerbs, CubeWritesFiguresPictureAndRecordings) {
   EXPECT_TRUE(read_text_file(path("c.csv")).starts_with("session,t_s,x_mm,f_n"));
   EXPECT_NE(read_text_file(path("rig.toml")).find("k_n_per_mm = 0.8"), std::string::npos);
   const std::string svg = read_text_file(path("c.svg"));
+  EXPECT_NE(svg.find(", 1 run each"), std::string::npos) << "one run is no 1 runs";
   for (const char* words : {"<svg", "force, N", "spring coefficient k, N/mm", "eq. 6"}) EXPECT_NE(svg.find(words), std::string::npos) << words;
 }
 
@@ -61,7 +38,7 @@ TEST_F(RigVerbs, ToothComputesThePapersConstants) {
                          path("b.cvt") + " >" + path("made"))
                             .c_str()),
             0);
-  const Ran r = run("tooth --tooth " + path("b.cvt") + " --runs 2 --json --out " + path("t.svg"));
+  const Ran r = run("rig tooth --tooth " + path("b.cvt") + " --runs 2 --json --out " + path("t.svg"));
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const json j = json::parse(r.out);
   EXPECT_NEAR(j["paper"]["c_at_k_0_8_n_s_per_mm"], 1.789, 5e-4);
@@ -72,7 +49,7 @@ TEST_F(RigVerbs, ToothComputesThePapersConstants) {
 }
 
 TEST_F(RigVerbs, PressOfASingleCellSaysWhetherItIsWithinTheLimits) {
-  const Ran r = run("press --k 0.8 --c paper --delay 1 --hand 300 --press 1 --speed 20 --json --out " + path("p.svg"));
+  const Ran r = run("rig press --k 0.8 --c paper --delay 1 --hand 300 --press 1 --speed 20 --json --out " + path("p.svg"));
   ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
   const json j = json::parse(r.out);
   EXPECT_TRUE(j["within_limits"]);
@@ -84,22 +61,22 @@ TEST_F(RigVerbs, PressOfASingleCellSaysWhetherItIsWithinTheLimits) {
 }
 
 TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
-  expect_refused("cube --out " + path("c.png"), "use a name ending in .svg");
-  expect_refused("cube --out " + path("no/folder/c.svg"), "c.svg");
-  expect_refused("cube --k 0.4 --csv " + path("c.csv"), "--csv-k");
-  expect_refused("cube --model nothing", "nothing.toml");
-  expect_refused("cube --runs 0", "--runs");
-  expect_refused("cube --k -1", "--k");
-  expect_refused("tooth --tooth " + path("nothing.cvt"), "nothing.cvt");
-  expect_refused("tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), "--at");
-  expect_refused("press --c strong", "paper, consistent or none");
-  expect_refused("press --k 0", "--k");
+  expect_refused("rig cube --out " + path("c.png"), {"use a name ending in .svg"});
+  expect_refused("rig cube --out " + path("no/folder/c.svg"), {"c.svg"});
+  expect_refused("rig cube --k 0.4 --csv " + path("c.csv"), {"--csv-k"});
+  expect_refused("rig cube --model nothing", {"nothing.toml"});
+  expect_refused("rig cube --runs 0", {"--runs"});
+  expect_refused("rig cube --k -1", {"--k"});
+  expect_refused("rig tooth --tooth " + path("nothing.cvt"), {"nothing.cvt"});
+  expect_refused("rig tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), {"--at"});
+  expect_refused("rig press --c strong", {"paper, consistent or none"});
+  expect_refused("rig press --k 0", {"--k"});
   for (const char* nan : {"cube --k nan", "cube --csv-k nan", "tooth --spread-mm nan", "press --press nan", "press --hand nan", "press --k nan"})
-    expect_refused(nan, "'nan' is no number from");
-  expect_refused("servo --seconds nan --out " + path("s.cavum"), "'nan' is no number from");
-  expect_refused("servo", "--out");
+    expect_refused(nan, {"'nan' is no number from"});
+  expect_refused("rig servo --seconds nan --out " + path("s.cavum"), {"'nan' is no number from"});
+  expect_refused("rig servo", {"--out"});
   write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
-  expect_refused("tooth --model " + path("bad.toml"), "bad.toml:3");
+  expect_refused("rig tooth --model " + path("bad.toml"), {"bad.toml:3"});
 }
 
 }  // namespace

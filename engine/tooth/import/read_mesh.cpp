@@ -32,22 +32,26 @@ Vec3 point(const Surface& surface, Surface::VertexHandle v) {
   return {p[0], p[1], p[2]};
 }
 
+constexpr std::size_t k_stl_head = 84, k_stl_facet = 50;
+
+/// Facets that a binary STL says it holds.
+std::size_t stl_facets(const Bytes& file) {
+  std::uint32_t facets = 0;
+  if (file.size() >= k_stl_head) std::memcpy(&facets, file.data() + k_stl_head - 4, 4);
+  return facets;
+}
+bool is_binary_stl(const Bytes& file) { return file.size() >= k_stl_head && file.size() == k_stl_head + k_stl_facet * stl_facets(file); }
+
 /// OpenMesh joins the equal corners of an STL while it reads; a corner that is no number is equal to any other, vanishes in that, and
 /// leaves a hole. So they are looked for in the file itself.
-void require_numbers_in_stl(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (extension != ".stl") return;
-  const auto fail = [&](const std::string& where) { throw Error(path, where + " has a corner that is no number", "export the mesh again, in mm"); };
-  const Bytes file = read_file(path);
-  constexpr std::size_t k_head = 84, k_facet = 50, k_normal = 12, k_corners = 9;
-  std::uint32_t facets = 0;
-  if (file.size() >= k_head) std::memcpy(&facets, file.data() + k_head - 4, 4);
-  if (file.size() >= k_head && file.size() == k_head + k_facet * std::size_t{facets}) {
-    for (std::size_t f = 0; f < facets; ++f)
+void require_numbers_in_stl(const Bytes& file, const std::string& name) {
+  const auto fail = [&](const std::string& where) { throw Error(name, where + " has a corner that is no number", "export the mesh again, in mm"); };
+  constexpr std::size_t k_normal = 12, k_corners = 9;
+  if (is_binary_stl(file)) {
+    for (std::size_t f = 0; f < stl_facets(file); ++f)
       for (std::size_t i = 0; i < k_corners; ++i) {
         float value = 0;
-        std::memcpy(&value, file.data() + k_head + f * k_facet + k_normal + i * sizeof value, sizeof value);
+        std::memcpy(&value, file.data() + k_stl_head + f * k_stl_facet + k_normal + i * sizeof value, sizeof value);
         if (!std::isfinite(value)) fail("facet " + std::to_string(f + 1));
       }
     return;
@@ -67,18 +71,31 @@ void require_numbers_in_stl(const std::string& path) {
   }
 }
 
-Surface load(const std::string& path) {
-  require_mesh_file(path);
-  require_numbers_in_stl(path);
-  // OpenMesh reports on the console; our errors say the same with the file's name.
+bool is_stl(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension == ".stl";
+}
+
+/// OpenMesh reports on the console; our errors say the same with the file's name.
+void quieten_openmesh() {
   omout().disable();
   omlog().disable();
   omerr().disable();
+}
+
+Surface load(const std::string& path) {
+  require_mesh_file(path);
+  if (is_stl(path)) require_numbers_in_stl(read_file(path), path);
+  quieten_openmesh();
   Surface surface;
   if (!OpenMesh::IO::read_mesh(surface, path) || surface.n_faces() == 0)
     throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
   return surface;
 }
+
+/// The surface checked, and its faces turned outwards. `path` names it in errors.
+ReadMesh closed(const Surface& surface, const std::string& path);
 
 }  // namespace
 
@@ -119,8 +136,22 @@ std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
   return parts;
 }
 
-ReadMesh read_closed_mesh(const std::string& path) {
-  const Surface surface = load(path);
+ReadMesh read_closed_mesh(const std::string& path) { return closed(load(path), path); }
+
+ReadMesh read_closed_stl(const Bytes& file, const std::string& name) {
+  require_numbers_in_stl(file, name);
+  quieten_openmesh();
+  std::istringstream bytes(std::string(file.begin(), file.end()));
+  OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
+  Surface surface;
+  if (!OpenMesh::IO::read_mesh(surface, bytes, ".stl", options) || surface.n_faces() == 0)
+    throw Error(name, "holds no triangle of an STL surface", "export the surface again as STL, text or binary");
+  return closed(surface, name);
+}
+
+namespace {
+
+ReadMesh closed(const Surface& surface, const std::string& path) {
   for (const auto v : surface.vertices()) {  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
     const Vec3 p = point(surface, v);
     if (!surface.is_isolated(v) && (!is_finite(p) || length(p) > 1e6))
@@ -171,5 +202,7 @@ ReadMesh read_closed_mesh(const std::string& path) {
   out.centroid_mm = moment / out.volume_mm3;
   return out;
 }
+
+}  // namespace
 
 }  // namespace cavum

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/bytes.h"
 #include "engine/tooth/surface_mesh.h"
 
 namespace cavum {
@@ -22,6 +23,9 @@ void require_mesh_file(const std::string& path);
 /// Throws Error naming the file when it is missing or unreadable, holds a coordinate that is not finite, encloses
 /// nothing, or is open: then with the number of open edges and the place of one.
 [[nodiscard]] ReadMesh read_closed_mesh(const std::string& path);
+
+/// The same from the bytes of an STL file, text or binary; `name` stands for the file in errors.
+[[nodiscard]] ReadMesh read_closed_stl(const Bytes& file, const std::string& name);
 
 /// The connected parts of a mesh.
 [[nodiscard]] std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh);

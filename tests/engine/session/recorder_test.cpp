@@ -1,8 +1,11 @@
 #include "engine/session/recorder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -68,6 +71,26 @@ TEST(Session, ReadsBackEverythingThatWasRecorded) {
   EXPECT_EQ(kept.first_tip_nm, setup.first_tip_nm);
   EXPECT_EQ(kept.notes, setup.notes);
   EXPECT_EQ(kept.attachments, setup.attachments);
+}
+
+TEST(Session, WhatAKilledBeginningLeftBehindGoesWithTheNextOne) {
+  const Folder folder;
+  const std::string path = folder.file("exam.cavum");
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);  // nobody has this number any more
+  const std::string dead = std::to_string(child), alive = std::to_string(::getppid());
+  for (const std::string& name : {path + ".new-" + dead, path + ".new-" + dead + "-journal", path + ".new-" + alive, path + ".new-x",
+                                  path + ".new-" + dead + ".bak", folder.file("other.cavum.new-" + dead)})
+    write_text_file(name, "half a session");
+  static_cast<void>(Recorder::create(path, test::block_setup()));
+  std::set<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    const std::string name = entry.path().filename().string();
+    if (name.find(".new-") != std::string::npos) left.insert(name);
+  }
+  EXPECT_EQ(left,
+            (std::set<std::string>{"exam.cavum.new-" + alive, "exam.cavum.new-x", "exam.cavum.new-" + dead + ".bak", "other.cavum.new-" + dead}));
 }
 
 TEST(Session, ReplaysBitForBit) {

@@ -1,0 +1,75 @@
+// What `grade --why` found, as JSON and as text.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "grading/loss.h"
+#include "grading/motion.h"
+#include "grading/why.h"
+
+namespace cavum {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
+}  // namespace
+
+Json to_json(const Why& w) {
+  const auto& c = w.criterion;
+  Json items = Json::array();
+  for (const auto& i : w.items) {
+    const auto time = [](std::int64_t tick) { return tick < 0 ? Json(nullptr) : Json(rounded(static_cast<double>(tick) * k_tick_s)); };
+    const auto number = [](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
+    items.push_back({{"t_s", time(i.tick)},
+                     {"to_t_s", time(i.end_tick)},
+                     {"tick", i.tick < 0 ? Json(nullptr) : Json(i.tick)},
+                     {"to_tick", i.end_tick < 0 ? Json(nullptr) : Json(i.end_tick)},
+                     {"site_mm", i.site_mm ? Json::array({rounded(i.site_mm->x), rounded(i.site_mm->y), rounded(i.site_mm->z)}) : Json(nullptr)},
+                     {"amount", number(i.amount)},
+                     {"unit", i.unit},
+                     {"points_lost", number(i.points_lost)},
+                     {"what", i.what}});
+  }
+  return {{"criterion",
+           {{"id", c.id},
+            {"title", c.title},
+            {"metric", c.metric},
+            {"value", c.value ? Json(rounded(*c.value)) : Json(nullptr)},
+            {"unit", c.unit},
+            {"bound", rounded(c.bound)},
+            {"points", rounded(c.points)},
+            {"max", rounded(c.max)},
+            {"critical_failed", c.critical_failed},
+            {"reason", c.reason}}},
+          {"points_lost", rounded(c.max - c.points)},
+          {"moments", items},
+          {"moments_left_out", w.left_out}};
+}
+
+std::string to_text(const Why& w) {
+  const auto& c = w.criterion;
+  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
+                  " lost\n  " + c.reason + "\n";
+  if (!w.items.empty()) s += "\n";
+  for (const auto& i : w.items) {
+    std::string time;
+    if (i.tick >= 0) {
+      time = fixed(static_cast<double>(i.tick) * k_tick_s, 3);
+      if (i.end_tick > i.tick) time += " to " + fixed(static_cast<double>(i.end_tick) * k_tick_s, 3);
+      time += " s";
+    }
+    time.resize(std::max<std::size_t>(time.size(), 22), ' ');
+    std::string amount = i.amount ? fixed(*i.amount, 3) + " " + i.unit : "";
+    s += "  " + time + "  " + i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
+    if (i.site_mm) s += ", at " + place(*i.site_mm);
+    if (i.tick >= 0) s += ", tick " + std::to_string(i.tick);
+    if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";
+    s += "\n";
+  }
+  if (w.left_out > 0) s += "  and " + std::to_string(w.left_out) + " smaller moments\n";
+  return s;
+}
+
+}  // namespace cavum

@@ -1,0 +1,25 @@
+// A closed triangle surface as a body. Inside is what the surface winds around (so cavities of the mesh are outside, and bodies that
+// overlap are one); near the surface the distance is that to the triangles themselves, at the leaves' centres.
+#pragma once
+
+#include <vector>
+
+#include "engine/tooth/surface_mesh.h"
+#include "scenarios/shape.h"
+
+namespace cavum {
+
+class MeshBody final : public Shape {
+ public:
+  /// `mesh` is closed, its faces look outwards, no coordinate beyond 200 mm (see surface_files.h). Where it leaves the tooth's box it is cut off.
+  MeshBody(const Tooth& tooth, const TriangleMesh& mesh);
+  /// Exact at leaf centres up to k_exact_leaves from the surface, where further away only the sign counts; between centres interpolated.
+  [[nodiscard]] double distance_mm(Vec3 p) const noexcept override;
+  static constexpr double k_exact_leaves = 4;
+
+ private:
+  TissueGrid lattice_;  // size, leaf and origin alone
+  std::vector<float> value_mm_;
+};
+
+}  // namespace cavum
