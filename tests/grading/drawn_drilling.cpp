@@ -213,6 +213,7 @@ void Session::tick(Vec3 intended, double pedal) {
   TickRecord r = make_tick_record(last_);
   for (auto& f : r.rendered_un) f += static_cast<std::int32_t>(noise_n_ * 1e6 * random_.normal());
   const auto now = static_cast<std::int64_t>(out_.inputs.size());
+  std::uint16_t voids = 0;
   for (const auto& leaf : state_.removed)
     if (is_void(tooth_->octree, leaf.tissue)) {
       // the cavity that the way leads to; periodontium beside the root is grazed from outside
@@ -220,6 +221,7 @@ void Session::tick(Vec3 intended, double pedal) {
       const double along = dot(off, way_.into);
       if (along > -0.8 && length(off - way_.into * along) < 1.0) {
         if (out_.touched < 0) out_.touched = now;
+        ++voids;
       } else {
         out_.grazed_elsewhere = out_.touched < 0;
       }
@@ -234,6 +236,8 @@ void Session::tick(Vec3 intended, double pedal) {
   deepest_mm_ = std::max(deepest_mm_, depth());
   out_.inputs.push_back(input_);
   out_.records.push_back(r);
+  out_.true_n.push_back(static_cast<float>(length(last_.rendered_force_n)));
+  out_.void_leaves.push_back(voids);
 }
 
 void Session::travel(Vec3 to, double mm_s, double pedal) {
@@ -372,6 +376,7 @@ void Session::run() {
   if (perforates_) {
     // on until the loss of resistance has been felt
     going_through_ = true;
+    out_.pressed_from = static_cast<std::int64_t>(out_.inputs.size());
     (void)drill(way_.top, way_.into, 25, [&] {
       if (depth() > way_.void_at_mm + k_through_mm) return true;
       return out_.fallen >= 0 && static_cast<double>(static_cast<std::int64_t>(out_.inputs.size()) - out_.fallen) * k_dt > reaction_s_;
@@ -379,6 +384,7 @@ void Session::run() {
   } else {
     (void)drill(way_.top, way_.into, 25, [&] { return depth() > way_.safe_mm - 0.3; });
   }
+  if (going_through_) out_.pressed_to = static_cast<std::int64_t>(out_.inputs.size());
   going_through_ = false;
   retreat(u(2, 5), u(3, 40), pedal_);
   wait(0.3, 0.0);

@@ -21,6 +21,9 @@ struct DrawnSession {
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;  ///< with noise on the force
   std::vector<DiamondPoint> tray;
+  std::vector<float> true_n;                ///< size of the rendered force without noise, per tick
+  std::vector<std::uint16_t> void_leaves;  ///< leaves of the cavity that went, per tick
+  std::int64_t pressed_from = -1, pressed_to = -1;  ///< ticks in which the hand presses on into the cavity
   std::int64_t touched = -1;      ///< tick in which the first leaf of pulp or periodontium went; -1 = never
   std::int64_t fallen = -1;       ///< tick in which the hand, pressing on, felt the force fall under 10 % of its level
   bool grazed_elsewhere = false;  ///< void tissue went beside the way, before the cavity was touched
