@@ -50,7 +50,7 @@ std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, 
   for (std::int64_t i = 0; i < n; ++i) {
     const DrillFrame& f = frames[at(i)];
     expected.take(frames, i);
-    freed.note(f.tip_mm + f.force_n / std::max(0.4, expected.stiffness_n_per_mm()), i);
+    if (length(f.force_n) < s.air_n) freed.note(f.tip_mm + f.force_n / std::max(0.5, expected.stiffness_n_per_mm()), i);
     if (!f.cutting_possible) {
       close();
       turning_since = i + 1;

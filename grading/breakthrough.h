@@ -27,7 +27,7 @@ struct BreakthroughSettings {
   double least_advance_mm = 0.0;
   double dwell_s = 0.38;
   double dwell_mm = 0.5;
-  double air_n = 0.06;
+  double air_n = 0.25;
   double near_air_mm = 0.45;
 };
 

@@ -9,6 +9,7 @@ namespace {
 constexpr std::int64_t k_mean_frames = 3;
 constexpr double k_direction_share = 0.1;  // of each frame's force in its direction
 constexpr double k_holds = 0.6;            // of the level: a force that has it still shows the direction
+constexpr double k_saturates_n = 2.5;
 constexpr double k_least_n = 0.05;         // of a force that shows direction or stiffness
 
 std::size_t frames_in(double seconds) { return static_cast<std::size_t>(seconds / k_frame_s + 0.5); }
@@ -51,7 +52,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   const double advance = fresh_ ? 0.0 : -dot(tip - tip_mm_, out_);
 
   // how stiff: the force against the tip's steps, as long as there is contact and no unexplained loss
-  if (!fresh_ && force_n_ > k_least_n && before_n > k_least_n && force_n_ > 0.7 * expected_n_) {
+  if (!fresh_ && force_n_ > k_least_n && before_n > k_least_n && force_n_ < k_saturates_n && before_n < k_saturates_n && force_n_ > 0.7 * expected_n_) {
     const double keep = 1.0 - k_frame_s / k_.learns_s;
     along_ = std::max(0.0, along_ * keep + advance * (force_n_ - before_n + before_n * k_frame_s / k_.tau_s));
     square_ = square_ * keep + advance * advance;
@@ -71,6 +72,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
     levels_.emplace_back(i, now);
     while (levels_.front().first < i - static_cast<std::int64_t>(frames_in(k_.level_memory_s))) levels_.pop_front();
     level_n_ = levels_.front().second;
+    held_n_ = std::min(held_n_, level_n_);
   }
   expected_n_ = std::min(expected_n_, level_n_);
   const double pushing_n = std::min({force_n_, dot(force, out_), dot(f.force_n, out_)});

@@ -21,7 +21,7 @@ struct ExpectedForceSettings {
   double worth_mm2 = 0.05;          ///< weight of that, as squares of steps of the tip
   double learns_s = 4.0;            ///< the measured k forgets its past so fast
   double back_share = 1.3;          ///< a retreat explains so many times k x its length: k is uncertain, and damping adds to it
-  double forth_share = 0.5;         ///< an advance raises G by no more than this part of it, for the same reasons
+  double forth_share = 1.0;         ///< an advance raises G by no more than this part of it, for the same reasons
   double tau_s = 2.02;              ///< τ of hard tissue (PHYSICS.md §2)
   double level_s = 0.32;            ///< the level: median of the force over so long ...
   double level_gap_s = 0.04;        ///< ... ending so long before now ...
