@@ -75,10 +75,10 @@ std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, 
           const Vec3 off = frames[at(k)].tip_mm - frames[at(fall.onset)].tip_mm, aside = off - expected.out() * dot(off, expected.out());
           if (dot(aside, aside) < s.dwell_mm * s.dwell_mm) ++dwell;
         }
-      if (dot(expected.out(), f.handle) < -0.2) fall.spoilt = true;
-      if (dwell < frames_in(s.dwell_s)) fall.spoilt = true;
+      if (dot(expected.out(), f.handle) < -0.2) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V withdrawn\n", (int)i * 10); }
+      if (dwell < frames_in(s.dwell_s)) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V dwell\n", (int)i * 10); }
       const Vec3 came = f.tip_mm - fall.before_mm, aside = came - expected.out() * dot(came, expected.out());
-      if (length(aside) > s.slips_mm_s * k_before_s) fall.spoilt = true;
+      if (length(aside) > s.slips_mm_s * k_before_s) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V slips\n", (int)i * 10); }
     }
     const Vec3 way = f.tip_mm - frames[at(fall.onset)].tip_mm;
     fall.found.advance_mm = std::max(fall.found.advance_mm, -dot(way, expected.out()));
@@ -105,16 +105,16 @@ std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, 
       if (!fall.asked && confirmed > 0.2) {
         fall.asked = true;
         const Vec3 came = f.tip_mm - fall.before_mm, aside = came - expected.out() * dot(came, expected.out());
-        if (length(aside) > s.strays_mm + s.strays_share * std::max(0.0, -dot(came, expected.out()))) fall.spoilt = true;
-        if (freed.ahead(frames[at(fall.onset)].tip_mm, f.tip_mm, s.near_air_mm, fall.onset - frames_in(0.2))) fall.spoilt = true;
+        if (length(aside) > s.strays_mm + s.strays_share * std::max(0.0, -dot(came, expected.out()))) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V strays\n", (int)i * 10); }
+        if (freed.ahead(frames[at(fall.onset)].tip_mm, f.tip_mm, s.near_air_mm, fall.onset - frames_in(0.2))) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V ahead\n", (int)i * 10); }
         if (debug && fall.spoilt) std::fprintf(stderr, "spoilt at %d\n", (int)i * 10);
       }
-      if (fall.found.sureness < s.sure_from && confirmed >= s.sure_from) fall.found.seen_tick = (i + 1) * k_frame_ticks;
+      if (fall.found.sureness < 0.5) fall.found.seen_tick = (i + 1) * k_frame_ticks;
       fall.found.sureness = confirmed;
     }
     fall.found.force_after_n = std::min(fall.found.force_after_n, F);
     if (debug) std::fprintf(stderr, "%d F %.3f G %.3f held %.3f K %.2f sure %.2f conf %.2f spoilt %d adv %.2f\n", (int)i * 10, F, G, held, expected.stiffness_n_per_mm(), sure, confirmed, fall.spoilt, fall.found.advance_mm);
-    if (F > s.closes_at * G || G < 0.3 * held) {
+    if (F > s.closes_at * G || G < 0.3 * held || (fall.found.sureness >= 0.5 && F > 0.3 * G)) {
       const bool told = fall.found.sureness >= 0.5;
       close();
       if (told) { expected.forget(); turning_since = i + 1; }

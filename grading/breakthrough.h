@@ -17,8 +17,8 @@ struct BreakthroughSettings {
   double closes_at = 0.7;
   double dated_at = 0.77;
   double held = 0.5;          ///< of the level: a fall counts while the tip's motion explains no more than the rest
-  double void_rest = 0.09;   ///< what a cavity leaves of the expected force: half normal with this scale
-  double soft_odds = 2.5;
+  double void_rest = 0.12;   ///< what a cavity leaves of the expected force: half normal with this scale
+  double soft_odds = 2;
   double confirm_s = 0.03;
   double chatter = 0.35;
   double slips_mm_s = 1.2;

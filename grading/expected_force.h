@@ -25,7 +25,7 @@ struct ExpectedForceSettings {
   double tau_s = 2.02;              ///< τ of hard tissue (PHYSICS.md §2)
   double level_s = 0.32;            ///< the level: median of the force over so long ...
   double level_gap_s = 0.04;        ///< ... ending so long before now ...
-  double level_memory_s = 1.6;      ///< ... the highest within this time
+  double level_memory_s = 3.0;      ///< ... the highest within this time
 };
 
 /// Median of the last values.
