@@ -1,127 +1,180 @@
 #include "grading/breakthrough.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "engine/base/det_math.h"
+#include "grading/drill_frames.h"
 #include "grading/freed_places.h"
 
 namespace cavum {
 namespace {
 
-constexpr double k_before_s = 0.3;
+constexpr double k_as_likely_as_not = 0.5;
+constexpr double k_onset_share = 0.9;      // of G: from there on the tip's way counts
+constexpr double k_longest_onset_s = 3;    // a fall that began longer ago began with its opening
+constexpr double k_came_s = 0.3;           // before a fall opens: whence the tip came
+constexpr double k_dwell_back_s = 10;      // how far back cutting in the same place counts
+constexpr double k_dwell_share = 0.3;      // of the force that held: it cuts there
+constexpr double k_asked_from = 0.2;       // sureness from which other explanations are asked for
+constexpr double k_before_onset_s = 0.2;   // places freed since then belong to the fall itself
+constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue; bounds how far the surface lies before the tip
+constexpr double k_towards_handle = -0.2;  // cosine of push against the handle's axis
+constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
+constexpr std::int64_t k_mean_frames = 3;
+constexpr std::size_t k_most_confirming = 8;
+
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 std::int64_t frames_in(double seconds) { return static_cast<std::int64_t>(seconds / k_frame_s + 0.5); }
 
-/// exp(-x), x >= 0, without libm
-double exp_minus(double x) {
-  if (x > 40) return 0;
-  double y = 1 + x / 1024 * (1 + x / 2048 * (1 + x / 3072));
-  for (int i = 0; i < 10; ++i) y *= y;
-  return 1 / y;
+/// The fall that is being watched.
+struct Fall {
+  std::int64_t onset = -1;  ///< frame in which nearly all of the force was still there; -1 = none is watched
+  Vec3 came_from_mm;        ///< tip a while before it opened
+  bool explained = false;   ///< by something else than a cavity
+  bool asked = false;
+  std::array<double, k_most_confirming> recent{};  ///< sureness of the last frames, newest first
+  Breakthrough found;
+};
+
+class Finder {
+ public:
+  Finder(std::span<const TickInput> inputs, std::span<const TickRecord> records, const BreakthroughSettings& settings)
+      : s_(settings), frames_(drill_frames(inputs, records)), expected_(settings.expected), share_(frames_.size(), 1.0) {}
+
+  std::vector<Breakthrough> run() {
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(frames_.size()); ++i) take(i);
+    close();
+    return std::move(found_);
+  }
+
+ private:
+  void take(std::int64_t i);
+  void open(std::int64_t i);
+  void watch(std::int64_t i);
+  void close();
+  /// Of a cavity, from what is left of the expected force.
+  [[nodiscard]] double sureness(std::int64_t i) const;
+  /// Whether the fall is explained by how the tip came to its place: withdrawn, slipping, or hardly there yet.
+  [[nodiscard]] bool explained_before(std::int64_t i) const;
+  /// Whether it is explained by where the tip went: off something, or into an earlier cut.
+  [[nodiscard]] bool explained_after(std::int64_t i) const;
+  [[nodiscard]] Vec3 aside(Vec3 way) const { return way - expected_.out() * dot(way, expected_.out()); }
+  [[nodiscard]] const DrillFrame& frame(std::int64_t i) const { return frames_[at(i)]; }
+
+  const BreakthroughSettings& s_;
+  std::vector<DrillFrame> frames_;
+  ExpectedForce expected_;
+  FreedPlaces freed_;
+  std::vector<double> share_;  // F / G by frame
+  std::int64_t turning_since_ = 0;
+  Fall fall_;
+  std::vector<Breakthrough> found_;
+};
+
+void Finder::take(std::int64_t i) {
+  const DrillFrame& f = frame(i);
+  expected_.take(frames_, i);
+  // the tooth's surface lies F / k before the tip
+  if (length(f.force_n) < s_.freed_n) freed_.note(f.tip_mm + f.force_n / std::max(k_least_stiffness, expected_.stiffness_n_per_mm()), i);
+  if (!f.cutting_possible) {
+    close();
+    turning_since_ = i + 1;
+    return;
+  }
+  if (!expected_.ready()) return;
+  const double expected = expected_.expected_n();
+  share_[at(i)] = expected > 0 ? expected_.force_n() / expected : 1.0;
+  const bool presses = expected_.held_n() >= s_.least_n && expected >= s_.presses_on * expected_.held_n();
+  if (fall_.onset < 0 && presses && share_[at(i)] < s_.opens_at) open(i);
+  if (fall_.onset >= 0) watch(i);
 }
 
-struct Fall {
-  std::int64_t opened = -1, onset = 0;
-  Vec3 before_mm;
-  bool spoilt = false, asked = false;
-  Breakthrough found;
-  double recent[8]{};
-};
+void Finder::open(std::int64_t i) {
+  fall_ = {};
+  fall_.onset = i;
+  while (fall_.onset > turning_since_ && i - fall_.onset < frames_in(k_longest_onset_s) && share_[at(fall_.onset)] < k_onset_share) --fall_.onset;
+  std::int64_t dated = i;
+  while (dated > fall_.onset && share_[at(dated)] < s_.dated_at) --dated;
+  fall_.found.tick = dated * k_frame_ticks;
+  fall_.found.force_before_n = fall_.found.force_after_n = expected_.held_n();
+  fall_.came_from_mm = frame(std::max(turning_since_, i - frames_in(k_came_s))).tip_mm;
+  fall_.explained = explained_before(i);
+}
+
+void Finder::watch(std::int64_t i) {
+  Breakthrough& found = fall_.found;
+  const Vec3 way = frame(i).tip_mm - frame(fall_.onset).tip_mm;
+  found.advance_mm = std::max(found.advance_mm, -dot(way, expected_.out()));
+  found.force_after_n = std::min(found.force_after_n, expected_.force_n());
+  std::copy_backward(fall_.recent.begin(), fall_.recent.end() - 1, fall_.recent.end());
+  fall_.recent[0] = found.advance_mm >= s_.least_advance_mm ? sureness(i) : 0.0;
+  const auto confirming = std::min<std::int64_t>(k_most_confirming, frames_in(s_.confirm_s) + 1);
+  const double sure = *std::min_element(fall_.recent.begin(), fall_.recent.begin() + confirming);
+  if (sure > found.sureness) {
+    if (!fall_.asked && sure > k_asked_from) {
+      fall_.asked = true;
+      if (explained_after(i)) fall_.explained = true;
+    }
+    if (found.sureness < k_as_likely_as_not) found.seen_tick = (i + 1) * k_frame_ticks;
+    found.sureness = sure;
+  }
+  const bool told = found.sureness >= k_as_likely_as_not;
+  const bool lifted = expected_.expected_n() < 0.6 * s_.presses_on * expected_.held_n();
+  if (share_[at(i)] > (told ? s_.returns_at : s_.closes_at) || lifted) {
+    close();
+    if (told) {  // a new level has to build up
+      expected_.forget();
+      turning_since_ = i + 1;
+    }
+  }
+}
+
+void Finder::close() {
+  if (fall_.onset >= 0 && !fall_.explained && fall_.found.sureness >= s_.sure_from) found_.push_back(fall_.found);
+  fall_ = {};
+}
+
+double Finder::sureness(std::int64_t i) const {
+  const double expected = expected_.expected_n(), rest = expected_.force_n() / expected;
+  if (expected_.held_n() < s_.least_n || expected < s_.presses_on * expected_.held_n()) return 0.0;
+  double noise_n2 = 0, scatter_n2 = 0;  // per tick
+  for (std::int64_t k = std::max<std::int64_t>(0, i - k_mean_frames + 1); k <= i; ++k) {
+    noise_n2 += frame(k).noise_n2 / k_mean_frames;
+    scatter_n2 += frame(k).scatter_n2 / k_mean_frames;
+  }
+  if (scatter_n2 - k_noise_scatter * noise_n2 > s_.chatter * s_.chatter * expected * expected) return 0.0;
+  // variance of the share, one axis of the mean over the frames
+  const double noise = noise_n2 / (3.0 * k_mean_frames * k_frame_ticks * expected * expected);
+  const double wide2 = s_.void_rest * s_.void_rest + noise;
+  const double likely = std::sqrt(2.0 / (k_pi * wide2)) * det_exp(-0.5 * rest * rest / wide2);
+  return likely / (likely + s_.soft_odds);
+}
+
+bool Finder::explained_before(std::int64_t i) const {
+  if (dot(expected_.out(), frame(i).handle) < k_towards_handle) return true;
+  if (length(aside(frame(i).tip_mm - fall_.came_from_mm)) > s_.slips_mm_s * k_came_s) return true;
+  std::int64_t dwell = 0;
+  for (std::int64_t k = fall_.onset; k >= 0 && fall_.onset - k < frames_in(k_dwell_back_s); --k)
+    if (length(frame(k).force_n) > k_dwell_share * expected_.held_n() && length(aside(frame(k).tip_mm - frame(fall_.onset).tip_mm)) < s_.dwell_mm)
+      ++dwell;
+  return dwell < frames_in(s_.dwell_s);
+}
+
+bool Finder::explained_after(std::int64_t i) const {
+  const Vec3 came = frame(i).tip_mm - fall_.came_from_mm;
+  if (length(aside(came)) > s_.strays_mm + s_.strays_share * std::max(0.0, -dot(came, expected_.out()))) return true;
+  return freed_.ahead(frame(fall_.onset).tip_mm, frame(i).tip_mm, s_.near_freed_mm, fall_.onset - frames_in(k_before_onset_s));
+}
 
 }  // namespace
 
-std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, std::span<const TickRecord> records, const BreakthroughSettings& s) {
-  std::vector<Breakthrough> found;
-  const std::vector<DrillFrame> frames = drill_frames(inputs, records);
-  const auto n = static_cast<std::int64_t>(frames.size());
-  ExpectedForce expected(s.expected);
-  FreedPlaces freed;
-  Fall fall;
-  std::vector<double> share(at(n), 1.0);
-  std::int64_t turning_since = 0;
-  const std::int64_t confirm = std::min<std::int64_t>(8, frames_in(s.confirm_s) + 1);
-  static const bool debug = std::getenv("BT_DEBUG") != nullptr;
-  const auto close = [&] {
-    if (fall.opened >= 0 && !fall.spoilt && fall.found.sureness >= s.sure_from) found.push_back(fall.found);
-    fall = {};
-  };
-  for (std::int64_t i = 0; i < n; ++i) {
-    const DrillFrame& f = frames[at(i)];
-    expected.take(frames, i);
-    if (length(f.force_n) < s.air_n) freed.note(f.tip_mm + f.force_n / std::max(0.5, expected.stiffness_n_per_mm()), i);
-    if (!f.cutting_possible) {
-      close();
-      turning_since = i + 1;
-      continue;
-    }
-    if (!expected.ready()) continue;
-    const double F = expected.force_n(), G = expected.expected_n(), level = expected.level_n(), held = expected.held_n();
-    if (debug && fall.opened < 0) std::fprintf(stderr, "%d F %.3f G %.3f held %.3f level %.3f K %.2f out %.2f %.2f %.2f\n", (int)i * 10, F, G, held, level, expected.stiffness_n_per_mm(), expected.out().x, expected.out().y, expected.out().z);
-    share[at(i)] = G > 0 ? F / G : 1.0;
-    if (fall.opened < 0) {
-      if (held < s.least_level_n || G < s.held * held || F >= s.opens_at * G) continue;
-      fall.opened = fall.onset = i;
-      while (fall.onset > turning_since && i - fall.onset < frames_in(3.0) && share[at(fall.onset)] < 0.9) --fall.onset;
-      std::int64_t dated = i;
-      while (dated > fall.onset && share[at(dated)] < s.dated_at) --dated;
-      fall.found.tick = dated * k_frame_ticks;
-      fall.found.force_before_n = fall.found.force_after_n = held;
-      fall.before_mm = frames[at(std::max<std::int64_t>(turning_since, i - frames_in(k_before_s)))].tip_mm;
-      std::int64_t dwell = 0;
-      for (std::int64_t k = fall.onset; k >= 0 && fall.onset - k < frames_in(10.0); --k)
-        if (length(frames[at(k)].force_n) > 0.3 * held) {
-          const Vec3 off = frames[at(k)].tip_mm - frames[at(fall.onset)].tip_mm, aside = off - expected.out() * dot(off, expected.out());
-          if (dot(aside, aside) < s.dwell_mm * s.dwell_mm) ++dwell;
-        }
-      if (dot(expected.out(), f.handle) < -0.2) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V withdrawn\n", (int)i * 10); }
-      if (dwell < frames_in(s.dwell_s)) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V dwell\n", (int)i * 10); }
-      const Vec3 came = f.tip_mm - fall.before_mm, aside = came - expected.out() * dot(came, expected.out());
-      if (length(aside) > s.slips_mm_s * k_before_s) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V slips\n", (int)i * 10); }
-    }
-    const Vec3 way = f.tip_mm - frames[at(fall.onset)].tip_mm;
-    fall.found.advance_mm = std::max(fall.found.advance_mm, -dot(way, expected.out()));
-    // likelihoods
-    double noise = 0, scatter = 0;
-    for (std::int64_t k = std::max<std::int64_t>(0, i - 2); k <= i; ++k) {
-      noise += frames[at(k)].noise_n2 / 3;
-      scatter += frames[at(k)].scatter_n2 / 3;
-    }
-    const double mean_noise = std::sqrt(noise / 3 / 30);
-    double sure = 0;
-    if (G >= s.held * held && held >= s.least_level_n) {
-      const double wide2 = s.void_rest * s.void_rest + mean_noise * mean_noise / (G * G);
-      const double rest = F / G;
-      const double likely = 0.798 / std::sqrt(wide2) * exp_minus(0.5 * rest * rest / wide2);
-      sure = likely / (likely + s.soft_odds);
-      const double chatter = std::sqrt(std::max(0.0, scatter - 1.5 * noise));
-      if (chatter > s.chatter * held) sure = 0;
-    }
-    for (std::int64_t k = confirm - 1; k > 0; --k) fall.recent[k] = fall.recent[k - 1];
-    fall.recent[0] = sure;
-    const double confirmed = *std::min_element(fall.recent, fall.recent + confirm);
-    if (confirmed > fall.found.sureness && fall.found.advance_mm >= s.least_advance_mm) {
-      if (!fall.asked && confirmed > 0.2) {
-        fall.asked = true;
-        const Vec3 came = f.tip_mm - fall.before_mm, aside = came - expected.out() * dot(came, expected.out());
-        if (length(aside) > s.strays_mm + s.strays_share * std::max(0.0, -dot(came, expected.out()))) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V strays\n", (int)i * 10); }
-        if (freed.ahead(frames[at(fall.onset)].tip_mm, f.tip_mm, s.near_air_mm, fall.onset - frames_in(0.2))) { fall.spoilt = true; if (debug) std::fprintf(stderr, "%d V ahead\n", (int)i * 10); }
-        if (debug && fall.spoilt) std::fprintf(stderr, "spoilt at %d\n", (int)i * 10);
-      }
-      if (fall.found.sureness < 0.5) fall.found.seen_tick = (i + 1) * k_frame_ticks;
-      fall.found.sureness = confirmed;
-    }
-    fall.found.force_after_n = std::min(fall.found.force_after_n, F);
-    if (debug) std::fprintf(stderr, "%d F %.3f G %.3f held %.3f K %.2f sure %.2f conf %.2f spoilt %d adv %.2f\n", (int)i * 10, F, G, held, expected.stiffness_n_per_mm(), sure, confirmed, fall.spoilt, fall.found.advance_mm);
-    if (F > s.closes_at * G || G < 0.3 * held || (fall.found.sureness >= 0.5 && F > 0.3 * G)) {
-      const bool told = fall.found.sureness >= 0.5;
-      close();
-      if (told) { expected.forget(); turning_since = i + 1; }
-    }
-  }
-  close();
-  return found;
+std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, std::span<const TickRecord> records,
+                                             const BreakthroughSettings& settings) {
+  return Finder(inputs, records, settings).run();
 }
 
 }  // namespace cavum

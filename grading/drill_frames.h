@@ -16,9 +16,9 @@ inline constexpr double k_frame_s = k_frame_ticks * k_tick_s;
 /// Means over ten ticks.
 struct DrillFrame {
   Vec3 tip_mm, force_n;
-  Vec3 handle;                  ///< unit, along the tool towards the hand
-  double scatter_n2 = 0.0;      ///< variance of the force over the ticks of the frame, sum of the axes
-  double noise_n2 = 0.0;        ///< the part of it that is the device's noise, as estimated from the frames until now
+  Vec3 handle;                   ///< unit, along the tool towards the hand
+  double scatter_n2 = 0.0;       ///< variance of the force over the ticks of the frame, sum of the axes
+  double noise_n2 = 0.0;         ///< the part of it that is the device's noise, as estimated from the frames until now
   bool cutting_possible = true;  ///< handpiece and pedal on, same point
 };
 

@@ -10,7 +10,7 @@ constexpr std::int64_t k_mean_frames = 3;
 constexpr double k_direction_share = 0.1;  // of each frame's force in its direction
 constexpr double k_holds = 0.6;            // of the level: a force that has it still shows the direction
 constexpr double k_saturates_n = 2.5;
-constexpr double k_least_n = 0.05;         // of a force that shows direction or stiffness
+constexpr double k_least_n = 0.05;  // of a force that shows direction or stiffness
 
 std::size_t frames_in(double seconds) { return static_cast<std::size_t>(seconds / k_frame_s + 0.5); }
 
@@ -52,13 +52,15 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   const double advance = fresh_ ? 0.0 : -dot(tip - tip_mm_, out_);
 
   // how stiff: the force against the tip's steps, as long as there is contact and no unexplained loss
-  if (!fresh_ && force_n_ > k_least_n && before_n > k_least_n && force_n_ < k_saturates_n && before_n < k_saturates_n && force_n_ > 0.7 * expected_n_) {
+  if (!fresh_ && force_n_ > k_least_n && before_n > k_least_n && force_n_ < k_saturates_n && before_n < k_saturates_n &&
+      force_n_ > 0.7 * expected_n_) {
     const double keep = 1.0 - k_frame_s / k_.learns_s;
     along_ = std::max(0.0, along_ * keep + advance * (force_n_ - before_n + before_n * k_frame_s / k_.tau_s));
     square_ = square_ * keep + advance * advance;
   }
   const double k = stiffness_n_per_mm();
-  expected_n_ += (advance < 0 ? k_.back_share * std::max(k, k_.stiffness_n_per_mm) : k_.forth_share * k) * advance - std::max(0.0, expected_n_) * k_frame_s / k_.tau_s;
+  expected_n_ += (advance < 0 ? k_.back_share * std::max(k, k_.stiffness_n_per_mm) : k_.forth_share * k) * advance -
+                 std::max(0.0, expected_n_) * k_frame_s / k_.tau_s;
   if (size > k_holds * level_n_ && size > k_least_n) out_ = normalized(out_ * (1 - k_direction_share) + force * (k_direction_share / size), out_);
 
   waiting_.push_back(force_n_);
@@ -80,6 +82,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   if (force_n_ >= 0.9 * expected_n_) held_n_ += 0.2 * (std::min(std::max(0.0, pushing_n), level_n_) - held_n_);
   tip_mm_ = tip;
   fresh_ = false;
+  if (median_.ready() && expected_n_ < -level_n_) forget();
 }
 
 }  // namespace cavum

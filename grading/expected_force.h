@@ -18,7 +18,7 @@ namespace cavum {
 
 struct ExpectedForceSettings {
   double stiffness_n_per_mm = 0.8;  ///< k before anything was measured (PHYSICS.md §1)
-  double worth_mm2 = 0.05;          ///< weight of that, as squares of steps of the tip
+  double worth_mm2 = 0.02;          ///< weight of that, as squares of steps of the tip
   double learns_s = 4.0;            ///< the measured k forgets its past so fast
   double back_share = 1.3;          ///< a retreat explains so many times k x its length: k is uncertain, and damping adds to it
   double forth_share = 1.0;         ///< an advance raises G by no more than this part of it, for the same reasons

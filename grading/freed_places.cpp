@@ -12,7 +12,8 @@ constexpr double k_ahead_mm = 0.05;  // less than that is where the tip is alrea
 }  // namespace
 
 IVec3 FreedPlaces::cell(Vec3 p) {
-  return {static_cast<int>(std::floor(p.x / k_edge_mm)), static_cast<int>(std::floor(p.y / k_edge_mm)), static_cast<int>(std::floor(p.z / k_edge_mm))};
+  return {static_cast<int>(std::floor(p.x / k_edge_mm)), static_cast<int>(std::floor(p.y / k_edge_mm)),
+          static_cast<int>(std::floor(p.z / k_edge_mm))};
 }
 
 bool FreedPlaces::ahead(Vec3 from, Vec3 to, double near_mm, std::int64_t frame) const {
