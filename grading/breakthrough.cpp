@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "engine/base/det_math.h"
 #include "grading/drill_frames.h"
@@ -25,6 +23,7 @@ constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue;
 constexpr double k_towards_handle = -0.2;  // cosine of push against the handle's axis
 constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
 constexpr std::int64_t k_mean_frames = 3;
+constexpr double k_lifted_share = 0.3;  // of the held force: when the tip's motion leaves no more of G, the hand has lifted
 constexpr std::size_t k_most_confirming = 8;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -123,7 +122,7 @@ void Finder::watch(std::int64_t i) {
     found.sureness = sure;
   }
   const bool told = found.sureness >= k_as_likely_as_not;
-  const bool lifted = expected_.expected_n() < 0.6 * s_.presses_on * expected_.held_n();
+  const bool lifted = expected_.expected_n() < k_lifted_share * expected_.held_n();
   if (share_[at(i)] > (told ? s_.returns_at : s_.closes_at) || lifted) {
     close();
     if (told) {  // a new level has to build up

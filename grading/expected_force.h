@@ -18,14 +18,14 @@ namespace cavum {
 
 struct ExpectedForceSettings {
   double stiffness_n_per_mm = 0.8;  ///< k before anything was measured (PHYSICS.md §1)
-  double worth_mm2 = 0.02;          ///< weight of that, as squares of steps of the tip
+  double worth_mm2 = 0.004;         ///< weight of that, as a sum of squared steps of the tip: a second of drilling
   double learns_s = 4.0;            ///< the measured k forgets its past so fast
-  double back_share = 1.3;          ///< a retreat explains so many times k x its length: k is uncertain, and damping adds to it
-  double forth_share = 1.0;         ///< an advance raises G by no more than this part of it, for the same reasons
+  double back_share = 1.3;          ///< a retreat explains so many times k x its length: k is uncertain
+  double forth_share = 1.0;         ///< an advance raises G by k x its length
   double tau_s = 2.02;              ///< τ of hard tissue (PHYSICS.md §2)
   double level_s = 0.32;            ///< the level: median of the force over so long ...
   double level_gap_s = 0.04;        ///< ... ending so long before now ...
-  double level_memory_s = 3.0;      ///< ... the highest within this time
+  double level_memory_s = 3.0;      ///< ... the highest within this time: a fall that takes longer is none
 };
 
 /// Median of the last values.
@@ -53,6 +53,7 @@ class ExpectedForce {
   [[nodiscard]] bool ready() const noexcept { return median_.ready(); }
   [[nodiscard]] double force_n() const noexcept { return force_n_; }        ///< F, mean over 30 ms
   [[nodiscard]] double expected_n() const noexcept { return expected_n_; }  ///< G
+  /// F while nothing of it was missing, mean over 50 ms
   [[nodiscard]] double held_n() const noexcept { return held_n_; }
   [[nodiscard]] double level_n() const noexcept { return level_n_; }
   [[nodiscard]] double stiffness_n_per_mm() const noexcept { return (along_ + k_.worth_mm2 * k_.stiffness_n_per_mm) / (square_ + k_.worth_mm2); }

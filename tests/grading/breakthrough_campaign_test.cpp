@@ -93,7 +93,7 @@ std::string roc_svg(const std::vector<Outcome>& all) {
 }
 
 /// An event that is told earlier before the first leaf than this is no warning of it: tissue is felt a leaf and a half ahead.
-constexpr std::int64_t k_early_ticks = 250;
+constexpr std::int64_t k_early_ticks = 200;
 
 std::vector<Outcome> run_sessions(std::uint64_t seed, int sessions, Drawn drawn) {
   (void)draw_session(seed, drawn);  // loads the teeth before the threads start
