@@ -22,6 +22,7 @@ constexpr double k_before_onset_s = 0.2;   // places freed since then belong to 
 constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue; bounds how far the surface lies before the tip
 constexpr double k_towards_handle = -0.2;  // cosine of push against the handle's axis
 constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
+constexpr double k_surely_n = 1.0;  // a force below that says to within 0.3 mm where the surface is
 constexpr std::int64_t k_mean_frames = 3;
 constexpr double k_lifted_share = 0.3;  // of the held force: when the tip's motion leaves no more of G, the hand has lifted
 constexpr std::size_t k_most_confirming = 8;
@@ -70,6 +71,7 @@ class Finder {
   FreedPlaces freed_;
   std::vector<double> share_;  // F / G by frame
   std::int64_t turning_since_ = 0;
+  Vec3 surface_mm_;            // in the frame before
   Fall fall_;
   std::vector<Breakthrough> found_;
 };
@@ -77,8 +79,9 @@ class Finder {
 void Finder::take(std::int64_t i) {
   const DrillFrame& f = frame(i);
   expected_.take(frames_, i);
-  // the tooth's surface lies F / k before the tip
-  if (length(f.force_n) < s_.freed_n) freed_.note(f.tip_mm + f.force_n / std::max(k_least_stiffness, expected_.stiffness_n_per_mm()), i);
+  const Vec3 surface = f.tip_mm + f.force_n / std::max(k_least_stiffness, expected_.stiffness_n_per_mm());  // it lies F / k before the tip
+  if (length(f.force_n) < s_.freed_n) freed_.note(i > 0 && length(frame(i - 1).force_n) < k_surely_n ? surface_mm_ : surface, surface, i);
+  surface_mm_ = surface;
   if (!f.cutting_possible) {
     close();
     turning_since_ = i + 1;

@@ -7,6 +7,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_edge_mm = 0.15;
+constexpr int k_most_steps = 20;  // 3 mm in a hundredth of a second
 constexpr double k_ahead_mm = 0.05;  // less than that is where the tip is already
 
 }  // namespace
@@ -14,6 +15,11 @@ constexpr double k_ahead_mm = 0.05;  // less than that is where the tip is alrea
 IVec3 FreedPlaces::cell(Vec3 p) {
   return {static_cast<int>(std::floor(p.x / k_edge_mm)), static_cast<int>(std::floor(p.y / k_edge_mm)),
           static_cast<int>(std::floor(p.z / k_edge_mm))};
+}
+
+void FreedPlaces::note(Vec3 from_mm, Vec3 to_mm, std::int64_t frame) {
+  const int steps = std::clamp(static_cast<int>(length(to_mm - from_mm) / k_edge_mm), 1, k_most_steps);
+  for (int k = 0; k <= steps; ++k) first_.emplace(cell(from_mm + (to_mm - from_mm) * (static_cast<double>(k) / steps)), frame);
 }
 
 bool FreedPlaces::ahead(Vec3 from, Vec3 to, double near_mm, std::int64_t frame) const {

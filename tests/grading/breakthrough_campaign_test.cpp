@@ -122,7 +122,7 @@ std::vector<Outcome> run_sessions(std::uint64_t seed, int sessions, Drawn drawn)
 }
 
 /// Prints the table, and holds it against the promise.
-void judge(const std::vector<Outcome>& all, const char* picture) {
+void judge(const std::vector<Outcome>& all, double dated_within_ms, const char* picture) {
   std::array<Row, k_look_alikes + 1> rows{};
   std::array<int, 5> unfelt{}, unfelt_seen{};  // touched and not felt, by the least share of the force that was left
   constexpr std::array<double, 5> up_to{0.35, 0.5, 0.7, 0.9, 9.0};
@@ -174,7 +174,7 @@ void judge(const std::vector<Outcome>& all, const char* picture) {
   EXPECT_LE(missed, most_missed);
   EXPECT_LE(sum.alarmed, most_alarmed);
   EXPECT_LE(median(told), 50);
-  EXPECT_LE(std::fabs(median(dated)), 100);
+  EXPECT_LE(std::fabs(median(dated)), dated_within_ms) << "the median's own scatter is 40 ms, 60 ms in a shifted run";
 }
 
 int sessions(int usual) {
@@ -184,12 +184,12 @@ int sessions(int usual) {
 
 TEST(BreakthroughCampaign, FindsPerforationsAmongLookAlikes) {
   const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.FindsPerforationsAmongLookAlikes");
-  judge(run_sessions(seed, sessions(600), Drawn::usual), "detector_roc.svg");
+  judge(run_sessions(seed, sessions(600), Drawn::usual), 150, "detector_roc.svg");
 }
 
 TEST(BreakthroughCampaign, HoldsOnDrawsThatNoSettingWasTunedOn) {
   const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.HoldsOnDrawsThatNoSettingWasTunedOn");
-  judge(run_sessions(seed, sessions(250), Drawn::shifted), nullptr);
+  judge(run_sessions(seed, sessions(250), Drawn::shifted), 300, nullptr);
 }
 
 }  // namespace
