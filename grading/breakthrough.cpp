@@ -22,7 +22,7 @@ constexpr double k_before_onset_s = 0.2;   // places freed since then belong to 
 constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue; bounds how far the surface lies before the tip
 constexpr double k_towards_handle = -0.2;  // cosine of push against the handle's axis
 constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
-constexpr double k_surely_n = 1.0;  // a force below that says to within 0.3 mm where the surface is
+constexpr double k_surely_n = 1.0;         // a force below that says to within 0.3 mm where the surface is
 constexpr std::int64_t k_mean_frames = 3;
 constexpr double k_lifted_share = 0.3;  // of the held force: when the tip's motion leaves no more of G, the hand has lifted
 constexpr std::size_t k_most_confirming = 8;
@@ -71,7 +71,7 @@ class Finder {
   FreedPlaces freed_;
   std::vector<double> share_;  // F / G by frame
   std::int64_t turning_since_ = 0;
-  Vec3 surface_mm_;            // in the frame before
+  Vec3 surface_mm_;  // in the frame before
   Fall fall_;
   std::vector<Breakthrough> found_;
 };

@@ -7,7 +7,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_edge_mm = 0.15;
-constexpr int k_most_steps = 20;  // 3 mm in a hundredth of a second
+constexpr int k_most_steps = 20;     // 3 mm in a hundredth of a second
 constexpr double k_ahead_mm = 0.05;  // less than that is where the tip is already
 
 }  // namespace
