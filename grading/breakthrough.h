@@ -1,52 +1,67 @@
-// The detector of breakthroughs. It sees what a device gives - rendered force, pose, pedal, speed, which point is mounted - and
+// The detector of breakthroughs. It sees what a device gives - rendered or measured force, pose, pedal, speed, which point is mounted - and
 // nothing of the tissue, so that it would work on a real tooth as well.
 //
-// While the handpiece turns and the tip cuts, the force along the push has a level. A breakthrough is a fall of that force to almost nothing
-// while the tip does not give way: it goes on, or further, in the direction of the push. What else makes a force fall is told apart by where
-// the tip goes and has been: a hand that eases off, or lifts, moves the tip back by what the tissue springs back; a released pedal stops the
-// handpiece; softer tissue leaves a part of the force; a point that slips off an edge has not stayed long enough to have cut
-// anything there; a cut into an earlier cavity leads to where the tip has moved freely before.
+// A breakthrough is a loss of force that the tip's own motion does not explain: the hand presses on, solid tissue would give the force G
+// (ExpectedForce), and hardly anything of it is left. How sure that is, is a likelihood ratio of two stories about the share F / G that is left:
+// a cavity leaves next to nothing (half normal with the scale `void_rest`, widened by the force's noise, which is estimated on the way);
+// softer tissue leaves any share of it (uniform), and is met `soft_odds` times as often.
+//
+// What else makes a force fall, and what tells it apart:
+//
+//   lift-off, retreat for a look    the tip goes back: G falls with F (k · way; F = k X)
+//   easing off after saturation     the same, slowly
+//   a pause, a tip held by friction the surface recedes from the tip: G decays with F (τ); and the tip does not advance
+//   pedal released, point changed   nothing can be cut: the observer starts anew
+//   enamel to dentin, soft lesion   a share of the force is left, k·τ against k·τ: 0.3 to 1, and 0.2 to 0.45
+//   slip off a wall or an edge      the tip leaves sideways, or from a place where it has hardly cut (`slips_mm_s`, `strays_mm`, `dwell_s`)
+//   breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces)
+//   a point pulled out of a bind    the push was towards the handle
+//   chatter                         the mean force vanishes, its scatter is many times the noise
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/servo/tick.h"
+#include "grading/expected_force.h"
 
 namespace cavum {
 
 struct BreakthroughSettings {
-  double sure_from = 0.5;          ///< events below this sureness are left out, 0..1
-  double least_level_n = 0.08;     ///< a force below it tells nothing
-  double opens_at = 0.5;           ///< of the level: a fall that far is looked at ...
-  double rests_at = 0.09;          ///< ... and is as likely as not a breakthrough when it ends there
-  double dated_at = 0.77;          ///< of the level: the event's time is the last moment the force still had it
-  double level_s = 0.32;           ///< median of the force over this long ...
-  double level_gap_s = 0.04;       ///< ... ending this long before now
-  double level_memory_s = 1.6;     ///< the highest of those medians within this time is the level
-  double longest_s = 1.2;          ///< a fall is watched for this long after it opened
-  double give_way_mm = 0.11;       ///< a tip that goes back further than that against the push gives way
-  double gives_mm = 0.06;          ///< nor may it have gone back by that much when the force is gone
-  double confirm_s = 0.03;         ///< it must not give way so soon after the force is gone, either
-  double withdrawal_mm = 0.15;     ///< one that moves further than that towards the handle is withdrawn
-  double slips_mm_s = 1.2;         ///< one that wanders sideways faster than that before the fall slips
-  int bounces = 2;                 ///< one whose force fell that often in the 0.8 s before bounces
-  double least_advance_mm = 0.12;  ///< of the tip along the push
-  double strays_mm = 0.25;         ///< one that has gone sideways by more than that ...
-  double strays_share = 0.5;       ///< ... and this share of its advance, when the force is gone, fell off something
-  double dwell_s = 0.38;           ///< it must have cut so long ...
-  double dwell_mm = 0.5;           ///< ... within this distance
-  double air_n = 0.04;             ///< below that the tip moves freely
-  double near_air_mm = 0.45;       ///< beside a place where it moved freely before, it falls into an earlier cavity
+  double sure_from = 0.5;  ///< events below this sureness are left out, 0..1
+  ExpectedForceSettings expected;
+
+  // the likelihood ratio
+  double void_rest = 0.15;         ///< scale of the share of G that a cavity leaves: the rim of the hole still touches
+  double soft_odds = 1.3;          ///< softer tissue is so many times as likely beforehand: at F / G = 0.25 it is even
+  double least_n = 0.07;           ///< a force below it tells nothing: 30 ms of noise of 0.05 N per tick are a fifth of it
+  double presses_on = 0.5;         ///< a fall counts while the tip's motion explains no more than half of it
+  double confirm_s = 0.02;         ///< it has to be so sure for so long
+  double chatter = 0.35;           ///< of G: a force that scatters by more than that, beyond its noise, is not gone
+  double least_advance_mm = 0.05;  ///< a cavity lets the tip on: by a step of the encoder at least
+
+  // the fall
+  double opens_at = 0.5;    ///< of G: a fall is watched from there ...
+  double closes_at = 0.7;   ///< ... until the force is back
+  double returns_at = 0.3;  ///< ... or, once it was told, rises again: one fall is one event
+  double dated_at = 0.77;   ///< of G: the event's time is the last moment the force still had it
+
+  // other explanations
+  double slips_mm_s = 1.2;     ///< a tip that wanders sideways faster than that before the fall slips
+  double strays_mm = 0.25;     ///< one that has gone sideways by more than that ...
+  double strays_share = 0.5;   ///< ... and this share of its advance, when the force is gone, fell off something
+  double dwell_s = 0.38;       ///< it must have cut so long ...
+  double dwell_mm = 0.5;       ///< ... within this distance: about the radius of a head
+  double freed_n = 0.12;       ///< where the force was below that, the tooth's surface is known to within 0.2 mm
+  double near_freed_mm = 0.4;  ///< a way that leads so near to such a place leads into an earlier cut
 };
 
 /// One fall of the force.
 struct Breakthrough {
   std::int64_t tick = 0;        ///< when it began
-  std::int64_t seen_tick = 0;   ///< when the detector could say so
+  std::int64_t seen_tick = 0;   ///< when the detector could say so: it was more likely than not, or as sure as it got
   double sureness = 0.0;        ///< 0..1; 0.5 = as likely as not
-  double force_before_n = 0.0;  ///< the level
+  double force_before_n = 0.0;  ///< while the tissue still held
   double force_after_n = 0.0;   ///< the least mean over 30 ms in the fall
   double advance_mm = 0.0;      ///< of the tip along the push in the fall
 };

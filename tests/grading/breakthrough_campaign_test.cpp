@@ -1,7 +1,12 @@
 // The detector's error rates, on sessions drawn anew each run: table by look-alike, ROC as SVG (detector_roc.svg in the working folder).
-// A true perforation here: leaves of the cavity went, and the hand, pressing on, felt the force fall from 80 to under 10 % of its level (of at
-// least 0.12 N) within 1.5 s. Where the cavity was touched but nothing of the kind could be felt, no force can tell: those sessions are
-// counted in lines of their own, and the examination's verdict rests on the tissue there.
+//
+// A true perforation here: leaves of the cavity went, and the fall could be felt - the true force, without noise, came to under a fifth of
+// what solid dentin would give at the same motion of the tip, while the hand pressed on (DrawnSession::felt). The softest lesion leaves a fifth.
+// Where the cavity was touched and no such fall came, no force can tell it from softer tissue: those sessions are counted in lines of their own, by
+// how much was left at least, and the examination's verdict rests on the tissue there.
+//
+// A run fails when it is worse than what the promise (recall 0.99, false alarms in 1 % of sessions) does by chance once in a thousand runs.
+// CAVUM_TEST_SEED repeats a run, CAVUM_CAMPAIGN_SESSIONS makes it longer: session i of a run is draw_session(seed + 1 + i).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +17,6 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <mutex>
 #include <sstream>
 #include <thread>
 
@@ -27,9 +31,10 @@ using namespace testing_grading;
 
 struct Outcome {
   LookAlike what;
-  bool perforated = false;
-  double sureness = 0.0;  // of the surest event that counts: at the perforation, or anywhere in a session without one
-  double dated_ms = 0, seen_ms = 0, felt_ms = 0;
+  bool touched = false, felt = false, grazed_elsewhere = false;
+  double least_share = 1.0;
+  double sureness = 0.0;             // of the surest event that counts: at the perforation, or anywhere in a session without one
+  double dated_ms = 0, told_ms = 0;  // from the first leaf to the event's time; from when it could be felt to when the detector said so
   std::string story;
 };
 
@@ -74,8 +79,8 @@ std::string roc_svg(const std::vector<Outcome>& all) {
     const double least = std::max(0.001, step * 0.01);
     double found = 0, perforated = 0, alarmed = 0, clean = 0;
     for (const auto& o : all) {
-      (o.perforated ? perforated : clean) += 1;
-      if (o.sureness >= least) (o.perforated ? found : alarmed) += 1;
+      (o.felt ? perforated : clean) += 1;
+      if (o.sureness >= least) (o.felt ? found : alarmed) += 1;
     }
     const double px = x(alarmed / std::max(1.0, clean)), py = y(found / std::max(1.0, perforated));
     svg << px << ',' << py << ' ';
@@ -87,61 +92,65 @@ std::string roc_svg(const std::vector<Outcome>& all) {
   return svg.str();
 }
 
-TEST(BreakthroughCampaign, FindsPerforationsAmongLookAlikes) {
-  const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.FindsPerforationsAmongLookAlikes");
-  constexpr int k_sessions = 500;
-  (void)draw_session(seed);  // loads the teeth before the threads start
-  std::vector<Outcome> all;
-  std::array<int, 4> apart{};  // touched and not felt, found among them; grazed from outside; seen
+/// An event that is told earlier before the first leaf than this is no warning of it: tissue is felt a leaf and a half ahead.
+constexpr std::int64_t k_early_ticks = 200;
+
+std::vector<Outcome> run_sessions(std::uint64_t seed, int sessions, Drawn drawn) {
+  (void)draw_session(seed, drawn);  // loads the teeth before the threads start
+  std::vector<Outcome> all(static_cast<std::size_t>(sessions));
   std::atomic<int> next{0};
-  std::mutex guard;
   const auto work = [&] {
-    for (int i = next++; i < k_sessions; i = next++) {
-      const DrawnSession s = draw_session(seed + 1 + static_cast<std::uint64_t>(i));
+    for (int i = next++; i < sessions; i = next++) {
+      const DrawnSession s = draw_session(seed + 1 + static_cast<std::uint64_t>(i), drawn);
       BreakthroughSettings any;
       any.sure_from = 1e-3;
-      const auto events = find_breakthroughs(s.inputs, s.records, any);
-      Outcome o;
-      o.what = s.what;
-      o.story = s.story;
-      o.perforated = s.fallen >= 0 && s.quick;
-      for (const auto& e : events) {
-        if (o.perforated && e.seen_tick < s.touched - 250) continue;
+      Outcome& o = all[static_cast<std::size_t>(i)];
+      o = {s.what, s.touched >= 0, s.felt >= 0, s.grazed_elsewhere, s.least_share, 0, 0, 0, s.story};
+      for (const auto& e : find_breakthroughs(s.inputs, s.records, any)) {
+        if (o.touched && e.seen_tick < s.touched - k_early_ticks) continue;
         if (e.sureness <= o.sureness) continue;
         o.sureness = e.sureness;
         o.dated_ms = static_cast<double>(e.tick - s.touched);
-        o.seen_ms = static_cast<double>(e.seen_tick - s.touched);
-        o.felt_ms = static_cast<double>(e.seen_tick - s.fallen);
-      }
-      const std::lock_guard lock(guard);
-      if (s.grazed_elsewhere) {
-        ++apart[2];
-      } else if (s.touched >= 0 && !o.perforated) {
-        ++apart[0];
-        apart[1] += o.sureness >= 0.5;
-      } else {
-        all.push_back(o);
+        o.told_ms = static_cast<double>(e.seen_tick - s.felt);
       }
     }
   };
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 2; ++t) threads.emplace_back(work);
-  for (auto& t : threads) t.join();
+  std::thread other(work);
+  work();
+  other.join();
+  return all;
+}
 
+/// Prints the table, and holds it against the promise.
+void judge(const std::vector<Outcome>& all, double dated_within_ms, const char* picture) {
   std::array<Row, k_look_alikes + 1> rows{};
-  std::vector<double> dated, seen, felt;
+  std::array<int, 5> unfelt{}, unfelt_seen{};  // touched and not felt, by the least share of the force that was left
+  constexpr std::array<double, 5> up_to{0.35, 0.5, 0.7, 0.9, 9.0};
+  int grazed = 0;
+  std::vector<double> dated, told;
+  std::vector<Outcome> counted;
   for (const auto& o : all) {
+    if (o.grazed_elsewhere) {
+      ++grazed;
+      continue;
+    }
     const bool alarm = o.sureness >= 0.5;
+    if (o.touched && !o.felt) {
+      const auto k = static_cast<std::size_t>(std::upper_bound(up_to.begin(), up_to.end() - 1, o.least_share) - up_to.begin());
+      ++unfelt[k];
+      unfelt_seen[k] += alarm;
+      continue;
+    }
+    counted.push_back(o);
     for (Row* r : {&rows[static_cast<std::size_t>(o.what)], &rows[k_look_alikes]}) {
-      (o.perforated ? r->perforated : r->clean) += 1;
-      if (alarm) (o.perforated ? r->found : r->alarmed) += 1;
+      (o.felt ? r->perforated : r->clean) += 1;
+      if (alarm) (o.felt ? r->found : r->alarmed) += 1;
     }
-    if (o.perforated && alarm) {
+    if (o.felt && alarm) {
       dated.push_back(o.dated_ms);
-      seen.push_back(o.seen_ms);
-      felt.push_back(o.felt_ms);
+      told.push_back(o.told_ms);
     }
-    if (o.perforated != alarm) std::cout << (alarm ? "false alarm: " : "missed: ") << o.story << '\n';
+    if (o.felt != alarm) std::cout << (alarm ? "false alarm: " : "missed: ") << o.story << '\n';
   }
   std::cout << "session with          perforated  found   without  alarmed\n";
   for (int i = 0; i <= k_look_alikes; ++i) {
@@ -150,20 +159,37 @@ TEST(BreakthroughCampaign, FindsPerforationsAmongLookAlikes) {
               << r.perforated << std::setw(7) << r.found << std::setw(10) << r.clean << std::setw(9) << r.alarmed << '\n';
   }
   const Row& sum = rows[k_look_alikes];
+  const int missed = sum.perforated - sum.found, most_missed = bound(sum.perforated, 0.01), most_alarmed = bound(sum.clean, 0.01);
   std::cout << "recall " << double(sum.found) / std::max(1, sum.perforated) << ", false alarms " << double(sum.alarmed) / std::max(1, sum.clean)
-            << "; medians: dated " << median(dated) << " ms and seen " << median(seen) << " ms after the first leaf, seen " << median(felt)
-            << " ms after it could be felt\n"
-            << "left apart: cavity touched without a fall that could be felt " << apart[0] << " (of them seen " << apart[1]
-            << "), grazed from outside " << apart[2] << '\n';
-  std::ofstream("detector_roc.svg") << roc_svg(all);
+            << "; medians: told " << median(told) << " ms after it could be felt, dated " << median(dated) << " ms after the first leaf\n"
+            << "held against 0.99 and 0.01 at 1 in 1000: missed " << missed << " of at most " << most_missed << ", alarmed " << sum.alarmed
+            << " of at most " << most_alarmed << "\ntouched but not to be felt, by the least share of the force that was left (seen):";
+  for (std::size_t k = 0; k < unfelt.size(); ++k)
+    std::cout << "  to " << std::min(1.0, up_to[k]) << ": " << unfelt[k] << " (" << unfelt_seen[k] << ')';
+  std::cout << "\ncavity grazed from outside: " << grazed << '\n';
+  if (picture != nullptr) std::ofstream(picture) << roc_svg(counted);
 
-  EXPECT_GE(sum.perforated, 30) << "too few to say anything";
-  EXPECT_GE(sum.clean, 150);
-  // A run fails when it is worse than chance allows for (1 in 1000) with a recall of 0.97 and false alarms in 1 % of sessions.
-  EXPECT_LE(sum.perforated - sum.found, bound(sum.perforated, 0.03));
-  EXPECT_LE(sum.alarmed, bound(sum.clean, 0.01));
-  EXPECT_LE(median(felt), 50);
-  EXPECT_LE(std::fabs(median(dated)), 150);
+  EXPECT_GE(sum.perforated, static_cast<int>(all.size()) / 10) << "too few to say anything";
+  EXPECT_GE(sum.clean, static_cast<int>(all.size()) / 3);
+  EXPECT_LE(missed, most_missed);
+  EXPECT_LE(sum.alarmed, most_alarmed);
+  EXPECT_LE(median(told), 50);
+  EXPECT_LE(std::fabs(median(dated)), dated_within_ms) << "the median's own scatter is 40 ms, 60 ms in a shifted run";
+}
+
+int sessions(int usual) {
+  const char* asked = std::getenv("CAVUM_CAMPAIGN_SESSIONS");
+  return asked != nullptr ? std::max(50, std::atoi(asked)) : usual;
+}
+
+TEST(BreakthroughCampaign, FindsPerforationsAmongLookAlikes) {
+  const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.FindsPerforationsAmongLookAlikes");
+  judge(run_sessions(seed, sessions(600), Drawn::usual), 150, "detector_roc.svg");
+}
+
+TEST(BreakthroughCampaign, HoldsOnDrawsThatNoSettingWasTunedOn) {
+  const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.HoldsOnDrawsThatNoSettingWasTunedOn");
+  judge(run_sessions(seed, sessions(250), Drawn::shifted), 300, nullptr);
 }
 
 }  // namespace

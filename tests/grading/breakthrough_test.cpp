@@ -128,9 +128,53 @@ TEST(Breakthrough, SeesABreakthroughUnderAHandThatKeepsItsPace) {
 TEST(Breakthrough, RemembersWhereTheTipHasBeen) {
   // down into a hole and out; later, cutting a thin wall aside, the point falls back into that hole
   Tape t(5);
-  t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(2000, {0, 0, -0.5}, 0.9).run(500, {0, 0, 4}, 0);
+  t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(2000, {0, 0, -0.5}, 0.9);
+  t.run(250, {0, 0, 4}, 0).run(250, {0, 0, 4}, 0);
   t.run(100, {0, 0, -4}, 0.0).run(100, {0, 0, -3}, 0.9).run(800, {0, 0, -0.05}, 0.9).run(80, {0, 0, -5}, 0.02).run(300, {0, 0, 0}, 0.02);
   EXPECT_TRUE(t.events().empty());
+}
+
+TEST(Breakthrough, IsSilentWhenTheHandPausesAndTheCutCatchesUp) {
+  // the tip stays, the surface recedes from it: the force decays with tau
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed, 1.0);
+    for (const double left : {0.61, 0.37, 0.22, 0.14, 0.08, 0.05, 0.02}) t.run(1000, {0, 0, 0}, left);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Breakthrough, IsSilentInChatter) {
+  // the mean force vanishes, for it swings to and fro
+  Tape t = cutting(4, 0.8);
+  for (int i = 0; i < 80; ++i)
+    t.run(1, {0, 0, -0.5}, 0.8).run(4, {0, 0, -0.5}, 0.8).run(1, {0, 0, -0.5}, 0.8, true, {0, 0, 1}).run(4, {0, 0, -0.5}, 0.8, true, {0, 0, 1});
+  t.run(500, {0, 0, -0.25}, 0.8);
+  EXPECT_TRUE(t.events().empty());
+}
+
+TEST(Breakthrough, IsSilentWhenABoundPointIsPulledOut) {
+  Tape t(6);
+  t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(1500, {0, 0, -0.25}, 0.9);
+  t.run(300, {0, 0, 4}, 0).run(900, {0, 0, 0.3}, 0.9, true, {0, 0, 1}).run(60, {0, 0, 5}, 0.02, true, {0, 0, 1}).run(300, {0, 0, 5}, 0);
+  EXPECT_TRUE(t.events().empty());
+}
+
+TEST(Breakthrough, IsSilentInALesionOfAThirdOfTheResistance) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Tape t = cutting(seed, 1.0);
+    t.run(150, {0, 0, -0.5}, 0.35).run(2000, {0, 0, -0.3}, 0.35);
+    EXPECT_TRUE(t.events().empty()) << "seed " << seed;
+  }
+}
+
+TEST(Breakthrough, IsLessSureInANoisierForce) {
+  const auto sureness = [](double noise_n) {
+    Tape t(8, noise_n);
+    t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.12).run(1500, {0, 0, -0.25}, 0.12).run(80, {0, 0, -4}, 0.001).run(400, {0, 0, 0}, 0.001);
+    const auto events = t.events();
+    return events.empty() ? 0.0 : events[0].sureness;
+  };
+  EXPECT_GT(sureness(0.0), sureness(0.1));
 }
 
 TEST(Breakthrough, SeesTheSecondBreakthroughToo) {

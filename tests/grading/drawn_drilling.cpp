@@ -17,7 +17,7 @@ namespace {
 using namespace testing_engine;
 
 constexpr double k_dt = k_tick_s;
-constexpr std::int64_t k_longest = 40000;  // ticks
+constexpr std::int64_t k_longest = 60000;  // ticks
 constexpr double k_through_mm = 1.8;       // so far beyond the cavity's roof the hand stops, whatever it has felt
 constexpr double k_seen_mm = 4.0;          // a hand lets itself be drawn no further from the point that it sees on the screen
 
@@ -26,12 +26,16 @@ const Tooth& tooth_named(const std::string& name) {
   static const Tooth molar = load("lower_molar.cvt"), premolar = load("upper_premolar.cvt"), incisor = load("upper_incisor.cvt");
   static const Tooth block = make_block({6, 6, 6}, {{"enamel", 1.0}, {"dentin", 1.6}, {"pulp", 1.2}, {"dentin", 2.2}}, 0.05);
   static const Tooth floor = make_block({6, 6, 5}, {{"dentin", 2.3}, {"periodontium", 1.0}, {"dentin", 1.7}}, 0.05);
-  static const Tooth lesion =
-      make_block({6, 6, 6.4}, {{"enamel", 0.8}, {"dentin", 0.6}, {"lesion", 0.8}, {"dentin", 1.4}, {"pulp", 1.0}, {"dentin", 1.8}}, 0.05);
+  static const auto with_lesion = [](double roof_mm) {  // sound dentin between lesion and pulp
+    return make_block({6, 6, 5.0 + roof_mm}, {{"enamel", 0.8}, {"dentin", 0.6}, {"lesion", 0.8}, {"dentin", roof_mm}, {"pulp", 1.0}, {"dentin", 1.8}},
+                      0.05);
+  };
+  static const Tooth lesion = with_lesion(1.4), deep_lesion = with_lesion(0.65);
   if (name == "molar") return molar;
   if (name == "premolar") return premolar;
   if (name == "incisor") return incisor;
   if (name == "floor") return floor;
+  if (name == "deep lesion") return deep_lesion;
   return name == "lesion" ? lesion : block;
 }
 
@@ -52,15 +56,18 @@ struct Way {
 
 class Session {
  public:
-  Session(std::uint64_t seed, DrawnSession& out) : random_(seed), out_(out) { draw(); }
+  Session(std::uint64_t seed, Drawn drawn, DrawnSession& out) : shifted_(drawn == Drawn::shifted), random_(seed), out_(out) { draw(); }
   void run();
 
  private:
   double u(double a, double b) { return random_.uniform(a, b); }
+  /// One of the ends of the range in a shifted session.
+  double range(double a, double b) { return !shifted_ ? u(a, b) : random_.below(2) == 0 ? a : b; }
   void draw();
   bool find_way();
   [[nodiscard]] double safe_depth(const Way& w, double radius) const;
   void tick(Vec3 intended, double pedal);
+  void expect(std::int64_t now);
   void travel(Vec3 to, double mm_s, double pedal);
   void wait(double s, double pedal);
   /// Presses on along `into` until `stop`, or `most_s` have gone.
@@ -75,6 +82,7 @@ class Session {
   void earlier_cut();
   void slip();
 
+  bool shifted_;
   Random random_;
   DrawnSession& out_;
   const Tooth* tooth_ = nullptr;
@@ -96,23 +104,29 @@ class Session {
   double level_n_ = 0;     // the same before the cavity was touched, over half a second
   double deepest_mm_ = 0;  // along the way
   bool going_through_ = false;
-  std::int64_t held_at_ = 0;  // last tick with nearly all of the force
+  std::int64_t let_go_ = -1;  // tick in which the hand noticed that nothing resists any more
+  Material dentin_;
+  double expected_n_ = 0, pushing_n_ = 0;  // see expect()
+  std::int64_t held_at_ = 0;               // last tick with nearly all of the force
+  bool pressing_ = false;                  // the hand means to drill on
+  Vec3 last_tip_mm_;
 };
 
 void Session::draw() {
   out_.what = static_cast<LookAlike>(random_.below(k_look_alikes));
   perforates_ = random_.below(2) == 0;
   static const std::array<const char*, 5> teeth{"molar", "premolar", "incisor", "block", "floor"};
-  out_.tooth = out_.what == LookAlike::soft_lesion ? "lesion" : teeth[random_.below(teeth.size())];
+  out_.tooth = out_.what == LookAlike::soft_lesion ? (random_.below(2) == 0 ? "lesion" : "deep lesion") : teeth[random_.below(teeth.size())];
   if (out_.what == LookAlike::enamel_to_dentin && out_.tooth == "floor") out_.tooth = "block";
   if (out_.what == LookAlike::slip) out_.tooth = teeth[random_.below(3)];  // the layers of a block lie open at its sides
   tooth_ = &tooth_named(out_.tooth);
-  ForceModel force = shipped_model(random_.below(3) == 0 ? "paper" : "consistent");
+  ForceModel force = shipped_model((random_.below(3) == 0) != shifted_ ? "paper" : "consistent");
   auto& enamel = force.materials.find("enamel")->second;
   auto& dentin = force.materials.find("dentin")->second;
   auto& lesion = force.materials.find("lesion")->second;
   const double damping = enamel.voigt.damping_n_s_per_mm / std::sqrt(enamel.voigt.stiffness_n_per_mm);
-  const double k = u(0.5, 1.2), share = out_.what == LookAlike::enamel_to_dentin ? u(0.4, 0.65) : u(0.65, 1.0), soft = u(0.2, 0.45);
+  const double k = u(0.5, 1.2), share = out_.what == LookAlike::enamel_to_dentin ? u(0.4, 0.65) : u(0.65, 1.0),
+               soft = shifted_ ? u(0.2, 0.3) : u(0.2, 0.45);
   enamel.voigt = {k, damping * std::sqrt(k)};
   dentin.voigt = {k * share, damping * std::sqrt(k * share)};
   lesion.voigt = {k * share * soft, damping * std::sqrt(k * share * soft)};
@@ -120,16 +134,17 @@ void Session::draw() {
   dentin.tau_s = enamel.tau_s * u(0.8, 1.0);
   lesion.tau_s = dentin.tau_s * u(0.4, 0.8);
 
+  dentin_ = dentin;
   constant_force_ = random_.below(2) == 0;
-  force_n_ = k * share * u(0.4, 1.4);
-  feed_mm_s_ = u(0.15, 0.7);
-  tremor_mm_ = u(0.0, 0.04);
-  noise_n_ = u(0.0, 0.05);
+  force_n_ = k * share * (shifted_ ? u(0.3, 1.7) : u(0.4, 1.4));
+  feed_mm_s_ = shifted_ ? u(0.12, 0.9) : u(0.15, 0.7);
+  tremor_mm_ = range(0.0, 0.04);
+  noise_n_ = range(0.0, 0.05);
   reaction_s_ = u(0.12, 0.35);
   pedal_ = u(0.7, 1.0);
-  omni_.coulomb_n = u(0.0, 0.7);
+  omni_.coulomb_n = range(0.0, 0.7);
   omni_.delay_ticks = static_cast<int>(random_.below(2));
-  hand_.stiffness_n_per_mm = u(0.3, 2.0);
+  hand_.stiffness_n_per_mm = shifted_ ? u(0.25, 3.0) : u(0.3, 2.0);
   hand_.damping_n_s_per_mm = u(0.02, 0.1);
 
   bool found = false;
@@ -173,9 +188,9 @@ double Session::safe_depth(const Way& w, double radius) const {
 bool Session::find_way() {
   const Octree& o = tooth_->octree;
   Way w;
-  const double tilt = u(0.0, 0.4), around = u(0, 6.2832);
+  const double tilt = u(0.0, shifted_ ? 0.6 : 0.4), around = u(0, 6.2832);
   w.into = normalized(Vec3{tilt * std::cos(around), tilt * std::sin(around), -1.0});
-  const bool is_block = out_.tooth == "block" || out_.tooth == "floor" || out_.tooth == "lesion";
+  const bool is_block = out_.tooth == "block" || out_.tooth == "floor" || out_.tooth == "lesion" || out_.tooth == "deep lesion";
   // the spot: somewhere over the chamber, or on the block's top
   Vec3 at = is_block ? Vec3{u(-1.2, 1.2), u(-1.2, 1.2), 3.0} : Vec3{u(-1.6, 1.6), u(-1.6, 1.6), 8.0};
   int i = 0;
@@ -226,14 +241,27 @@ void Session::tick(Vec3 intended, double pedal) {
     }
   felt_n_ += (length(last_.rendered_force_n) - felt_n_) * (k_dt / 0.03);
   if (out_.touched < 0) level_n_ += (felt_n_ - level_n_) * (k_dt / 0.5);
-  if (felt_n_ >= 0.8 * level_n_) held_at_ = now;
-  if (going_through_ && out_.touched >= 0 && out_.fallen < 0 && felt_n_ < 0.1 * level_n_) {
-    out_.fallen = now;
-    out_.quick = now - held_at_ < 1500 && level_n_ > 0.12;
-  }
+  if (going_through_ && out_.touched >= 0 && let_go_ < 0 && felt_n_ < 0.1 * level_n_) let_go_ = now;
+  expect(now);
   deepest_mm_ = std::max(deepest_mm_, depth());
   out_.inputs.push_back(input_);
   out_.records.push_back(r);
+}
+
+/// What solid dentin would give at the same motion of the tip, and whether the hand can feel that the tooth gives less. The tip presses in by its
+/// advance, the surface recedes at X / tau, and the level before the touch is the most that it can be.
+void Session::expect(std::int64_t now) {
+  const Vec3 at{input_.tip_nm[0] * 1e-6, input_.tip_nm[1] * 1e-6, input_.tip_nm[2] * 1e-6};
+  const double k = dentin_.voigt.stiffness_n_per_mm;
+  if (now > 0) expected_n_ += k * dot(at - last_tip_mm_, way_.into) - std::max(0.0, expected_n_) * k_dt / dentin_.tau_s;
+  last_tip_mm_ = at;
+  expected_n_ = std::min(expected_n_, level_n_);
+  pushing_n_ += (-dot(last_.rendered_force_n, way_.into) - pushing_n_) * (k_dt / 0.03);
+  if (pushing_n_ > k_felt_share * k_felt_least_n) expected_n_ = std::max(expected_n_, std::min(pushing_n_, level_n_));
+  if (felt_n_ >= 0.8 * level_n_) held_at_ = now;
+  if (out_.touched < 0 || !pressing_ || now - held_at_ > k_felt_within_ticks || expected_n_ < std::max(k_felt_least_n, 0.5 * level_n_)) return;
+  out_.least_share = std::min(out_.least_share, felt_n_ / expected_n_);
+  if (out_.felt < 0 && felt_n_ < k_felt_share * expected_n_) out_.felt = now;
 }
 
 void Session::travel(Vec3 to, double mm_s, double pedal) {
@@ -256,7 +284,9 @@ bool Session::drill(Vec3 from, Vec3 into, double most_s, const std::function<boo
       along += feed_mm_s_ * k_dt;
       along = std::min(along, dot(tip() - from, into) + 3.0 / hand_.stiffness_n_per_mm);
     }
+    pressing_ = true;
     tick(from + into * along, pedal_);
+    pressing_ = false;
     if (stop()) return true;
   }
   return false;
@@ -374,7 +404,7 @@ void Session::run() {
     going_through_ = true;
     (void)drill(way_.top, way_.into, 25, [&] {
       if (depth() > way_.void_at_mm + k_through_mm) return true;
-      return out_.fallen >= 0 && static_cast<double>(static_cast<std::int64_t>(out_.inputs.size()) - out_.fallen) * k_dt > reaction_s_;
+      return let_go_ >= 0 && static_cast<double>(static_cast<std::int64_t>(out_.inputs.size()) - let_go_) * k_dt > reaction_s_;
     });
   } else {
     (void)drill(way_.top, way_.into, 25, [&] { return depth() > way_.safe_mm - 0.3; });
@@ -392,9 +422,9 @@ const char* name_of(LookAlike what) {
   return names[static_cast<std::size_t>(what)];
 }
 
-DrawnSession draw_session(std::uint64_t seed) {
+DrawnSession draw_session(std::uint64_t seed, Drawn drawn) {
   DrawnSession session;
-  Session(seed, session).run();
+  Session(seed, drawn, session).run();
   return session;
 }
 
