@@ -16,6 +16,7 @@ constexpr double k_dead_leaves = 0.004;  // one that lies no deeper is not pushe
 constexpr double k_touch_leaves = 0.2;   // a sample nearer than that touches fully; rounding of distances is far less
 constexpr double k_fade_leaves = 0.5;    // and from there it touches less and less
 constexpr double k_ahead_leaves = 1.6;   // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
+constexpr double k_stays_near_mm = 0.3;  // what is near is not asked for air again before that much travel
 constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
 constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
@@ -48,7 +49,7 @@ double tool_air_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rot
 /// Forgets every clearance: another point was mounted, or the first tick.
 void reset(ContactState& state, const ContactTool& tool, int point) noexcept {
   state.point = point;
-  state.tool_air_until_mm = -1.0;
+  state.tool_air_until_mm = state.tool_near_until_mm = -1.0;
   std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), -1.0);
@@ -82,7 +83,7 @@ void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, Conta
     const double travel = travel_mm(state, patch.lever_mm);
     if (travel + reach_mm <= state.patch_clear_until_mm[p]) continue;
     if (travel > state.patch_near_until_mm[p]) {
-      constexpr double k_margin_mm = 0.5, k_stays_near_mm = 0.3;
+      constexpr double k_margin_mm = 0.5;
       const double r = patch.radius_mm + k_margin_mm;
       const Vec3 middle = state.proxy_mm + state.rotation * patch.centre_mm;
       if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {
@@ -185,7 +186,11 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   const double leaf = tooth.leaf_mm();
   const Vec3 way = device.tip_mm - state.proxy_mm;
   const double way_mm = length(way), travel = travel_mm(state, tool.reach_mm);
-  if (state.tool_air_until_mm <= travel + way_mm) state.tool_air_until_mm = travel + tool_air_mm(tooth, tool, turned, state.proxy_mm);
+  if (state.tool_air_until_mm <= travel + way_mm && state.tool_near_until_mm <= travel) {
+    const double air_mm = tool_air_mm(tooth, tool, turned, state.proxy_mm);
+    state.tool_air_until_mm = travel + air_mm;
+    if (air_mm == 0.0) state.tool_near_until_mm = travel + k_stays_near_mm;
+  }
   bool blocked = false;
   if (travel + way_mm < state.tool_air_until_mm) {
     state.proxy_mm = device.tip_mm;

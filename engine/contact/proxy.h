@@ -38,7 +38,7 @@ struct ContactState {
   double moved_mm = 0.0, turned_rad = 0.0;  ///< of the tip and of the tool, so far
   double stride_mm = 0.0;                   ///< the longest next step of the proxy
   Vec3 last_step_mm;
-  double tool_air_until_mm = 0.0;
+  double tool_air_until_mm = 0.0, tool_near_until_mm = 0.0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;
   ReservedVector<HalfSpace> half_spaces;           ///< about `gathered_mm`: one of each near sample, then refined ones
   ReservedVector<std::uint32_t> gathered_samples;  ///< samples of the first half spaces
