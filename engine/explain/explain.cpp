@@ -11,11 +11,11 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_alpha = 0.01;           // chance of a false cause in a clean recording, for each step of the search
-constexpr std::size_t k_first_twins = 12;  // enough when the answer is plain
+constexpr std::size_t k_first_twins = 10;  // enough when the answer is plain
 constexpr double k_plain = 6.0;            // z this many times what the twins reach needs no more twins
 constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
 constexpr double k_worth_refining = 0.4;
-constexpr std::size_t k_refined = 8;
+constexpr std::size_t k_refined = 5;
 
 struct Step {
   View view;
@@ -27,9 +27,15 @@ struct Step {
 double best_p(const Step& s) { return *std::min_element(s.judgement.p_value.begin(), s.judgement.p_value.end()); }
 double best_z(const Step& s) { return *std::max_element(s.judgement.z.begin(), s.judgement.z.end()); }
 
-Step look(const Recording& r, const Motion& motion, const std::vector<Term>& causes, const ExplainOptions& o, const std::function<void()>& done) {
+/// Refines the shapes of `causes` first: with a cause in the model, k and c move, and with them who is in contact and clipped.
+Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o, const std::function<void()>& done) {
   ViewOptions options;
   options.fixed_n = o.fixed_n;
+  if (!causes.empty()) {
+    options.products = false;
+    causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
+    options.products = true;
+  }
   Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
   s.scores = scores_of(s.view);
   const std::uint64_t seed = o.seed * 1000003ULL + causes.size();
@@ -43,7 +49,7 @@ Step look(const Recording& r, const Motion& motion, const std::vector<Term>& cau
     const Judgement j = judge(as_data, s.null);
     reach = std::max(reach, *std::max_element(j.z.begin(), j.z.end()));
   }
-  if (best_p(s) < 0.2 && best_z(s) < k_plain * reach) {
+  if (best_p(s) < 0.06 && best_z(s) < k_plain * reach) {
     add_twins(s.null, s.view, o.twins, seed, o.fixed_n, done);
     s.judgement = judge(s.scores, s.null);
   }
@@ -67,7 +73,12 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
     beside.causes = others;
     std::vector<Term> causes = others;
     causes.push_back(start_of(beside, *c));
-    causes = refine(v, causes, 2, others.size());
+    causes = refine(v, causes, 1, others.size());
+    const FitResult fitted = fit_terms(v, causes);
+    const auto own = mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)].columns(v.scene, causes.back().shape).own.size();
+    if (!makes_sense(mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)],
+                     fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own))
+      continue;
     out.push_back({causes, c->hypothesis.term.mechanism, penalised_chi2(v, causes), parameters_of(causes.back(), v.scene)});
   }
   std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
@@ -253,6 +264,7 @@ Explanation explain(const Recording& recording, const ExplainOptions& options) {
       break;
     }
     const auto rivals = rivals_of(step.view, causes, found);
+    if (rivals.empty()) break;
     const double before = penalised_chi2(step.view, causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
     const double gain = before - rivals.front().chi2;
     if (structure != nullptr && structure->gain > 1.15 * std::max(gain, best_pair_gain(step.view, step.scores.candidates)) + 20.0) {
@@ -306,7 +318,6 @@ Explanation explain(const Recording& recording, const ExplainOptions& options) {
     ++i;
   }
   if (changed) {
-    causes = refine(step.view, causes, 1);
     step = look(recording, motion, causes, options, done);
   }
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];

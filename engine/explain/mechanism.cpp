@@ -48,6 +48,25 @@ const std::vector<Mechanism>& mechanisms() {
   return all;
 }
 
+bool makes_sense(const Mechanism& m, const double* own, std::size_t count) {
+  const std::string name = m.name;
+  if (name == "coulomb_friction" || name == "viscous_friction" || name == "inertia" || name == "hysteresis" || name == "edge_force" ||
+      name == "thermal_softening" || name == "relaxation" || name == "stribeck_friction")
+    return std::all_of(own, own + count, [](double v) { return v > 0.0; });  // stribeck_friction: Fc and Fs - Fc
+  if (name == "saturation") return own[0] > 0.8 && own[0] < 1.25;            // the plateau is where the force reaches it
+  return true;
+}
+
+int law_of(int mechanism) {
+  const std::string name = mechanisms()[static_cast<std::size_t>(mechanism)].name;
+  for (const auto& [variant, law] : {std::pair{"stribeck_friction", "coulomb_friction"},
+                                     {"graded_stiffness", "nonlinear_stiffness"},
+                                     {"series_compliance", "nonlinear_stiffness"},
+                                     {"low_pass", "delay"}})
+    if (name == variant) return find_mechanism(law);
+  return mechanism;
+}
+
 int find_mechanism(const std::string& name) {
   const auto& all = mechanisms();
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -46,6 +46,12 @@ struct Mechanism {
   std::function<std::vector<NamedValue>(const std::vector<double>& shape, const std::vector<double>& own, Base base)> parameters;
 };
 
+/// True when own coefficients make sense for the mechanism: friction resists, mass is positive, static friction exceeds sliding.
+/// A fit that needs the opposite is another mechanism in disguise.
+[[nodiscard]] bool makes_sense(const Mechanism& mechanism, const double* own, std::size_t count);
+/// Mechanisms that are variants of one law, of which a model holds one at most; the same number = the same law, else unique.
+[[nodiscard]] int law_of(int mechanism);
+
 /// All of them in the order of DESIGN.md; constant.
 [[nodiscard]] const std::vector<Mechanism>& mechanisms();
 /// Position in `mechanisms()`; -1 when there is none of that name.

@@ -7,11 +7,13 @@
 namespace cavum::explain {
 namespace {
 
+constexpr double k_lasting_s = 0.2;  // how long an error of position lasts: a cell of 0.055 mm at 0.25 mm/s
+
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 }  // namespace
 
-Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n) {
+Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho) {
   Scene s;
   s.recording = &recording;
   s.motion = motion;
@@ -20,7 +22,9 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
   const Eigen::Index n = recording.rows();
   for (Series* a : {&s.touching, &s.active, &s.spring_mm, &s.damper_mm_s, &s.force_n, &s.spinning, &s.weight}) *a = Series::Zero(n);
   const Viscoelastic tissue{base.k_n_per_mm, base.c_n_s_per_mm};
-  const double noise2 = noise_sd_n * noise_sd_n;
+  // noise of correlation rho, summed over many rows, is that of independent rows times (1 + rho)/(1 - rho)
+  const double lasting = recording.rows() > 0 ? k_lasting_s / std::max(1e-6, s.dt_s.mean()) : 1.0;
+  const double noise2 = noise_sd_n * noise_sd_n * std::max(1.0, (1.0 + rho) / (1.0 - rho)) / std::max(1.0, lasting);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double x = motion.x_mm[i], v = motion.v_mm_s[i], sx = motion.sd_x_mm[i], sv = motion.sd_v_mm_s[i];
     // away from the surface this is 0 or 1; the width of 1e-5 mm stands for positions without error

@@ -28,7 +28,9 @@ struct Scene {
   std::vector<double> lines_hz;  ///< lines found in the residual, candidates of chatter (lines.h)
 };
 
-/// Everything but `weight` follows from motion and base; `weight` also from the noise's standard deviation.
-[[nodiscard]] Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n);
+/// Everything but `weight` follows from motion and base. `noise_sd_n` and `rho` (correlation from row to row) describe the noise
+/// that the weights are measured against: an error of position lasts as long as the encoder stands still, so it counts as
+/// much as many rows of independent noise.
+[[nodiscard]] Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho);
 
 }  // namespace cavum::explain

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double k_testable = 0.05;  // of a column's norm left beside k and c, DESIGN.md section 7
 constexpr double k_scales[] = {0.04, 0.12, 0.3, 0.55, 0.8, 1.0, 1.3};
+constexpr double k_twin_doubt = 3.0;
 constexpr double k_noise_gain = 3.0;  // what the best of a mechanism's grid gains in noise alone, about
 
 std::vector<const Hypothesis*> known_of(const View& v) {
@@ -59,8 +60,9 @@ Spread spread_of(const std::vector<double>& v, std::size_t without) {
 }
 
 double z_of(double gain, const Spread& s) {
-  // twins are like the data, but not the same: what they gain on average may be off by half
-  return (gain - s.mean) / (s.sd + k_noise_gain + 0.5 * s.mean);
+  // Twins are like the data, but not the same: their motion is the smoothed one, so they show less of what a coarse encoder
+  // does at sharp stops. What they gain on average beyond noise may be off by k_twin_doubt.
+  return (gain - s.mean) / (s.sd + k_noise_gain + k_twin_doubt * std::max(0.0, s.mean - 2.0 * k_noise_gain));
 }
 
 }  // namespace
@@ -79,19 +81,23 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
       left_out < 0 ? v.products.all : Eigen::MatrixXd(v.products.all - v.products.by_session[static_cast<std::size_t>(left_out)]);
   std::vector<const Hypothesis*> model = known_of(v);
   const double before = fit(sums, v.products, model).chi2;
+  Eigen::Index own_at = 2;  // of the candidate, after the causes' own coefficients
+  for (const auto* h : model) own_at += h->own;
   model.push_back(nullptr);
   for (const auto& h : v.grid) {
     Candidate& c = out[static_cast<std::size_t>(h.term.mechanism)];
     if (share_left(v, h) < k_testable) continue;
     c.testable = true;
-    if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return t.mechanism == h.term.mechanism; })) continue;
+    if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(h.term.mechanism); })) continue;
     const bool changes = h.spring >= 0 || h.damper >= 0;
     for (const double scale : k_scales) {
       if (!changes && scale != 1.0) continue;
       Hypothesis trial = h;
       trial.scale = scale;
       model.back() = &trial;
-      const double gain = before - fit(sums, v.products, model).chi2 - k_parameter_penalty * static_cast<double>(h.parameters() - 1);
+      const FitResult f = fit(sums, v.products, model);
+      if (!makes_sense(mechanisms()[static_cast<std::size_t>(h.term.mechanism)], f.value.data() + own_at, static_cast<std::size_t>(h.own))) continue;
+      const double gain = before - f.chi2 - k_parameter_penalty * static_cast<double>(h.parameters() - 1);
       if (gain > c.gain) {
         c.gain = gain;
         c.hypothesis = trial;

@@ -167,9 +167,7 @@ std::vector<Mechanism> tissue_mechanisms() {
                  return points({0.15, 0.35, 0.55, 0.75, 0.9, 1.15, 1.5, 2.0});
                },
                [](const Scene& s, const Shape& p) {
-                 const Series size = power(s.motion.v_mm_s.abs(), p[0]);
-                 const Series sign = s.motion.v_mm_s / (s.motion.v_mm_s.square() + s.motion.sd_v_mm_s.square() + 1e-12).sqrt();
-                 return Columns{{}, {}, size * sign * s.active - s.damper_mm_s};
+                 return Columns{{}, {}, s.damper_mm_s * (power(s.motion.v_mm_s.abs() + 1e-4, p[0] - 1.0) - 1.0)};
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"n", p[0]}};

@@ -56,7 +56,7 @@ Recording make_twin(const View& v, std::uint64_t seed) {
   }
   true_motion.sd_x_mm.setZero();
   true_motion.sd_v_mm_s.setZero();
-  Scene truth = make_scene(r, true_motion, v.scene.base, v.noise.sd_n);
+  Scene truth = make_scene(r, true_motion, v.scene.base, v.noise.sd_n, v.noise.rho);
   truth.lines_hz = v.scene.lines_hz;
   Recording twin = r;
   twin.f_n = force_of(truth, v.causes, v.base_fit.value) + (r.f_n - v.force_n);
@@ -66,8 +66,13 @@ Recording make_twin(const View& v, std::uint64_t seed) {
   for (const auto& s : r.sessions)
     for (Eigen::Index i = s.begin + 1; i < s.end; ++i)
       if (v.scene.weight[i] > 0.5 && v.scene.weight[i - 1] > 0.5) steps.push_back(v.residual_n[i] - v.noise.rho * v.residual_n[i - 1]);
-  double square = 0.0;
-  for (const double u : steps) square += u * u;
+  // centred: an offset in the residual is an effect to be found, not noise
+  double mean = 0.0, square = 0.0;
+  for (const double u : steps) mean += u / static_cast<double>(steps.size());
+  for (double& u : steps) {
+    u -= mean;
+    square += u * u;
+  }
   const double scale = steps.empty() ? 0.0 : v.noise.step_sd_n / std::max(1e-300, std::sqrt(square / static_cast<double>(steps.size())));
   const auto draw = [&] { return steps.empty() ? v.noise.step_sd_n * random.normal() : scale * steps[random.below(steps.size())]; };
   const double limit = r.rig.force_limit_n.value_or(1e300);

@@ -127,7 +127,7 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   double noise_sd = 0.0;
   Series no_weights;
   for (int round = 0; round < k_rounds; ++round) {
-    v.scene = make_scene(recording, motion, base, noise_sd);
+    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho);
     if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0};
     const Design d = design_of(v.scene, causes);
     v.base_fit = fit_design(d, v.force_n, whitening_of(v), recording.rig, false);
