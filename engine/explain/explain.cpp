@@ -71,15 +71,24 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
     if (out.size() >= k_refined || c->gain < k_worth_refining * candidates.front()->gain) break;
     View beside = v;
     beside.causes = others;
-    std::vector<Term> causes = others;
-    causes.push_back(start_of(beside, *c));
-    causes = refine(v, causes, 1, others.size());
-    const FitResult fitted = fit_terms(v, causes);
-    const auto own = mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)].columns(v.scene, causes.back().shape).own.size();
-    if (!makes_sense(mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)],
-                     fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own))
-      continue;
-    out.push_back({causes, c->hypothesis.term.mechanism, penalised_chi2(v, causes), parameters_of(causes.back(), v.scene)});
+    // a second time constant that is not needed is left out again
+    std::vector<Term> starts{start_of(beside, *c)};
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)];
+    if (m.shape.size() == 2 && m.shape[1].name == std::string("tau2_s") && starts[0].shape[1] > 0.0)
+      starts.push_back({starts[0].mechanism, {std::sqrt(starts[0].shape[0] * starts[0].shape[1]), 0.0}});
+    Rival best;
+    best.chi2 = 1e300;
+    for (const auto& start : starts) {
+      std::vector<Term> causes = others;
+      causes.push_back(start);
+      causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
+      const FitResult fitted = fit_terms(v, causes);
+      const auto own = m.columns(v.scene, causes.back().shape).own.size();
+      if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
+      const double chi2 = penalised_chi2(v, causes);
+      if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
+    }
+    if (!best.causes.empty()) out.push_back(best);
   }
   std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
   return out;
