@@ -1,11 +1,14 @@
 #include "engine/explain/explain.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <string_view>
 
 #include "engine/explain/faults.h"
 #include "engine/explain/heldout.h"
+#include "engine/explain/specimens.h"
 
 namespace cavum::explain {
 namespace {
@@ -36,6 +39,7 @@ Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, c
     causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
     options.products = true;
   }
+  options.sharp = true;
   Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
   s.scores = scores_of(s.view);
   const std::uint64_t seed = o.seed * 1000003ULL + causes.size();
@@ -45,7 +49,8 @@ Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, c
   for (const auto& twin : s.null.twins) {
     Scores as_data = twin;
     as_data.structures = s.scores.structures;
-    for (auto& structure : as_data.structures) structure.gain = 0.0;
+    for (auto& structure : as_data.structures) structure.raw_gain = 0.0;
+    as_data.blur = s.scores.blur;
     const Judgement j = judge(as_data, s.null);
     reach = std::max(reach, *std::max_element(j.z.begin(), j.z.end()));
   }
@@ -200,6 +205,15 @@ bool is_untestable(const Explanation& e, const char* name) {
   return std::any_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == name; });
 }
 
+/// What only a reversal can tell apart (PHYSICS.md section 2): in one direction friction is an offset, and so is an edge force.
+constexpr std::array<std::string_view, 6> k_need_reversal{"bias", "drift", "coulomb_friction", "stribeck_friction", "viscous_friction", "edge_force"};
+
+/// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
+bool moves_one_way(const Motion& m) {
+  const double fastest = m.v_mm_s.maxCoeff();
+  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
+}
+
 /// The verdict and the experiment that would say more.
 void conclude(Explanation& e) {
   const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
@@ -235,10 +249,13 @@ void conclude(Explanation& e) {
 
 }  // namespace
 
-Explanation explain(const Recording& recording, const ExplainOptions& options) {
+Explanation explain(const Recording& given, const ExplainOptions& options) {
   Explanation e;
+  e.data_faults = data_faults(given);
+  auto scaled = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
+  const Recording& recording = *scaled;
+  e.recording = scaled;
   e.notes = recording.notes;
-  e.data_faults = data_faults(recording);
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
@@ -330,6 +347,13 @@ Explanation explain(const Recording& recording, const ExplainOptions& options) {
     step = look(recording, motion, causes, options, done);
   }
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
+  if (moves_one_way(motion))
+    for (auto& cause : e.causes) {
+      const std::string name = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)].name;
+      if (std::find(k_need_reversal.begin(), k_need_reversal.end(), name) == k_need_reversal.end()) continue;
+      for (const char* other : {"bias", "coulomb_friction", "edge_force"})
+        if (name != other && std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end()) cause.aliases.emplace_back(other);
+    }
 
   set_parameters(e, step);
   list_not_testable(e, first.scores.candidates, first.view.scene);

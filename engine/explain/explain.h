@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -51,9 +52,10 @@ struct Explanation {
   Interval k, c;
   Noise noise;
   std::string next_experiment;
-  std::vector<Structure> structures;  ///< of the residual that is left
-  std::vector<Candidate> candidates;  ///< of the first look, for the report
-  std::optional<View> before, after;  ///< base alone, and with the causes; none for data faults
+  std::vector<Structure> structures;           ///< of the residual that is left
+  std::vector<Candidate> candidates;           ///< of the first look, for the report
+  std::shared_ptr<const Recording> recording;  ///< as it was explained; the views refer to it
+  std::optional<View> before, after;           ///< base alone, and with the causes; none for data faults
 };
 
 struct ExplainOptions {

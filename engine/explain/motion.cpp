@@ -9,7 +9,7 @@ namespace {
 
 constexpr double k_min_walk = 1e-5;                      // (mm/s)²/s: a hold may creep by 3 µm/s in a second
 constexpr double k_exact_mm = 3e-7;                      // a position without quantum is written with about six digits
-constexpr int k_window = 4;                              // rows on each side over which the walk's variance is averaged
+constexpr std::size_t k_window = 4;                      // rows on each side over which the walk's variance is averaged
 constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maximisation; more changed speeds by less than 1 %
 // Where a coarse encoder says nothing (within a cell) the walk's variance would stay at its first guess: a prior towards rest,
 // as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/motion_test.cpp).
@@ -123,7 +123,7 @@ void smooth(Session& s, std::vector<double>& moved) {
   }
 }
 
-void estimate(Session& s, Motion& out, Eigen::Index begin) {
+void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
   const auto n = static_cast<std::size_t>(s.n);
   set_observations(s);
   // a first guess that follows everything: the speed of the whole way may change within 50 ms
@@ -135,14 +135,15 @@ void estimate(Session& s, Motion& out, Eigen::Index begin) {
   s.filtered.resize(n);
   s.smoothed.resize(n);
   std::vector<double> moved(n, 0.0), sums(n + 1, 0.0);
-  const int passes = s.q > 0.0 ? k_passes_coarse : k_passes_exact;
+  const int passes = s.q > 0.0 ? (sharp ? 2 * k_passes_coarse : k_passes_coarse) : k_passes_exact;
+  const std::size_t window = sharp ? 0 : k_window;
   for (int pass = 0; pass < passes; ++pass) {
     filter(s);
     smooth(s, moved);
     if (pass + 1 == passes) break;
     for (std::size_t i = 0; i < n; ++i) sums[i + 1] = sums[i] + moved[i];
     for (std::size_t i = 0; i + 1 < n; ++i) {
-      const std::size_t from = i > k_window ? i - k_window : 0, to = std::min(n - 1, i + k_window + 1);
+      const std::size_t from = i > window ? i - window : 0, to = std::min(n - 1, i + window + 1);
       const double seen = (sums[to] - sums[from]) / static_cast<double>(to - from);
       s.walk[i] = std::max(k_min_walk, s.q > 0.0 ? (seen + k_prior_weight * k_prior_walk) / (1.0 + k_prior_weight) : seen);
     }
@@ -201,7 +202,9 @@ double seen_quantum_mm(const Recording& r) {
   return std::count_if(steps.begin(), steps.end(), [&](double d) { return d < 1.5 * q; }) < static_cast<std::ptrdiff_t>(r.rows()) * 9 / 10 ? q : 0.0;
 }
 
-Motion estimate_motion(const Recording& r) {
+namespace {
+
+Motion estimated(const Recording& r, bool sharp) {
   Motion out;
   const Eigen::Index n = r.rows();
   for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
@@ -219,9 +222,14 @@ Motion estimate_motion(const Recording& r) {
       out.x_mm.segment(rows.begin, s.n) = r.x_mm.segment(rows.begin, s.n);
       continue;
     }
-    estimate(s, out, rows.begin);
+    estimate(s, out, rows.begin, sharp);
   }
   return out;
 }
+
+}  // namespace
+
+Motion estimate_motion(const Recording& r) { return estimated(r, false); }
+Motion estimate_sharp_motion(const Recording& r) { return estimated(r, true); }
 
 }  // namespace cavum::explain

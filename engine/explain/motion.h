@@ -27,5 +27,8 @@ struct Motion {
 [[nodiscard]] double seen_quantum_mm(const Recording& recording);
 /// All sessions. The measured speed is used when `recording` has one.
 [[nodiscard]] Motion estimate_motion(const Recording& recording);
+/// The same with speeds that change as suddenly as the data allow: the walk's variance is found for each row by itself, so that
+/// a few rows take all of a change. Truer to sharp stops, less so to smooth motion; twins of a coarse recording move like this.
+[[nodiscard]] Motion estimate_sharp_motion(const Recording& recording);
 
 }  // namespace cavum::explain

@@ -13,7 +13,10 @@ namespace {
 
 constexpr double k_testable = 0.05;  // of a column's norm left beside k and c, DESIGN.md section 7
 constexpr double k_scales[] = {0.04, 0.12, 0.3, 0.55, 0.8, 1.0, 1.3};
-constexpr double k_twin_doubt = 3.0;
+constexpr double k_twin_doubt = 2.0;
+constexpr double k_expected_gain = 12.0;  // of the best of a grid, or of a curve of five parameters, in noise alone
+constexpr double k_least_width = 0.35, k_least_top = 1.5;
+constexpr double k_blur_gain = 12.0;
 constexpr double k_noise_gain = 3.0;  // what the best of a mechanism's grid gains in noise alone, about
 
 std::vector<const Hypothesis*> known_of(const View& v) {
@@ -59,10 +62,10 @@ Spread spread_of(const std::vector<double>& v, std::size_t without) {
   return {mean, n > 1 ? std::sqrt(std::max(0.0, square / n - mean * mean) * n / (n - 1)) : 0.0};
 }
 
-double z_of(double gain, const Spread& s) {
-  // Twins are like the data, but not the same: their motion is the smoothed one, so they show less of what a coarse encoder
-  // does at sharp stops. What they gain on average beyond noise may be off by k_twin_doubt.
-  return (gain - s.mean) / (s.sd + k_noise_gain + k_twin_doubt * std::max(0.0, s.mean - 2.0 * k_noise_gain));
+double z_of(double gain, const Spread& s, double blur) {
+  // Twins are like the data, but not the same: their motion is an estimate, so they show less of what a coarse encoder does at
+  // sharp stops. What they gain on average beyond noise may be off by k_twin_doubt, and a blurred recording gains k_blur_gain more.
+  return (gain - s.mean) / (s.sd + k_noise_gain + k_blur_gain * blur + k_twin_doubt * std::max(0.0, s.mean - k_expected_gain));
 }
 
 }  // namespace
@@ -100,6 +103,7 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
       const double gain = before - f.chi2 - k_parameter_penalty * static_cast<double>(h.parameters() - 1);
       if (gain > c.gain) {
         c.gain = gain;
+        c.raw_gain = before - f.chi2;
         c.hypothesis = trial;
       }
     }
@@ -107,7 +111,7 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
   return out;
 }
 
-Scores scores_of(const View& view) { return {candidates_of(view), structures(view)}; }
+Scores scores_of(const View& view) { return {candidates_of(view), structures(view), 1.0 - view.scene.weight.mean()}; }
 
 double best_pair_gain(const View& v, const std::vector<Candidate>& candidates) {
   std::vector<const Hypothesis*> model = known_of(v);
@@ -146,10 +150,10 @@ Judgement judge(const Scores& data, const Null& null) {
   const std::size_t mechanisms_n = data.candidates.size(), entries = mechanisms_n + data.structures.size();
   const std::size_t n = null.twins.size();
   const auto gain_in = [&](const Scores& s, std::size_t e) {
-    if (e < mechanisms_n) return std::max(0.0, s.candidates[e].gain);
+    if (e < mechanisms_n) return std::max(0.0, s.candidates[e].raw_gain);
     const std::string& name = data.structures[e - mechanisms_n].variable;
     for (const auto& structure : s.structures)
-      if (structure.variable == name) return std::max(0.0, structure.gain);
+      if (structure.variable == name) return std::max(0.0, structure.raw_gain);
     return 0.0;
   };
   std::vector<double> largest(n, -1e300);
@@ -159,14 +163,15 @@ Judgement judge(const Scores& data, const Null& null) {
     std::vector<double> twins(n);
     for (std::size_t t = 0; t < n; ++t) twins[t] = gain_in(null.twins[t], e);
     // a twin is judged by the others, as the data are
-    for (std::size_t t = 0; t < n; ++t) largest[t] = std::max(largest[t], z_of(twins[t], spread_of(twins, t)));
+    for (std::size_t t = 0; t < n; ++t) largest[t] = std::max(largest[t], z_of(twins[t], spread_of(twins, t), data.blur));
     const Spread all = spread_of(twins, n);
-    j.z.push_back(z_of(gain_in(data, e), all));
+    j.z.push_back(z_of(gain_in(data, e), all, data.blur));
     if (e < mechanisms_n) gained += all.mean;
   }
   j.inflation = std::max(1.0, gained / static_cast<double>(mechanisms_n) / k_noise_gain);
   const Spread top = spread_of(largest, n);
-  const double width = std::max(0.15, top.sd) * std::sqrt(6.0) / 3.14159265358979, at = top.mean - 0.5772 * width;
+  // Gumbel by moments; never less than what z in honest units would be, for the doubt in z's denominator shrinks the twins' z too
+  const double width = std::max(k_least_width, top.sd * std::sqrt(6.0) / 3.14159265358979), at = std::max(k_least_top, top.mean - 0.5772 * width);
   for (const double z : j.z) j.p_value.push_back(-std::expm1(-std::exp(-(z - at) / width)));
   return j;
 }

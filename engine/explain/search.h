@@ -14,6 +14,7 @@ namespace cavum::explain {
 struct Candidate {
   Hypothesis hypothesis;
   double gain = -1e300;
+  double raw_gain = 0;   ///< without the penalty
   bool testable = true;  ///< keeps at least 5 % of its norm beside k and c at some point of its grid
 };
 
@@ -21,6 +22,7 @@ struct Candidate {
 struct Scores {
   std::vector<Candidate> candidates;
   std::vector<Structure> structures;
+  double blur = 0;  ///< 0..1: share of the rows' weight that a coarse position costs
 };
 
 [[nodiscard]] std::vector<Candidate> candidates_of(const View& view, int left_out = -1);

@@ -111,7 +111,7 @@ std::vector<Series> curve(const Series& u, const Series& where) {
 
 void keep(Structure& best, const Gain& gain, double parameters, const std::string& form) {
   const double value = gain.chi2 - k_parameter_penalty * (parameters - 1.0);
-  if (best.form.empty() || value > best.gain) best = {best.variable, form, value, gain.effect_n};
+  if (best.form.empty() || value > best.gain) best = {best.variable, form, value, gain.chi2, gain.effect_n};
 }
 
 /// A ripple sin(2 pi x/L + phase): the strongest of many L by the score of the residual alone, then fitted.
@@ -215,7 +215,7 @@ std::vector<Structure> structures(const View& v) {
       keep(s, gain_of(l, c), static_cast<double>(c.size()), "a curve in proportion to the force");
   };
   const auto add = [&](const std::string& name) -> Structure& {
-    out.push_back({name, "", 0, 0});
+    out.push_back({name, "", 0, 0, 0});
     return out.back();
   };
   {

@@ -35,7 +35,7 @@ double quantised(double v, double q) { return q > 0.0 ? q * std::round(v / q) : 
 
 Recording make_twin(const View& v, std::uint64_t seed) {
   const Recording& r = *v.scene.recording;
-  const Motion& m = v.scene.motion;
+  const Motion& m = v.sharp.x_mm.size() > 0 ? v.sharp : v.scene.motion;
   Random random(seed);
   Motion true_motion = m;
   const double q = m.quantum_mm > 1e-5 ? m.quantum_mm : 0.0;

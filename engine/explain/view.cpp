@@ -117,6 +117,7 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
                const ViewOptions& options) {
   View v;
   v.causes = causes;
+  if (options.sharp && motion.quantum_mm > 1e-5 && recording.v_mm_s.size() == 0) v.sharp = estimate_sharp_motion(recording);
   v.force_n = options.fixed_n != nullptr ? Series(recording.f_n - *options.fixed_n) : recording.f_n;
   Base base;
   if (start) {

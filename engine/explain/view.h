@@ -8,6 +8,7 @@ namespace cavum::explain {
 
 struct View {
   Scene scene;
+  Motion sharp;  ///< estimate_sharp_motion of a coarse recording without a measured speed, for twins; else empty
   Noise noise;
   Series force_n;  ///< what is to be explained: measured force less the fixed forces of a loaded model
   Series robust;   ///< weights of single rows
@@ -25,6 +26,7 @@ struct View {
 [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> folds_of(const Recording& recording);
 
 struct ViewOptions {
+  bool sharp = false;               ///< fill View::sharp
   bool products = true;             ///< false: only the base and the causes are fitted
   const Series* fixed_n = nullptr;  ///< forces of a loaded model, [rows]; nullptr = none
 };
