@@ -79,8 +79,8 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
     // a second time constant that is not needed is left out again
     std::vector<Term> starts{start_of(beside, *c)};
     const Mechanism& m = mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)];
-    if (m.shape.size() == 2 && m.shape[1].name == std::string("tau2_s") && starts[0].shape[1] > 0.0)
-      starts.push_back({starts[0].mechanism, {std::sqrt(starts[0].shape[0] * starts[0].shape[1]), 0.0}});
+    if (m.name == std::string("relaxation") && starts[0].shape[1] > 0.0)
+      starts.push_back({starts[0].mechanism, {std::sqrt(starts[0].shape[0] * starts[0].shape[1]), 0.0, starts[0].shape[2]}});
     Rival best;
     best.chi2 = 1e300;
     for (const auto& start : starts) {
@@ -274,7 +274,6 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   std::vector<double> p_values;
   Step step = look(recording, motion, causes, options, done);
   const Step first = step;
-  const double chi2_base = fit(first.view.products, {}).chi2;
   while (true) {
     const std::size_t mechanisms_n = mechanisms().size();
     std::vector<const Candidate*> found;
@@ -367,7 +366,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     double left = 0.0;
     for (const auto& s : e.structures)
       if (s.variable == e.unexplained->variable) left = s.gain;
-    const double explained = chi2_base - fit(step.view.products, known_of(step.view)).chi2;
+    const double explained = fit(step.view.products, {}).chi2 - fit(step.view.products, known_of(step.view)).chi2;
     if (left > explained) e.causes.clear();
   }
   e.before = first.view;

@@ -14,7 +14,8 @@ std::pair<std::string, std::vector<std::pair<std::string, double>>> live_term(co
   const std::string name = m.name;
   const TermKind* kind = find_term_kind(name);
   if (!m.live || kind == nullptr) return {};
-  if (name == "run_out" && cause.term.shape[0] < 0.5) return {};  // phase by the clock, not by the spindle's turns
+  if (name == "run_out" && cause.term.shape[0] < 0.5) return {};      // phase by the clock, not by the spindle's turns
+  if (name == "relaxation" && cause.term.shape[2] != 1.0) return {};  // the engine's relaxes in proportion to X
   std::vector<std::pair<std::string, double>> parameters;
   for (const auto& p : kind->parameters) {
     const auto found = std::find_if(cause.parameters.begin(), cause.parameters.end(), [&](const auto& c) { return c.first == p.name; });

@@ -35,6 +35,7 @@ struct Recording {
   Series v_mm_s;                                        ///< measured speed; empty when there is none
   std::vector<std::pair<std::string, Series>> columns;  ///< all others in the order of the file; words are numbered in order of appearance
   Rig rig;
+  bool specimens = false;          ///< sessions are different specimens, brought to a common scale (specimens.h)
   std::vector<std::string> notes;  ///< what was assumed while reading, in words
 
   [[nodiscard]] Eigen::Index rows() const { return t_s.size(); }

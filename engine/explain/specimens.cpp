@@ -66,6 +66,7 @@ Recording on_common_scale(const Recording& r) {
     out.f_n.segment(s.begin, n) *= force;
     if (r.v_mm_s.size() > 0) out.v_mm_s.segment(s.begin, n) *= along;
   }
+  out.specimens = true;
   out.rig.position_quantum_mm = 0.0;  // no longer one step for all; it was fine enough to be found again if it matters
   out.rig.force_quantum_n = 0.0;
   out.rig.force_limit_n.reset();

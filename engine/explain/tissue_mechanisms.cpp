@@ -23,8 +23,9 @@ Grid points(std::initializer_list<double> values, double unit = 1.0) {
 /// x^m of the penetration, in mm, where the base acts.
 Series power(const Series& x_mm, double m) { return (x_mm.max(1e-12).log() * m).exp(); }
 
-/// z' = V − z/tau while in contact, 0 in air; exact for V constant within a row.
-Series relaxing_mm(const Scene& s, double tau_s) {
+/// z' = d(X^m)/dt − z/tau while in contact, 0 in air; exact for a constant rate within a row. m = 1: z' = V − z/tau.
+Series relaxing_mm(const Scene& s, double tau_s, double m) {
+  const auto stretch = [m](double x_mm) { return m == 1.0 ? x_mm : std::pow(x_mm, m); };
   Series out(s.force_n.size());
   for (const auto& rows : s.recording->sessions) {
     double z = 0.0;
@@ -34,7 +35,7 @@ Series relaxing_mm(const Scene& s, double tau_s) {
         z = 0.0;
       } else if (i > rows.begin) {
         const double u = s.dt_s[i - 1] / tau_s, before = std::max(0.0, s.motion.x_mm[i - 1]);
-        z = z * std::exp(-u) + (x - before) * -std::expm1(-u) / u;
+        z = z * std::exp(-u) + (stretch(x) - stretch(before)) * -std::expm1(-u) / u;
       }
       out[i] = z;
     }
@@ -42,7 +43,8 @@ Series relaxing_mm(const Scene& s, double tau_s) {
   return out * s.active;
 }
 
-/// Shape {tau1, tau2}; tau2 = 0 for one exponential.
+/// Shape {tau1, tau2, m}; tau2 = 0 for one exponential. Soft specimens, whose elastic force is a power of the depth, relax in
+/// proportion to that (quasi-linear viscoelasticity, Fung 1981): m > 1 is tried for them only.
 Grid relaxation_grid(const Scene& s) {
   double longest = 0.0;
   for (const auto& rows : s.recording->sessions) longest = std::max(longest, s.recording->t_s[rows.end - 1] - s.recording->t_s[rows.begin]);
@@ -50,9 +52,11 @@ Grid relaxation_grid(const Scene& s) {
   std::vector<double> taus;
   for (const double tau : {0.05, 0.13, 0.33, 0.85, 2.2, 5.5, 14.0})
     if (tau < longest && tau > s.dt_s.minCoeff()) taus.push_back(tau);
-  for (const double tau : taus) g.push_back({tau, 0.0});
+  for (const double tau : taus) g.push_back({tau, 0.0, 1.0});
   for (std::size_t i = 0; i < taus.size(); ++i)
-    for (std::size_t j = i + 2; j < taus.size(); j += 2) g.push_back({taus[i], taus[j]});
+    for (std::size_t j = i + 2; j < taus.size(); j += 2)
+      for (const double m : s.recording->specimens ? std::vector<double>{1.0, 1.5, 2.0, 3.0} : std::vector<double>{1.0})
+        g.push_back({taus[i], taus[j], m});
   return g;
 }
 
@@ -145,11 +149,11 @@ std::vector<Mechanism> tissue_mechanisms() {
                "a force that decays while the tool is held still",
                "hold for ten seconds at constant depth, three depths",
                true,
-               {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}},
+               {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
                relaxation_grid,
                [](const Scene& s, const Shape& p) {
-                 Columns c{{relaxing_mm(s, p[0])}, {}, {}};
-                 if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1]));
+                 Columns c{{relaxing_mm(s, p[0], p[2])}, {}, {}};
+                 if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2]));
                  return c;
                },
                [](const Shape& p, const Shape& own, Base) {
