@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 #include "engine/explain/faults.h"
@@ -215,14 +216,15 @@ bool moves_one_way(const Motion& m) {
 }
 
 /// The verdict and the experiment that would say more.
-void conclude(Explanation& e) {
+void conclude(Explanation& e, bool one_way) {
   const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
   if (!e.causes.empty())
     e.verdict = aliased ? "alias" : "named";
   else if (e.unexplained)
     e.verdict = "unexplained";
   else
-    e.verdict = is_untestable(e, "bias") && is_untestable(e, "coulomb_friction") && is_untestable(e, "edge_force") ? "not_testable" : "clean";
+    e.verdict =
+        one_way || (is_untestable(e, "bias") && is_untestable(e, "coulomb_friction") && is_untestable(e, "edge_force")) ? "not_testable" : "clean";
 
   const auto separate = [](const std::string& name) { return std::string(mechanisms()[static_cast<std::size_t>(find_mechanism(name))].separate); };
   std::vector<std::string> wanted;
@@ -245,6 +247,22 @@ void conclude(Explanation& e) {
       }
   }
   e.next_experiment = text.empty() ? "repeat the recording at another site, to see whether k, c and the causes stay the same" : text;
+}
+
+/// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
+void compare_with_rig(Explanation& e, const Rig& rig) {
+  constexpr double k_known = 0.1;  // relative; rigs are calibrated to a few percent
+  if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
+  const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
+  const bool off = std::fabs(c - 1.0) > k_known && (e.c.low > (1.0 + k_known) * *rig.c_n_s_per_mm || e.c.high < (1.0 - k_known) * *rig.c_n_s_per_mm);
+  char text[200];
+  std::snprintf(text, sizeof text, "fitted k is %.3g times, c is %.3g times that of rig.toml", k, c);
+  if (std::fabs(k - 1.0) > k_known || off) e.notes.emplace_back(text);
+  if (e.verdict == "clean" && off && std::fabs(k - 1.0) < 0.5 * k_known) {
+    e.verdict = "data_fault";
+    e.data_faults.push_back(std::string("time base: ") + text + ", as when the clock is off by that factor; check the sampling rate, or c");
+    e.next_experiment = "record the speed too, or check the sampling rate against a clock";
+  }
 }
 
 }  // namespace
@@ -346,7 +364,8 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     step = look(recording, motion, causes, options, done);
   }
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
-  if (moves_one_way(motion))
+  const bool one_way = moves_one_way(motion);
+  if (one_way)
     for (auto& cause : e.causes) {
       const std::string name = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)].name;
       if (std::find(k_need_reversal.begin(), k_need_reversal.end(), name) == k_need_reversal.end()) continue;
@@ -371,7 +390,8 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   }
   e.before = first.view;
   e.after = step.view;
-  conclude(e);
+  conclude(e, one_way);
+  compare_with_rig(e, recording.rig);
   if (options.progress) options.progress(1.0);
   return e;
 }

@@ -7,9 +7,10 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_min_walk = 1e-5;                      // (mm/s)²/s: a hold may creep by 3 µm/s in a second
-constexpr double k_exact_mm = 3e-7;                      // a position without quantum is written with about six digits
-constexpr std::size_t k_window = 4;                      // rows on each side over which the walk's variance is averaged
+constexpr double k_min_walk = 1e-5;  // (mm/s)²/s: a hold may creep by 3 µm/s in a second
+constexpr double k_exact_mm = 3e-7;  // a position without quantum is written with about six digits
+constexpr double k_shared_s = 0.4;   // a hold is pulled to the middle of its cell after this time; of 0.15 to 1 s it gave the least error of speed
+constexpr std::size_t k_window = 4;  // rows on each side over which the walk's variance is averaged
 constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maximisation; more changed speeds by less than 1 %
 // Where a coarse encoder says nothing (within a cell) the walk's variance would stay at its first guess: a prior towards rest,
 // as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/motion_test.cpp).
@@ -34,6 +35,8 @@ struct Session {
   Eigen::Index n = 0;
   const double *t = nullptr, *x = nullptr, *v = nullptr;
   double q = 0, r_v = 0;
+  double shared_rows = 1;                  // at most so many rows share the observation of one run
+  std::vector<double> run_rows;            // length of the run that the row is in
   std::vector<double> r_x;                 // variance of the row's position; 0 = none
   std::vector<double> border_z, border_r;  // border crossed on the way to this row; variance 0 = none
   std::vector<double> pin_z;               // border of the cell that the estimate left; NaN = none
@@ -56,12 +59,14 @@ void set_observations(Session& s) {
   s.pin_z.assign(n, std::nan(""));
   if (s.q <= 0.0) return;
   std::vector<std::size_t> run_of(n);
+  s.run_rows.assign(n, 1.0);
   for (std::size_t begin = 0; begin < n;) {
     std::size_t end = begin + 1;
     while (end < n && std::fabs(s.x[end] - s.x[begin]) < 0.5 * s.q) ++end;
     for (std::size_t i = begin; i < end; ++i) {
-      s.r_x[i] = s.q * s.q / 12.0 * static_cast<double>(end - begin);
+      s.r_x[i] = s.q * s.q / 12.0 * std::min(s.shared_rows, static_cast<double>(end - begin));
       run_of[i] = end - begin;
+      s.run_rows[i] = static_cast<double>(end - begin);
     }
     begin = end;
   }
@@ -158,7 +163,10 @@ void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
     const State& o = s.smoothed[i];
     out.x_mm[row] = o.x;
     out.v_mm_s[row] = o.v;
-    out.sd_x_mm[row] = std::sqrt(std::max(0.0, o.xx));
+    // in a hold the rows repeat one error: what the shared observations seem to have learned beyond that is not there
+    const double repeated =
+        s.q > 0.0 && s.run_rows[i] > s.shared_rows && s.v == nullptr ? s.q * s.q / 12.0 * (1.0 - s.shared_rows / s.run_rows[i]) : 0.0;
+    out.sd_x_mm[row] = std::sqrt(std::max({0.0, o.xx, repeated}));
     out.sd_v_mm_s[row] = std::sqrt(std::max(0.0, o.vv));
     const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(n - 1, i + 1);
     out.a_mm_s2[row] = after > before ? (s.smoothed[after].v - s.smoothed[before].v) / (s.t[after] - s.t[before]) : 0.0;
@@ -218,6 +226,7 @@ Motion estimated(const Recording& r, bool sharp) {
     s.v = r.v_mm_s.size() > 0 ? r.v_mm_s.data() + rows.begin : nullptr;
     s.r_v = out.speed_sd_mm_s * out.speed_sd_mm_s;
     s.q = out.quantum_mm > 1e-5 ? out.quantum_mm : 0.0;
+    s.shared_rows = std::max(8.0, k_shared_s * static_cast<double>(s.n - 1) / std::max(1e-9, s.t[s.n - 1] - s.t[0]));
     if (s.n < 2) {
       out.x_mm.segment(rows.begin, s.n) = r.x_mm.segment(rows.begin, s.n);
       continue;

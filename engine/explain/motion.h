@@ -3,7 +3,8 @@
 //
 // A Kalman filter forwards and a Rauch-Tung-Striebel smoother backwards, state (x, v), v a random walk whose variance per
 // second is found from the data and follows it in time (holds are quiet, reversals are not). An encoder of quantum q says:
-// - while it shows one value, x lies within q/2 of it: one observation of variance q²/12, shared by the rows of the run;
+// - while it shows one value, x lies within q/2 of it: one observation of variance q²/12, shared by
+//   the rows of the run, by those of 0.4 s at most;
 // - when it steps by one, x is at the border between the two: an observation nearly free of error. These carry the speed;
 // - x never leaves the cell that is shown: where the estimate does, the border is observed.
 // Source: Rauch, Tung, Striebel 1965; expectation maximisation of the walk's variance after Shumway and Stoffer 1982.
