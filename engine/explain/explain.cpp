@@ -368,7 +368,8 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   if (one_way)
     for (auto& cause : e.causes) {
       const std::string name = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)].name;
-      if (std::find(k_need_reversal.begin(), k_need_reversal.end(), name) == k_need_reversal.end()) continue;
+      const auto needs = [](const std::string& n) { return std::find(k_need_reversal.begin(), k_need_reversal.end(), n) != k_need_reversal.end(); };
+      if (!needs(name) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs)) continue;
       for (const char* other : {"bias", "coulomb_friction", "edge_force"})
         if (name != other && std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end()) cause.aliases.emplace_back(other);
     }

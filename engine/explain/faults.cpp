@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/base/text.h"
+#include "engine/explain/motion.h"
 
 namespace cavum::explain {
 namespace {
@@ -32,22 +33,9 @@ void time_stamps(const Recording& r, std::vector<std::string>& faults) {
 }
 
 void speed_against_position(const Recording& r, std::vector<std::string>& faults) {
-  if (r.v_mm_s.size() == 0) return;
-  // slope of what position gains over what the speed says, over spans that contain real motion
-  double xy = 0.0, xx = 0.0, yy = 0.0;
-  for (const auto& s : r.sessions) {
-    const Eigen::Index span = std::max<Eigen::Index>(2, (s.end - s.begin) / 200);
-    for (Eigen::Index a = s.begin; a + span < s.end; a += span) {
-      double way = 0.0;
-      for (Eigen::Index i = a; i < a + span; ++i) way += 0.5 * (r.v_mm_s[i] + r.v_mm_s[i + 1]) * (r.t_s[i + 1] - r.t_s[i]);
-      const double moved = r.x_mm[a + span] - r.x_mm[a];
-      xy += way * moved;
-      xx += way * way;
-      yy += moved * moved;
-    }
-  }
-  if (!(xx > 0.0) || !(yy > 0.0)) return;
-  const double slope = xy / xx, agree = xy / std::sqrt(xx * yy);
+  const Agreement agreement = position_over_speed(r);
+  const double slope = agreement.slope, agree = agreement.correlation;
+  if (slope == 0.0 && agree == 0.0) return;
   const double thousand = slope * 1000.0, thousandth = slope / 1000.0;
   for (const double unit : {thousand, thousandth})
     if (unit > 1.0 / k_unit_band && unit < k_unit_band) {

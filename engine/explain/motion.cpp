@@ -218,12 +218,13 @@ Motion estimated(const Recording& r, bool sharp) {
   for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
   out.quantum_mm = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
   if (r.v_mm_s.size() > 0) out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
+  const bool recedes = surface_recedes(r);
   for (const auto& rows : r.sessions) {
     Session s;
     s.n = rows.end - rows.begin;
     s.t = r.t_s.data() + rows.begin;
     s.x = r.x_mm.data() + rows.begin;
-    s.v = r.v_mm_s.size() > 0 ? r.v_mm_s.data() + rows.begin : nullptr;
+    s.v = r.v_mm_s.size() > 0 && !recedes ? r.v_mm_s.data() + rows.begin : nullptr;
     s.r_v = out.speed_sd_mm_s * out.speed_sd_mm_s;
     s.q = out.quantum_mm > 1e-5 ? out.quantum_mm : 0.0;
     s.shared_rows = std::max(8.0, k_shared_s * static_cast<double>(s.n - 1) / std::max(1e-9, s.t[s.n - 1] - s.t[0]));
@@ -232,11 +233,45 @@ Motion estimated(const Recording& r, bool sharp) {
       continue;
     }
     estimate(s, out, rows.begin, sharp);
+    if (recedes)
+      for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
+        const Eigen::Index a = std::max(rows.begin, i - 1), b = std::min(rows.end - 1, i + 1);
+        out.v_mm_s[i] = r.v_mm_s[i];
+        out.sd_v_mm_s[i] = out.speed_sd_mm_s;
+        out.a_mm_s2[i] = (r.v_mm_s[b] - r.v_mm_s[a]) / (r.t_s[b] - r.t_s[a]);
+      }
   }
   return out;
 }
 
 }  // namespace
+
+Agreement position_over_speed(const Recording& r) {
+  if (r.v_mm_s.size() == 0) return {};
+  const Series* rpm = r.column("spindle_rpm");
+  double xy[2] = {0, 0}, xx[2] = {0, 0}, yy[2] = {0, 0};
+  for (const auto& s : r.sessions) {
+    const Eigen::Index span = std::max<Eigen::Index>(2, (s.end - s.begin) / 200);
+    for (Eigen::Index a = s.begin; a + span < s.end; a += span) {
+      double way = 0.0;
+      for (Eigen::Index i = a; i < a + span; ++i) way += 0.5 * (r.v_mm_s[i] + r.v_mm_s[i + 1]) * (r.t_s[i + 1] - r.t_s[i]);
+      const double moved = r.x_mm[a + span] - r.x_mm[a];
+      const int cutting = rpm != nullptr && ((*rpm)[a] > 0.0 || (*rpm)[a + span] > 0.0) && std::max(r.x_mm[a], r.x_mm[a + span]) > 0.0;
+      xy[cutting] += way * moved;
+      xx[cutting] += way * way;
+      yy[cutting] += moved * moved;
+    }
+  }
+  Agreement out;
+  if (xx[0] > 0.0 && yy[0] > 0.0) out = {xy[0] / xx[0], xy[0] / std::sqrt(xx[0] * yy[0]), 0.0};
+  if (xx[1] > 0.0) out.cutting_slope = xy[1] / xx[1];
+  return out;
+}
+
+bool surface_recedes(const Recording& r) {
+  const Agreement a = position_over_speed(r);
+  return a.slope > 0.9 && a.slope < 1.1 && a.correlation > 0.9 && a.cutting_slope != 0.0 && a.cutting_slope < 0.9;
+}
 
 Motion estimate_motion(const Recording& r) { return estimated(r, false); }
 Motion estimate_sharp_motion(const Recording& r) { return estimated(r, true); }

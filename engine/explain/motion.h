@@ -26,6 +26,15 @@ struct Motion {
 [[nodiscard]] Series intervals_s(const Recording& recording);
 /// Step that all positions are multiples of, mm; 0 when the data show none coarser than 1e-5 of their range.
 [[nodiscard]] double seen_quantum_mm(const Recording& recording);
+/// How far the position moves over the integral of the measured speed: slope and correlation over short spans, those spent
+/// cutting (in contact and spinning) apart from all others. Zero where there is no such motion or no measured speed.
+struct Agreement {
+  double slope = 0, correlation = 0;  ///< not cutting
+  double cutting_slope = 0;           ///< cutting: below 1 when x_mm counts from a surface that recedes
+};
+[[nodiscard]] Agreement position_over_speed(const Recording& recording);
+/// True when x_mm counts from a surface that is cut away under the tool: then the measured speed is the tip's, and no derivative of x.
+[[nodiscard]] bool surface_recedes(const Recording& recording);
 /// All sessions. The measured speed is used when `recording` has one.
 [[nodiscard]] Motion estimate_motion(const Recording& recording);
 /// The same with speeds that change as suddenly as the data allow: the walk's variance is found for each row by itself, so that
