@@ -310,7 +310,9 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     if (rivals.empty()) break;
     const double before = penalised_chi2(step.view, causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
     const double gain = before - rivals.front().chi2;
-    if (structure != nullptr && structure->gain > 1.15 * std::max(gain, best_pair_gain(step.view, step.scores.candidates)) + 20.0) {
+    // a curve or a step must beat one mechanism clearly, and any two of them at all
+    if (structure != nullptr && structure->gain > 1.15 * gain + 20.0 &&
+        structure->gain > 1.02 * best_pair_gain(step.view, step.scores.candidates) + 10.0) {
       e.unexplained = Unexplained{structure->variable, structure->form, structure->effect_n};
       break;
     }
