@@ -1,4 +1,4 @@
-// Sine, cosine, exp and tanh from arithmetic alone: libm gives different bits on different machines, and a
+// Sine, cosine, exp, log, powers and tanh from arithmetic alone: libm gives different bits on different machines, and a
 // replay must not. Used where the engine itself needs them (sampling of a diamond point, run-out, friction).
 #pragma once
 
@@ -48,6 +48,27 @@ struct SinCos {
   for (int i = 13; i > 0; --i) e = 1.0 + e * (r / i);
   return e * std::bit_cast<double>(static_cast<std::uint64_t>(whole + 1023) << 52);
 }
+
+/// ln x for x > 0, error below 1e-14 of max(1, |ln x|) (x = m·2^e with m in [1/√2, √2], series of the inverse hyperbolic tangent).
+/// -745 for x <= 0 and below the smallest normal number.
+[[nodiscard]] constexpr double det_log(double x) noexcept {
+  if (!(x >= 2.2250738585072014e-308)) return -745.0;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  auto exponent = static_cast<std::int64_t>((bits >> 52) & 0x7ff) - 1023;
+  double m = std::bit_cast<double>((bits & 0xfffffffffffffULL) | (1023ULL << 52));
+  if (m > 1.41421356237309504880) {
+    m *= 0.5;
+    ++exponent;
+  }
+  const double s = (m - 1.0) / (m + 1.0), s2 = s * s;
+  double sum = 0.0;
+  for (int i = 19; i > 0; i -= 2) sum = 1.0 / i + s2 * sum;
+  const double n = static_cast<double>(exponent);
+  return n * 6.93147180369123816490e-01 + (2.0 * s * sum + n * 1.90821492927058770002e-10);
+}
+
+/// x^p for x >= 0; 0 for x <= 0 (p > 0 is meant).
+[[nodiscard]] constexpr double det_pow(double x, double p) noexcept { return x > 0.0 ? det_exp(p * det_log(x)) : 0.0; }
 
 /// tanh x, odd to the last bit, relative error below 1e-14 (Lambert's continued fraction up to 0.6, exp beyond).
 [[nodiscard]] constexpr double det_tanh(double x) noexcept {

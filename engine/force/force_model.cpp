@@ -4,6 +4,22 @@
 
 namespace cavum {
 
+namespace {
+
+std::vector<double> numbers(TomlReader& in, const char* key) {
+  std::vector<double> out;
+  const auto* array = in.array(key);
+  if (array == nullptr) in.fail(key, "is missing", "give a list of numbers, which may be empty");
+  for (const auto& node : *array) {
+    const auto value = node.value<double>();
+    if (!value) in.fail(key, "holds something that is no number", "give numbers only");
+    out.push_back(*value);
+  }
+  return out;
+}
+
+}  // namespace
+
 ForceModel parse_force_model(const std::string& text, const std::string& where) {
   const toml::table document = parse_toml(text, where);
   TomlReader in(document, where);
@@ -42,6 +58,14 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
       model.terms.push_back(read_force_term(*node.as_table(), where));
     }
   }
+  if (const auto* effects = in.array("measurement"))
+    for (const auto& node : *effects) {
+      if (!node.is_table()) in.fail("measurement", "holds something that is not a table", "write [[measurement]] with kind, shape and values");
+      TomlReader m(*node.as_table(), where);
+      MeasurementEffect effect{m.text("kind"), numbers(m, "shape"), numbers(m, "values")};
+      m.finish();
+      model.measurement.push_back(std::move(effect));
+    }
   in.finish();
   return model;
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "engine/force/force_terms.h"
 #include "engine/force/rendering.h"
@@ -16,12 +17,21 @@ struct Material {
   double tau_s = 0.0;  ///< the surface recedes at X/τ at the reference speed; 0 = not cut (void tissue)
 };
 
+/// What a measurement adds to the force, found by `explain` in recorded data (bias, cross-talk, a lag …): the hand does not feel
+/// it, so exams and rigs pass over it; `explain` takes it off before it looks for more.
+struct MeasurementEffect {
+  std::string kind;            ///< a mechanism of engine/explain
+  std::vector<double> shape;   ///< its shape parameters, in order
+  std::vector<double> values;  ///< its coefficients, in order
+};
+
 struct ForceModel {
   std::string name;
   double rpm_ref = 200000.0;  ///< speed of the handpiece that τ holds for; recession is proportional to speed
   RenderingModel rendering;
   std::map<std::string, Material, std::less<>> materials;  ///< by tissue name
   ForceTerms terms;                                        ///< [[terms]] in the order of the file; shared by copies, constant
+  std::vector<MeasurementEffect> measurement;              ///< [[measurement]]
 };
 
 /// Throws Error(where:line:column, ...) on anything missing, unknown or out of range.

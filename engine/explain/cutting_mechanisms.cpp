@@ -1,0 +1,150 @@
+// What cutting adds: a constant edge force, wear of the diamond point, lines from the spindle or from chatter, water, heat.
+#include <cmath>
+
+#include "engine/explain/mechanism.h"
+
+namespace cavum::explain {
+namespace {
+
+using Shape = std::vector<double>;
+using Grid = std::vector<Shape>;
+
+constexpr double k_turn = 2.0 * 3.14159265358979323846;
+
+bool has(const Scene& s, const char* column) { return s.recording->column(column) != nullptr; }
+
+/// Volume removed since the point was new. `removed_mm3` may count up, or hold what each row removed (then it goes up and
+/// down all the time). Variants: 0 as counted, 1 carried on over resets at the start of a session.
+Series worn_mm3(const Scene& s, bool carried) {
+  const Series& removed = *s.recording->column("removed_mm3");
+  const Series* bur = s.recording->column("bur_id");
+  Eigen::Index falls = 0, rises = 0;
+  for (Eigen::Index i = 1; i < removed.size(); ++i) {
+    falls += removed[i] < removed[i - 1];
+    rises += removed[i] > removed[i - 1];
+  }
+  const bool counts_up = falls * 20 < rises;
+  Series out(removed.size());
+  double total = 0.0, new_at = counts_up ? removed[0] : 0.0;
+  for (Eigen::Index i = 0; i < removed.size(); ++i) {
+    if (bur != nullptr && i > 0 && (*bur)[i] != (*bur)[i - 1]) {
+      total = 0.0;
+      new_at = removed[i];
+    } else if (counts_up && i > 0 && removed[i] < removed[i - 1]) {  // counted anew
+      if (carried) total += removed[i - 1] - new_at;
+      new_at = removed[i];
+    }
+    if (!counts_up) total += removed[i];
+    out[i] = counts_up ? total + removed[i] - new_at : total;
+  }
+  return out;
+}
+
+Columns line(const Series& turns, const Series& where) { return {{(turns * k_turn).sin() * where, (turns * k_turn).cos() * where}, {}, {}}; }
+
+/// Turns of the spindle, less whole ones. Variants: 0 rpm/60 · t (a spindle that keeps its rate), 1 the integral of rpm.
+Series spindle_turns(const Scene& s, int variant) {
+  const Series& rpm = *s.recording->column("spindle_rpm");
+  Series out(rpm.size());
+  for (const auto& rows : s.recording->sessions) {
+    double turns = 0.0;
+    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
+      if (variant == 1 && i > rows.begin) turns += rpm[i] / 60.0 * s.dt_s[i - 1];
+      const double t = variant == 0 ? rpm[i] / 60.0 * s.recording->t_s[i] : turns;
+      out[i] = t - std::floor(t);
+    }
+  }
+  return out;
+}
+
+/// Shape {hz, everywhere}: lines that were found in the residual.
+Columns chatter_columns(const Scene& s, const Shape& p) {
+  const Series turns = s.recording->t_s * p[0];
+  return line(turns - turns.floor(), s.active);
+}
+
+std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{name, own[0]}}; }
+
+}  // namespace
+
+std::vector<Mechanism> cutting_mechanisms() {
+  std::vector<Mechanism> m;
+  m.push_back({"edge_force",
+               "Fe while in contact and spinning",
+               "a constant force of the cutting edges",
+               "press the same site with the spindle off and on",
+               true,
+               {},
+               [](const Scene&) { return Grid{{}}; },
+               [](const Scene& s, const Shape&) {
+                 return Columns{{has(s, "spindle_rpm") ? Series(s.touching * s.spinning) : s.touching}, {}, {}};
+               },
+               [](const Shape&, const Shape& own, Base) { return fraction("edge_n", own); }});
+  m.push_back({"wear",
+               "F_sim w W, W removed volume since the point was new",
+               "a diamond point that wears",
+               "cut the first site again last, with the worn and with a new point",
+               true,
+               {{"variant", 0, 1, false, false}},
+               [](const Scene& s) {
+                 return !has(s, "removed_mm3") ? Grid{} : s.recording->sessions.size() > 1 ? Grid{{0.0}, {1.0}} : Grid{{0.0}};
+               },
+               [](const Scene& s, const Shape& p) {
+                 return Columns{{s.force_n * worn_mm3(s, p[0] > 0.5)}, {}, {}};
+               },
+               [](const Shape&, const Shape& own, Base) { return fraction("per_mm3", own); }});
+  m.push_back({"run_out",
+               "A sin(2 pi turns + phase) in contact and spinning",
+               "a diamond point that turns off its axis",
+               "record the force at more than twice the spindle's rate",
+               true,
+               {{"variant", 0, 1, false, false}},
+               [](const Scene& s) {
+                 return s.spinning.maxCoeff() > 0.0 ? Grid{{0.0}, {1.0}} : Grid{};
+               },
+               [](const Scene& s, const Shape& p) { return line(spindle_turns(s, static_cast<int>(p[0])), s.active * s.spinning); },
+               [](const Shape&, const Shape& own, Base) {
+                 return std::vector<NamedValue>{{"amplitude_n", std::hypot(own[0], own[1])}, {"phase_turns", std::atan2(own[1], own[0]) / k_turn}};
+               }});
+  m.push_back({"chatter",
+               "A sin(2 pi f t + phase) in contact",
+               "a vibration at a rate that is not the spindle's",
+               "press at two depths and two spindle speeds: chatter keeps its rate",
+               true,
+               {{"frequency_hz", 0.1, 1e5, false, true}},
+               [](const Scene& s) {
+                 Grid g;
+                 for (const double hz : s.lines_hz) g.push_back({hz});
+                 return g;
+               },
+               chatter_columns,
+               [](const Shape& p, const Shape& own, Base) {
+                 return std::vector<NamedValue>{{"amplitude_n", std::hypot(own[0], own[1])}, {"frequency_hz", p[0]}};
+               }});
+  m.push_back({"coolant",
+               "F_sim w wet",
+               "water, which changes the cutting force",
+               "press one site dry, wet, and dry again",
+               true,
+               {},
+               [](const Scene& s) { return has(s, "wet") ? Grid{{}} : Grid{}; },
+               [](const Scene& s, const Shape&) {
+                 return Columns{{s.force_n * *s.recording->column("wet")}, {}, {}};
+               },
+               [](const Shape&, const Shape& own, Base) { return fraction("fraction", own); }});
+  m.push_back({"thermal_softening",
+               "-F_sim h (T - T0), T0 of the first row",
+               "tissue that softens as it warms",
+               "cut for a minute, rest for a minute, cut again",
+               true,
+               {},
+               [](const Scene& s) { return has(s, "temperature_c") ? Grid{{}} : Grid{}; },
+               [](const Scene& s, const Shape&) {
+                 const Series& t = *s.recording->column("temperature_c");
+                 return Columns{{-s.force_n * (t - t[0])}, {}, {}};
+               },
+               [](const Shape&, const Shape& own, Base) { return fraction("per_k", own); }});
+  return m;
+}
+
+}  // namespace cavum::explain

@@ -1,0 +1,402 @@
+#include "engine/explain/explain.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "engine/explain/faults.h"
+#include "engine/explain/heldout.h"
+#include "engine/explain/specimens.h"
+
+namespace cavum::explain {
+namespace {
+
+constexpr double k_alpha = 0.01;           // chance of a false cause in a clean recording, for each step of the search
+constexpr std::size_t k_first_twins = 10;  // enough when the answer is plain
+constexpr double k_plain = 6.0;            // z this many times what the twins reach needs no more twins
+constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
+constexpr double k_worth_refining = 0.4;
+constexpr std::size_t k_refined = 5;
+
+struct Step {
+  View view;
+  Scores scores;
+  Null null;
+  Judgement judgement;
+};
+
+double best_p(const Step& s) { return *std::min_element(s.judgement.p_value.begin(), s.judgement.p_value.end()); }
+double best_z(const Step& s) { return *std::max_element(s.judgement.z.begin(), s.judgement.z.end()); }
+
+/// Refines the shapes of `causes` first: with a cause in the model, k and c move, and with them who is in contact and clipped.
+Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o, const std::function<void()>& done) {
+  ViewOptions options;
+  options.fixed_n = o.fixed_n;
+  if (!causes.empty()) {
+    options.products = false;
+    causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
+    options.products = true;
+  }
+  options.sharp = true;
+  Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
+  s.scores = scores_of(s.view);
+  const std::uint64_t seed = o.seed * 1000003ULL + causes.size();
+  add_twins(s.null, s.view, std::min(k_first_twins, o.twins), seed, o.fixed_n, done);
+  s.judgement = judge(s.scores, s.null);
+  double reach = 1.0;
+  for (const auto& twin : s.null.twins) {
+    Scores as_data = twin;
+    as_data.structures = s.scores.structures;
+    for (auto& structure : as_data.structures) structure.raw_gain = 0.0;
+    as_data.blur = s.scores.blur;
+    const Judgement j = judge(as_data, s.null);
+    reach = std::max(reach, *std::max_element(j.z.begin(), j.z.end()));
+  }
+  if (best_p(s) < 0.06 && best_z(s) < k_plain * reach) {
+    add_twins(s.null, s.view, o.twins, seed, o.fixed_n, done);
+    s.judgement = judge(s.scores, s.null);
+  }
+  return s;
+}
+
+struct Rival {
+  std::vector<Term> causes;  ///< all, with the rival last (or in place)
+  int mechanism = -1;
+  double chi2 = 0;  ///< penalised
+  Eigen::Index parameters = 0;
+};
+
+/// Candidates worth it, refined beside the known causes; best first.
+std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std::vector<const Candidate*> candidates) {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
+  std::vector<Rival> out;
+  for (const auto* c : candidates) {
+    if (out.size() >= k_refined || c->gain < k_worth_refining * candidates.front()->gain) break;
+    View beside = v;
+    beside.causes = others;
+    // a second time constant that is not needed is left out again
+    std::vector<Term> starts{start_of(beside, *c)};
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)];
+    if (m.name == std::string("relaxation") && starts[0].shape[1] > 0.0)
+      starts.push_back({starts[0].mechanism, {std::sqrt(starts[0].shape[0] * starts[0].shape[1]), 0.0, starts[0].shape[2]}});
+    Rival best;
+    best.chi2 = 1e300;
+    for (const auto& start : starts) {
+      std::vector<Term> causes = others;
+      causes.push_back(start);
+      causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
+      const FitResult fitted = fit_terms(v, causes);
+      const auto own = m.columns(v.scene, causes.back().shape).own.size();
+      if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
+      const double chi2 = penalised_chi2(v, causes);
+      if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
+    }
+    if (!best.causes.empty()) out.push_back(best);
+  }
+  std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
+  return out;
+}
+
+std::vector<const Hypothesis*> known_of(const View& v) {
+  std::vector<const Hypothesis*> out;
+  for (const auto& h : v.known) out.push_back(&h);
+  return out;
+}
+
+/// What is left when cause `i` is taken out of a view: its products without it.
+View without(const View& v, std::size_t i) {
+  View out = v;
+  out.causes.erase(out.causes.begin() + static_cast<std::ptrdiff_t>(i));
+  out.known.erase(out.known.begin() + static_cast<std::ptrdiff_t>(i));
+  return out;
+}
+
+/// Parameters of all causes, then k and c, from shapes and a fit with tangents (or without: tangents 0).
+std::vector<std::vector<NamedValue>> named_values(const View& v, const Eigen::VectorXd& value) {
+  std::vector<std::vector<NamedValue>> out;
+  Eigen::Index own_at = 2, tangent_at = 2;
+  for (const auto& h : v.known) tangent_at += h.own;
+  const Base base{value[0], value[1]};
+  for (const auto& h : v.known) {
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(h.term.mechanism)];
+    std::vector<double> own(value.data() + own_at, value.data() + own_at + h.own), shape = h.term.shape;
+    own_at += h.own;
+    for (std::size_t s = 0; s < shape.size(); ++s) {
+      if (!m.shape[s].fitted || shape[s] == 0.0 || tangent_at >= value.size()) continue;
+      shape[s] = std::clamp(shape[s] + value[tangent_at++], m.shape[s].low, m.shape[s].high);
+    }
+    out.push_back(m.parameters(shape, own, base));
+  }
+  out.push_back({{"k_n_per_mm", base.k_n_per_mm}, {"c_n_s_per_mm", base.c_n_s_per_mm}});
+  return out;
+}
+
+/// Intervals: what the noise leaves (delta method), or what the twins scatter around their truth, whichever is more.
+void set_parameters(Explanation& e, const Step& last) {
+  const View& v = last.view;
+  const FitResult f = fit(v.products, known_of(v), -1, true);
+  Eigen::VectorXd at = f.value;
+  const Eigen::VectorXd truth = [&] {  // what the twins were made with: shapes as they are
+    Eigen::VectorXd t = f.value;
+    t.head(v.base_fit.value.size()) = v.base_fit.value;
+    t.tail(t.size() - v.base_fit.value.size()).setZero();
+    return t;
+  }();
+  const auto middle = named_values(v, truth);
+  const double scale = std::max(1.0, f.chi2 / std::max(1.0, v.products.rows));
+  std::vector<std::vector<Interval>> interval(middle.size());
+  for (std::size_t c = 0; c < middle.size(); ++c)
+    for (std::size_t p = 0; p < middle[c].size(); ++p) {
+      Eigen::VectorXd slope(at.size());
+      for (Eigen::Index i = 0; i < at.size(); ++i) {
+        const double step = 1e-3 * std::sqrt(std::max(1e-30, f.covariance(i, i)));
+        Eigen::VectorXd moved = truth;
+        moved[i] += step;
+        slope[i] = (named_values(v, moved)[c][p].value - middle[c][p].value) / step;
+      }
+      double variance = scale * slope.dot(f.covariance * slope);
+      double bias = 0.0, scatter = 0.0, n = 0.0;
+      for (const auto& value : last.null.values) {
+        if (value.size() != at.size()) continue;
+        const double d = named_values(v, value)[c][p].value - middle[c][p].value;
+        bias += d;
+        scatter += d * d;
+        n += 1.0;
+      }
+      if (n > 3.0) {
+        bias /= n;
+        scatter = scatter / n - bias * bias;
+        variance = std::max(variance, scatter * n / (n - 1.0)) + bias * bias;
+      }
+      const double half = 1.96 * std::sqrt(std::max(0.0, variance)), value = middle[c][p].value;
+      interval[c].push_back({value, value - half, value + half});
+    }
+  for (std::size_t c = 0; c < e.causes.size(); ++c) {
+    e.causes[c].parameters.clear();
+    for (std::size_t p = 0; p < middle[c].size(); ++p) e.causes[c].parameters.emplace_back(middle[c][p].name, interval[c][p]);
+    auto others = v.causes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
+    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].own);
+    Eigen::Index to = 0, from = 2;
+    rest[to++] = v.base_fit.value[0];
+    rest[to++] = v.base_fit.value[1];
+    for (std::size_t k = 0; k < v.known.size(); ++k) {
+      for (Eigen::Index i = 0; i < v.known[k].own; ++i, ++from)
+        if (k != c) rest[to++] = v.base_fit.value[from];
+    }
+    e.causes[c].effect_n = std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
+  }
+  e.k = interval.back()[0];
+  e.c = interval.back()[1];
+}
+
+void list_not_testable(Explanation& e, const std::vector<Candidate>& candidates, const Scene& scene) {
+  for (const auto& c : candidates) {
+    if (c.testable) continue;
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(c.hypothesis.term.mechanism)];
+    const bool lacks = m.grid(scene).empty();
+    e.not_testable.push_back({m.name, lacks ? "the recording lacks what it needs" : "k and c can take its place in these data"});
+  }
+}
+
+bool is_untestable(const Explanation& e, const char* name) {
+  return std::any_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == name; });
+}
+
+/// What only a reversal can tell apart (PHYSICS.md section 2): in one direction friction is an offset, and so is an edge force.
+constexpr std::array<std::string_view, 6> k_need_reversal{"bias", "drift", "coulomb_friction", "stribeck_friction", "viscous_friction", "edge_force"};
+
+/// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
+bool moves_one_way(const Motion& m) {
+  const double fastest = m.v_mm_s.maxCoeff();
+  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
+}
+
+/// The verdict and the experiment that would say more.
+void conclude(Explanation& e, bool one_way) {
+  const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
+  if (!e.causes.empty())
+    e.verdict = aliased ? "alias" : "named";
+  else if (e.unexplained)
+    e.verdict = "unexplained";
+  else
+    e.verdict =
+        one_way || (is_untestable(e, "bias") && is_untestable(e, "coulomb_friction") && is_untestable(e, "edge_force")) ? "not_testable" : "clean";
+
+  const auto separate = [](const std::string& name) { return std::string(mechanisms()[static_cast<std::size_t>(find_mechanism(name))].separate); };
+  std::vector<std::string> wanted;
+  for (const auto& c : e.causes)
+    if (!c.aliases.empty()) {
+      wanted.push_back(separate(mechanisms()[static_cast<std::size_t>(c.term.mechanism)].name));
+      for (const auto& a : c.aliases) wanted.push_back(separate(a));
+    }
+  if (e.verdict == "not_testable") wanted = {separate("coulomb_friction"), separate("bias"), separate("edge_force")};
+  std::string text;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(i), wanted[i]) == wanted.begin() + static_cast<std::ptrdiff_t>(i))
+      text += (text.empty() ? "" : "; ") + wanted[i];
+  if (text.empty() && e.unexplained) text = "vary " + e.unexplained->variable + " alone, in steps, with everything else held, and record again";
+  if (text.empty() && !e.not_testable.empty()) {
+    for (const auto& n : e.not_testable)
+      if (n.mechanism != "gain_error") {
+        text = "to test " + n.mechanism + " too: " + separate(n.mechanism);
+        break;
+      }
+  }
+  e.next_experiment = text.empty() ? "repeat the recording at another site, to see whether k, c and the causes stay the same" : text;
+}
+
+/// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
+void compare_with_rig(Explanation& e, const Rig& rig) {
+  constexpr double k_known = 0.1;  // relative; rigs are calibrated to a few percent
+  if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
+  const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
+  const bool off = std::fabs(c - 1.0) > k_known && (e.c.low > (1.0 + k_known) * *rig.c_n_s_per_mm || e.c.high < (1.0 - k_known) * *rig.c_n_s_per_mm);
+  char text[200];
+  std::snprintf(text, sizeof text, "fitted k is %.3g times, c is %.3g times that of rig.toml", k, c);
+  if (std::fabs(k - 1.0) > k_known || off) e.notes.emplace_back(text);
+  if (e.verdict == "clean" && off && std::fabs(k - 1.0) < 0.5 * k_known) {
+    e.verdict = "data_fault";
+    e.data_faults.push_back(std::string("time base: ") + text + ", as when the clock is off by that factor; check the sampling rate, or c");
+    e.next_experiment = "record the speed too, or check the sampling rate against a clock";
+  }
+}
+
+}  // namespace
+
+Explanation explain(const Recording& given, const ExplainOptions& options) {
+  Explanation e;
+  e.data_faults = data_faults(given);
+  auto scaled = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
+  const Recording& recording = *scaled;
+  e.recording = scaled;
+  e.notes = recording.notes;
+  if (!e.data_faults.empty()) {
+    e.verdict = "data_fault";
+    e.next_experiment = "correct the recording: " + e.data_faults.front();
+    return e;
+  }
+  // three looks are the most that is usual; the bar never runs backwards
+  const double expected = static_cast<double>(options.twins) * 2.0;
+  std::atomic<int> finished{0};
+  const auto done = [&] {
+    const int n = ++finished;
+    if (options.progress) options.progress(0.9 * (1.0 - std::exp(-2.0 * n / expected)));
+  };
+
+  const Motion motion = estimate_motion(recording);
+  std::vector<Term> causes;
+  std::vector<double> p_values;
+  Step step = look(recording, motion, causes, options, done);
+  const Step first = step;
+  while (true) {
+    const std::size_t mechanisms_n = mechanisms().size();
+    std::vector<const Candidate*> found;
+    for (std::size_t m = 0; m < mechanisms_n; ++m)
+      if (step.scores.candidates[m].testable && step.judgement.p_value[m] < k_alpha) found.push_back(&step.scores.candidates[m]);
+    const Structure* structure = nullptr;
+    for (std::size_t s = 0; s < step.scores.structures.size(); ++s)
+      if (step.judgement.p_value[mechanisms_n + s] < k_alpha && (structure == nullptr || step.scores.structures[s].gain > structure->gain))
+        structure = &step.scores.structures[s];
+    const bool full = static_cast<int>(causes.size()) >= options.max_causes;
+    if (found.empty() || full) {
+      if (structure != nullptr) e.unexplained = Unexplained{structure->variable, structure->form, structure->effect_n};
+      break;
+    }
+    const auto rivals = rivals_of(step.view, causes, found);
+    if (rivals.empty()) break;
+    const double before = penalised_chi2(step.view, causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
+    const double gain = before - rivals.front().chi2;
+    // a curve or a step must beat one mechanism clearly, and any two of them at all
+    if (structure != nullptr && structure->gain > 1.15 * gain + 20.0 &&
+        structure->gain > 1.02 * best_pair_gain(step.view, step.scores.candidates) + 10.0) {
+      e.unexplained = Unexplained{structure->variable, structure->form, structure->effect_n};
+      break;
+    }
+    if (gain < k_alias_chi2) break;
+    const auto at = static_cast<std::size_t>(rivals.front().mechanism);
+    causes = refine(step.view, rivals.front().causes, 1);
+    p_values.push_back(step.judgement.p_value[at]);
+    step = look(recording, motion, causes, options, done);
+  }
+
+  // does every cause still earn its place, and is there a better one in that place?
+  bool changed = false;
+  for (std::size_t i = 0; i < causes.size();) {
+    View rest = without(step.view, i);
+    auto others = causes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double with = penalised_chi2(step.view, causes);
+    const auto candidates = candidates_of(rest);
+    std::vector<const Candidate*> worth;
+    for (const auto& c : candidates)
+      if (c.testable && c.gain > 0.0) worth.push_back(&c);
+    const double earned = penalised_chi2(step.view, others) + k_parameter_penalty - with;
+    if (causes.size() > 1 && earned < 2.0 * k_alias_chi2 * step.judgement.inflation) {
+      causes = others;
+      p_values.erase(p_values.begin() + static_cast<std::ptrdiff_t>(i));
+      changed = true;
+      step = look(recording, motion, causes, options, done);
+      continue;
+    }
+    Cause cause;
+    cause.p_value = p_values[i];
+    if (!worth.empty()) {
+      const auto rivals = rivals_of(rest, others, worth);
+      for (const auto& r : rivals)
+        if (r.mechanism != causes[i].mechanism && r.chi2 < with - 1.0 && causes.size() > 1) {  // found when the others were not yet known
+          causes[i] = r.causes.back();
+          changed = true;
+          break;
+        }
+      const double own = penalised_chi2(step.view, causes);
+      for (const auto& r : rivals)
+        if (r.mechanism != causes[i].mechanism && r.chi2 - own < k_alias_chi2 * step.judgement.inflation + 0.003 * earned &&
+            r.parameters <= parameters_of(causes[i], step.view.scene))
+          cause.aliases.emplace_back(mechanisms()[static_cast<std::size_t>(r.mechanism)].name);
+    }
+    cause.term = causes[i];
+    e.causes.push_back(cause);
+    ++i;
+  }
+  if (changed) {
+    step = look(recording, motion, causes, options, done);
+  }
+  for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
+  const bool one_way = moves_one_way(motion);
+  if (one_way)
+    for (auto& cause : e.causes) {
+      const std::string name = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)].name;
+      const auto needs = [](const std::string& n) { return std::find(k_need_reversal.begin(), k_need_reversal.end(), n) != k_need_reversal.end(); };
+      if (!needs(name) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs)) continue;
+      for (const char* other : {"bias", "coulomb_friction", "edge_force"})
+        if (name != other && std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end()) cause.aliases.emplace_back(other);
+    }
+
+  set_parameters(e, step);
+  list_not_testable(e, first.scores.candidates, first.view.scene);
+  e.base = {step.view.base_fit.value[0], step.view.base_fit.value[1]};
+  e.noise = step.view.noise;
+  e.gain = heldout_gain(first.view, first.scores, first.null, causes.size(), e.noise.sd_n);
+  e.structures = step.scores.structures;
+  e.candidates = first.scores.candidates;
+  if (e.unexplained && !e.causes.empty()) {
+    // something is left over; when it is more than what was found, the causes are not the answer
+    double left = 0.0;
+    for (const auto& s : e.structures)
+      if (s.variable == e.unexplained->variable) left = s.gain;
+    const double explained = fit(step.view.products, {}).chi2 - fit(step.view.products, known_of(step.view)).chi2;
+    if (left > explained) e.causes.clear();
+  }
+  e.before = first.view;
+  e.after = step.view;
+  conclude(e, one_way);
+  compare_with_rig(e, recording.rig);
+  if (options.progress) options.progress(1.0);
+  return e;
+}
+
+}  // namespace cavum::explain

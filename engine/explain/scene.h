@@ -1,0 +1,36 @@
+// What a mechanism may look at: the motion as estimated, the base force that the engine's law gives on it, who was in
+// contact, and the other columns. One scene is one recording (or one twin of it) seen with one pair of k and c.
+#pragma once
+
+#include "engine/explain/motion.h"
+#include "engine/explain/recording.h"
+
+namespace cavum::explain {
+
+/// k and c of the base law F = max(0, k X + c V) in contact, zero in air.
+struct Base {
+  double k_n_per_mm = 0.0, c_n_s_per_mm = 0.0;
+};
+
+/// All series of shape [rows].
+struct Scene {
+  const Recording* recording = nullptr;  ///< sessions, times and columns; not null
+  Motion motion;
+  Base base;
+  Series dt_s;
+  Series touching;               ///< 0..1: probability that X > 0, given the uncertainty of X
+  Series active;                 ///< touching, and the base force is above zero (not clipped by "never pulls")
+  Series spring_mm;              ///< X · active: the column of k
+  Series damper_mm_s;            ///< V · active: the column of c
+  Series force_n;                ///< base force F_sim
+  Series spinning;               ///< 1 where spindle_rpm > 0; all 0 without that column
+  Series weight;                 ///< 0..1: less where the position leaves the base force uncertain, and near contact transitions
+  std::vector<double> lines_hz;  ///< lines found in the residual, candidates of chatter (lines.h)
+};
+
+/// Everything but `weight` follows from motion and base. `noise_sd_n` and `rho` (correlation from row to row) describe the noise
+/// that the weights are measured against: an error of position lasts as long as the encoder stands still, so it counts as
+/// much as many rows of independent noise.
+[[nodiscard]] Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho);
+
+}  // namespace cavum::explain

@@ -1,0 +1,182 @@
+// What the tissue does beyond k X + c V: stiffness that is no constant, relaxation, direction, other laws of speed.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/explain/mechanism.h"
+
+namespace cavum::explain {
+namespace {
+
+using Shape = std::vector<double>;
+using Grid = std::vector<Shape>;
+
+constexpr double k_radians = 3.14159265358979323846 / 180.0;
+
+double deepest_mm(const Scene& s) { return std::max(1e-6, s.spring_mm.maxCoeff()); }
+
+Grid points(std::initializer_list<double> values, double unit = 1.0) {
+  Grid g;
+  for (const double v : values) g.push_back({v * unit});
+  return g;
+}
+
+/// x^m of the penetration, in mm, where the base acts.
+Series power(const Series& x_mm, double m) { return (x_mm.max(1e-12).log() * m).exp(); }
+
+/// z' = d(X^m)/dt − z/tau while in contact, 0 in air; exact for a constant rate within a row. m = 1: z' = V − z/tau.
+Series relaxing_mm(const Scene& s, double tau_s, double m) {
+  const auto stretch = [m](double x_mm) { return m == 1.0 ? x_mm : std::pow(x_mm, m); };
+  Series out(s.force_n.size());
+  for (const auto& rows : s.recording->sessions) {
+    double z = 0.0;
+    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
+      const double x = s.motion.x_mm[i];
+      if (x <= 0.0) {
+        z = 0.0;
+      } else if (i > rows.begin) {
+        const double u = s.dt_s[i - 1] / tau_s, before = std::max(0.0, s.motion.x_mm[i - 1]);
+        z = z * std::exp(-u) + (stretch(x) - stretch(before)) * -std::expm1(-u) / u;
+      }
+      out[i] = z;
+    }
+  }
+  return out * s.active;
+}
+
+/// Shape {tau1, tau2, m}; tau2 = 0 for one exponential. Soft specimens, whose elastic force is a power of the depth, relax in
+/// proportion to that (quasi-linear viscoelasticity, Fung 1981): m > 1 is tried for them only.
+Grid relaxation_grid(const Scene& s) {
+  double longest = 0.0;
+  for (const auto& rows : s.recording->sessions) longest = std::max(longest, s.recording->t_s[rows.end - 1] - s.recording->t_s[rows.begin]);
+  Grid g;
+  std::vector<double> taus;
+  for (const double tau : {0.05, 0.13, 0.33, 0.85, 2.2, 5.5, 14.0})
+    if (tau < longest && tau > s.dt_s.minCoeff()) taus.push_back(tau);
+  for (const double tau : taus) g.push_back({tau, 0.0, 1.0});
+  for (std::size_t i = 0; i < taus.size(); ++i)
+    for (std::size_t j = i + 2; j < taus.size(); j += 2)
+      for (const double m : s.recording->specimens ? std::vector<double>{1.0, 1.5, 2.0, 3.0} : std::vector<double>{1.0})
+        g.push_back({taus[i], taus[j], m});
+  return g;
+}
+
+/// Shape {variant}: the part that turns is 0 the whole base force, 1 a force of its own while in contact.
+Columns anisotropy_columns(const Scene& s, const Shape& p) {
+  const Series angle = *s.recording->column("approach_deg") * (2.0 * k_radians);
+  const Series what = p[0] < 0.5 ? s.force_n : s.active;
+  return {{what * angle.cos(), what * angle.sin()}, {}, {}};
+}
+
+}  // namespace
+
+std::vector<Mechanism> tissue_mechanisms() {
+  std::vector<Mechanism> m;
+  m.push_back({"series_compliance",
+               "k X/(1 + k X/Fs) - k X",
+               "something elastic between the tool and the tooth",
+               "press a block of steel in the same holder",
+               true,
+               {{"softening_force_n", 1e-3, 1e6, true, true}},
+               [](const Scene& s) {
+                 return points({0.5, 1.5, 5.0, 20.0}, std::max(1e-6, s.force_n.maxCoeff()));
+               },
+               [](const Scene& s, const Shape& p) {
+                 const Series f = s.base.k_n_per_mm * s.spring_mm / p[0];
+                 return Columns{{}, -s.spring_mm * f / (1.0 + f), {}};
+               },
+               [](const Shape& p, const Shape&, Base) {
+                 return std::vector<NamedValue>{{"softening_force_n", p[0]}};
+               }});
+  m.push_back({"nonlinear_stiffness",
+               "k (X^m - X), X in mm",
+               "a stiffness that grows or falls as a power of the depth",
+               "press slowly to twice the depth",
+               true,
+               {{"m", 0.1, 5.0, false, true}},
+               [](const Scene&) {
+                 return points({0.5, 0.7, 0.85, 0.95, 1.05, 1.2, 1.5, 2.0, 2.7, 3.5});
+               },
+               [](const Scene& s, const Shape& p) {
+                 return Columns{{}, power(s.spring_mm, p[0]) * (s.spring_mm > 0.0).cast<double>() - s.spring_mm, {}};
+               },
+               [](const Shape& p, const Shape&, Base) {
+                 return std::vector<NamedValue>{{"m", p[0]}};
+               }});
+  m.push_back({"hidden_layer",
+               "dk (X - d0)+",
+               "a layer below the surface with another stiffness",
+               "press slowly through the depth of the kink, at two sites",
+               true,
+               {{"d0_mm", 1e-4, 100, false, true}},
+               [](const Scene& s) {
+                 return points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+               },
+               [](const Scene& s, const Shape& p) {
+                 return Columns{{(s.motion.x_mm - p[0]).max(0.0) * s.active}, {}, {}};
+               },
+               [](const Shape& p, const Shape& own, Base) {
+                 return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
+               }});
+  m.push_back({"graded_stiffness",
+               "-k alpha X^2",
+               "a stiffness that changes evenly with depth",
+               "press slowly to twice the depth",
+               true,
+               {},
+               [](const Scene&) { return Grid{{}}; },
+               [](const Scene& s, const Shape&) {
+                 return Columns{{s.spring_mm * s.spring_mm}, {}, {}};
+               },
+               [](const Shape&, const Shape& own, Base b) {
+                 return std::vector<NamedValue>{{"alpha_per_mm", -own[0] / b.k_n_per_mm}};
+               }});
+  m.push_back({"anisotropy",
+               "F_sim e cos 2(phi - phi0)",
+               "a stiffness that depends on the angle of approach",
+               "approach one site at 0, 45, 90 and 135 degrees",
+               true,
+               {{"variant", 0, 1, false, false}},
+               [](const Scene& s) {
+                 return s.recording->column("approach_deg") != nullptr ? points({0.0, 1.0}) : Grid{};
+               },
+               anisotropy_columns,
+               [](const Shape& p, const Shape& own, Base) {
+                 return std::vector<NamedValue>{{p[0] < 0.5 ? "epsilon" : "amplitude_n", std::hypot(own[0], own[1])},
+                                                {"phi0_deg", 0.5 * std::atan2(own[1], own[0]) / k_radians}};
+               }});
+  m.push_back({"relaxation",
+               "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
+               "a force that decays while the tool is held still",
+               "hold for ten seconds at constant depth, three depths",
+               true,
+               {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
+               relaxation_grid,
+               [](const Scene& s, const Shape& p) {
+                 Columns c{{relaxing_mm(s, p[0], p[2])}, {}, {}};
+                 if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2]));
+                 return c;
+               },
+               [](const Shape& p, const Shape& own, Base) {
+                 if (p[1] <= 0.0) return std::vector<NamedValue>{{"k1_n_per_mm", own[0]}, {"tau1_s", p[0]}};
+                 const std::size_t a = p[0] <= p[1] ? 0 : 1, b = 1 - a;
+                 return std::vector<NamedValue>{{"k1_n_per_mm", own[a]}, {"tau1_s", p[a]}, {"k2_n_per_mm", own[b]}, {"tau2_s", p[b]}};
+               }});
+  m.push_back({"feed_power_law",
+               "c (|V|^n sign V - V), V in mm/s",
+               "a force that grows with another power of the speed",
+               "press at five speeds over two decades",
+               true,
+               {{"n", 0.05, 4.0, false, true}},
+               [](const Scene&) {
+                 return points({0.15, 0.35, 0.55, 0.75, 0.9, 1.15, 1.5, 2.0});
+               },
+               [](const Scene& s, const Shape& p) {
+                 return Columns{{}, {}, s.damper_mm_s * (power(s.motion.v_mm_s.abs() + 1e-4, p[0] - 1.0) - 1.0)};
+               },
+               [](const Shape& p, const Shape&, Base) {
+                 return std::vector<NamedValue>{{"n", p[0]}};
+               }});
+  return m;
+}
+
+}  // namespace cavum::explain

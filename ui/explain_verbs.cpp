@@ -1,0 +1,127 @@
+// `cavum explain`: measured data against the simulation.
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <mutex>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/explain/explain.h"
+#include "engine/explain/model_file.h"
+#include "engine/explain/protocol.h"
+#include "scenarios/exam.h"
+#include "ui/explain_page.h"
+#include "ui/print_json.h"
+#include "ui/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct ExplainArgs {
+  std::string data, rig, model, material, model_out, out, protocol;
+  std::vector<std::string> columns;
+  std::uint64_t seed = 1;
+  std::size_t twins = explain::ExplainOptions{}.twins;
+  bool json = false;
+};
+
+/// "x_mm=displacement" → {x_mm, displacement}.
+explain::ColumnNames column_names(const std::vector<std::string>& given) {
+  explain::ColumnNames names;
+  for (const auto& pair : given) {
+    const std::size_t at = pair.find('=');
+    if (at == std::string::npos || at == 0 || at + 1 == pair.size())
+      throw Error("--column " + pair, "is not of the form NAME=COLUMN", "write for example --column x_mm=displacement");
+    names[pair.substr(0, at)] = pair.substr(at + 1);
+  }
+  return names;
+}
+
+/// On terminals only.
+std::function<void(double)> progress_bar() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  auto mutex = std::make_shared<std::mutex>();
+  auto shown = std::make_shared<int>(-1);
+  return [mutex, shown](double part) {
+    const std::lock_guard lock(*mutex);
+    const int percent = static_cast<int>(100.0 * part);
+    if (percent <= *shown) return;
+    *shown = percent;
+    std::fprintf(stderr, "\rexplaining %3d %%%s", percent, percent == 100 ? "\n" : "");
+  };
+}
+
+ForceModel load_model(const std::string& wanted) {
+  const std::string path = wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", "");
+  return parse_force_model(read_text_file(path), path);
+}
+
+void write_protocol(const std::string& path) {
+  const std::string csv = std::filesystem::path(path).replace_extension(".csv").string();
+  require_writable(path);
+  require_writable(csv);
+  write_text_file(csv, explain::protocol_motion_csv());
+  write_text_file(path, explain::protocol_page());
+  std::cout << "written: " << path << " and " << csv << "\n";
+}
+
+void run_explain(const ExplainArgs& a) {
+  if (!a.protocol.empty()) return write_protocol(a.protocol);
+  if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
+  for (const auto& path : {a.out, a.model_out})
+    if (!path.empty()) require_writable(path);
+  explain::Recording recording = explain::read_recording(a.data, a.rig, column_names(a.columns));
+  explain::ExplainOptions options;
+  options.seed = a.seed;
+  options.twins = a.twins;
+  options.progress = progress_bar();
+  const ForceModel start = load_model(a.model.empty() ? "paper" : a.model);
+  explain::Series added;
+  if (!a.model.empty()) {
+    const std::string material = a.material.empty() ? explain::material_of(start) : a.material;
+    added = explain::added_force_n(start, material, recording, a.model);
+    const auto& tissue = start.materials.find(material)->second.voigt;
+    recording.rig.k_n_per_mm = tissue.stiffness_n_per_mm;
+    recording.rig.c_n_s_per_mm = tissue.damping_n_s_per_mm;
+    options.fixed_n = &added;
+  }
+  const explain::Explanation result = explain::explain(recording, options);
+  if (!a.model_out.empty()) {
+    if (result.verdict == "data_fault") throw Error(a.data, result.data_faults.front(), "no model can be made of this recording");
+    write_text_file(a.model_out, explain::extended_model_toml(result, start));
+  }
+  if (!a.out.empty()) write_text_file(a.out, explanation_html(result, a.data));
+  if (a.json) {
+    print_json(to_json(result));
+  } else {
+    std::cout << to_text(result);
+    for (const auto& path : {a.out, a.model_out})
+      if (!path.empty()) std::cout << "written: " << path << "\n";
+  }
+}
+
+}  // namespace
+
+void add_explain_verbs(CLI::App& app, int& exit_code) {
+  auto args = std::make_shared<ExplainArgs>();
+  CLI::App* verb = app.add_subcommand("explain", "what the simulation gets wrong, why, and what fixing it gains");
+  verb->add_option("data", args->data, "recording (.csv), with rig.toml beside it");
+  verb->add_option("--rig", args->rig, "another rig.toml");
+  verb->add_option("--column", args->columns, "NAME=COLUMN: the file calls NAME something else; may be repeated");
+  verb->add_option("--model", args->model, "force model to explain on top of: a name of data/materials, or a TOML file");
+  verb->add_option("--material", args->material, "its material whose k and c hold for the recording (dentin)");
+  verb->add_option("--model-out", args->model_out, "write the extended force model (.toml), for exam, rig and explain");
+  verb->add_option("--out,--html", args->out, "write a report (.html)");
+  verb->add_option("--protocol", args->protocol,
+                   "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)");
+  verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->capture_default_str();
+  verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search")->capture_default_str()->check(CLI::Range(8, 1000));
+  verb->add_flag("--json", args->json, "one JSON object on standard output");
+  verb->callback([args, &exit_code] {
+    run_explain(*args);
+    exit_code = 0;
+  });
+}
+
+}  // namespace cavum
