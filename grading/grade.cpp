@@ -114,7 +114,10 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.tissues = input.before.tissues;
   r.leaf_mm = input.zones.leaf_mm();
   r.accommodations = input.scenario.accommodations;
-  r.limit_ticks = exam_limit_ticks(input.scenario);
+  r.limit_ticks = input.sat_under_ticks >= 0 ? input.sat_under_ticks : exam_limit_ticks(input.scenario);
+  if (const auto limit = exam_limit_ticks(input.scenario); limit != r.limit_ticks)
+    r.notes.push_back("the exam ran under a limit of " + seconds(r.limit_ticks) + "; the scenario it is marked by has " + seconds(limit) +
+                      ", which was not applied");
   const std::int64_t ticks = counted_ticks(input);
   // without motion (a cavity handed in for marking) every removed leaf counts
   const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;

@@ -22,6 +22,7 @@ struct GradeInput {
   std::span<const TickRecord> records;
   std::span<const RemovedAt> removed;
   std::span<const SessionEvent> events;  ///< kinds as event_name gives them; others are ignored
+  std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
 };
 
 /// `rubric` may be another than the scenario's own.

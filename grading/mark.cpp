@@ -61,7 +61,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   out.value = v.value;
   out.bound = v.bound;
   if (!v.value) {
-    out.reason = "cannot be measured: nothing was cut there";
+    out.reason = "cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind";
     out.critical_failed = c.critical_below.has_value();
     return out;
   }
@@ -78,8 +78,11 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
     const std::string unit = out.unit.empty() ? "" : out.unit == "%" ? " %" : " " + out.unit;
     out.reason = fixed(*v.value, 2) + unit + " where " + fixed(c.full, 2) + unit + " gives full marks" + (loss.text.empty() ? "" : ": " + loss.text);
   }
-  if (out.critical_failed)
+  if (out.critical_failed) {
+    const bool above = c.critical_above && *v.value > *c.critical_above;
+    out.reason += std::string("; critical ") + (above ? "above " : "below ") + fixed(above ? *c.critical_above : *c.critical_below, 2);
     out.reason += out.doubtful ? "; this alone would fail the exam, but force and tissue disagree on it" : "; this alone fails the exam";
+  }
   if (out.work_share < 1)
     out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + fixed(work.percent, 1) + " % of the target" + work.where +
                   " was removed, and care counts in full from " + fixed(k_care_counts_percent, 0) + " % on";
@@ -138,6 +141,10 @@ void mark(Result& r, const RubricSpec& rubric) {
     text += ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %";
   }
   r.verdict_reasons.push_back(text);
+  if (!r.compensatory)
+    for (const auto& c : r.criteria)
+      if (const double percent = c.max > 0 ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.which != "criterion " + c.id)
+        r.verdict_reasons.push_back("criterion " + c.id + " reaches " + fixed(percent, 1) + " %, below the pass mark, too");
   if (doubt) {
     const std::string what = r.perforation.detected() ? "the force shows a faulty breakthrough, the tissue does not"
                                                       : "the tissue shows a faulty breakthrough, the force does not";

@@ -25,6 +25,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario", Reading::recorded);
   use_surfaces(s->scenario, setup.attachments);
   s->scenario.accommodations = granted(s->scenario.accommodations, setup.notes, path + ": accommodations");
+  s->sat_under_ticks = exam_limit_ticks(s->scenario);
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
   s->before = load_tooth(setup.tooth, path + ": tooth");
   s->after = std::move(after);

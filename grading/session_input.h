@@ -23,7 +23,8 @@ struct GradedSession {
   ReportFacts facts;
   std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
   std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
-  [[nodiscard]] GradeInput input() const { return {scenario, before, zones, after.octree, inputs, records, removed, events}; }
+  std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
+  [[nodiscard]] GradeInput input() const { return {scenario, before, zones, after.octree, inputs, records, removed, events, sat_under_ticks}; }
 };
 
 /// Throws Error when the file is damaged, or was never closed (resume it first).

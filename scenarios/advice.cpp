@@ -243,6 +243,17 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const ValueRange&
     warn(place + "/full", "nobody can lose these points: " + runs, "set 'full' and 'zero' within that, or take the criterion out");
   else if (c.points > 0 && best < 1)
     warn(place + "/full", "nobody can win all of these points: " + runs, "set 'full' within that");
+  if (c.critical_below && c.critical_above && *c.critical_below > *c.critical_above)
+    warn(place + "/critical_below",
+         "everybody fails: every value is below " + plain_number(*c.critical_below) + " or above " + plain_number(*c.critical_above),
+         "make critical_below the smaller of the two");
+  else if ((c.critical_below && c.full < *c.critical_below) || (c.critical_above && c.full > *c.critical_above))
+    warn(place + (c.critical_below && c.full < *c.critical_below ? "/critical_below" : "/critical_above"),
+         "who has full marks at " + plain_number(c.full) + " fails by it all the same", "let the critical limit lie beyond 'full'");
+  if (among({"overhang_mm3", "canals_covered_percent"}, c.metric) && s_.perforation.aims.empty())
+    warn(place + "/metric",
+         "'" + c.metric + "' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points",
+         "name the aim in [perforation], or take the criterion out");
   if ((c.critical_above && *c.critical_above < range.low) || (c.critical_below && *c.critical_below > range.high))
     warn(place + (c.critical_above && *c.critical_above < range.low ? "/critical_above" : "/critical_below"), "everybody fails by this: " + runs,
          "set it within that");

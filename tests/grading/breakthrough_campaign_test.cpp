@@ -169,7 +169,7 @@ void judge(const std::vector<Outcome>& all, double dated_within_ms, const char* 
   std::cout << "\ncavity grazed from outside: " << grazed << '\n';
   if (picture != nullptr) std::ofstream(picture) << roc_svg(counted);
 
-  EXPECT_GE(sum.perforated, static_cast<int>(all.size()) / 10) << "too few to say anything";
+  EXPECT_GE(sum.perforated, static_cast<int>(all.size()) / 25) << "too few to say anything";
   EXPECT_GE(sum.clean, static_cast<int>(all.size()) / 3);
   EXPECT_LE(missed, most_missed);
   EXPECT_LE(sum.alarmed, most_alarmed);

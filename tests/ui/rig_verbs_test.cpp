@@ -72,7 +72,7 @@ TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
   expect_refused("rig press --c strong", {"paper, consistent or none"});
   expect_refused("rig press --k 0", {"--k"});
   for (const char* nan : {"cube --k nan", "cube --csv-k nan", "tooth --spread-mm nan", "press --press nan", "press --hand nan", "press --k nan"})
-    expect_refused(nan, {"'nan' is no number from"});
+    expect_refused(std::string("rig ") + nan, {"'nan' is no number from"});
   expect_refused("rig servo --seconds nan --out " + path("s.cavum"), {"'nan' is no number from"});
   expect_refused("rig servo", {"--out"});
   write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
