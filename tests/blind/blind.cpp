@@ -1,6 +1,7 @@
 // The blind test of `cavum explain`: hides effects in recordings, asks the program, and compares afterwards.
 //   blind CAVUM --sample           what fits in --minutes (4), mixed evenly; fails where rates are worse than promised or than measured before
 //   blind CAVUM --table            at least --draws (10) draws of each mechanism at sizes 1.0 and 0.35, and everything else
+//   blind CAVUM --table --only-simpler   the simpler methods alone, without asking the program
 //   blind CAVUM --case KIND NAME[,NAME] SIZE QUANTUM SEED [--keep DIR]   one recording again
 // CAVUM_TEST_SEED repeats a run; without it the seed is drawn anew. Cases are the same for any number of --jobs; where --minutes end them is not.
 #include <algorithm>
@@ -28,7 +29,7 @@ const std::vector<double> k_quanta_mm{0.0, 0.01, 0.055};
 
 struct Options {
   std::filesystem::path cavum, keep, log;
-  bool table = false;
+  bool table = false, only_simpler = false;
   int draws = 10, jobs = 2;
   double minutes = 0.0;  ///< 0: no end
   std::string only;
@@ -94,7 +95,8 @@ std::vector<Request> plan(const Options& o, Draw& draw) {
 Outcome run(const Options& o, const Request& request, const std::filesystem::path& folder) {
   Outcome outcome;
   outcome.hidden = write_recording(request, folder);
-  outcome.verdict = ask(o.cavum, folder, request.seed % 1000000);
+  if (!o.only_simpler) outcome.verdict = ask(o.cavum, folder, request.seed % 1000000);
+  if (request.kind == Kind::single || request.kind == Kind::clean) outcome.simpler = ask_simpler(folder);
   return outcome;
 }
 
@@ -176,6 +178,8 @@ Options parse(int argc, char** argv) {
       o.minutes = 4.0;
     else if (a == "--table")
       o.table = true;
+    else if (a == "--only-simpler")
+      o.only_simpler = true;
     else if (a == "--draws")
       o.draws = std::stoi(value());
     else if (a == "--jobs")
@@ -228,6 +232,8 @@ int go(const Options& o) {
   std::printf("CAVUM_TEST_SEED=%llu\n", static_cast<unsigned long long>(o.seed));
   Draw draw(o.seed);
   const std::vector<Outcome> done = run_all(o, plan(o, draw), scratch);
+  print_simpler(done);
+  if (o.only_simpler) return 0;
   print_table(done);
   return hold(done) ? 0 : 1;
 }

@@ -44,11 +44,18 @@ Forces delayed(const Motion& m, const Forces& base, double tau_s) {
   });
 }
 
+/// First-order lag, exact for a force that is straight between two fine steps.
 Forces low_passed(const Motion& m, const Forces& base, double tau_s) {
   Forces out(m.size());
+  const double keep = std::exp(-k_step_s / tau_s);
   double y = 0.0;
   for (std::size_t i = 0; i < m.size(); ++i) {
-    y = new_session(m, i) ? base[i] : y + (base[i] - y) * (1.0 - std::exp(-k_step_s / tau_s));
+    if (new_session(m, i)) {
+      y = base[i];
+    } else {
+      const double behind = tau_s * (base[i] - base[i - 1]) / k_step_s;
+      y = base[i] - behind + (y - base[i - 1] + behind) * keep;
+    }
     out[i] = y - base[i];
   }
   return out;
@@ -193,7 +200,7 @@ Effect make_effect(const std::string& name, Draw& draw, const Motion& m, const B
   } else if (name == "gravity_posture") {
     scaled(each_row(m, [&](std::size_t i) { return sign * sine_deg(m.posture_deg[i]); }), signed_just("mg_n|weight_n|m_g_n"));
   } else if (name == "inertia") {
-    scaled(m.a_mm_s2, just("m_n_s2_per_mm|mass_n_s2_per_mm"));
+    scaled(m.a_mm_s2, [](double mass) { return std::vector<Parameter>{{"mass_n_s2_per_mm", mass}, {"mass_kg", 1000.0 * mass}}; });
   } else if (name == "gain_error") {
     scaled(base(), signed_just("g|gain"));
   } else if (name == "cross_talk") {
@@ -259,7 +266,7 @@ Effect make_effect(const std::string& name, Draw& draw, const Motion& m, const B
   } else if (name == "anisotropy") {
     const double phi0 = draw.uniform(0.0, 180.0);
     scaled(each_row(m, [&, f = base()](std::size_t i) { return f[i] * std::cos(2.0 * (m.approach_deg[i] - phi0) * k_pi / 180.0); }), [=](double a) {
-      return std::vector<Parameter>{{"a|amplitude", a}, {"phi0_deg", phi0}};
+      return std::vector<Parameter>{{"epsilon|a|amplitude", a}, {"phi0_deg", phi0}};
     });
   } else if (name == "relaxation") {
     const bool two = draw.chance(0.33);
@@ -343,9 +350,15 @@ double amount_for(const Effect& effect, const Motion& motion, const Base& base, 
     const double one = size(1.0);
     return one > 0.0 ? target_n / one : 0.0;
   }
-  if (size(effect.most) < target_n) return 0.0;
-  double low = 0.0, high = effect.most;
-  for (int step = 0; step < 24; ++step) {
+  // the first amount that is large enough: a spring in series becomes a softer k again when it is very soft
+  constexpr int k_scan = 24;
+  double low = 0.0, high = 0.0;
+  for (int step = 1; step <= k_scan && high == 0.0; ++step) {
+    const double amount = effect.most * std::pow(1e-3, 1.0 - static_cast<double>(step) / k_scan);
+    (size(amount) < target_n ? low : high) = amount;
+  }
+  if (high == 0.0) return 0.0;
+  for (int step = 0; step < 16; ++step) {
     const double middle = 0.5 * (low + high);
     (size(middle) < target_n ? low : high) = middle;
   }

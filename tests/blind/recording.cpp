@@ -25,16 +25,19 @@ struct Column {
   const char* format;
 };
 
-std::vector<double> noise(Draw& draw, const Motion& m, std::size_t rows, double sd_n, bool heavy) {
+/// AR(1), scaled so that its root mean square in this recording is `rms_n`.
+std::vector<double> noise(Draw& draw, const Motion& m, std::size_t rows, double rms_n, bool heavy) {
   const double keep = draw.uniform(0.3, 0.8), kick = std::sqrt(1.0 - keep * keep);
   std::vector<double> out(rows);
-  double e = 0.0;
+  double e = 0.0, square = 0.0;
   for (std::size_t r = 0; r < rows; ++r) {
     const std::size_t i = r * k_rows_per_row;
     if (r == 0 || m.session[i] != m.session[i - k_rows_per_row]) e = draw.normal();
     e = keep * e + kick * (heavy ? draw.heavy() : draw.normal());
-    out[r] = sd_n * e;
+    out[r] = e;
+    square += e * e;
   }
+  for (double& value : out) value *= rms_n / std::sqrt(square / static_cast<double>(rows));
   return out;
 }
 
@@ -88,7 +91,7 @@ Base hide(const Request& request, Draw& draw, const Motion& m, Hidden& hidden, s
         amount = draw.uniform(0.1, 0.3);  // no size: k and c take all of it
       } else {
         amount = amount_for(effect, m, base, request.size * hidden.noise_n);
-        if (amount == 0.0) amount = effect.most, hidden.reached = false;
+        if (amount == 0.0) amount = 0.1 * effect.most, hidden.reached = false;
       }
       const std::vector<double> f = effect.force_n(amount);
       for (std::size_t i = 0; i < f.size(); ++i) added_n[i] += f[i];

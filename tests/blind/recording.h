@@ -25,7 +25,7 @@ struct Request {
 /// What was hidden.
 struct Hidden {
   Request request;
-  double noise_n = 0.0;   ///< standard deviation of the noise
+  double noise_n = 0.0;   ///< root mean square of the noise
   double effect_n = 0.0;  ///< root mean square beyond k and c of all that was hidden
   bool has_v = false, heavy_tails = false;
   bool reached = true;                        ///< false: no amount of the effect gives the size on such a motion; the largest was taken

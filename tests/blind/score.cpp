@@ -30,9 +30,11 @@ void compare_parameters(const std::vector<Parameter>& truth, const Cause& cause,
       }
 }
 
-/// Of held-out error, in percent: what the generating model gains over the base, both carrying the same share of noise and of position quantum.
+/// Of held-out error, in percent: what the generating model gains over the base. Up to a quantum of 0.01 mm nothing but the noise is left to it; with
+/// a coarse encoder, the base's error without the effect.
 double possible_gain_percent(const Hidden& h, const Verdict& v) {
-  const double base = v.base_rmse_n, left2 = std::max(h.noise_n * h.noise_n, base * base - h.effect_n * h.effect_n);
+  const double base = v.base_rmse_n, noise2 = h.noise_n * h.noise_n;
+  const double left2 = h.request.quantum_mm <= 0.01 ? noise2 : std::max(noise2, base * base - h.effect_n * h.effect_n);
   return base > 0.0 ? 100.0 * std::max(0.0, 1.0 - std::sqrt(left2) / base) : 0.0;
 }
 
@@ -43,7 +45,7 @@ std::string set_of(const Cause& c) {
 }
 
 std::string said(const Verdict& v) {
-  if (!v.answered) return "NO ANSWER " + v.trouble;
+  if (!v.answered) return v.trouble.empty() ? "not asked" : "NO ANSWER " + v.trouble;
   std::string text = v.verdict;
   for (const Cause& c : v.causes) text += " " + set_of(c);
   if (!v.unexplained.empty()) text += " ?" + v.unexplained;
@@ -190,6 +192,42 @@ void print_table(const std::vector<Outcome>& outcomes) {
     if (!row.gains.empty()) std::printf("  gain %.2f", median(row.gains));
     std::printf("\n");
     for (const auto& [text, count] : row.otherwise) std::printf("%34s %d x %s\n", "instead", count, text.c_str());
+  }
+}
+
+void print_simpler(const std::vector<Outcome>& outcomes) {
+  struct Tally {
+    int recordings = 0, found = 0, named = 0, named_true = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Tally> tallies;  // by what was hidden, and method
+  for (const Outcome& o : outcomes) {
+    const Request& q = o.hidden.request;
+    if ((q.kind != Kind::single && q.kind != Kind::clean) || (q.kind == Kind::single && q.names[0] == "gain_error")) continue;
+    std::ostringstream group;
+    group << (q.kind == Kind::clean ? "nothing hidden" : "one hidden, size ");
+    if (q.kind == Kind::single) group << q.size;
+    group << ", quantum " << q.quantum_mm << " mm";
+    const auto count = [&](const char* method, int found, int named, int named_true) {
+      Tally& t = tallies[{group.str(), method}];
+      ++t.recordings, t.found += found, t.named += named, t.named_true += named_true;
+    };
+    const auto count_list = [&](const char* method, const std::vector<std::string>& names) {
+      const bool found = q.kind == Kind::clean ? names.empty() : contains(names, q.names[0]);
+      count(method, found, static_cast<int>(names.size()), q.kind == Kind::single && found);
+    };
+    const Mark m = mark(o);
+    if (o.verdict.answered) count("explain", m.found, m.causes, m.true_causes);
+    count_list("thresholded least squares", o.simpler.thresholded);
+    count_list("forward BIC", o.simpler.forward_bic);
+  }
+  std::printf(
+      "\nbeside simpler methods: recordings with the right answer (the truth named; nothing named where nothing is hidden), and causes named per "
+      "recording\n");
+  for (const auto& [key, t] : tallies) {
+    std::printf("%-42s %-26s %4d/%-4d  %5.1f named", key.first.c_str(), key.second.c_str(), t.found, t.recordings,
+                static_cast<double>(t.named) / t.recordings);
+    if (t.named > 0) std::printf(", %3.0f %% of them true", 100.0 * t.named_true / t.named);
+    std::printf("\n");
   }
 }
 

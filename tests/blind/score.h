@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/blind/rate.h"
+#include "tests/blind/simpler.h"
 #include "tests/blind/verdict.h"
 
 namespace cavum::blind {
@@ -11,6 +12,7 @@ namespace cavum::blind {
 struct Outcome {
   Hidden hidden;
   Verdict verdict;
+  SimplerAnswers simpler;
 };
 
 /// How one verdict compares. For `gain_error`, which k and c take up entirely, `found` means that it was called not testable or put into an alias
@@ -30,6 +32,9 @@ struct Mark {
 
 /// Mechanism × quantum × size, what was said instead, parameters, gain; to standard output.
 void print_table(const std::vector<Outcome>& outcomes);
+
+/// What `explain` and the simpler methods name, counted alike; to standard output.
+void print_simpler(const std::vector<Outcome>& outcomes);
 
 /// One line for one outcome: hidden, said, and how to repeat it.
 [[nodiscard]] std::string line_of(const Outcome& outcome);
