@@ -202,7 +202,7 @@ Effect make_effect(const std::string& name, Draw& draw, const Motion& m, const B
   } else if (name == "inertia") {
     scaled(m.a_mm_s2, [](double mass) { return std::vector<Parameter>{{"mass_n_s2_per_mm", mass}, {"mass_kg", 1000.0 * mass}}; });
   } else if (name == "gain_error") {
-    scaled(base(), signed_just("g|gain"));
+    scaled(base(), signed_just("g|gain|fraction"));
   } else if (name == "cross_talk") {
     const double turn = draw.uniform(0.0, 2.0 * k_pi);
     scaled(each_row(m, [&](std::size_t i) { return std::cos(turn) * m.fy_n[i] + std::sin(turn) * m.fz_n[i]; }), [=](double amount) {
@@ -224,11 +224,14 @@ Effect make_effect(const std::string& name, Draw& draw, const Motion& m, const B
         });
   } else if (name == "backlash") {
     curved(
-        0.5, [&m, b](double gap) { return with_play(m, b, gap); }, just("gap_mm|b_mm|play_mm|width_mm"));
+        0.5, [&m, b](double gap) { return with_play(m, b, gap); },
+        [](double gap) {
+          return std::vector<Parameter>{{"b_mm", 0.5 * gap}, {"gap_mm|width_mm", gap}};
+        });
   } else if (name == "hysteresis") {
     const double z0 = draw.log_uniform(0.05, 0.2);
     scaled(bouc_wen(m, z0, 1.0), [=](double alpha) {
-      return std::vector<Parameter>{{"alpha_n_per_mm", alpha}, {"z0_mm", z0}, {"fh_n|force_n", alpha * z0}};
+      return std::vector<Parameter>{{"alpha_n_per_mm", alpha}, {"z0_mm|d_mm", z0}, {"fh_n|force_n", alpha * z0}};
     });
   } else if (name == "series_compliance") {
     curved(
@@ -306,7 +309,7 @@ Effect make_effect(const std::string& name, Draw& draw, const Motion& m, const B
     while (std::abs(hz - alias_hz) < 4.0) hz = draw.uniform(15.0, 90.0);
     scaled(line(m, [&](std::size_t) { return hz; }), [=](double a) { return std::vector<Parameter>{{"amplitude_n", a}, {"frequency_hz|f_hz", hz}}; });
   } else if (name == "coolant") {
-    scaled(each_row(m, [&, f = base()](std::size_t i) { return sign * f[i] * m.wet[i]; }), signed_just("g|a|wet"));
+    scaled(each_row(m, [&, f = base()](std::size_t i) { return sign * f[i] * m.wet[i]; }), signed_just("fraction|g"));
   } else if (name == "thermal_softening") {
     scaled(each_row(m, [&, f = base()](std::size_t i) { return -f[i] * (m.temperature_c[i] - m.temperature_c[0]); }),
            just("per_k|a_per_k|per_c|a_per_c"));
