@@ -141,7 +141,17 @@ std::vector<std::string> draw_pair(Draw& draw) {
   std::vector<std::string> names = mechanisms();
   // k and c hide a gain error; a second effect is drawn on top of an unsaturated sensor
   std::erase_if(names, [](const std::string& n) { return n == "gain_error" || n == "saturation"; });
-  draw.shuffle(names);
+  const std::vector<std::vector<std::string>> families{{"delay", "low_pass", "series_compliance"},
+                                                       {"coulomb_friction", "stribeck_friction"},
+                                                       {"backlash", "hysteresis"},
+                                                       {"nonlinear_stiffness", "hidden_layer", "graded_stiffness"}};
+  const auto related = [&] {
+    return std::any_of(families.begin(), families.end(), [&](const auto& f) {
+      return std::find(f.begin(), f.end(), names[0]) != f.end() && std::find(f.begin(), f.end(), names[1]) != f.end();
+    });
+  };
+  do draw.shuffle(names);
+  while (related());
   names.resize(2);
   return names;
 }

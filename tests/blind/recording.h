@@ -36,7 +36,7 @@ struct Hidden {
 /// `time_base metres clipped shuffled repeated`.
 [[nodiscard]] const std::vector<std::string>& faults();
 
-/// Pairs are drawn from the mechanisms that can be found at all.
+/// Two mechanisms that can be found at all, and not of one family: two lags in a row, or two curvatures of k X, are one effect to any observer.
 [[nodiscard]] std::vector<std::string> draw_pair(Draw& draw);
 
 /// Writes `folder`/recording.csv and `folder`/rig.toml. \throws std::runtime_error where that is impossible.
