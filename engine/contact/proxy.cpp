@@ -21,8 +21,8 @@ constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
 constexpr int k_refinements = 8;
 constexpr std::size_t k_refined_room = 32;
 // Half spaces say little of a crest of tissue between two samples, or of a sheet between head and neck: the proxy goes forth and back over it, and
-// gathers anew each time. So a step back makes the stride shorter, and a tick that stepped back looks up only so many places more: the proxy
-// goes on in the next tick. No tick looks up more than `k_most_looked_up`.
+// gathers anew each time. So a step back makes the stride shorter, and the search ends for this tick once more places than that were looked up,
+// sooner after a second step back: the proxy goes on in the next tick. The last gathering comes on top (some 450 places in a deep hole).
 constexpr int k_most_looked_up = 1200, k_most_going_back = 300;
 constexpr double k_resting_stride = 0.05;          // leaves: the shortest stride
 constexpr double k_shorter = 0.4, k_longer = 1.5;  // a stride after a step back, and after one onwards
@@ -198,7 +198,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     result.in_air = true;
   } else {
     // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves. Where the surface turns under a step
-    // the next one leads back: half as far, or the proxy would go forth and back for ever.
+    // the next one leads back: less far, or the proxy would go forth and back for ever.
     const double least_stride = k_resting_stride * leaf;
     double& stride = state.stride_mm;
     if (!state.touching) stride = leaf;

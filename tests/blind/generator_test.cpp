@@ -8,15 +8,10 @@
 
 #include "tests/blind/rate.h"
 #include "tests/blind/recording.h"
+#include "tests/blind/verdict.h"
 
 namespace cavum::blind {
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 struct Folder {
   std::filesystem::path path =

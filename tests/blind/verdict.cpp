@@ -8,13 +8,14 @@
 #include <sstream>
 
 namespace cavum::blind {
-namespace {
 
 std::string text_of(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
 }
+
+namespace {
 
 /// A number, or 0 where the answer has null.
 double number(const nlohmann::json& object, const char* name) {

@@ -35,6 +35,9 @@ struct Verdict {
   double seconds = 0.0;  ///< wall clock
 };
 
+/// A file's bytes; empty when it cannot be read.
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+
 /// Runs `cavum explain folder/recording.csv --json --seed seed`.
 [[nodiscard]] Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed);
 
