@@ -1,5 +1,7 @@
 #include "engine/instrument/head_field.h"
 
+#include <algorithm>
+
 namespace cavum {
 
 HeadField::HeadField(const Profile& head, double cutting_length_mm, double head_radius_mm) {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/base/hash.h"
 
 namespace cavum {
 
@@ -112,10 +111,11 @@ std::uint8_t Octree::tissue_in(std::uint32_t ref, int leaf) const noexcept {
 Octree::FullBrick Octree::expanded(std::uint32_t ref) const noexcept {
   if ((ref & k_kind) == k_full_brick) return bricks_.items[ref & k_index];
   FullBrick brick;
-  for (std::size_t i = 0; i < k_brick_leaves; ++i) {
-    brick.tissue[i] = tissue_in(ref, static_cast<int>(i));
-    brick.distance[i] = static_cast<std::int8_t>(uniform_code(brick.tissue[i]));
-  }
+  if ((ref & k_kind) == k_label_brick)
+    brick.tissue = labels_.items[ref & k_index].tissue;
+  else
+    brick.tissue.fill(static_cast<std::uint8_t>(ref & k_index));
+  brick.distance.fill(static_cast<std::int8_t>(uniform_code(brick.tissue[0])));  // without distances all leaves are solid, or none is
   return brick;
 }
 
@@ -208,86 +208,6 @@ bool Octree::clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IV
     default:
       return false;
   }
-}
-
-bool Octree::apply(Plan& plan, std::vector<RemovedLeaf>& removed) noexcept {
-  plan.applied_ = 0;
-  plan.out_of_room_ = false;
-  if (!plan.bricks_.empty()) apply_in(root_, levels_, {0, 0, 0}, 0, plan, removed);
-  plan.bricks_.clear();
-  return !plan.out_of_room_;
-}
-
-void Octree::apply_in(std::uint32_t& ref, int level, IVec3 low, std::uint32_t place, Plan& plan, std::vector<RemovedLeaf>& removed) noexcept {
-  if (level == 0) {
-    if (bricks_.full() || labels_.full() || removed.capacity() - removed.size() < k_brick_leaves) {
-      plan.out_of_room_ = true;
-      return;
-    }
-    store_brick(ref, low, plan.bricks_[plan.applied_++].content, removed);
-    return;
-  }
-  if ((ref & k_kind) == k_uniform) {
-    if (nodes_.full()) {
-      plan.out_of_room_ = true;
-      return;
-    }
-    Node split;
-    split.child.fill(ref);
-    ref = k_node | nodes_.add(split);
-    ++version_;
-  }
-  const std::uint32_t node = ref & k_index;
-  const std::uint32_t part = 1u << 3 * (level - 1);
-  bool all_equal = true;
-  for (std::uint32_t i = 0; i < 8; ++i) {
-    std::uint32_t child = nodes_.items[node].child[i];
-    if (!plan.out_of_room_ && plan.applied_ < plan.bricks_.size() && plan.bricks_[plan.applied_].place < place + (i + 1) * part) {
-      apply_in(child, level - 1, low_of_child(low, i, k_brick_edge << (level - 1)), place + i * part, plan, removed);
-      nodes_.items[node].child[i] = child;
-    }
-    all_equal = all_equal && (child & k_kind) == k_uniform && child == nodes_.items[node].child[0];
-  }
-  if (all_equal) {
-    ref = nodes_.items[node].child[0];
-    nodes_.release(node);
-    ++version_;
-  }
-}
-
-void Octree::store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, std::vector<RemovedLeaf>& removed) noexcept {
-  const auto before = labels_of(ref);
-  const bool same = before.mask != 0 && std::equal(brick.tissue.begin(), brick.tissue.end(), before.first);
-  for (int block = 0; block < 8 && !same; ++block)
-    for (const int inner : k_leaf_of_block) {
-      const int i = first_of_block(block) + inner;
-      const std::uint8_t tissue = before.first[i & before.mask];
-      if (tissue == brick.tissue[static_cast<std::size_t>(i)]) continue;
-      const IVec3 leaf = low + IVec3{i & 3, i >> 2 & 3, i >> 4};
-      removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), tissue, 0});
-    }
-  const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
-  edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
-  if ((ref & k_kind) == k_full_brick) {
-    const bool empty = std::all_of(brick.distance.begin(), brick.distance.end(), [](int code) { return code == k_distance_far; }) &&
-                       std::all_of(brick.tissue.begin(), brick.tissue.end(), [](int tissue) { return tissue == k_air; });
-    if (!empty) {
-      bricks_.items[ref & k_index] = brick;
-      return;
-    }
-    bricks_.release(ref & k_index);
-    ref = k_uniform | k_air;
-  } else {
-    if ((ref & k_kind) == k_label_brick) labels_.release(ref & k_index);
-    ref = canonical(brick);
-  }
-  ++version_;
-}
-
-void Octree::reserve_edits(std::size_t bricks) {
-  bricks_.reserve(bricks);
-  labels_.reserve(bricks);
-  nodes_.reserve(bricks);
 }
 
 std::array<std::uint64_t, 256> Octree::count_leaves() const {

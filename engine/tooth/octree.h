@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -186,12 +188,30 @@ class Octree {
   // A brick as eight blocks of 2x2x2 leaves: the first leaf of a block, and its leaves from there.
   [[nodiscard]] static constexpr int first_of_block(int block) noexcept { return (block & 1) * 2 + (block >> 1 & 1) * 8 + (block >> 2) * 32; }
   static constexpr std::array<int, 8> k_leaf_of_block{0, 1, 4, 5, 16, 17, 20, 21};
+  /// The bytes of a block's eight leaves, the first in the lowest byte; leaves lie in pairs along x.
+  [[nodiscard]] static std::uint64_t bytes_of_block(const void* leaves, int block) noexcept {
+    const auto* first = static_cast<const unsigned char*>(leaves) + first_of_block(block);
+    std::uint16_t a, b, c, d;
+    std::memcpy(&a, first, 2);
+    std::memcpy(&b, first + 4, 2);
+    std::memcpy(&c, first + 16, 2);
+    std::memcpy(&d, first + 20, 2);
+    return static_cast<std::uint64_t>(a | static_cast<std::uint32_t>(b) << 16) | static_cast<std::uint64_t>(c | static_cast<std::uint32_t>(d) << 16)
+                                                                                     << 32;
+  }
+  static void put_bytes_of_block(void* leaves, int block, std::uint64_t bytes) noexcept {
+    auto* first = static_cast<unsigned char*>(leaves) + first_of_block(block);
+    const std::uint64_t b = bytes >> 16, c = bytes >> 32, d = bytes >> 48;
+    std::memcpy(first, &bytes, 2);
+    std::memcpy(first + 4, &b, 2);
+    std::memcpy(first + 16, &c, 2);
+    std::memcpy(first + 20, &d, 2);
+  }
+  static_assert(std::endian::native == std::endian::little);
+  static constexpr std::uint64_t k_each_byte = 0x0101010101010101u;
   [[nodiscard]] static bool is_empty_block(const FullBrick& brick, int block) noexcept {
-    for (const int i : k_leaf_of_block) {
-      const auto leaf = static_cast<std::size_t>(first_of_block(block) + i);
-      if (brick.tissue[leaf] != k_air || brick.distance[leaf] != k_distance_far) return false;
-    }
-    return true;
+    return bytes_of_block(brick.distance.data(), block) == k_each_byte * k_distance_far &&
+           bytes_of_block(brick.tissue.data(), block) == k_each_byte * k_air;
   }
   [[nodiscard]] int uniform_code(std::uint8_t tissue) const noexcept { return solid_[tissue] ? -k_distance_far : k_distance_far; }
   /// The eight leaves whose centres surround a place: bit 0, 1, 2 of a corner's number = along x, y, z.
@@ -248,7 +268,17 @@ class Octree {
   template <class Shape>
   void plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t place, const Shape& shape, Planning& planning) const noexcept;
   template <class Shape>
-  bool cut_brick(IVec3 low, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept;
+  bool cut_brick(IVec3 low, unsigned near, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept;
+  /// A number for each leaf of a block: a vector type, of which every compiler and machine makes the same.
+  using EightCodes = std::int16_t __attribute__((vector_size(16)));
+  [[nodiscard]] static EightCodes eight_of(const std::int16_t* numbers) noexcept {
+    EightCodes eight;
+    std::memcpy(&eight, numbers, sizeof eight);
+    return eight;
+  }
+  [[nodiscard]] static bool any_of(EightCodes marks) noexcept;
+  /// Cuts a block with the shape's distance codes; `inside` is -1 for leaves in the shape and else 0, `solid_most` the largest code of a solid leaf.
+  bool cut_block(FullBrick& brick, int block, EightCodes cut, EightCodes inside, std::int16_t solid_most) const noexcept;
   void apply_in(std::uint32_t& ref, int level, IVec3 low, std::uint32_t place, Plan& plan, std::vector<RemovedLeaf>& removed) noexcept;
   void store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, std::vector<RemovedLeaf>& removed) noexcept;
   void write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue, ByteWriter& distance) const;

@@ -29,6 +29,9 @@ concept KnowsUnchanged = requires(const Shape& shape) {
 };
 inline constexpr double k_half_diagonal = 1.7320508075688773;  ///< of a cube, in half edges
 
+/// Single precision for shapes that offer it.
+template <class Shape>
+using BlockDistances = std::array<std::conditional_t<KnowsCorners<Shape>, float, double>, 8>;
 /// The shape's distances at the centres of 2x2x2 leaves, or of 2x2x2 blocks of 2x2x2 leaves, x fastest.
 template <class Shape, class Real>
 void corner_distances(const Shape& shape, Vec3 low_mm, double leaf_mm, bool of_blocks, Real* out) noexcept {
@@ -81,30 +84,36 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
               place + (i << 3 * (level - 1)), shape, planning);
     return;
   }
+  planning.plan.next_ = end;
+  constexpr int k_brick_work = 6;
+  planning.work -= k_brick_work;
+  // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
+  BlockDistances<Shape> block_mm;
+  corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm.data());
+  const auto far_mm = static_cast<typename BlockDistances<Shape>::value_type>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
+  unsigned near = 0;
+  for (unsigned block = 0; block < 8; ++block) near |= (block_mm[block] > far_mm ? 0u : 1u) << block;
+  if (near == 0) return;
   auto& bricks = planning.plan.bricks_;
   bricks.emplace_back();
   bricks.back().place = place;
   bricks.back().content = expanded(ref);
-  if (!cut_brick(low, shape, planning, bricks.back().content)) bricks.pop_back();
-  planning.plan.next_ = end;
+  if (!cut_brick(low, near, shape, planning, bricks.back().content)) bricks.pop_back();
 }
 
-/// Cuts a copy of a brick; false when nothing changed.
+/// Cuts the blocks `near` (as bits) of a copy of a brick; false when nothing changed.
 template <class Shape>
-bool Octree::cut_brick(IVec3 low, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept {
-  // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
-  using Real = std::conditional_t<KnowsCorners<Shape>, float, double>;
-  const auto skip_mm = static_cast<Real>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
+bool Octree::cut_brick(IVec3 low, unsigned near, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept {
+  using Real = typename BlockDistances<Shape>::value_type;
   const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)),
              clearance_mm = static_cast<Real>(planning.clearance_mm);
-  const int solid_most = planning.clearance_mm > 0.0 ? int{encode_distance(planning.clearance_mm / leaf_mm_)} : -1;
-  Real block_mm[8], tool_mm[8];
-  corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm);
+  const auto solid_most = static_cast<std::int16_t>(planning.clearance_mm > 0.0 ? encode_distance(planning.clearance_mm / leaf_mm_) : -1);
+  Real tool_mm[8];
   bool changed = false;
-  constexpr int k_brick_work = 6, k_block_work = 5;
-  planning.work -= k_brick_work;
-  for (int block = 0; block < 8; ++block) {
-    if (block_mm[block] > skip_mm || is_empty_block(brick, block)) continue;
+  constexpr int k_block_work = 5;
+  for (; near != 0; near &= near - 1) {
+    const int block = std::countr_zero(near);
+    if (is_empty_block(brick, block)) continue;
     const Vec3 first_mm = centre_mm(low + IVec3{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2});
     if constexpr (KnowsUnchanged<Shape>) {
       const double half = 0.5 * leaf_mm_;
@@ -112,27 +121,17 @@ bool Octree::cut_brick(IVec3 low, const Shape& shape, Planning& planning, FullBr
     }
     planning.work -= k_block_work;
     corner_distances(shape, first_mm, leaf_mm_, false, tool_mm);
-    int cut_code[8];
-    for (int i = 0; i < 8; ++i) {  // encode_distance, eight at a time; in a form that compilers turn into vectors
+    // encode_distance, eight at a time; in a form that compilers turn into vectors
+    std::int16_t cut[8], inside[8];
+    for (int i = 0; i < 8; ++i) {
       constexpr Real k_far = k_distance_far;
       Real code = (clearance_mm - tool_mm[i]) * codes_per_mm;
       code = code < -k_far ? -k_far : code;
       code = code > k_far ? k_far : code;
-      cut_code[i] = static_cast<int>(code + (k_far + Real{0.5})) - k_distance_far;
+      cut[i] = static_cast<std::int16_t>(static_cast<int>(code + (k_far + Real{0.5})) - k_distance_far);
     }
-    for (std::size_t inner = 0; inner < 8; ++inner) {
-      const auto i = static_cast<std::size_t>(first_of_block(block) + k_leaf_of_block[inner]);
-      const int before = brick.distance[i];
-      const std::uint8_t tissue = tool_mm[inner] < 0 ? std::uint8_t{k_air} : brick.tissue[i];
-      const bool removed = tissue != brick.tissue[i];
-      // A solid leaf stays inside the surface, or outside it by no more than the clearance: cut on both sides of a tool whose
-      // width is a whole number of leaves, such leaves would hold it. Air lies outside.
-      int code = solid_[tissue] ? std::min(cut_code[inner], solid_most) : std::max(cut_code[inner], removed ? 1 : -k_distance_far);
-      code = std::max(code, before);
-      changed |= removed | (code != before);
-      brick.tissue[i] = tissue;
-      brick.distance[i] = static_cast<std::int8_t>(code);
-    }
+    for (int i = 0; i < 8; ++i) inside[i] = static_cast<std::int16_t>(-static_cast<int>(tool_mm[i] < 0));
+    changed |= cut_block(brick, block, eight_of(cut), eight_of(inside), solid_most);
   }
   return changed;
 }
