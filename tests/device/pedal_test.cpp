@@ -1,0 +1,143 @@
+// The real hidapi on an emulated pedal: found, read at 1 kHz without a gap, unplugged and plugged in again, silent, and
+// with descriptors that make no sense.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include "engine/device/hid_pedal.h"
+#include "tests/device/emulated_pedal.h"
+
+namespace cavum {
+namespace {
+
+using namespace std::chrono_literals;
+using testing_device::EmulatedPedal;
+
+bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 3000ms) {
+  for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
+    if (condition()) return true;
+  return condition();
+}
+
+class PedalTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+  }
+};
+
+TEST_F(PedalTest, IsFoundWithItsAxes) {
+  const EmulatedPedal pedal;
+  const auto found = list_hid_pedals();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id(), "068e:00f2");
+  EXPECT_EQ(found[0].axes.size(), 3u);
+  EXPECT_EQ(found[0].problem, "");
+  EXPECT_EQ(found[0].path, pedal.node());
+}
+
+TEST_F(PedalTest, PresentButSilentIsUnknown) {
+  const EmulatedPedal pedal;
+  HidPedal reader(0x068e, 0x00f2, {});
+  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  std::this_thread::sleep_for(100ms);
+  const PedalReading r = reader.read();
+  EXPECT_FALSE(r.fresh);
+  EXPECT_TRUE(std::isnan(r.position));
+}
+
+TEST_F(PedalTest, ReadsTheCalibratedAxisAndGoesStale) {
+  EmulatedPedal pedal;
+  HidPedal reader(0x068e, 0x00f2, {.axis = 1, .released = 200, .pressed = 100, .speaks_on_change = false});
+  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  pedal.report_axes(7, 150, 9);
+  ASSERT_TRUE(comes_true([&] { return reader.raw() == 150; }));
+  EXPECT_NEAR(reader.read().position, 0.5, 1e-4);
+  pedal.report_axes(7, 250, 9);
+  ASSERT_TRUE(comes_true([&] { return reader.raw() == 250; }));
+  EXPECT_EQ(reader.read().position, 0.0);
+  std::this_thread::sleep_for(std::chrono::duration<double>(1.2 * HidPedal::k_stale_after_s));
+  EXPECT_FALSE(reader.read().fresh) << "a continuous pedal that says nothing is unknown";
+}
+
+TEST_F(PedalTest, OneThatSpeaksOnChangeHoldsWhileItIsPluggedIn) {
+  EmulatedPedal pedal;
+  HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true});
+  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  EXPECT_FALSE(reader.read().fresh) << "nothing heard yet";
+  pedal.report_axes(255, 0, 0);
+  ASSERT_TRUE(comes_true([&] { return reader.read().fresh; }));
+  std::this_thread::sleep_for(300ms);
+  EXPECT_TRUE(reader.read().fresh);
+  EXPECT_EQ(reader.read().position, 1.0);
+  pedal.unplug();
+  EXPECT_TRUE(comes_true([&] { return !reader.read().fresh; }, 100ms));
+}
+
+TEST_F(PedalTest, ThreeThousandReportsArriveWithoutAGap) {
+  EmulatedPedal pedal;
+  HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
+  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  constexpr int k_reports = 3000;
+  auto next = std::chrono::steady_clock::now();
+  for (int i = 0; i < k_reports; ++i) {
+    ASSERT_TRUE(pedal.report({static_cast<std::uint8_t>(i), 1, 2}));
+    next += 1ms;
+    std::this_thread::sleep_until(next);
+  }
+  ASSERT_TRUE(comes_true([&] { return reader.counts().reports >= k_reports; }));
+  EXPECT_EQ(reader.counts().reports, k_reports);
+  EXPECT_EQ(reader.counts().foreign_reports, 0);
+  std::printf("longest gap between two of %d reports sent each millisecond: %.1f ms\n", k_reports, 1e3 * reader.counts().longest_gap_s);
+}
+
+TEST_F(PedalTest, UnpluggedIsUnknownWithin50msAndComesBack) {
+  EmulatedPedal pedal;
+  HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
+  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(comes_true([&] {
+      pedal.report_axes(255, 0, 0);
+      return reader.read().fresh && reader.read().position == 1.0;
+    }));
+    pedal.unplug();
+    const auto gone = std::chrono::steady_clock::now();
+    ASSERT_TRUE(comes_true([&] { return !reader.read().fresh; }));
+    EXPECT_LT(std::chrono::steady_clock::now() - gone, 50ms);
+    ASSERT_TRUE(comes_true([&] { return std::isnan(reader.read().position); }));
+    EXPECT_NE(reader.problem(), "");
+    pedal.plug_in();
+  }
+  ASSERT_TRUE(comes_true([&] { return reader.counts().plugged_in == 3; }));
+  EXPECT_EQ(reader.counts().unplugged, 2);
+}
+
+TEST_F(PedalTest, OneThatMayNotBeOpenedNamesTheRule) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may open everything";
+  EmulatedPedal pedal;
+  pedal.forbid();
+  const auto found = list_hid_pedals();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].problem.find("ATTRS{idVendor}==\"068e\""), std::string::npos) << found[0].problem;
+}
+
+TEST_F(PedalTest, NoAxisOrNonsenseIsSaidAndNeverCuts) {
+  for (const std::vector<std::uint8_t>& descriptor :
+       {std::vector<std::uint8_t>{0x05, 0x07, 0x19, 0xe0, 0x29, 0xe7, 0x15, 0, 0x25, 1, 0x75, 1, 0x95, 8, 0x81, 2},
+        std::vector<std::uint8_t>{0xff, 0x80, 0x12}}) {
+    EmulatedPedal pedal(descriptor);
+    HidPedal reader(0x068e, 0x00f2, {});
+    ASSERT_TRUE(comes_true(
+        [&] { return reader.problem().find("068e:00f2") != std::string::npos || reader.problem().find("descriptor") != std::string::npos; }));
+    pedal.report({0xff, 0xff, 0xff});
+    std::this_thread::sleep_for(30ms);
+    EXPECT_FALSE(reader.read().fresh);
+  }
+}
+
+}  // namespace
+}  // namespace cavum
