@@ -194,6 +194,10 @@ void Exam::record_events() {
 const TickOutput& Exam::tick(const TickInput& wanted) {
   TickInput input = wanted;
   if (Runner::paused(*runner_state_)) input.pedal_q16 = 0;  // what is recorded is what the step consumed
+  return follow(input);
+}
+
+const TickOutput& Exam::follow(const TickInput& input) {
   last_input_ = input;
   last_ = step(simulation_.model, simulation_.state, input);
   runner_.advance(*runner_state_, input, last_, simulation_.state.removed);

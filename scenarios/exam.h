@@ -69,6 +69,8 @@ class Exam {
   /// One tick, in a pause with the pedal released, whatever the foot does; throws Error when it cannot be recorded (the tick is kept, go on after
   /// making room).
   const TickOutput& tick(const TickInput& input);
+  /// The same with what another servo consumed already, exactly as it is.
+  const TickOutput& follow(const TickInput& consumed);
   [[nodiscard]] bool over() const noexcept { return runner_state_->finish != Finish::running; }
   /// The candidate stops: the exam is over.
   void end();
@@ -82,6 +84,9 @@ class Exam {
   [[nodiscard]] const TickInput& last_input() const noexcept { return last_input_; }
   [[nodiscard]] const RunnerState& runner_state() const noexcept { return *runner_state_; }
   [[nodiscard]] const std::string& instruction() const noexcept { return runner_.instruction(*runner_state_); }
+  /// The exam's time limit with all extra time; 0 = none.
+  [[nodiscard]] std::int64_t limit_ticks() const noexcept { return runner_.limit_ticks(); }
+  [[nodiscard]] const ServoModel& model() const noexcept { return simulation_.model; }
   [[nodiscard]] const ServoState& state() const noexcept { return simulation_.state; }
   [[nodiscard]] Tooth tooth_now() const { return drilled_tooth(simulation_); }
   [[nodiscard]] Recorder& recorder() noexcept { return *recorder_; }

@@ -12,6 +12,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code);
 void add_replay_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
+void add_device_verbs(CLI::App& app, int& exit_code);
 void add_explain_verbs(CLI::App& app, int& exit_code);
 
 }  // namespace cavum

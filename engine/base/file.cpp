@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -31,6 +32,12 @@ void require_no_node(const std::string& path) {
 }
 
 }  // namespace
+
+std::string station_path(const std::string& name) {
+  if (const char* home = std::getenv("CAVUM_HOME"); home != nullptr && *home != 0) return std::string(home) + "/" + name;
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return std::string(home) + "/.config/cavum/" + name;
+  throw Error(name, "neither CAVUM_HOME nor HOME is set", "set CAVUM_HOME to the station's own folder");
+}
 
 Bytes read_file(const std::string& path) {
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};

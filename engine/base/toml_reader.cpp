@@ -55,6 +55,13 @@ std::string TomlReader::text(std::string_view key) {
 
 std::string TomlReader::text_or(std::string_view key, const std::string& otherwise) { return find(key) == nullptr ? otherwise : text(key); }
 
+bool TomlReader::truth_or(std::string_view key, bool otherwise) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return otherwise;
+  if (!node->is_boolean()) fail(key, "is neither true nor false", "write true or false, without quotes");
+  return node->as_boolean()->get();
+}
+
 const toml::table* TomlReader::table(std::string_view key) {
   const toml::node* node = find(key);
   if (node == nullptr) return nullptr;

@@ -26,6 +26,7 @@ class TomlReader {
   [[nodiscard]] double number_or(std::string_view key, double low, double high, double otherwise);
   [[nodiscard]] std::string text(std::string_view key);
   [[nodiscard]] std::string text_or(std::string_view key, const std::string& otherwise);
+  [[nodiscard]] bool truth_or(std::string_view key, bool otherwise);
   /// A table, or nullptr when absent.
   [[nodiscard]] const toml::table* table(std::string_view key);
   /// An array, or nullptr when absent.

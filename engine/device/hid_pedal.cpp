@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/text.h"
+#include "engine/device/station_pedal.h"
 
 namespace cavum {
 namespace {
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 std::uint64_t now_us() noexcept {
   return static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
-}
-
-std::string hexadecimal(std::uint16_t number) {
-  char text[8];
-  std::snprintf(text, sizeof text, "%04x", number);
-  return text;
 }
 
 /// Enumeration of hidapi keeps state of its own: one thread at a time.
@@ -78,10 +72,10 @@ HidPedalInfo info_of(const hid_device_info& d) {
 
 }  // namespace
 
-std::string HidPedalInfo::id() const { return hexadecimal(vendor) + ":" + hexadecimal(product); }
+std::string HidPedalInfo::id() const { return usb_id(vendor, product); }
 
 std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid) {
-  const std::string device = hexadecimal(vendor), model = hexadecimal(product);
+  const std::string id = usb_id(vendor, product), device = id.substr(0, 4), model = id.substr(5);
   return "put the line  " +
          (hid ? R"(KERNEL=="hidraw*", ATTRS{idVendor}==")" + device + R"(", ATTRS{idProduct}==")" + model
               : R"(SUBSYSTEM=="usb", ATTR{idVendor}==")" + device + R"(", ATTR{idProduct}==")" + model) +
@@ -100,35 +94,77 @@ std::vector<HidPedalInfo> list_hid_pedals() {
   return found;
 }
 
+/// A pedal that may be read.
 struct HidPedal::Open {
   Device device;
   std::string path;
-  HidField axis;
+  std::vector<HidField> axes;
   bool numbered = false;
   std::size_t bytes = 0;  // to read at a time
 
-  /// Throws Error when there is no such pedal, or it cannot be used.
-  Open(std::uint16_t vendor, std::uint16_t product, const PedalCalibration& calibration, const std::string& wanted) {
+  /// Throws Error when there is no such pedal, it cannot be used, or it has no axis of that number.
+  Open(std::uint16_t vendor, std::uint16_t product, int axis, const std::string& wanted = {}) {
     const std::lock_guard lock(hidapi_mutex());
     const Devices devices(hid_enumerate(vendor, product));
     const hid_device_info* d = devices.get();
     while (d != nullptr && !wanted.empty() && wanted != d->path) d = d->next;
-    const std::string where = "pedal " + hexadecimal(vendor) + ":" + hexadecimal(product);
+    const std::string where = "pedal " + usb_id(vendor, product);
     if (d == nullptr) throw Error(where, "is not plugged in", "plug it in; `cavum devices` lists what is there");
     path = d->path;
     const HidLayout layout = parse_hid_descriptor(descriptor_of(path));
-    const auto axes = layout.axes();
-    if (calibration.axis < 0 || static_cast<std::size_t>(calibration.axis) >= axes.size())
-      throw Error(where, "has " + std::to_string(axes.size()) + " axes, and axis " + std::to_string(calibration.axis) + " is wanted",
-                  "calibrate it anew: `cavum devices --calibrate pedal`");
-    axis = axes[static_cast<std::size_t>(calibration.axis)];
+    axes = layout.axes();
+    if (axis < 0 || static_cast<std::size_t>(axis) >= axes.size())
+      throw Error(where, "has " + std::to_string(axes.size()) + " axes, and axis " + std::to_string(axis) + " is wanted",
+                  "calibrate it anew: `cavum devices --calibrate-pedal`");
     numbered = layout.numbered;
     // A pseudo terminal keeps no borders between reports: where there is one kind of report, exactly its length is read.
     bytes = layout.longest_bytes();
     device.reset(hid_open_path(path.c_str()));
     if (device == nullptr) throw Error(where, "may not be opened", udev_advice(vendor, product, path.starts_with("/dev/")));
   }
+
+  /// Bytes of the next report, 0 when none came in time, -1 when the device is gone. Unplugging may read as silence.
+  [[nodiscard]] int hear(Bytes& report, int patience_ms) const {
+    report.resize(bytes);
+    const int n = hid_read_timeout(device.get(), report.data(), report.size(), patience_ms);
+    return n == 0 && path.starts_with("/dev/") && ::access(path.c_str(), F_OK) != 0 ? -1 : n;
+  }
 };
+
+PedalHearing hear_pedal(std::uint16_t vendor, std::uint16_t product, double seconds) {
+  const HidPedal::Open open(vendor, product, 0);
+  PedalHearing heard;
+  heard.numbers.resize(open.axes.size());
+  for (const HidField& axis : open.axes) heard.ranges.push_back(static_cast<std::int64_t>(axis.most) - axis.least);
+  Bytes report;
+  while (open.hear(report, 0) > 0) {  // said before anybody listened
+  }
+  double sum_s = 0.0, sum_square = 0.0;
+  std::uint64_t last_us = 0;
+  for (const std::uint64_t end_us = now_us() + static_cast<std::uint64_t>(seconds * 1e6); now_us() < end_us;) {
+    const int n = open.hear(report, 10);
+    if (n < 0) throw Error("pedal " + usb_id(vendor, product), "was unplugged", "plug it in and begin again");
+    if (n == 0) continue;
+    ++heard.reports;
+    const std::uint64_t now = now_us();
+    if (last_us != 0) {
+      const double period_s = static_cast<double>(now - last_us) * 1e-6;
+      heard.longest_gap_s = std::max(heard.longest_gap_s, period_s);
+      sum_s += period_s;
+      sum_square += period_s * period_s;
+    }
+    last_us = now;
+    for (std::size_t i = 0; i < open.axes.size(); ++i)
+      if (const auto value = hid_value(open.axes[i], open.numbered, std::span(report).first(static_cast<std::size_t>(n))))
+        heard.numbers[i].push_back(*value);
+  }
+  if (heard.reports > 1) {
+    const auto periods = static_cast<double>(heard.reports - 1);
+    heard.mean_period_s = sum_s / periods;
+    heard.jitter_s = std::sqrt(std::max(0.0, sum_square / periods - heard.mean_period_s * heard.mean_period_s));
+  }
+  return heard;
+}
 
 HidPedal::HidPedal(std::uint16_t vendor, std::uint16_t product, PedalCalibration calibration, std::string path)
     : vendor_(vendor), product_(product), calibration_(calibration), path_(std::move(path)), thread_([this] { run(); }) {}
@@ -149,7 +185,6 @@ bool HidPedal::wait(double seconds) {
 
 void HidPedal::forget(const std::string& why) {
   latest_.store(0, std::memory_order_release);
-  raw_.store(k_no_raw, std::memory_order_release);
   const std::lock_guard lock(mutex_);
   problem_ = why;
 }
@@ -158,7 +193,7 @@ void HidPedal::run() {
   constexpr double k_look_again_s = 0.2;
   do {
     try {
-      Open open(vendor_, product_, calibration_, path_);
+      Open open(vendor_, product_, calibration_.axis, path_);
       {
         const std::lock_guard lock(mutex_);
         ++counts_.plugged_in;
@@ -174,19 +209,18 @@ void HidPedal::run() {
 void HidPedal::hear(std::int32_t raw, const HidField& axis) {
   const bool calibrated = calibration_.released != calibration_.pressed;
   const double position = pedal_position(raw, calibrated ? calibration_.released : axis.least, calibrated ? calibration_.pressed : axis.most);
-  raw_.store(raw, std::memory_order_release);
   latest_.store(now_us() << 16 | static_cast<std::uint64_t>(position * 65535.0 + 0.5), std::memory_order_release);
 }
 
 /// Until it is unplugged, or the pedal is no longer wanted.
 void HidPedal::serve(Open& open) {
   constexpr int k_patience_ms = 10;
-  Bytes report(open.bytes);
+  Bytes report;
   std::uint64_t last_us = 0;
-  const bool node = open.path.starts_with("/dev/");
+  const HidField& axis = open.axes[static_cast<std::size_t>(calibration_.axis)];
   for (;;) {
-    const int n = hid_read_timeout(open.device.get(), report.data(), report.size(), k_patience_ms);
-    const bool gone = n < 0 || (n == 0 && node && ::access(open.path.c_str(), F_OK) != 0);  // unplugging may read as silence
+    const int n = open.hear(report, k_patience_ms);
+    const bool gone = n < 0;
     {
       const std::lock_guard lock(mutex_);
       if (stop_) return;
@@ -201,8 +235,8 @@ void HidPedal::serve(Open& open) {
         latest_.store(now_us() << 16 | (held & 0xffff), std::memory_order_release);
       continue;
     }
-    const auto value = hid_value(open.axis, open.numbered, std::span(report).first(static_cast<std::size_t>(n)));
-    if (value) hear(*value, open.axis);
+    const auto value = hid_value(axis, open.numbered, std::span(report).first(static_cast<std::size_t>(n)));
+    if (value) hear(*value, axis);
     const std::uint64_t now = now_us();
     const std::lock_guard lock(mutex_);
     value ? ++counts_.reports : ++counts_.foreign_reports;
@@ -221,11 +255,6 @@ PedalReading HidPedal::read() noexcept {
 HidPedalCounts HidPedal::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
-}
-
-std::optional<std::int32_t> HidPedal::raw() const noexcept {
-  const std::int64_t raw = raw_.load(std::memory_order_acquire);
-  return raw == k_no_raw ? std::nullopt : std::optional(static_cast<std::int32_t>(raw));
 }
 
 std::string HidPedal::problem() const {

@@ -32,6 +32,16 @@ struct HidPedalInfo {
 /// The udev rule that lets the user of the seat open a USB device, and what to do with it.
 [[nodiscard]] std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid);
 
+/// What a device said while nobody used it.
+struct PedalHearing {
+  std::int64_t reports = 0;
+  double mean_period_s = 0.0, jitter_s = 0.0, longest_gap_s = 0.0;  ///< jitter: standard deviation of the periods; 0 below two reports
+  std::vector<std::vector<std::int32_t>> numbers;                   ///< of each axis, one a report
+  std::vector<std::int64_t> ranges;                                 ///< of each axis, as its descriptor has it
+};
+/// Listens for `seconds`. Throws Error when there is no such pedal, it may not be opened, or it is unplugged meanwhile.
+[[nodiscard]] PedalHearing hear_pedal(std::uint16_t vendor, std::uint16_t product, double seconds);
+
 struct HidPedalCounts {
   std::int64_t reports = 0, foreign_reports = 0;  ///< reports understood; of another number or too short
   std::int64_t plugged_in = 0, unplugged = 0;
@@ -52,13 +62,12 @@ class HidPedal final : public Pedal {
 
   [[nodiscard]] PedalReading read() noexcept override;
   [[nodiscard]] HidPedalCounts counts() const;
-  /// The last raw number of the axis, as calibration needs it; nothing when no report came since it was plugged in.
-  [[nodiscard]] std::optional<std::int32_t> raw() const noexcept;
   /// Why there is no pedal; empty while one is open.
   [[nodiscard]] std::string problem() const;
 
- private:
   struct Open;
+
+ private:
   void run();
   void serve(Open& open);
   void hear(std::int32_t raw, const HidField& axis);
@@ -70,8 +79,6 @@ class HidPedal final : public Pedal {
   const std::string path_;
   /// Time of the last report, microseconds, above sixteen bits of position; 0 = unknown. One word, so that no reader needs a lock.
   std::atomic<std::uint64_t> latest_{0};
-  std::atomic<std::int64_t> raw_{k_no_raw};
-  static constexpr std::int64_t k_no_raw = INT64_MIN;
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable stop_asked_;
   bool stop_ = false;

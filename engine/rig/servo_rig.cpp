@@ -73,11 +73,12 @@ ServoRigResult run_servo_rig(const SessionSetup& setup, const std::string& path,
   RealTimeServo servo(simulation.model, simulation.state, stylus, stream, first, real_time);
   SessionWriter writer(stream, recorder, result.tick_s, [&](const ServoTick& tick, std::span<const RemovedLeaf> removed) {
     result.removed_leaves += static_cast<std::int64_t>(removed.size());
-    if (!tick.output.contact) return;
+    if (!tick.output.contact) return true;
     const double force_n = length(tick.output.rendered_force_n);
     ++result.contact_ticks;
     result.mean_force_n += force_n;
     result.peak_force_n = std::max(result.peak_force_n, force_n);
+    return true;
   });
   const std::int64_t start_ns = read_clocks().monotonic_ns;
   servo.start();

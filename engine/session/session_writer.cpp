@@ -54,11 +54,13 @@ void SessionWriter::run() noexcept {
 void SessionWriter::take(const ServoTick& tick) {
   ++report_.ticks;
   guarded([&] { note_changes(tick); });
+  bool recorded = false;
   if (watch_) {
     const auto error_before = report_.error.empty();
-    guarded([&] { watch_(tick, removed_); });
+    guarded([&] { recorded = !watch_(tick, removed_); });
     if (error_before && !report_.error.empty()) watch_ = {};  // what it counts is wrong from here on
   }
+  if (recorded) return;
   // on error the recorder has kept the tick, and tries again with the next second
   guarded([&] { recorder_.append(tick.input, make_tick_record(tick.output), removed_, tick.state_hash); });
 }

@@ -31,8 +31,9 @@ struct WriterReport {
 ///   `servo_stopped` {"why", "error"}
 class SessionWriter {
  public:
-  /// Sees every tick on the writer's thread before it is recorded; may add events to the recorder.
-  using Watch = std::function<void(const ServoTick& tick, std::span<const RemovedLeaf> removed)>;
+  /// Sees every tick on the writer's thread before it is recorded; may add events to the recorder. Returns whether the writer shall
+  /// record the tick: an exam does so itself.
+  using Watch = std::function<bool(const ServoTick& tick, std::span<const RemovedLeaf> removed)>;
 
   /// Stream and recorder must outlive it; the recorder belongs to its thread until `finish`.
   SessionWriter(TickStream& stream, Recorder& recorder, double tick_s, Watch watch = {});

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -53,11 +52,7 @@ std::array<std::uint8_t, 64> StationKey::sign(std::span<const std::uint8_t> mess
   return signature;
 }
 
-std::string station_key_path() {
-  if (const char* home = std::getenv("CAVUM_HOME"); home != nullptr && *home != 0) return std::string(home) + "/station.key";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return std::string(home) + "/.config/cavum/station.key";
-  throw Error("station key", "neither CAVUM_HOME nor HOME is set", "set CAVUM_HOME to the station's own folder");
-}
+std::string station_key_path() { return station_path("station.key"); }
 
 StationKey load_station_key(const std::string& path) {
   start_sodium();

@@ -55,11 +55,9 @@ TEST_F(PedalTest, ReadsTheCalibratedAxisAndGoesStale) {
   HidPedal reader(0x068e, 0x00f2, {.axis = 1, .released = 200, .pressed = 100, .speaks_on_change = false});
   ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
   pedal.report_axes(7, 150, 9);
-  ASSERT_TRUE(comes_true([&] { return reader.raw() == 150; }));
-  EXPECT_NEAR(reader.read().position, 0.5, 1e-4);
+  ASSERT_TRUE(comes_true([&] { return std::abs(reader.read().position - 0.5) < 1e-4; }));
   pedal.report_axes(7, 250, 9);
-  ASSERT_TRUE(comes_true([&] { return reader.raw() == 250; }));
-  EXPECT_EQ(reader.read().position, 0.0);
+  ASSERT_TRUE(comes_true([&] { return reader.read().position == 0.0; }));
   std::this_thread::sleep_for(std::chrono::duration<double>(1.2 * HidPedal::k_stale_after_s));
   EXPECT_FALSE(reader.read().fresh) << "a continuous pedal that says nothing is unknown";
 }
@@ -104,10 +102,17 @@ TEST_F(PedalTest, UnpluggedIsUnknownWithin50msAndComesBack) {
       pedal.report_axes(255, 0, 0);
       return reader.read().fresh && reader.read().position == 1.0;
     }));
+    std::this_thread::sleep_for(5ms);  // what was sent is heard
     pedal.unplug();
     const auto gone = std::chrono::steady_clock::now();
-    ASSERT_TRUE(comes_true([&] { return !reader.read().fresh; }));
-    EXPECT_LT(std::chrono::steady_clock::now() - gone, 50ms);
+    auto last_fresh = gone;  // the last moment before which it was asked and still held
+    ASSERT_TRUE(comes_true([&] {
+      const auto asked = std::chrono::steady_clock::now();
+      if (!reader.read().fresh) return true;
+      last_fresh = asked;
+      return false;
+    }));
+    EXPECT_LT(last_fresh - gone, 50ms);
     ASSERT_TRUE(comes_true([&] { return std::isnan(reader.read().position); }));
     EXPECT_NE(reader.problem(), "");
     pedal.plug_in();

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "engine/base/error.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
@@ -79,9 +80,7 @@ TEST(HidDescriptor, WhatCannotBeIsRefused) {
 
 /// Any bytes: either refused, or a layout whose fields all lie within their reports, readable whatever the report holds.
 TEST(HidDescriptor, AMillionDamagedDescriptorsNeverReadOutside) {
-  const auto seed = std::random_device{}();
-  std::printf("seed %u\n", seed);
-  std::mt19937 random(seed);
+  std::mt19937_64 random(testing_basics::drawn_seed("damaged descriptors"));
   int accepted = 0;
   for (int i = 0; i < 1'000'000; ++i) {
     Descriptor d = i % 3 == 0 ? k_mouse : i % 3 == 1 ? k_numbered : Descriptor(random() % 40);

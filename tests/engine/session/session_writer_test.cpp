@@ -80,6 +80,7 @@ TEST(SessionWriter, AQuietRunIsRecordedTickByTickAndVerifies) {
     EXPECT_EQ(tick.tick, watched++);
     EXPECT_EQ(tick.output.removed_count, removed.size());
     watched_leaves += static_cast<std::int64_t>(removed.size());
+    return true;
   });
   EXPECT_EQ(live.written.error, "");
   EXPECT_EQ(live.written.ticks, 1500);
@@ -175,6 +176,7 @@ TEST(SessionWriter, AWatchThatThrowsIsReportedAndTheTicksAreKept) {
   live.run(path, 300, 1u << 15, 0, [&](const ServoTick& tick, std::span<const RemovedLeaf>) {
     ++calls;
     if (tick.tick == 100) throw std::runtime_error("runner broke");
+    return true;
   });
   EXPECT_EQ(live.written.error, "runner broke");
   EXPECT_EQ(calls, 101);

@@ -1,0 +1,74 @@
+#include "scenarios/live_exam.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+
+LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
+    : exam_(Exam::start(setup, path, first_tip_mm)), servo_state_(exam_->state()), device_(device) {
+  view_.limit_ticks = exam_->limit_ticks();
+  servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
+  writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
+                                            [this](const ServoTick& tick, std::span<const RemovedLeaf>) {
+                                              take(tick);
+                                              return false;
+                                            });
+}
+
+LiveExam::~LiveExam() { finish(); }
+
+void LiveExam::start() {
+  servo_->start();
+  writer_->start();
+}
+
+void LiveExam::take(const ServoTick& tick) {
+  if (exam_->over()) {  // the servo learns of it a few milliseconds later
+    ++report_.late_ticks;
+    return;
+  }
+  std::string error;
+  try {
+    exam_->follow(tick.input);
+  } catch (const Error& e) {  // full disk …: the tick is kept, and written with a later one
+    error = e.what();
+  }
+  if (report_.first_disagreement < 0 && state_hash(exam_->state()) != tick.state_hash) {
+    report_.first_disagreement = tick.tick;
+    exam_->recorder().add_event(tick.tick, "servo_disagrees", nlohmann::json{{"tick", tick.tick}}.dump());
+  }
+  if (end_asked_.load(std::memory_order_acquire) && !exam_->over()) exam_->end();
+  const RunnerState& runner = exam_->runner_state();
+  device_.held.store(Runner::paused(runner), std::memory_order_release);
+  if (exam_->over()) servo_->ask_to_stop();
+  const std::lock_guard lock(mutex_);
+  view_.ticks = runner.ticks;
+  view_.paused_ticks = runner.paused_ticks;
+  view_.step = runner.step;
+  view_.paused = Runner::paused(runner);
+  view_.over = exam_->over();
+  view_.input = tick.input;
+  view_.output = tick.output;
+  view_.edit_hash = exam_->state().tooth.edit_hash();
+  if (!error.empty()) view_.recording_error = error;
+  if (error.empty() && exam_->recorder().ticks_on_disk() > 0 && exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < 2000)
+    view_.recording_error.clear();
+}
+
+LiveView LiveExam::view() const {
+  const std::lock_guard lock(mutex_);
+  return view_;
+}
+
+const LiveReport& LiveExam::finish() {
+  if (finished_) return report_;
+  finished_ = true;
+  servo_->ask_to_stop();
+  report_.servo = servo_->join();
+  report_.writer = writer_->finish();
+  return report_;
+}
+
+}  // namespace cavum
