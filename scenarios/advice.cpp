@@ -81,6 +81,9 @@ void Adviser::target() {
     else if (beside[t.id] > 0)
       warn("zones/target/0", "the target touches the " + t.name + stays, remedy);
   }
+  if (zones_.guarded_in_target() > 0)
+    warn("zones/target/0", "the target reaches " + mm3(zones_.guarded_in_target()) + " of what is protected, and the protection counts there",
+         "make the target smaller, or protect less");
 }
 
 void Adviser::leeway() {

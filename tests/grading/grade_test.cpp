@@ -324,6 +324,20 @@ TEST(Grade, TruthOfAPerforationIsTheFirstLeafOfAFaultTissue) {
   EXPECT_NEAR(r.volumes.tissue[k_pulp].mm3, 0.2, 1e-9);
 }
 
+TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
+  const std::string guard = "[[zones.protected]]\nshape = \"tissue\"\ntissue = \"pulp\"\n";
+  Carved c(scenario_text(guard + "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 1]\n"), chambered_block(0.1));
+  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -4), 1);  // the container ends at -1.2; the pulp's roof lies at -3
+  const Result r = c.graded();
+  EXPECT_NEAR(zone_volume(r, Zone::protected_).mm3, 1, 0.05);
+  EXPECT_NEAR(*metric_value(r, "protected_mm3").value, 1, 0.05);
+  EXPECT_NEAR(r.volumes.tissue[k_pulp].mm3, 1, 0.05);
+  double sum = 0;
+  for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
+  EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);
+  EXPECT_EQ(r.volumes.zone[static_cast<std::size_t>(Zone::protected_)].first.tick, 1);
+}
+
 TEST(Grade, JsonHoldsEveryPromisedNameEvenForAnUntouchedTooth) {
   const Carved c(scenario_text(k_box_target), dentin_block(3, 3, 0.1));
   const auto j = to_json(c.graded());
