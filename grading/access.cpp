@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grading/bounds.h"
 #include "grading/cut_surface.h"
 
 namespace cavum {
@@ -139,6 +140,7 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
   const Octree& before = input.before.octree;
   const double leaf = zones.leaf_mm();
   double up = 0, across = 0;
+  std::vector<WallHeight> walls(k_walls + 1);
   zones.for_each_target_leaf([&](IVec3 at) {
     bool at_wall = false;
     for (const IVec3 step : k_six_neighbours)
@@ -148,10 +150,15 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
     const auto slope = [&](Vec3 step) { return zones.distance_mm(p + step * leaf) - zones.distance_mm(p - step * leaf); };
     const Vec3 inwards = normalized(-Vec3{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})});
     if (std::fabs(inwards.z) >= k_cos_45) return;
+    WallHeight& wall = walls[static_cast<std::size_t>(zones.wall(at))];
+    wall.places += 1;
+    wall.low_mm = std::min(wall.low_mm, p.z);
+    wall.high_mm = std::max(wall.high_mm, p.z);
     up += inwards.z;
     across += std::sqrt(inwards.x * inwards.x + inwards.y * inwards.y);
   });
   if (across > 0) m.target_taper_deg = atan_deg(up / across);
+  m.target_taper_bound_deg = taper_bound_deg(walls, leaf);
 }
 
 }  // namespace

@@ -118,6 +118,13 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
   return c;
 }
 
+bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
+
+std::string regrade_text(const Comparison& c) {
+  return "marked anew by " + c.by + ", not the sealed result: that is " + c.before.verdict + " with " + fixed(c.before.points, 1) + " of " +
+         fixed(c.before.max, 1) + " points, " + signed_points(c.points - c.before.points) + " by this one";
+}
+
 Json to_json(const Comparison& c) {
   const auto rounded = [](double v) { return std::round(v * 1e6) / 1e6 + 0.0; };
   const auto optional = [&](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
@@ -133,7 +140,8 @@ Json to_json(const Comparison& c) {
                     {"unit", d.unit},
                     {"difference", rounded(d.difference())},
                     {"changed", d.why}});
-  return {{"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
+  return {{"by", c.by},
+          {"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
           {"new", {{"verdict", c.verdict}, {"points", rounded(c.points)}, {"max", rounded(c.max)}}},
           {"criteria", list},
           {"rules", c.rules}};

@@ -13,6 +13,7 @@
 #include "scenarios/names.h"
 #include "scenarios/operator.h"
 #include "scenarios/relief.h"
+#include "scenarios/rubric_check.h"
 #include "scenarios/runner.h"
 
 namespace cavum {
@@ -273,16 +274,9 @@ void Adviser::criteria() {
     const std::string place = "rubric/criteria/" + std::to_string(i);
     if (!(c.points > 0) && !c.critical_above && !c.critical_below)
       warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
-    const bool tissue = c.metric.rfind("touched_", 0) == 0;
-    const auto range = ranges.find(c.metric);
-    if (range != ranges.end()) {
-      criterion(i, c, range->second);
-    } else if (tissue) {
-      std::vector<std::string> known;
-      for (const auto& t : tooth_.tissues) known.push_back("touched_" + t.name + "_mm3");
-      warn(place + "/metric", "'" + c.metric + "' measures no tissue of this tooth and stays 0", suggestion(c.metric, known));
-    }
+    if (const auto range = ranges.find(c.metric); range != ranges.end()) criterion(i, c, range->second);
   }
+  for (auto& p : turned_round(s_.rubric)) problems_.push_back(std::move(p));
   if (!(s_.rubric.pass_percent > 0)) warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
 }
 

@@ -56,7 +56,9 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
     std::vector<double> values(known.size(), 0.0);
     const Expression compiled(text, known, values);
     static_cast<void>(compiled);
-    if (problems.strict() && !is_condition(text))
+    if (const auto fault = problems.strict() ? condition_fault(text) : std::nullopt)
+      t.problem(key, "'" + std::string(key) + "' " + fault->what, fault->what_to_do);
+    else if (problems.strict() && !is_condition(text))
       t.problem(key, "'" + std::string(key) + "' is a number, not a condition",
                 "compare it with something, for example \"target_removed_percent >= 90\"");
   } catch (const std::runtime_error& e) {
@@ -104,6 +106,12 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   if (!c.metric.empty() && std::find(names.begin(), names.end(), c.metric) == names.end() && c.metric.rfind("touched_", 0) != 0)
     t.problem("metric", "there is no measure '" + c.metric + "'", suggestion(c.metric, names));
   for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, at + "/" + key);
+  const auto place_of = [&](const char* key) {
+    const auto found = places.find(at + "/" + key);
+    return found != places.end() ? found->second : Place{static_cast<int>(table.source().begin.line), static_cast<int>(table.source().begin.column)};
+  };
+  c.metric_at = place_of("metric");
+  c.zero_at = place_of("zero");
   c.full = t.number("full", -1e9, 1e9, 1, true);
   c.zero = t.number("zero", -1e9, 1e9, 0, true);
   if (t.has("full") && t.has("zero") && c.full == c.zero)
@@ -236,6 +244,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     pt.finish();
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
+  s.rubric.path = path;
   if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s.rubric, problems);
   t.finish();
   return s;
@@ -252,6 +261,11 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
   }
 }
 
+std::string summary(const std::vector<Problem>& list) {
+  const auto more = list.size() - 1;
+  return list[0].what_to_do + (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
+}
+
 void throw_first(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   const auto more = problems.size() - 1;
@@ -260,6 +274,12 @@ void throw_first(const std::vector<Problem>& problems) {
 }
 
 }  // namespace
+
+ProblemsError::ProblemsError(std::vector<Problem> list) : Error(list.at(0).where, list[0].what, summary(list)), problems_(std::move(list)) {}
+
+void require_none(std::vector<Problem> problems) {
+  if (!problems.empty()) throw ProblemsError(std::move(problems));
+}
 
 ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading) {
   ProblemList problems(path, reading);
@@ -294,7 +314,8 @@ RubricSpec parse_rubric(const std::string& text, const std::string& path) {
     const auto* inner = table.get_as<toml::table>("rubric");
     r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", places, problems);
   }
-  throw_first(problems.take());
+  r.path = path;
+  require_none(problems.take());
   return r;
 }
 
@@ -331,12 +352,15 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
       if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
         need(shape.bottom.tissue, place + "/bottom");
     }
+  for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
+    const std::string& metric = s.rubric.criteria[i].metric;
+    if (metric.starts_with("touched_") && metric.ends_with("_mm3") && metric.size() > 12)
+      need(metric.substr(8, metric.size() - 12), "rubric/criteria/" + std::to_string(i) + "/metric");
+  }
   return problems;
 }
 
-void require_tissues(const Scenario& scenario, const Tooth& tooth) {
-  if (const auto missing = missing_tissues(scenario, tooth); !missing.empty()) throw Error(missing[0].where, missing[0].what, missing[0].what_to_do);
-}
+void require_tissues(const Scenario& scenario, const Tooth& tooth) { require_none(missing_tissues(scenario, tooth)); }
 
 Problem problem_at(const Scenario& s, const std::string& place, const std::string& what, const std::string& what_to_do) {
   // the place itself, else what holds it

@@ -28,8 +28,8 @@ inline constexpr std::size_t k_walls = 5;
 /// Wall that a surface facing out of the target along `direction` belongs to.
 [[nodiscard]] Wall wall_of(Vec3 direction) noexcept;
 
-/// How far a distance to the target's surface may be from the true one, in leaves (shape given exactly): half a leaf off faces, measured at up to 0.54
-/// some leaves off the tilted edge of a box, where leaf centres near the edge are sparse.
+/// How far a distance to the target's surface may be from the true one, in leaves (shape given exactly): half a leaf off faces, measured at up to
+/// 0.54 some leaves off the tilted edge of a box, where leaf centres near the edge are sparse.
 inline constexpr double k_distance_bound_leaves = 0.6;
 
 class Shape;
