@@ -121,8 +121,9 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
 bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
 
 std::string regrade_text(const Comparison& c) {
-  return "marked anew by " + c.by + ", not the sealed result: that is " + c.before.verdict + " with " + fixed(c.before.points, 1) + " of " +
-         fixed(c.before.max, 1) + " points, " + signed_points(c.points - c.before.points) + " by this one";
+  const auto score = [](double points, double max) { return fixed(points, 1) + " of " + fixed(max, 1) + " points"; };
+  return "marked anew by " + c.by + ": " + c.verdict + ", " + score(c.points, c.max) + "; the exam was sealed as " + c.before.verdict + ", " +
+         score(c.before.points, c.before.max);
 }
 
 Json to_json(const Comparison& c) {

@@ -11,6 +11,28 @@ constexpr double k_rounded_mm = 0.87e-6, k_rounded_n = 0.87e-6;
 
 double force_n(const TickRecord& r) noexcept { return length({r.rendered_un[0] * 1e-6, r.rendered_un[1] * 1e-6, r.rendered_un[2] * 1e-6}); }
 
+std::vector<TickSpan> idle_spans(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses) {
+  const auto n = static_cast<std::size_t>(ticks);
+  std::vector<std::uint8_t> paused(n, 0);
+  for (const auto& p : pauses)
+    for (std::int64_t i = p.begin; i < std::min(p.end, ticks); ++i) paused[static_cast<std::size_t>(i)] = 1;
+  std::vector<TickSpan> spans;
+  const auto window = static_cast<std::size_t>(k_idle_window_ticks);
+  for (std::size_t i = 0; i + window <= n; i += window) {
+    bool quiet = true;
+    for (std::size_t j = i; j < i + window && quiet; ++j)
+      quiet = paused[j] == 0 && input.records[j].removed == 0 && input.records[j].penetration_nm == 0 &&
+              length(input.inputs[j].tip_mm() - input.inputs[i].tip_mm()) <= k_idle_mm;
+    if (!quiet) continue;
+    const auto begin = static_cast<std::int64_t>(i), end = begin + k_idle_window_ticks;
+    if (!spans.empty() && spans.back().end == begin)
+      spans.back().end = end;
+    else
+      spans.push_back({begin, end});
+  }
+  return spans;
+}
+
 MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses) {
   MotionMeasures m;
   const auto n = static_cast<std::size_t>(ticks);
@@ -52,21 +74,13 @@ MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const
       m.path_bound_mm += 2 * k_rounded_mm;
       m.path_mm += length(tip(i) - tip(i - static_cast<std::size_t>(k_path_step_ticks)));
     }
-  std::int64_t idle = 0, idle_ends = 0;
-  bool was_quiet = false;
-  const auto window = static_cast<std::size_t>(k_idle_window_ticks);
-  for (std::size_t i = 0; i + window <= n; i += window) {
-    bool quiet = true;
-    for (std::size_t j = i; j < i + window && quiet; ++j)
-      quiet = paused[j] == 0 && input.records[j].removed == 0 && input.records[j].penetration_nm == 0 && length(tip(j) - tip(i)) <= k_idle_mm;
-    idle += quiet ? k_idle_window_ticks : 0;
-    idle_ends += quiet != was_quiet ? 1 : 0;
-    was_quiet = quiet;
-  }
+  std::int64_t idle = 0;
+  const auto spans = idle_spans(input, ticks, pauses);
+  for (const auto& span : spans) idle += span.end - span.begin;
   m.time_bound_s = k_tick_s;
   m.handpiece_bound_s = static_cast<double>(turning_ends) * k_tick_s;
   m.over_limit_bound_s = static_cast<double>(over_ends) * k_tick_s;
-  m.idle_bound_s = static_cast<double>(idle_ends * k_idle_window_ticks) * k_tick_s;
+  m.idle_bound_s = static_cast<double>(2 * static_cast<std::int64_t>(spans.size()) * k_idle_window_ticks) * k_tick_s;
   m.force_bound_n = k_rounded_n;
   m.handpiece_time_s = static_cast<double>(turning) * k_tick_s;
   m.idle_s = static_cast<double>(idle) * k_tick_s;

@@ -62,12 +62,20 @@ struct ShapeMeasures {
   std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
 };
 
+/// A connected piece of something, for places.
+struct Piece {
+  Vec3 middle_mm;
+  double part = 0.0, whole = 0.0;  ///< what of it counts, and all of it
+};
+
 /// Straight-line access; see grading/access.h.
 struct AccessMeasures {
   std::optional<Volume> overhang;                ///< roof left above the aim; none when the target holds none of it
   std::optional<double> canals_covered_percent;  ///< of the canals' mouths; none without canals
   double canals_bound_percent = 0.0;
   Vec3 overhang_middle_mm, canals_covered_mm;  ///< middle of what is left over, and of the mouths under it
+  std::vector<Piece> overhang_pieces;          ///< mm3, the largest first
+  std::vector<Piece> canal_mouths;             ///< covered leaves of all, in the order of the tooth's leaves
   Volume floor_cut;                            ///< hard tissue removed below the target
   Trace floor_first;
   std::optional<double> target_taper_deg;
