@@ -163,7 +163,7 @@ PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
   return p;
 }
 
-CarelessSpec read_careless(const toml::table& table, const RubricSpec& rubric, ProblemList& problems) {
+CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, ProblemList& problems) {
   CheckedTable t(table, "[careless]", problems);
   CarelessSpec c;
   c.fails_by = t.text("fails_by", "", true);
@@ -172,9 +172,12 @@ CarelessSpec read_careless(const toml::table& table, const RubricSpec& rubric, P
   c.opening_percent = t.number("opening_percent", 10, 100, 100);
   c.perforates = t.truth("perforates", false);
   std::vector<std::string> ids;
-  for (const auto& criterion : rubric.criteria) ids.push_back(criterion.id);
+  for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
     t.problem("fails_by", "the rubric has no criterion '" + c.fails_by + "'", suggestion(c.fails_by, ids));
+  if (c.perforates && scenario.perforation.faults.empty() && problems.strict())
+    t.problem("perforates", "'perforates' is true, and no tissue is a fault",
+              "list what is broken into under faults of [perforation], or leave 'perforates' out");
   if (c == CarelessSpec{.fails_by = c.fails_by})
     t.problem("fails_by", "nothing is done carelessly", "set sides_mm, bottom_mm, opening_percent or perforates");
   t.finish();
@@ -245,7 +248,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
   s.rubric.path = path;
-  if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s.rubric, problems);
+  if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s, problems);
   t.finish();
   return s;
 }

@@ -59,6 +59,8 @@ class ZoneMap {
   /// Leaves (with tissue) of each zone; of the whole tooth but for none, which is that of the box.
   [[nodiscard]] const std::array<std::uint64_t, k_zones>& counts() const noexcept { return counts_; }
   [[nodiscard]] std::uint64_t count(Zone z) const noexcept { return counts_[static_cast<std::size_t>(z)]; }
+  /// Some leaf of the target lies beside air: there is a way to it. A buried one can only be come to through what lies around.
+  [[nodiscard]] bool target_is_open() const noexcept { return target_is_open_; }
   /// Leaves of the target's shapes that were taken out of it because they are protected.
   [[nodiscard]] std::uint64_t guarded_in_target() const noexcept { return guarded_in_target_; }
   /// Part of a leaf that lies in the target as grading counts it (4x4x4 parts), in units of 1 / k_share_units; 0 without tissue.
@@ -117,6 +119,7 @@ class ZoneMap {
   std::vector<std::uint8_t> zone_, wall_;
   std::vector<bool> guarded_;  // protected leaves outside the box, of all leaves of the tooth; empty when nothing is protected
   std::uint64_t guarded_in_target_ = 0;
+  bool target_is_open_ = false;
   std::vector<float> distance_mm_;
   std::vector<std::uint16_t> target_share_;
   std::uint64_t target_shares_ = 0;

@@ -158,6 +158,7 @@ TEST_F(CommandLine, SolveLetsTheCarelessCandidateFailByTheCriterionThatTheScenar
   text.replace(text.find("perforates = true"), 17, "sides_mm = 0.1");
   write_text_file(path("mild.toml"), text);
   const Ran mild = run("scenario solve " + path("mild.toml") + tooth + " --careless");
+  EXPECT_NE(mild.out.find("\nwhat to do: "), std::string::npos) << mild.out;
   EXPECT_EQ(mild.exit_code, 1) << mild.out << mild.err;
   EXPECT_NE(mild.out.find("the built-in expert passes"), std::string::npos) << mild.out;
   EXPECT_NE(mild.out.find("careless: NOT failed by perforation"), std::string::npos) << mild.out;
