@@ -167,10 +167,12 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
          cell(fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N; " +
               (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")) +
          "</tr>\n";
-  for (const auto& [kind, t] : {std::pair{"fault", &r.perforation.fault}, std::pair{"aim", &r.perforation.aim}})
+  for (const auto& [kind, t] : {std::pair{"fault", &r.perforation.fault}, std::pair{"aim", &r.perforation.aim}}) {
+    if (t == &r.perforation.aim && !r.perforation.has_aims) continue;
     h += "<tr>" + cell("tissue") + cell(kind) + number_cell(t->perforated ? fixed(t->first.t_s(), 3) + " s" : "&ndash;") +
          cell(t->perforated ? place(t->first.site_mm) : "") +
          cell(t->perforated ? xml_text(t->tissue) + " touched, " + fixed(t->volume_mm3, 3) + " mm&sup3;" : "not touched") + "</tr>\n";
+  }
   h += "</table>\n<h2>Work</h2>\n<p>Time " + fixed(r.motion.time_s, 1) + " s, handpiece turning " + fixed(r.motion.handpiece_time_s, 1) +
        " s, idle " + fixed(r.motion.idle_s, 1) + " s. Way of the tip " + fixed(r.motion.path_mm, 0) + " mm. Force " +
        fixed(r.motion.force_mean_n, 2) + " N on average while cutting, " + fixed(r.motion.force_peak_n, 2) + " N at most. Steps " +

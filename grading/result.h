@@ -104,6 +104,7 @@ struct PerforationTruth {
 struct PerforationMeasures {
   std::vector<PerforationEvent> events;  ///< in order of time
   PerforationTruth fault, aim;           ///< `aim`: the breakthrough that the task asks for
+  bool has_aims = false;                 ///< the task asks for one
   [[nodiscard]] bool detected() const noexcept {
     for (const auto& e : events)
       if (e.fault) return true;

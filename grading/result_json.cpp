@@ -244,7 +244,7 @@ std::string to_text(const Result& r) {
                        : " not touched\n");
   };
   truth("fault", r.perforation.fault);
-  truth("aim", r.perforation.aim);
+  if (r.perforation.has_aims) truth("aim", r.perforation.aim);
   s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
        " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
        " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +

@@ -12,10 +12,12 @@ namespace cavum {
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   const SessionReader reader(path);
   reader.require_readable();
-  if (!reader.closed()) throw Error(path, "this exam was not closed", "resume it with `cavum exam --resume`, or let it end");
+  if (!reader.closed())
+    throw Error(path, "this exam was not closed",
+                "close it as it stands with `cavum exam --resume --end --out " + path + "`, or let it go on with --motion or --operator");
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
-    throw Error(path, "damaged or altered: " + findings.front(), "run `cavum replay --verify` on it and use an intact copy");
+    throw Error(path, "damaged or altered: " + without_advice(findings.front()), "run `cavum replay --verify` on it and use an intact copy");
   return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
 }
 

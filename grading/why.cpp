@@ -248,7 +248,7 @@ void Finder::perforation() {
     fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first);
   };
   truth("fault", p.fault);
-  truth("aim", p.aim);
+  if (p.has_aims) truth("aim", p.aim);
   if (p.events.empty()) fact("force: no breakthrough seen");
   for (const auto& e : p.events) {
     fact(std::string("force: ") + (e.fault ? "fault" : "aim") + ", a fall from " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) +

@@ -255,11 +255,21 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
 
 /// Parses the TOML itself; a file that is no TOML has exactly one problem.
 bool read_toml(const std::string& text, const std::string& path, toml::table& table, ProblemList& problems) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string::npos) {
+    const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    problems.add(Place{1, 1}, wide ? "this is a text in UTF-16" : "this is no text: it holds zero bytes",
+                 wide ? "save it as UTF-8" : "give a scenario or rubric, a text file (TOML)");
+    return false;
+  }
   try {
     table = toml::parse(text, path);
     return true;
   } catch (const toml::parse_error& e) {
-    problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
+    const bool encoding = e.description().find("utf-8") != std::string_view::npos;
+    if (encoding)
+      problems.add(e.source(), "a letter here is not in UTF-8, as in a text saved as Latin-1", "save the file as UTF-8");
+    else
+      problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
     return false;
   }
 }

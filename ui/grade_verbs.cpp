@@ -118,7 +118,7 @@ void run_grade_one(const std::string& path, const Options& o) {
 int run_grade_many(const std::vector<std::string>& files, const Options& o) {
   Json list = Json::array();
   std::string table = "  old               new               change  session\n";
-  int failed = 0;
+  int failed = 0, compared = 0;
   std::map<std::string, int> verdicts;  // "fail -> pass"
   const auto cell = [](const std::string& verdict, double points, double max) {
     std::string s = verdict + " " + fixed(points, 1) + "/" + plain_number(max);
@@ -136,14 +136,15 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
         change.resize(std::max<std::size_t>(8, change.size() + 1), ' ');
         table += "  " + cell(c.before.verdict, c.before.points, c.before.max) + cell(now, c.points, c.max) + change + one_line(file) + "\n";
         for (const auto& d : c.criteria)
-          if (std::fabs(d.difference()) >= 0.05) {
+          if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
             std::string line = "      " + d.id + " " + signed_points(d.difference());
             for (std::size_t i = 0; i < d.why.size(); ++i) line += (i > 0 ? "; " : ": ") + d.why[i];
             table += line + "\n";
           }
+        ++compared;
         ++verdicts[c.before.verdict == now ? "stay " + now : c.before.verdict + " -> " + now];
-        const Json compared = to_json(c);
-        for (const auto& [key, value] : compared.items()) one[key] = value;
+        const Json json = to_json(c);
+        for (const auto& [key, value] : json.items()) one[key] = value;
       } else {
         table += "  " + cell("none", 0, 0) + cell(now, g.result.points, g.result.max_points) + "        " + one_line(file) + "\n";
         one["old"] = nullptr;
@@ -161,8 +162,11 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
   if (o.json) {
     print_json(all);
   } else {
-    std::cout << table << files.size() << " sessions";
+    std::cout << table << files.size() << (files.size() == 1 ? " session" : " sessions");
     for (const auto& [what, count] : verdicts) std::cout << ", " << count << " " << what;
+    if (const int new_ones = static_cast<int>(files.size()) - failed - compared; new_ones > 0)
+      std::cout << ", " << new_ones << " without a sealed result";
+    if (failed > 0) std::cout << ", " << failed << " not graded";
     std::cout << "\n";
   }
   return failed;

@@ -22,6 +22,7 @@
 #include "scenarios/template.h"
 #include "scenarios/zone_map.h"
 #include "ui/print_json.h"
+#include "ui/seed_check.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -238,6 +239,7 @@ int solve(const Options& o) {
 }
 
 int make_new(const Options& o) {
+  require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
   write_text_file(o.out, scenario_template(o.tooth_kind, o.task));
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
@@ -268,7 +270,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
   solves->add_option("--tooth", o->tooth, "solve it on this tooth instead");
   solves->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
-  solves->add_option("--seed", o->seed, "of the expert's tremor")->capture_default_str();
+  solves->add_option("--seed", o->seed, "of the expert's tremor")->check(seed_check())->capture_default_str();
   solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
   solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");
   solves->add_flag("--json", o->json, "one JSON object on standard output");

@@ -507,5 +507,18 @@ TEST_F(CommandLine, OfTwoExamsBegunUnderOneNameOneGoesOn) {
   }
 }
 
+TEST_F(CommandLine, WrongSeedsFoldersAndFilesThatAreNoTextAreNamedPlainly) {
+  const std::string exam = "exam " + k_block + " --candidate a --operator expert --out " + path("o.cavum");
+  for (const char* seed : {"-1", "99999999999999999999999", "1.5", "abc"}) {
+    expect_refused(exam + " --seed " + seed, {"'" + std::string(seed) + "' is no whole number from 0 to 18446744073709551615"});
+    expect_refused("scenario solve " + k_block + " --seed " + seed, {"is no whole number"});
+  }
+  std::filesystem::create_directory(path("folder"));
+  expect_refused("scenario new --out " + path("folder"), {"folder: is a folder; name a file"});
+  write_text_file(path("bin.csv"), std::string("CVT\0\x01\x02\n", 7));
+  expect_refused("exam " + k_block + " --candidate a --motion " + path("bin.csv") + " --out " + path("o.cavum"), {"bin.csv: is no text"});
+  EXPECT_EQ(run("exam --help").out.find("cavum devices"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cavum

@@ -271,6 +271,33 @@ TEST_F(GradeVerb, ARegradesReportSaysSoAndShowsTheSealedVerdictBesideTheNewOne) 
   EXPECT_EQ(run("grade " + session).out.find("REGRADE"), std::string::npos);
 }
 
+TEST_F(GradeVerb, AFoldersTableNamesEverySessionOnceAndWhatWasNotGraded) {
+  std::filesystem::create_directory(path("group"));
+  const std::string session = hole("group/a.cavum");
+  write_text_file(path("group/b.cavum"), "no session");
+  const Ran twice = run("grade " + path("group") + " " + session + " " + path("group/../group/a.cavum"));
+  EXPECT_EQ(twice.exit_code, 1);
+  EXPECT_NE(twice.out.find("2 sessions, 1 stay pass, 1 not graded\n"), std::string::npos) << twice.out;
+  std::string rubric = read_text_file(k_worked + ".toml");
+  rubric = rubric.substr(rubric.find("[rubric]")) + "\n[[rubric.criteria]]\nid = \"extra\"\nmetric = \"dice\"\nfull = 1\nzero = 0.99\npoints = 10\n";
+  write_text_file(path("r.toml"), rubric);
+  const Ran extra = run("grade " + path("group") + " --rubric " + path("r.toml"));
+  EXPECT_NE(extra.out.find("extra +0.0: new criterion"), std::string::npos) << extra.out;
+}
+
+TEST_F(GradeVerb, AnAdviceIsGivenOnceAndHoldsWhatIsNeeded) {
+  const std::string session = hole();
+  std::string bytes = read_text_file(session);
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
+  write_text_file(path("bad.cavum"), bytes);
+  const Ran bad = run("grade " + path("bad.cavum"));
+  EXPECT_EQ(bad.exit_code, 2);
+  const auto once = bad.err.find("intact copy");
+  ASSERT_NE(once, std::string::npos) << bad.err;
+  EXPECT_EQ(bad.err.find("intact copy", once + 1), std::string::npos) << bad.err;
+  EXPECT_EQ(run("grade " + session).out.find("aim not touched"), std::string::npos) << "the task has no aim";
+}
+
 TEST_F(GradeVerb, AReportIsWrittenOverAReportAndOverNothingElse) {
   const std::string session = hole();
   const std::string write = "report " + session + " --out " + path("r.html");
