@@ -115,7 +115,7 @@ std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, c
 
 std::vector<WhyItem> idle_moments(const GradeInput& input, std::int64_t end, const std::vector<PauseMeasure>& pauses) {
   std::vector<WhyItem> items;
-  for (const TickSpan& span : idle_spans(input, end, pauses)) {
+  for (const TickSpan& span : idle_spans(input, std::min(end, static_cast<std::int64_t>(input.inputs.size())), pauses)) {
     WhyItem item;
     item.tick = span.begin;
     item.end_tick = span.end - 1;

@@ -312,6 +312,7 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
   write_text_file(path("beyond.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,5,1,0,0,0,0,0\n1,0,0,4,1,0,0,0,0,2\n");
   write_text_file(path("go_on.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n0.1,0,0,4,1,0,0,0,0\n");
   const std::string resume = "exam --resume --end --out " + session + " ";
+  expect_refused("grade " + session, {"was not closed; close it as it stands with `" + std::string("cavum exam --resume --end --out ") + session});
   expect_refused(resume + "--candidate berta", {"--candidate berta", "'anna'", "leave it out"});
   expect_refused("exam " + path("other.toml") + " --resume --end --out " + session, {"other.toml", "scenario"});
   expect_refused(resume + "--tooth " + path("other.cvt"), {"--tooth", "other.cvt"});
