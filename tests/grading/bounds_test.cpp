@@ -114,7 +114,7 @@ TEST(Bounds, HoldBothEndsOfWhatAFigureIsMadeOf) {
   const Volume in{8, 1}, missed{2, 0.5}, beyond{1, 0.25};
   EXPECT_NEAR(share_bound_percent(in, missed), 80 - 700.0 / 9.5, 1e-9);  // 7 of 9.5; the other end is 9 of 10.5
   EXPECT_NEAR(dice_bound(in, missed, beyond), 16.0 / 19 - 14.0 / (14 + 2.5 + 1.25), 1e-9);
-  EXPECT_DOUBLE_EQ(share_bound_percent({8, 1}, {0, 0}), 0);                // nothing missed, for certain
+  EXPECT_DOUBLE_EQ(share_bound_percent({8, 1}, {0, 0}), 0);       // nothing missed, for certain
   EXPECT_NEAR(mean_bound({{1, 1, 1, 1}, {3}, {-4}}), 1.4, 1e-9);  // with -4 and without 3 the mean falls from 1.4 to 0
   EXPECT_NEAR(taper_bound_deg({{100, 0, 1}, {100, 0, 0.5}}, 0.05), std::atan((0.05 + 0.1) / 2) * 180 / k_pi_here, 1e-6);
 }
