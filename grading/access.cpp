@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grading/bounds.h"
 #include "grading/cut_surface.h"
 
 namespace cavum {
@@ -36,6 +37,38 @@ class Marks {
   IVec3 low_, size_;
   std::vector<std::uint8_t> mark_;
 };
+
+/// Connected pieces of marked leaves (over corners, too), in their order; the marks are used up. `counts(mark)`: whether a leaf counts to `part`.
+template <class Counts>
+std::vector<Piece> pieces_of(Marks& marks, const std::vector<IVec3>& leaves, const ZoneMap& zones, double worth, const Counts& counts) {
+  std::vector<Piece> pieces;
+  std::vector<IVec3> next;
+  for (const IVec3 first : leaves) {
+    if (marks.at(first) == 0) continue;
+    Piece piece;
+    Vec3 sum;
+    double n = 0;
+    const auto take = [&](IVec3 leaf) {
+      const std::uint8_t mark = marks.at(leaf);
+      if (mark == 0) return;
+      if (counts(mark)) piece.part += worth;
+      piece.whole += worth;
+      sum += zones.centre_mm(leaf);
+      n += 1;
+      marks.set(leaf, 0);
+      next.push_back(leaf);
+    };
+    take(first);
+    while (!next.empty()) {
+      const IVec3 leaf = next.back();
+      next.pop_back();
+      for (int i = 0; i < 27; ++i) take(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1});
+    }
+    piece.middle_mm = sum / n;
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
 
 Marks aim_leaves(const GradeInput& input) {
   Marks aim(input.zones);
@@ -80,6 +113,8 @@ void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures&
   const double leaf_mm3 = zones.leaf_volume_mm3();
   m.overhang = Volume{static_cast<double>(leaves.size()) * leaf_mm3, 0.5 * static_cast<double>(border) * leaf_mm3};
   if (!leaves.empty()) m.overhang_middle_mm = sum / static_cast<double>(leaves.size());
+  m.overhang_pieces = pieces_of(left, leaves, zones, leaf_mm3, [](std::uint8_t) { return true; });
+  std::stable_sort(m.overhang_pieces.begin(), m.overhang_pieces.end(), [](const Piece& a, const Piece& b) { return a.part > b.part; });
 }
 
 void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
@@ -114,6 +149,7 @@ void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m
   m.canals_covered_percent = 100.0 * covered / all;
   m.canals_bound_percent = 50.0 * border / all;
   if (covered > 0) m.canals_covered_mm = sum / covered;
+  m.canal_mouths = pieces_of(mouth, mouths, zones, 1.0, [](std::uint8_t mark) { return mark == k_covered; });
 }
 
 void measure_floor(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, AccessMeasures& m) {
@@ -139,6 +175,7 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
   const Octree& before = input.before.octree;
   const double leaf = zones.leaf_mm();
   double up = 0, across = 0;
+  std::vector<WallHeight> walls(k_walls + 1);
   zones.for_each_target_leaf([&](IVec3 at) {
     bool at_wall = false;
     for (const IVec3 step : k_six_neighbours)
@@ -148,10 +185,15 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
     const auto slope = [&](Vec3 step) { return zones.distance_mm(p + step * leaf) - zones.distance_mm(p - step * leaf); };
     const Vec3 inwards = normalized(-Vec3{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})});
     if (std::fabs(inwards.z) >= k_cos_45) return;
+    WallHeight& wall = walls[static_cast<std::size_t>(zones.wall(at))];
+    wall.places += 1;
+    wall.low_mm = std::min(wall.low_mm, p.z);
+    wall.high_mm = std::max(wall.high_mm, p.z);
     up += inwards.z;
     across += std::sqrt(inwards.x * inwards.x + inwards.y * inwards.y);
   });
   if (across > 0) m.target_taper_deg = atan_deg(up / across);
+  m.target_taper_bound_deg = taper_bound_deg(walls, leaf);
 }
 
 }  // namespace

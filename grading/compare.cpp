@@ -118,6 +118,14 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
   return c;
 }
 
+bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
+
+std::string regrade_text(const Comparison& c) {
+  const auto score = [](double points, double max) { return fixed(points, 1) + " of " + fixed(max, 1) + " points"; };
+  return "marked anew by " + c.by + ": " + c.verdict + ", " + score(c.points, c.max) + "; the exam was sealed as " + c.before.verdict + ", " +
+         score(c.before.points, c.before.max);
+}
+
 Json to_json(const Comparison& c) {
   const auto rounded = [](double v) { return std::round(v * 1e6) / 1e6 + 0.0; };
   const auto optional = [&](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
@@ -133,7 +141,8 @@ Json to_json(const Comparison& c) {
                     {"unit", d.unit},
                     {"difference", rounded(d.difference())},
                     {"changed", d.why}});
-  return {{"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
+  return {{"by", c.by},
+          {"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
           {"new", {{"verdict", c.verdict}, {"points", rounded(c.points)}, {"max", rounded(c.max)}}},
           {"criteria", list},
           {"rules", c.rules}};

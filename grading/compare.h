@@ -34,11 +34,14 @@ struct CriterionChange {
 };
 
 struct Comparison {
+  std::string by;  ///< what it was marked anew by, in words: "the rubric r.toml"
   OldResult before;
   std::string verdict;
   double points = 0.0, max = 0.0;
   std::vector<CriterionChange> criteria;  ///< the new rubric's, then those that it has no longer
   std::vector<std::string> rules;         ///< changes of pass mark, band and rule
+  /// Verdict or points are not those that the session was sealed with.
+  [[nodiscard]] bool differs() const;
 };
 
 /// `again` is the session graded by this program with its own scenario and rubric: what differs between it and the sealed
@@ -48,7 +51,9 @@ struct Comparison {
 
 /// "+1.5", "-0.3", "+0.0".
 [[nodiscard]] std::string signed_points(double difference);
-/// {old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit,
+/// Says that a result is a regrade, by what, and what the session was sealed with: one sentence.
+[[nodiscard]] std::string regrade_text(const Comparison& comparison);
+/// {by, old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit,
 /// difference, changed[]}, rules[]}
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] std::string to_text(const Comparison& comparison);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/det_math.h"
+#include "grading/bounds.h"
 #include "scenarios/relief.h"
 
 namespace cavum {
@@ -26,6 +27,13 @@ struct Sample {
   std::int64_t tick;
   Vec3 place;
 };
+
+/// Walls that a place may belong to: its own, and those within a leaf.
+unsigned walls_around(const ZoneMap& zones, IVec3 leaf) {
+  unsigned walls = 1u << static_cast<unsigned>(zones.wall(leaf));
+  for (const IVec3 step : k_six_neighbours) walls |= 1u << static_cast<unsigned>(zones.wall(leaf + step));
+  return walls;
+}
 
 /// Smallest and largest x and y of an area, in leaves from the tooth's corner.
 struct Extent {
@@ -120,6 +128,8 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   Octree::Cursor cursor;
   std::array<std::vector<Sample>, k_walls> samples;
   std::array<Sample, k_walls> furthest{};
+  std::array<WallValues, k_walls> values;
+  std::vector<WallHeight> sides(4);
   double deepest = 1e9, deepest_in_target = 1e9, up = 0, across = 0;
   // distances in leaves, on the right side of the surface even where a code says otherwise
   const auto gone_by = [&](IVec3 leaf) { return std::max(decode_distance(after.distance_code(leaf)), 0.01); };
@@ -149,16 +159,26 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
     const Vec3 place = centre - normal * std::clamp(s.distance_mm, -leaf_mm, leaf_mm);
     const double deviation = zones.distance_mm(place);
     if (!was_solid && deviation > 0) continue;
-    const Wall wall = zones.wall(zones.in_box(before.leaf_at(place)) ? before.leaf_at(place) : leaf);
+    const IVec3 where = zones.in_box(before.leaf_at(place)) ? before.leaf_at(place) : leaf;
+    const Wall wall = zones.wall(where);
+    const auto w = static_cast<std::size_t>(wall);
+    const unsigned around = walls_around(zones, where);
+    for (std::size_t i = 0; i < k_walls; ++i)
+      if ((around >> i & 1u) != 0) (i != w ? values[i].of_others : around == 1u << i ? values[i].sure : values[i].own).push_back(deviation);
     if (wall == Wall::opening) continue;
-    samples[static_cast<std::size_t>(wall)].push_back({deviation, r.tick, place});
+    samples[w].push_back({deviation, r.tick, place});
     if (wall != Wall::floor && std::fabs(normal.z) < 0.70710678118654752440) {
+      sides[w].places += 1;
+      sides[w].low_mm = std::min(sides[w].low_mm, place.z);
+      sides[w].high_mm = std::max(sides[w].high_mm, place.z);
       up += normal.z;
       across += std::sqrt(normal.x * normal.x + normal.y * normal.y);
     }
   }
   for (std::size_t w = 0; w < k_walls; ++w) {
     m.wall[w] = summary(samples[w]);
+    m.wall[w].mean_bound_mm = m.bound_mm + mean_bound(values[w]);
+    m.wall[w].p95_bound_mm = m.bound_mm + p95_bound(values[w]);
     // where the whole wall is gone, no surface is left to tell how far it went
     if (furthest[w].deviation_mm <= m.wall[w].max_over_mm) continue;
     m.wall[w].max_over_mm = furthest[w].deviation_mm;
@@ -211,6 +231,7 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
     m.depth_error_mm = std::max(target_bottom, std::min(zones.opening_z_mm(), deepest_in_target)) - std::min(deepest, target_bottom);
   }
   if (across > 0) m.taper_deg = atan_deg(up / across);
+  m.taper_bound_deg = taper_bound_deg(sides, leaf_mm);
   return m;
 }
 

@@ -131,6 +131,10 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.motion = measure_motion(input, ticks, r.pauses);
   for (const auto& leaf : input.removed) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
   r.perforation = measure_perforation(input, input.inputs.empty() ? last_tick : ticks);
+  const PerforationSpec& spec = input.scenario.perforation;
+  for (const auto& [names, truth] : {std::pair(&spec.aims, &r.perforation.aim), std::pair(&spec.faults, &r.perforation.fault)})
+    for (const auto& t : r.tissues)
+      if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
   r.progress = measure_progress(input);
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
     r.notes.push_back(std::to_string(r.progress.steps - r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) +

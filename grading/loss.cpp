@@ -84,6 +84,10 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "container_bottom_mm3") return removed_in(r, {Zone::container_bottom});
   if (metric == "container_mm3") return removed_in(r, {Zone::container_sides, Zone::container_bottom});
   if (metric == "overcut_mm3") return removed_in(r, {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
+  if (metric == "floor_cut_mm3") {
+    if (r.access.floor_first.tick < 0) return {"no hard tissue was cut below the target", {}};
+    return {"beginning at " + when(r.access.floor_first) + " at " + place(r.access.floor_first.site_mm), r.access.floor_first};
+  }
   const bool under = metric.find("under") != std::string::npos;
   if (metric.rfind("side_walls_", 0) == 0) return at_walls(r, 0, 4, !under);
   if (metric.rfind("walls_", 0) == 0) return at_walls(r, 0, k_walls, !under);
@@ -102,8 +106,6 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
   if (metric == "overhang_mm3") return {"roof left above the chamber, around " + place(r.access.overhang_middle_mm), {}};
   if (metric == "canals_covered_percent") return {"hard tissue stands over the mouths around " + place(r.access.canals_covered_mm), {}};
-  if (metric == "floor_cut_mm3")
-    return {"beginning at " + when(r.access.floor_first) + " at " + place(r.access.floor_first.site_mm), r.access.floor_first};
   if (metric == "taper_error_deg")
     return {"the walls open by " + fixed(*r.shape.taper_deg, 1) + " instead of " + fixed(*r.access.target_taper_deg, 1) + " degrees", {}};
   if (metric == "force_peak_n")

@@ -21,19 +21,22 @@ bool measures_work(const std::string& metric) {
 struct Work {
   double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
   std::string where;
-  [[nodiscard]] double share() const { return std::min(1.0, percent / k_care_counts_percent); }
+  double bound_percent = 0.0;
+  [[nodiscard]] double share(double off = 0) const { return std::clamp((percent + off * bound_percent) / k_care_counts_percent, 0.0, 1.0); }
 };
 
 /// How much of the work was done that a criterion judges the care of.
 Work work_done(const Result& r, const std::string& metric) {
   const auto towards = [&](std::size_t first, std::size_t end, const std::string& where) -> Work {
-    double all = 0, missed = 0;
+    double all = 0, missed = 0, bound = 0;
     for (std::size_t w = first; w < end; ++w) {
       all += r.volumes.target_by_wall_mm3[w];
       missed += r.volumes.missed_by_wall_mm3[w];
+      bound += r.volumes.missed_bound_by_wall_mm3[w];
     }
-    if (all > 0) return {100 * (1 - missed / all), where};
-    return {r.volumes.target.mm3 > 0 ? r.volumes.target_removed_percent : 100.0, ""};
+    if (all > 0) return {100 * (1 - missed / all), where, 100 * bound / all};
+    if (!(r.volumes.target.mm3 > 0)) return {};
+    return {r.volumes.target_removed_percent, "", r.volumes.target_removed_bound_percent};
   };
   if (measures_work(metric)) return {};
   if (metric.rfind("side_walls_", 0) == 0) return towards(0, 4, " towards the side walls");
@@ -66,9 +69,12 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
     return out;
   }
   const Work work = work_done(r, c.metric);
-  const double share = std::clamp((*v.value - c.zero) / (c.full - c.zero), 0.0, 1.0);
+  const auto share_at = [&c](double value) { return std::clamp((value - c.zero) / (c.full - c.zero), 0.0, 1.0); };
+  const double share = share_at(*v.value), low = share_at(*v.value - v.bound), high = share_at(*v.value + v.bound);
   out.work_share = work.share();
   out.points = c.points * share * out.work_share + 0.0;  // never -0
+  out.points_bound =
+      std::max(c.points * std::max(low, high) * work.share(1) - out.points, out.points - c.points * std::min(low, high) * work.share(-1)) + 0.0;
   out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
   if (share >= 1.0 && !out.critical_failed) {
     out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
@@ -117,13 +123,14 @@ Standing standing_of(const Result& r, bool in_favour) {
 void mark(Result& r, const RubricSpec& rubric) {
   r.criteria.clear();
   r.verdict_reasons.clear();
-  r.points = r.max_points = 0;
+  r.points = r.max_points = r.points_bound = 0;
   r.compensatory = rubric.compensatory;
   r.pass_percent = rubric.pass_percent;
   r.borderline_percent = rubric.borderline_percent;
   for (const auto& c : rubric.criteria) {
     r.criteria.push_back(mark_one(r, c));
     r.points += r.criteria.back().points;
+    r.points_bound += r.criteria.back().points_bound;
     r.max_points += r.criteria.back().max;
   }
   bool critical = false;  // and beyond doubt

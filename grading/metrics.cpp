@@ -26,6 +26,11 @@ double wall_figure(const WallMeasures& w, const std::string& figure) {
   return w.max_under_mm;
 }
 
+double wall_bound(const Result& r, const WallMeasures& w, const std::string& figure) {
+  if (w.samples == 0) return r.shape.bound_mm;
+  return figure == "mean_mm" ? w.mean_bound_mm : figure == "p95_mm" ? w.p95_bound_mm : r.shape.bound_mm;
+}
+
 /// Largest figure of walls 0..last.
 MetricValue worst_wall(const Result& r, std::size_t walls, const std::string& figure) {
   MetricValue worst{std::nullopt, r.shape.bound_mm};
@@ -33,6 +38,7 @@ MetricValue worst_wall(const Result& r, std::size_t walls, const std::string& fi
     if (r.shape.wall[w].samples == 0 && figure != "max_over_mm") continue;  // no overcut where nothing was cut
     const double v = wall_figure(r.shape.wall[w], figure);
     if (!worst.value || v > *worst.value) worst.value = v;
+    worst.bound = std::max(worst.bound, wall_bound(r, r.shape.wall[w], figure));
   }
   return worst;
 }
@@ -49,7 +55,7 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
       if (metric != name + "_" + figure) continue;
       const WallMeasures& wall = r.shape.wall[w];
       if (wall.samples == 0 && figure != std::string("max_over_mm")) return {std::nullopt, r.shape.bound_mm};
-      return {wall_figure(wall, figure), r.shape.bound_mm};
+      return {wall_figure(wall, figure), wall_bound(r, wall, figure)};
     }
   }
   if (metric.rfind("touched_", 0) == 0 && metric.size() > 12 && metric.ends_with("_mm3")) {
@@ -63,8 +69,7 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   if (metric == "removed_mm3") return of_volume(r.volumes.removed);
   if (metric == "outside_mm3") return zone(Zone::none);
   if (metric == "protected_mm3") return zone(Zone::protected_);
-  if (metric == "dice")
-    return {r.volumes.dice, (r.volumes.removed.bound_mm3 + r.volumes.target.bound_mm3) / (r.volumes.removed.mm3 + r.volumes.target.mm3)};
+  if (metric == "dice") return {r.volumes.dice, r.volumes.dice_bound};
   if (metric == "leeway_sides_mm3") return zone(Zone::leeway_sides);
   if (metric == "leeway_bottom_mm3") return zone(Zone::leeway_bottom);
   if (metric == "container_sides_mm3") return zone(Zone::container_sides);
@@ -78,27 +83,28 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   if (metric == "walls_max_under_mm") return worst_wall(r, k_walls, "max_under_mm");
   if (metric == "outline_width_mm") return {r.shape.width_mm, r.shape.bound_mm};
   if (metric == "outline_length_mm") return {r.shape.length_mm, r.shape.bound_mm};
-  if (metric == "outline_width_error_mm") return {r.shape.width_error_mm, r.shape.bound_mm};
-  if (metric == "outline_length_error_mm") return {r.shape.length_error_mm, r.shape.bound_mm};
+  if (metric == "outline_width_error_mm") return {r.shape.width_error_mm, 2 * r.shape.bound_mm};
+  if (metric == "outline_length_error_mm") return {r.shape.length_error_mm, 2 * r.shape.bound_mm};
   if (metric == "depth_mm") return {r.shape.depth_mm, r.shape.bound_mm};
-  if (metric == "depth_error_mm") return {r.shape.depth_error_mm, r.shape.bound_mm};
-  if (metric == "taper_deg") return {r.shape.taper_deg, 1.0};
+  if (metric == "depth_error_mm") return {r.shape.depth_error_mm, 2 * r.shape.bound_mm};
+  if (metric == "taper_deg") return {r.shape.taper_deg, r.shape.taper_bound_deg};
   if (metric == "taper_error_deg") {
-    if (!r.shape.taper_deg || !r.access.target_taper_deg) return {std::nullopt, 1.0};
-    return {std::fabs(*r.shape.taper_deg - *r.access.target_taper_deg), 1.0};
+    const double bound = r.shape.taper_bound_deg + r.access.target_taper_bound_deg;
+    if (!r.shape.taper_deg || !r.access.target_taper_deg) return {std::nullopt, bound};
+    return {std::fabs(*r.shape.taper_deg - *r.access.target_taper_deg), bound};
   }
   if (metric == "overhang_mm3") return r.access.overhang ? of_volume(*r.access.overhang) : MetricValue{};
   if (metric == "canals_covered_percent") return {r.access.canals_covered_percent, r.access.canals_bound_percent};
   if (metric == "floor_cut_mm3") return of_volume(r.access.floor_cut);
-  if (metric == "time_s") return exact(m.time_s);
-  if (metric == "handpiece_time_s") return exact(m.handpiece_time_s);
-  if (metric == "idle_s") return exact(m.idle_s);
-  if (metric == "path_mm") return exact(m.path_mm);
-  if (metric == "force_mean_n") return exact(m.force_mean_n);
-  if (metric == "force_peak_n") return exact(m.force_peak_n);
-  if (metric == "force_over_limit_s") return exact(m.force_over_limit_s);
+  if (metric == "time_s") return {m.time_s, m.time_bound_s};
+  if (metric == "handpiece_time_s") return {m.handpiece_time_s, m.handpiece_bound_s};
+  if (metric == "idle_s") return {m.idle_s, m.idle_bound_s};
+  if (metric == "path_mm") return {m.path_mm, m.path_bound_mm};
+  if (metric == "force_mean_n") return {m.force_mean_n, m.force_bound_n};
+  if (metric == "force_peak_n") return {m.force_peak_n, m.force_bound_n};
+  if (metric == "force_over_limit_s") return {m.force_over_limit_s, m.over_limit_bound_s};
   if (metric == "perforated") return exact(r.perforation.fault.perforated ? 1.0 : 0.0);
-  if (metric == "perforation_volume_mm3") return exact(r.perforation.fault.volume_mm3);
+  if (metric == "perforation_volume_mm3") return {r.perforation.fault.volume_mm3, r.perforation.fault.bound_mm3};
   if (metric == "perforation_events")
     return exact(static_cast<double>(std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault; })));
   if (metric == "steps_completed") return exact(r.progress.steps_completed);

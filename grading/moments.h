@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "grading/volumes.h"
 #include "grading/why.h"
 
 namespace cavum {
 
-/// Removed leaves before tick `end` that count, gathered while less than k_moment_gap_ticks lie between them: amount = their volume (whole
-/// leaves, mm3), place = the one furthest beyond the target.
+/// What was removed, gathered while at most k_moment_gap_ticks lie between: amount = its volume, mm3; place = the leaf furthest beyond the target;
+/// said are the zones that it lies in, each with its volume when they are several, and the wall that most of it lies at.
+[[nodiscard]] std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedShare> shares);
+/// The same of removed leaves before tick `end` that count, taken whole.
 [[nodiscard]] std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, const std::function<bool(const RemovedAt&)>& counts);
 
 /// What the amount of a stretch of ticks is: how long it held (s), or the largest force in it (N).
@@ -20,7 +23,16 @@ enum class Stretch { duration, peak_force };
 [[nodiscard]] std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, const std::function<bool(std::int64_t)>& counts,
                                                   std::int64_t gap, const std::string& what, Stretch amount);
 
-/// Keeps the k_most_moments items of the largest amount in their order, of equal ones the earlier; returns how many went. Every item has an amount.
-std::size_t keep_largest(std::vector<WhyItem>& items);
+/// Idle time in spans, which add up to it, s.
+[[nodiscard]] std::vector<WhyItem> idle_moments(const GradeInput& input, std::int64_t end, const std::vector<PauseMeasure>& pauses);
+
+/// The last leaf removed before tick `end` within a millimetre of a place; and that said in words, beginning with a semicolon.
+[[nodiscard]] Trace last_cut_near(const GradeInput& input, std::int64_t end, Vec3 place_mm);
+[[nodiscard]] std::string last_cut_text(const Trace& last);
+/// Each piece of roof that was left, mm3, and when something was last cut near it.
+[[nodiscard]] std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end, const AccessMeasures& access);
+
+/// Keeps the k_most_moments items of the largest amount in their order, of equal ones the earlier; returns those that went. Every item has an amount.
+std::vector<WhyItem> keep_largest(std::vector<WhyItem>& items);
 
 }  // namespace cavum

@@ -16,6 +16,13 @@ inline constexpr double k_idle_mm = 0.05;
 /// Size of the rendered force of a tick, N.
 [[nodiscard]] double force_n(const TickRecord& record) noexcept;
 
+/// Ticks begin to end - 1.
+struct TickSpan {
+  std::int64_t begin = 0, end = 0;
+};
+/// Idle tenths of a second, neighbours joined; `ticks`: how many count.
+[[nodiscard]] std::vector<TickSpan> idle_spans(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses);
+
 /// `ticks`: how many count.
 [[nodiscard]] MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses = {});
 

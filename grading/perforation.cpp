@@ -19,6 +19,7 @@ Vec3 place_of(const TickRecord& r) { return {r.proxy_nm[0] * 1e-6, r.proxy_nm[1]
 PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ticks) {
   PerforationMeasures p;
   const PerforationSpec& spec = input.scenario.perforation;
+  p.has_aims = !spec.aims.empty();
   std::array<int, 256> role{};  // 1 aim, 2 fault
   for (const auto& t : input.before.tissues) {
     const auto among = [&](const std::vector<std::string>& list) { return std::find(list.begin(), list.end(), t.name) != list.end(); };

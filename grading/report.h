@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "grading/compare.h"
 #include "grading/grade.h"
 
 namespace cavum {
@@ -12,7 +13,9 @@ struct ReportFacts {
   std::string candidate, device, created, session_file, tooth_hash;
 };
 
-[[nodiscard]] std::string report_html(const Result& result, const GradeInput& input, const ReportFacts& facts);
+/// `regrade`: what the session was sealed with, where this result is another one; null for the sealed result itself. The report then begins with
+/// that it is a regrade, and shows both verdicts and every criterion side by side.
+[[nodiscard]] std::string report_html(const Result& result, const GradeInput& input, const ReportFacts& facts, const Comparison* regrade = nullptr);
 
 /// The report's three sections with the key to their colours: one standalone SVG document.
 [[nodiscard]] std::string sections_svg(const Result& result, const GradeInput& input);

@@ -36,9 +36,9 @@ struct ZoneVolume {
 struct VolumeMeasures {
   Volume target, removed, missed;
   double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
-  double dice = 0.0;
+  double dice = 0.0, dice_bound = 0.0;
   std::array<ZoneVolume, k_zones> zone;  ///< by Zone; none = outside
-  std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{};
+  std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
   std::array<Volume, 256> tissue;  ///< removed, by tissue id
 };
 
@@ -46,16 +46,26 @@ struct VolumeMeasures {
 struct WallMeasures {
   std::size_t samples = 0;  ///< leaves of cut surface
   double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
+  /// Of the mean and the 95th percentile; of the largest it is ShapeMeasures::bound_mm.
+  double mean_bound_mm = 0.0, p95_bound_mm = 0.0;
   Trace worst_over, worst_under;
 };
 
 struct ShapeMeasures {
   std::array<WallMeasures, k_walls> wall;
-  double bound_mm = 0.0;                                           ///< of every distance here
+  double bound_mm = 0.0;                                           ///< of every place on a surface, and so of a distance between two
   std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
+  double taper_bound_deg = 0.0;
   double target_length_mm = 0.0, target_width_mm = 0.0, target_depth_mm = 0.0;
   /// What is missing of the target's and what is too much, together: one does not make up for the other. None where nothing of the target was cut.
+  /// Each is the sum of two distances: twice the bound.
   std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
+};
+
+/// A connected piece of something, for places.
+struct Piece {
+  Vec3 middle_mm;
+  double part = 0.0, whole = 0.0;  ///< what of it counts, and all of it
 };
 
 /// Straight-line access; see grading/access.h.
@@ -64,9 +74,12 @@ struct AccessMeasures {
   std::optional<double> canals_covered_percent;  ///< of the canals' mouths; none without canals
   double canals_bound_percent = 0.0;
   Vec3 overhang_middle_mm, canals_covered_mm;  ///< middle of what is left over, and of the mouths under it
+  std::vector<Piece> overhang_pieces;          ///< mm3, the largest first
+  std::vector<Piece> canal_mouths;             ///< covered leaves of all, in the order of the tooth's leaves
   Volume floor_cut;                            ///< hard tissue removed below the target
   Trace floor_first;
   std::optional<double> target_taper_deg;
+  double target_taper_bound_deg = 0.0;
 };
 
 /// A breakthrough seen in the force.
@@ -85,12 +98,13 @@ struct PerforationTruth {
   bool perforated = false;
   Trace first;
   std::string tissue;
-  double volume_mm3 = 0.0;
+  double volume_mm3 = 0.0, bound_mm3 = 0.0;  ///< in whole leaves, of all tissues of the kind
 };
 
 struct PerforationMeasures {
   std::vector<PerforationEvent> events;  ///< in order of time
   PerforationTruth fault, aim;           ///< `aim`: the breakthrough that the task asks for
+  bool has_aims = false;                 ///< the task asks for one
   [[nodiscard]] bool detected() const noexcept {
     for (const auto& e : events)
       if (e.fault) return true;
@@ -103,6 +117,8 @@ struct PerforationMeasures {
 struct MotionMeasures {
   double time_s = 0.0, handpiece_time_s = 0.0, idle_s = 0.0, path_mm = 0.0;
   double force_mean_n = 0.0, force_peak_n = 0.0, force_over_limit_s = 0.0;
+  /// Durations: a tick for each time that it began or ended, idle a tenth of a second. Way and force: what rounding in the recording leaves open.
+  double time_bound_s = 0.0, handpiece_bound_s = 0.0, idle_bound_s = 0.0, over_limit_bound_s = 0.0, path_bound_mm = 0.0, force_bound_n = 0.0;
   Trace force_peak, first_over_limit;
   std::int64_t late_ticks = 0;    ///< recorded after the exam was over; they count nowhere
   double late_removed_mm3 = 0.0;  ///< removed in them
@@ -129,7 +145,8 @@ struct CriterionResult {
   std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
   double bound = 0.0;
   double points = 0.0, max = 0.0;
-  double work_share = 1.0;  ///< of its points that count, for not enough of the work was done that it judges
+  double points_bound = 0.0;  ///< by the bounds of the value and of the work's share
+  double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
   bool critical_failed = false;
   bool doubtful = false;  ///< it asks for a perforation, and force and tissue disagree about that
   Trace first;            ///< where the loss began
@@ -143,6 +160,7 @@ struct Result {
   Verdict verdict = Verdict::fail;
   std::vector<std::string> verdict_reasons;
   double points = 0.0, max_points = 0.0;
+  double points_bound = 0.0;  ///< the sum of the criteria's
   bool compensatory = true;
   double pass_percent = 0.0, borderline_percent = 0.0;
   std::vector<CriterionResult> criteria;

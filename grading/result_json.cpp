@@ -25,15 +25,21 @@ Json truth_json(const PerforationTruth& t) {
           {"first_tick", tick_of(t.first)},
           {"site_mm", place_of(t.first)},
           {"tissue", t.perforated ? Json(t.tissue) : Json(nullptr)},
-          {"volume_mm3", rounded(t.volume_mm3)}};
+          {"volume_mm3", rounded(t.volume_mm3)},
+          {"bound_mm3", rounded(t.bound_mm3)}};
 }
 
-Json wall_json(const WallMeasures& w) {
+Json wall_json(const WallMeasures& w, double bound_mm) {
   const auto figure = [&](double v) { return w.samples == 0 ? Json(nullptr) : Json(rounded(v)); };
   return {{"mean_mm", figure(w.mean_mm)},
           {"p95_mm", figure(w.p95_mm)},
           {"max_over_mm", figure(w.max_over_mm)},
           {"max_under_mm", figure(w.max_under_mm)},
+          {"bounds",
+           {{"mean_mm", figure(w.mean_bound_mm)},
+            {"p95_mm", figure(w.p95_bound_mm)},
+            {"max_over_mm", figure(bound_mm)},
+            {"max_under_mm", figure(bound_mm)}}},
           {"samples", w.samples},
           {"max_over_site_mm", place_of(w.worst_over)},
           {"max_over_tick", tick_of(w.worst_over)},
@@ -56,11 +62,9 @@ Json to_json(const Result& r) {
   j["leaf_mm"] = r.leaf_mm;
   j["verdict"] = verdict_name(r.verdict);
   j["verdict_reasons"] = r.verdict_reasons;
-  j["score"] = {{"points", rounded(r.points)},
-                {"max", rounded(r.max_points)},
-                {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
-                {"pass_percent", r.pass_percent},
-                {"borderline_percent", r.borderline_percent}};
+  j["score"] = {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
+                {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
+                {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
   j["criteria"] = Json::array();
   for (const auto& c : r.criteria) {
     j["criteria"].push_back({{"id", c.id},
@@ -71,6 +75,7 @@ Json to_json(const Result& r) {
                              {"bound", rounded(c.bound)},
                              {"points", rounded(c.points)},
                              {"max", rounded(c.max)},
+                             {"points_bound", rounded(c.points_bound)},
                              {"critical_failed", c.critical_failed},
                              {"reason", c.reason},
                              {"first_tick", tick_of(c.first)},
@@ -78,8 +83,11 @@ Json to_json(const Result& r) {
     if (c.work_share < 1) j["criteria"].back()["work_share"] = rounded(c.work_share);
     if (c.doubtful) j["criteria"].back()["doubtful"] = true;
   }
-  Json tissues = Json::object();
-  for (const auto& t : r.tissues) tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
+  Json tissues = Json::object(), tissue_bounds = Json::object();
+  for (const auto& t : r.tissues) {
+    tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
+    tissue_bounds[t.name] = rounded(r.volumes.tissue[t.id].bound_mm3);
+  }
   const auto mm3 = [&](Zone z) { return rounded(zone(z).removed.mm3); };
   const auto bound = [&](Zone z) { return rounded(zone(z).removed.bound_mm3); };
   j["volumes"] = {{"target_mm3", rounded(r.volumes.target.mm3)},
@@ -105,9 +113,11 @@ Json to_json(const Result& r) {
                     {"leeway_sides_mm3", bound(Zone::leeway_sides)},
                     {"leeway_bottom_mm3", bound(Zone::leeway_bottom)},
                     {"container_sides_mm3", bound(Zone::container_sides)},
-                    {"container_bottom_mm3", bound(Zone::container_bottom)}}}};
+                    {"container_bottom_mm3", bound(Zone::container_bottom)},
+                    {"dice", rounded(r.volumes.dice_bound)},
+                    {"tissue_mm3", tissue_bounds}}}};
   j["walls"] = Json::object();
-  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w]);
+  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape.bound_mm);
   j["shape"] = {{"outline_length_mm", optional(r.shape.length_mm)},
                 {"outline_width_mm", optional(r.shape.width_mm)},
                 {"depth_mm", optional(r.shape.depth_mm)},
@@ -115,12 +125,18 @@ Json to_json(const Result& r) {
                 {"target_length_mm", rounded(r.shape.target_length_mm)},
                 {"target_width_mm", rounded(r.shape.target_width_mm)},
                 {"target_depth_mm", rounded(r.shape.target_depth_mm)},
-                {"bound_mm", rounded(r.shape.bound_mm)}};
+                {"bound_mm", rounded(r.shape.bound_mm)},
+                {"taper_bound_deg", rounded(r.shape.taper_bound_deg)}};
   if (r.access.overhang) {  // only where the task opens something
     j["access"] = {{"overhang_mm3", rounded(r.access.overhang->mm3)},
                    {"canals_covered_percent", optional(r.access.canals_covered_percent)},
                    {"floor_cut_mm3", rounded(r.access.floor_cut.mm3)},
-                   {"target_taper_deg", optional(r.access.target_taper_deg)}};
+                   {"target_taper_deg", optional(r.access.target_taper_deg)},
+                   {"bounds",
+                    {{"overhang_mm3", rounded(r.access.overhang->bound_mm3)},
+                     {"canals_covered_percent", rounded(r.access.canals_bound_percent)},
+                     {"floor_cut_mm3", rounded(r.access.floor_cut.bound_mm3)},
+                     {"target_taper_deg", rounded(r.access.target_taper_bound_deg)}}}};
   }
   Json events = Json::array();
   for (const auto& e : r.perforation.events)
@@ -149,7 +165,10 @@ Json to_json(const Result& r) {
   j["violations"] = r.progress.violations;
   j["finish"] = r.progress.finish;
   j["extra_time_percent"] = r.accommodations.extra_time_percent;
-  j["late_ticks"] = r.motion.late_ticks;
+  j["late_ticks"] = r.motion.late_ticks + r.late_work.ticks;
+  j["bounds"] = {{"time_s", rounded(r.motion.time_bound_s)},   {"handpiece_time_s", rounded(r.motion.handpiece_bound_s)},
+                 {"idle_s", rounded(r.motion.idle_bound_s)},   {"over_limit_s", rounded(r.motion.over_limit_bound_s)},
+                 {"path_mm", rounded(r.motion.path_bound_mm)}, {"force_n", rounded(r.motion.force_bound_n)}};
   // Only where there is something to say: a session graded before these were known grades to the same text.
   const auto& a = r.accommodations;
   if (a != Accommodations{}) {
@@ -176,10 +195,13 @@ Json to_json(const Result& r) {
 
 std::string to_text(const Result& r) {
   std::string s = r.scenario_title + " (" + r.tooth_name + ")\n";
-  s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points\n";
+  s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " ± " + fixed(r.points_bound, 1) + " of " +
+       fixed(r.max_points, 1) + " points\n";
   for (const auto& reason : r.verdict_reasons) s += "  " + reason + "\n";
   s += "\n";
-  for (const auto& c : r.criteria) s += "  " + padded(c.id, 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + c.reason + "\n";
+  for (const auto& c : r.criteria)
+    s += "  " + padded(c.id, 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + padded("± " + fixed(c.points_bound, 1), 9) + c.reason +
+         "\n";
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
   const auto volume = [&](const std::string& name, const Volume& v) {
     return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";
@@ -188,8 +210,8 @@ std::string to_text(const Result& r) {
        fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" + volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
   for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none})
     s += volume(zone_name(z), zone(z));
-  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + "\n\nwalls, mm (+ = overcut, ± " + fixed(r.shape.bound_mm, 2) +
-       ")   mean    p95   over  under\n";
+  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + " ± " + fixed(r.volumes.dice_bound, 3) +
+       "\n\nwalls, mm (+ = overcut)                       mean            p95   over  under (± " + fixed(r.shape.bound_mm, 2) + ")\n";
   for (std::size_t w = 0; w < k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
     s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
@@ -197,10 +219,19 @@ std::string to_text(const Result& r) {
       s += "not cut\n";
     else {
       char line[80];
-      std::snprintf(line, sizeof line, "%6.2f %6.2f %6.2f %6.2f\n", m.mean_mm, m.p95_mm, m.max_over_mm, m.max_under_mm);
+      std::snprintf(line, sizeof line, "%6.2f ± %.2f  %6.2f ± %.2f %6.2f %6.2f\n", m.mean_mm, m.mean_bound_mm, m.p95_mm, m.p95_bound_mm,
+                    m.max_over_mm, m.max_under_mm);
       s += line;
     }
   }
+  const auto shape = [&](const char* name, const std::optional<double>& v, double bound, const char* unit) {
+    s += "  " + padded(name, 22) + (v ? fixed(*v, 2) + " ± " + fixed(bound, 2) + unit : std::string("not cut")) + "\n";
+  };
+  s += "\ncavity\n";
+  shape("length", r.shape.length_mm, r.shape.bound_mm, " mm");
+  shape("width", r.shape.width_mm, r.shape.bound_mm, " mm");
+  shape("depth", r.shape.depth_mm, r.shape.bound_mm, " mm");
+  shape("wall taper", r.shape.taper_deg, r.shape.taper_bound_deg, " degrees");
   s += "\nperforation\n";
   if (r.perforation.events.empty()) s += "  no breakthrough seen in the force\n";
   for (const auto& e : r.perforation.events)
@@ -213,7 +244,7 @@ std::string to_text(const Result& r) {
                        : " not touched\n");
   };
   truth("fault", r.perforation.fault);
-  truth("aim", r.perforation.aim);
+  if (r.perforation.has_aims) truth("aim", r.perforation.aim);
   s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
        " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
        " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +

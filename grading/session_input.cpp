@@ -4,6 +4,7 @@
 #include "engine/session/chain_check.h"
 #include "scenarios/accommodations.h"
 #include "scenarios/parse.h"
+#include "scenarios/rubric_check.h"
 #include "scenarios/surface_files.h"
 
 namespace cavum {
@@ -11,10 +12,12 @@ namespace cavum {
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   const SessionReader reader(path);
   reader.require_readable();
-  if (!reader.closed()) throw Error(path, "this exam was not closed", "resume it with `cavum exam --resume`, or let it end");
+  if (!reader.closed())
+    throw Error(path, "this exam was not closed",
+                "close it as it stands with `cavum exam --resume --end --out " + path + "`, or let it go on with --motion or --operator");
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
-    throw Error(path, "damaged or altered: " + findings.front(), "run `cavum replay --verify` on it and use an intact copy");
+    throw Error(path, "damaged or altered: " + without_advice(findings.front()), "run `cavum replay --verify` on it and use an intact copy");
   return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
 }
 
@@ -40,13 +43,22 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   return s;
 }
 
-void use_scenario(GradedSession& session, Scenario scenario) {
+void use_scenario(GradedSession& session, Scenario scenario, bool another_task) {
+  if (!another_task && scenario.id != session.scenario.id)
+    throw Error(scenario.path,
+                "this is the task '" + scenario.id + "', and " + session.facts.session_file + " was an exam in '" + session.scenario.id + "'",
+                "name its corrected scenario, or add --another-task to mark the work by this one all the same");
   require_tissues(scenario, session.before);
   require_same_surfaces(scenario, session.scenario);
   scenario.accommodations = granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
   session.zones = build_zones(scenario, session.before);
   session.rubric = scenario.rubric;
   session.scenario = std::move(scenario);
+}
+
+void use_rubric(GradedSession& session, RubricSpec rubric) {
+  require_none(not_in_this_exam(rubric, session.scenario, session.before));
+  session.rubric = std::move(rubric);
 }
 
 }  // namespace cavum

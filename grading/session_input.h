@@ -33,8 +33,10 @@ struct GradedSession {
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
-/// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, or when an STL that the session ran
-/// with is another one by now.
-void use_scenario(GradedSession& session, Scenario scenario);
+/// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, when an STL that the session ran
+/// with is another one by now, or when the scenario is that of another task (its id differs) and `another_task` does not allow that.
+void use_scenario(GradedSession& session, Scenario scenario, bool another_task = false);
+/// The same for a rubric; throws ProblemsError naming every criterion that measures what the exam does not have.
+void use_rubric(GradedSession& session, RubricSpec rubric);
 
 }  // namespace cavum

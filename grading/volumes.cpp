@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grading/bounds.h"
 #include "scenarios/leaf_parts.h"
 
 namespace cavum {
@@ -75,75 +76,114 @@ struct Count {
   std::uint64_t border = 0;
 };
 
-}  // namespace
-
-VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+/// Gives each zone what of a leaf was removed in it, in leaves; returns the sum.
+template <class Give>
+double share_out(const GradeInput& input, const Shares& shares, bool late, IVec3 leaf, std::uint8_t held, const Give& give) {
   const ZoneMap& zones = input.zones;
-  const Octree& before = input.before.octree;
-  const double leaf_mm3 = zones.leaf_volume_mm3();
-  const bool late = std::any_of(input.removed.begin(), input.removed.end(), [&](const RemovedAt& r) { return r.tick > last_tick; });
-  const Shares shares(input, removed, !late);
-  VolumeMeasures v;
-  std::array<Count, k_zones> zone{};
-  std::array<Count, 256> tissue{};
-  Count all;
-
-  const auto add = [&](IVec3 leaf, std::uint8_t held, bool edge, std::int64_t tick) {
-    const Share gone = shares.removed(leaf, held);
-    const double total = sum(gone);
-    if (!(total > 0)) return;
-    all.leaves += total;
-    all.border += edge || total < 1 ? 1 : 0;
-    const Zone own = zones.zone(leaf);
-    const Wall wall = zones.wall(leaf);
-    const auto give = [&](Zone z, double share) {
-      if (!(share > 0)) return;
-      const auto i = static_cast<std::size_t>(z);
-      zone[i].leaves += share;
-      zone[i].border += edge || share < 1 ? 1 : 0;
-      v.zone[i].by_wall_mm3[static_cast<std::size_t>(wall)] += share * leaf_mm3;
-      Trace& first = v.zone[i].first;
-      if (tick >= 0 && own == z && (first.tick < 0 || tick < first.tick)) first = {tick, zones.centre_mm(leaf)};
-    };
-    if (late || !zones.in_box(leaf)) return give(own, total);
-    const double target = sum_of_both(gone, shares.within(leaf, 0));
-    give(Zone::target, target);
-    if (own == Zone::protected_) return give(Zone::protected_, total - target);
-    const ZoneSpec& spec = input.scenario.zones;
-    const bool bottom = wall == Wall::floor;
-    const double leeway_mm = bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm;
-    const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
-    const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
-    const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
-    give(bottom ? Zone::leeway_bottom : Zone::leeway_sides, leeway - target);
-    give(bottom ? Zone::container_bottom : Zone::container_sides, container - leeway);
-    give(Zone::none, total - container);
+  const Share gone = shares.removed(leaf, held);
+  const double total = sum(gone);
+  if (!(total > 0)) return 0;
+  const Zone own = zones.zone(leaf);
+  const auto part = [&](Zone z, double share) {
+    if (share > 0) give(z, share);
   };
+  if (late || !zones.in_box(leaf)) {
+    part(own, total);
+    return total;
+  }
+  const double target = sum_of_both(gone, shares.within(leaf, 0));
+  part(Zone::target, target);
+  if (own == Zone::protected_) {
+    part(Zone::protected_, total - target);
+    return total;
+  }
+  const ZoneSpec& spec = input.scenario.zones;
+  const bool bottom = zones.wall(leaf) == Wall::floor;
+  const double leeway_mm = bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm;
+  const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
+  const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
+  const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
+  part(bottom ? Zone::leeway_bottom : Zone::leeway_sides, leeway - target);
+  part(bottom ? Zone::container_bottom : Zone::container_sides, container - leeway);
+  part(Zone::none, total - container);
+  return total;
+}
 
-  std::vector<IVec3> beside;  // leaves that stayed beside removed ones, each once
-  RemovedMap::Marks seen = removed.marks();
+/// Calls `visit(leaf, tissue, tick)` for each removed leaf, then, with tick -1, for each solid one that stayed beside them and may be gone in part.
+template <class Visit>
+void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, bool late, RemovedMap::Marks& seen,
+                      const Visit& visit) {
+  std::vector<IVec3> beside;
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
-    // a border leaf is one beside which something else begins: tissue that stayed, or another zone
-    const Zone own = zones.zone(leaf);
-    bool edge = false, zone_edge = false;
-    for (const IVec3 step : k_six_neighbours) {
-      const bool stays = !removed.has(leaf + step);
-      edge = edge || stays;
-      zone_edge = zone_edge || stays || zones.zone(leaf + step) != own;
-    }
-    tissue[r.leaf.tissue].leaves += 1;
-    tissue[r.leaf.tissue].border += zone_edge ? 1 : 0;
-    add(leaf, r.leaf.tissue, edge, r.tick);
+    visit(leaf, r.leaf.tissue, r.tick);
     if (late) continue;
     for (int i = 0; i < 27; ++i) {
       const IVec3 n = leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
       if (!removed.has(n) && seen.first_time(n)) beside.push_back(n);
     }
   }
+  const Octree& before = input.before.octree;
   for (const IVec3 leaf : beside)
-    if (const std::uint8_t held = before.tissue(leaf); before.is_solid(held)) add(leaf, held, true, -1);
+    if (const std::uint8_t held = before.tissue(leaf); before.is_solid(held)) visit(leaf, held, std::int64_t{-1});
+}
+
+bool removed_late(const GradeInput& input, std::int64_t last_tick) {
+  return std::any_of(input.removed.begin(), input.removed.end(), [&](const RemovedAt& r) { return r.tick > last_tick; });
+}
+
+}  // namespace
+
+void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                            const std::function<void(const RemovedShare&)>& visit) {
+  const bool late = removed_late(input, last_tick);
+  const Shares shares(input, removed, !late);
+  RemovedMap::Marks seen = removed.marks();
+  for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+    for (int i = 0; i < 27 && tick < 0; ++i) tick = std::max(tick, removed.tick(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
+    share_out(input, shares, late, leaf, held, [&](Zone z, double share) { visit({leaf, held, tick, z, share * input.zones.leaf_volume_mm3()}); });
+  });
+}
+
+VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+  const ZoneMap& zones = input.zones;
+  const Octree& before = input.before.octree;
+  const double leaf_mm3 = zones.leaf_volume_mm3();
+  const bool late = removed_late(input, last_tick);
+  const Shares shares(input, removed, !late);
+  VolumeMeasures v;
+  std::array<Count, k_zones> zone{};
+  std::array<Count, 256> tissue{};
+  Count all;
+
+  RemovedMap::Marks seen = removed.marks();
+  for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+    // a border leaf is one beside which something else begins: tissue that stayed, or another zone
+    const Zone own = zones.zone(leaf);
+    bool edge = tick < 0;
+    if (tick >= 0) {
+      bool zone_edge = false;
+      for (const IVec3 step : k_six_neighbours) {
+        const bool stays = !removed.has(leaf + step);
+        edge = edge || stays;
+        zone_edge = zone_edge || stays || zones.zone(leaf + step) != own;
+      }
+      tissue[held].leaves += 1;
+      tissue[held].border += zone_edge ? 1 : 0;
+    }
+    const auto wall = static_cast<std::size_t>(zones.wall(leaf));
+    const double total = share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
+      const auto i = static_cast<std::size_t>(z);
+      zone[i].leaves += share;
+      zone[i].border += edge || share < 1 ? 1 : 0;
+      v.zone[i].by_wall_mm3[wall] += share * leaf_mm3;
+      Trace& first = v.zone[i].first;
+      if (tick >= 0 && own == z && (first.tick < 0 || tick < first.tick)) first = {tick, zones.centre_mm(leaf)};
+    });
+    all.leaves += total;
+    if (total > 0) all.border += edge || total < 1 ? 1 : 0;
+  });
 
   Count missed;
   double target = 0;
@@ -165,6 +205,7 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
     bool edge = left < 1;
     for (const IVec3 step : k_six_neighbours) edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != Zone::target;
     missed.border += edge ? 1 : 0;
+    if (edge) v.missed_bound_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += 0.5 * leaf_mm3;
   });
 
   const auto volume = [&](const Count& c) { return Volume{c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; };
@@ -174,7 +215,15 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
   v.removed = volume(all);
   v.missed = volume(missed);
   v.target_removed_percent = 100.0 * (target - missed.leaves) / target;
-  v.target_removed_bound_percent = 100.0 * v.missed.bound_mm3 / v.target.mm3;
+  const Volume& in_target = v.zone[static_cast<std::size_t>(Zone::target)].removed;
+  Volume beyond;
+  for (std::size_t z = 0; z < k_zones; ++z)
+    if (z != static_cast<std::size_t>(Zone::target)) {
+      beyond.mm3 += v.zone[z].removed.mm3;
+      beyond.bound_mm3 += v.zone[z].removed.bound_mm3;
+    }
+  v.target_removed_bound_percent = share_bound_percent(in_target, v.missed);
+  v.dice_bound = dice_bound(in_target, v.missed, beyond);
   v.dice = 2.0 * (target - missed.leaves) / (all.leaves + target);
   return v;
 }

@@ -1,6 +1,8 @@
 // Volumes by zone and tissue, counted leaf by leaf; a leaf through which a border passes counts by its parts.
 #pragma once
 
+#include <functional>
+
 #include "grading/grade.h"
 #include "grading/removed_map.h"
 
@@ -11,5 +13,17 @@ namespace cavum {
 /// target's surface. All zones together are what was removed. Volumes by tissue count whole leaves, for tissues are known leaf by leaf;
 /// so does everything when leaves were removed after the end, for the final tooth does not know what it was like before.
 [[nodiscard]] VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick);
+
+/// What of one leaf was removed in one zone.
+struct RemovedShare {
+  IVec3 leaf;
+  std::uint8_t tissue = 0;
+  std::int64_t tick = 0;  ///< of a leaf that is gone in part only: when the last leaf beside it went
+  Zone zone = Zone::none;
+  double mm3 = 0.0;
+};
+/// Every share that `measure_volumes` counts: those of a zone add up to its volume there. Not in order of time.
+void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                            const std::function<void(const RemovedShare&)>& visit);
 
 }  // namespace cavum

@@ -10,6 +10,8 @@
 #include "grading/loss.h"
 #include "grading/moments.h"
 #include "grading/motion.h"
+#include "grading/removed_map.h"
+#include "grading/volumes.h"
 
 namespace cavum {
 namespace {
@@ -25,6 +27,7 @@ class Finder {
     if (input.inputs.empty()) end_ = std::int64_t{1} << 31;
   }
   void find();
+  void value_and_work();
 
  private:
   void fact(const std::string& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}) {
@@ -42,12 +45,27 @@ class Finder {
   [[nodiscard]] double points_at(double value) const {
     return why_.criterion.work_share * spec_.points * std::clamp((value - spec_.zero) / (spec_.full - spec_.zero), 0.0, 1.0);
   }
-  void removed_leaves(const std::function<bool(const RemovedAt&)>& counts, bool as_volume);
-  void in_zones(std::initializer_list<Zone> zones);
-  void missed();
+  void removed_moments(std::vector<WhyItem> items, bool as_value);
+  void in_zones(std::initializer_list<Zone> zones) {
+    removed_moments(in_zones([&](Zone z) { return std::find(zones.begin(), zones.end(), z) != zones.end(); }), true);
+  }
+  /// By parts of leaves, as the zones' volumes are counted.
+  [[nodiscard]] std::vector<WhyItem> in_zones(const std::function<bool(Zone)>& counts) const;
+  [[nodiscard]] std::vector<WhyItem> whole_leaves(const std::function<bool(const RemovedAt&)>& counts) const {
+    return removal_moments(in_, end_, counts);
+  }
+  /// `points`: what is lost by it altogether.
+  void missed(double points);
+  void dice();
+  void overhang();
+  void canals();
   void walls(std::size_t first, std::size_t end, const std::string& figure);
   void list_largest(std::vector<WhyItem> items) {
-    why_.left_out += keep_largest(items);
+    for (const auto& i : keep_largest(items)) {
+      ++why_.left_out;
+      why_.left_out_amount += *i.amount;
+      why_.left_out_points += i.points_lost.value_or(0);
+    }
     for (auto& i : items) why_.items.push_back(std::move(i));
   }
   void steps();
@@ -61,16 +79,12 @@ class Finder {
   std::int64_t end_ = 0;
 };
 
-/// Moments in which such leaves went, and, where the value is a volume, what each of them cost.
-void Finder::removed_leaves(const std::function<bool(const RemovedAt&)>& counts, bool as_volume) {
-  std::vector<WhyItem> items = removal_moments(in_, end_, counts);
-  if (as_volume) {
-    double all = 0, before = 0;
-    for (const auto& i : items) all += *i.amount;
-    // the value is counted by parts of leaves: the moments, counted in whole ones, share it
-    const double scale = all > 0 ? why_.criterion.value.value_or(0) / all : 0.0;
+/// Moments of what was removed. `as_value`: their volumes add up to the criterion's value, and what each cost is said where less is better.
+void Finder::removed_moments(std::vector<WhyItem> items, bool as_value) {
+  if (as_value && spec_.full < spec_.zero) {
+    double before = 0;
     for (auto& i : items) {
-      const double now = before + *i.amount * scale;
+      const double now = before + *i.amount;
       i.points_lost = points_at(before) - points_at(now);
       before = now;
     }
@@ -78,12 +92,16 @@ void Finder::removed_leaves(const std::function<bool(const RemovedAt&)>& counts,
   list_largest(std::move(items));
 }
 
-void Finder::in_zones(std::initializer_list<Zone> zones) {
-  removed_leaves([&](const RemovedAt& r) { return std::find(zones.begin(), zones.end(), in_.zones.zone(r.leaf.leaf())) != zones.end(); }, true);
+std::vector<WhyItem> Finder::in_zones(const std::function<bool(Zone)>& counts) const {
+  std::vector<RemovedShare> shares;
+  for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
+    if (counts(s.zone)) shares.push_back(s);
+  });
+  return removal_moments(in_.zones, std::move(shares));
 }
 
 /// What of the target stayed, wall by wall, and when the candidate last cut of the target there.
-void Finder::missed() {
+void Finder::missed(double points) {
   struct Part {
     double sum = 0;
     Vec3 middle;
@@ -121,7 +139,7 @@ void Finder::missed() {
       why_.items.back().tick = why_.items.back().end_tick = p.last.tick;
       why_.items.back().site_mm = p.last.site_mm;
     }
-    if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = (spec_.points - why_.criterion.points) * mm3 / r_.volumes.missed.mm3;
+    if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
   }
 }
 
@@ -139,12 +157,67 @@ void Finder::walls(std::size_t first, std::size_t end, const std::string& figure
   }
   if (figure.find("under") != std::string::npos) return;
   const double full = std::max(0.0, spec_.full);
-  removed_leaves(
-      [&](const RemovedAt& r) {
-        const auto w = static_cast<std::size_t>(in_.zones.wall(r.leaf.leaf()));
-        return w >= first && w < end && in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.distance_mm(r.leaf.leaf()) > full;
-      },
-      false);
+  list_largest(whole_leaves([&](const RemovedAt& r) {
+    const auto w = static_cast<std::size_t>(in_.zones.wall(r.leaf.leaf()));
+    return w >= first && w < end && in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.distance_mm(r.leaf.leaf()) > full;
+  }));
+}
+
+/// Dice loses by what was missed and by what was removed beyond, each in proportion to its volume.
+void Finder::dice() {
+  std::vector<WhyItem> beyond = in_zones([](Zone z) { return z != Zone::target; });
+  double too_much = 0;
+  for (const auto& i : beyond) too_much += *i.amount;
+  const double both = too_much + r_.volumes.missed.mm3, lost = both > 0 ? (spec_.points - why_.criterion.points) / both : 0.0;
+  for (auto& i : beyond) i.points_lost = lost * *i.amount;
+  missed(lost * r_.volumes.missed.mm3);
+  list_largest(std::move(beyond));
+}
+
+void Finder::overhang() {
+  const AccessMeasures& a = r_.access;
+  if (!a.overhang) return fact("this target opens nothing that could be overhung");
+  const double lost = a.overhang->mm3 > 0 ? (spec_.points - why_.criterion.points) / a.overhang->mm3 : 0.0;
+  std::vector<WhyItem> items = overhang_moments(in_, end_, a);
+  for (auto& i : items) i.points_lost = lost * *i.amount;
+  list_largest(std::move(items));
+}
+
+void Finder::canals() {
+  double covered = 0;
+  for (const auto& p : r_.access.canal_mouths) covered += p.part;
+  if (!(covered > 0)) return fact("no canal's mouth has hard tissue on the straight line out");
+  for (const auto& p : r_.access.canal_mouths) {
+    if (!(p.part > 0)) continue;
+    const Trace last = last_cut_near(in_, end_, p.middle_mm);
+    fact("of a canal's mouth, its middle at " + place(p.middle_mm) + ", has hard tissue on the straight line out" + last_cut_text(last),
+         100 * p.part / p.whole, "%", last);
+    if (last.tick < 0) why_.items.back().site_mm = p.middle_mm;
+    why_.items.back().points_lost = (spec_.points - why_.criterion.points) * p.part / covered;
+  }
+}
+
+/// Points that no moment accounts for: what the value as a whole costs, and what does not count because too little of the work was done.
+void Finder::value_and_work() {
+  const CriterionResult& c = why_.criterion;
+  if (!c.value) {
+    fact("cannot be measured on this cavity");
+    why_.items.back().points_lost = spec_.points;
+    return;
+  }
+  double accounted = why_.left_out_points;
+  for (const auto& i : why_.items) accounted += i.points_lost.value_or(0);
+  const double by_work = points_at(spec_.full) < spec_.points ? spec_.points - points_at(spec_.full) : 0.0;
+  const double by_value = spec_.points - c.points - by_work - accounted;
+  if (by_value > 1e-9) {
+    fact((*c.value < spec_.full ? "short of " : "beyond ") + fixed(spec_.full, 2) + (c.unit.empty() ? "" : " " + c.unit) + ", which gives full marks",
+         std::fabs(*c.value - spec_.full), c.unit);
+    why_.items.back().points_lost = by_value;
+  }
+  if (by_work > 1e-9) {
+    fact("of the points count, because too little of the work was done", 100 * c.work_share, "%");
+    why_.items.back().points_lost = by_work;
+  }
 }
 
 /// The exam as a row of events, each with what it took since the one before.
@@ -175,7 +248,7 @@ void Finder::perforation() {
     fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first);
   };
   truth("fault", p.fault);
-  truth("aim", p.aim);
+  if (p.has_aims) truth("aim", p.aim);
   if (p.events.empty()) fact("force: no breakthrough seen");
   for (const auto& e : p.events) {
     fact(std::string("force: ") + (e.fault ? "fault" : "aim") + ", a fall from " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) +
@@ -216,11 +289,17 @@ void Finder::shape(const std::string& name, std::optional<double> found, double 
 void Finder::find() {
   const std::string& m = spec_.metric;
   const auto starts = [&](const char* with) { return m.rfind(with, 0) == 0; };
-  if (m == "target_removed_percent" || m == "missed_mm3") return missed();
-  if (m == "dice") {
-    missed();
-    return removed_leaves([&](const RemovedAt& r) { return in_.zones.zone(r.leaf.leaf()) != Zone::target; }, false);
-  }
+  if (m == "target_removed_percent" || m == "missed_mm3") return missed(spec_.points - why_.criterion.points);
+  if (m == "dice") return dice();
+  if (m == "overhang_mm3") return overhang();
+  if (m == "canals_covered_percent") return canals();
+  if (m == "floor_cut_mm3")
+    return removed_moments(whole_leaves([&](const RemovedAt& r) {
+                             const IVec3 leaf = r.leaf.leaf();
+                             return in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.zone(leaf) != Zone::target &&
+                                    in_.zones.wall(leaf) == Wall::floor;
+                           }),
+                           true);
   if (m == "outside_mm3") return in_zones({Zone::none});
   if (m == "protected_mm3") return in_zones({Zone::protected_});
   if (m == "leeway_sides_mm3") return in_zones({Zone::leeway_sides});
@@ -229,13 +308,13 @@ void Finder::find() {
   if (m == "container_bottom_mm3") return in_zones({Zone::container_bottom});
   if (m == "container_mm3") return in_zones({Zone::container_sides, Zone::container_bottom});
   if (m == "overcut_mm3") return in_zones({Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
-  if (m == "removed_mm3") return removed_leaves([](const RemovedAt&) { return true; }, true);
+  if (m == "removed_mm3") return removed_moments(in_zones([](Zone) { return true; }), true);
   if (starts("perforat")) return perforation();
   if (starts("touched_")) {
     std::uint8_t id = k_air;
     for (const auto& t : r_.tissues)
       if (m == "touched_" + t.name + "_mm3") id = t.id;
-    return removed_leaves([&](const RemovedAt& r) { return r.leaf.tissue == id; }, true);
+    return removed_moments(whole_leaves([&](const RemovedAt& r) { return r.leaf.tissue == id; }), true);
   }
   if (starts("side_walls_")) return walls(0, 4, m);
   if (starts("walls_")) return walls(0, k_walls, m);
@@ -244,7 +323,11 @@ void Finder::find() {
   if (starts("outline_length")) return shape("length", r_.shape.length_mm, r_.shape.target_length_mm, r_.shape.length_error_mm);
   if (starts("outline_width")) return shape("width", r_.shape.width_mm, r_.shape.target_width_mm, r_.shape.width_error_mm);
   if (starts("depth")) return shape("depth", r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm);
-  if (m == "taper_deg") return walls(0, 4, m);
+  if (m == "taper_deg" || m == "taper_error_deg") {
+    fact("mean slope of the side walls", r_.shape.taper_deg, "degrees");
+    if (m == "taper_error_deg") fact("mean slope of the target's side walls", r_.access.target_taper_deg, "degrees");
+    return walls(0, 4, m);
+  }
   const auto record = [&](std::int64_t i) -> const TickRecord& { return in_.records[static_cast<std::size_t>(i)]; };
   if (m == "force_peak_n" || m == "force_mean_n" || m == "force_over_limit_s") {
     const double above = m == "force_over_limit_s" ? in_.scenario.force_limit_n : spec_.full;
@@ -259,11 +342,8 @@ void Finder::find() {
   if (m == "violations" || m == "steps_completed" || m == "steps_failed" || m == "time_s" || m == "idle_s" || m == "path_mm") {
     if (m == "time_s") fact("time that counts, pauses taken off", r_.motion.time_s, "s");
     if (m == "time_s" || m == "idle_s") fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
-    steps();
-    if (m == "time_s" || m == "idle_s" || m == "path_mm")
-      list_largest(tick_stretches(
-          in_, end_, [&](std::int64_t i) { return record(i).rpm < k_turning_rpm && record(i).removed == 0; }, 0, "the handpiece stood still for",
-          Stretch::duration));
+    if (m != "idle_s") steps();
+    if (m == "time_s" || m == "idle_s") list_largest(idle_moments(in_, end_, r_.pauses));
     return;
   }
   fact("no moments are known for this measure");
@@ -278,7 +358,9 @@ Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric,
     known += (known.empty() ? "" : ", ") + rubric.criteria[i].id;
     if (rubric.criteria[i].id != criterion_id) continue;
     w.criterion = result.criteria.at(i);
-    Finder(input, result, rubric.criteria[i], w).find();
+    Finder finder(input, result, rubric.criteria[i], w);
+    finder.find();
+    finder.value_and_work();
     std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
     return w;
   }

@@ -23,8 +23,9 @@ struct WhyItem {
 
 struct Why {
   CriterionResult criterion;
-  std::vector<WhyItem> items;  ///< in order of time; facts without a moment come first
-  std::size_t left_out = 0;    ///< smaller moments that are not listed
+  std::vector<WhyItem> items;                           ///< in order of time; facts without a moment come first
+  std::size_t left_out = 0;                             ///< smaller moments that are not listed ...
+  double left_out_amount = 0.0, left_out_points = 0.0;  ///< ... all of them together
 };
 
 /// Removed leaves less than this apart in time belong to one moment.

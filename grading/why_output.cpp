@@ -45,7 +45,9 @@ Json to_json(const Why& w) {
             {"reason", c.reason}}},
           {"points_lost", rounded(c.max - c.points)},
           {"moments", items},
-          {"moments_left_out", w.left_out}};
+          {"moments_left_out", w.left_out},
+          {"left_out_amount", rounded(w.left_out_amount)},
+          {"left_out_points", rounded(w.left_out_points)}};
 }
 
 std::string to_text(const Why& w) {
@@ -68,7 +70,9 @@ std::string to_text(const Why& w) {
     if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";
     s += "\n";
   }
-  if (w.left_out > 0) s += "  and " + std::to_string(w.left_out) + " smaller moments\n";
+  if (w.left_out > 0)
+    s += "  and " + std::to_string(w.left_out) + " smaller moments, " + fixed(w.left_out_amount, 3) + " in all" +
+         (w.left_out_points > 0 ? ", " + fixed(w.left_out_points, 2) + " points" : "") + "\n";
   return s;
 }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/expression.h"
+
 namespace cavum {
 namespace {
 
@@ -98,6 +100,76 @@ bool is_condition(const std::string& text) {
   if (find_outside(t, k_compare).at != Text::npos) return true;
   constexpr std::array<Text, 7> k_yes_or_no{"contact", "cutting", "button_1", "button_2", "perforated", "0", "1"};
   return std::find(k_yes_or_no.begin(), k_yes_or_no.end(), t) != k_yes_or_no.end();
+}
+
+namespace {
+
+bool is_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.'; }
+
+/// What is divided by: the number, name, call or bracket that begins at `from`, with its sign.
+Text divisor(Text t, std::size_t from) {
+  std::size_t end = from;
+  while (end < t.size() && (t[end] == ' ' || t[end] == '-' || t[end] == '+')) ++end;
+  while (end < t.size() && is_name(t[end])) ++end;
+  if (end < t.size() && t[end] == '(') {
+    int depth = 0;
+    do {
+      depth += t[end] == '(' ? 1 : t[end] == ')' ? -1 : 0;
+      ++end;
+    } while (end < t.size() && depth > 0);
+  }
+  return trimmed(t.substr(from, end - from));
+}
+
+/// Its value when every quantity is 0.
+double at_zero(Text t) {
+  const std::string text(t);
+  const auto names = names_in_expression(text);
+  std::vector<double> values(names.size(), 0.0);
+  return Expression(text, names, values).value();
+}
+
+}  // namespace
+
+std::optional<ConditionFault> condition_fault(const std::string& text) {
+  struct Level {
+    bool of_a_function = false;
+    int comparisons = 0;
+  };
+  std::vector<Level> levels(1);
+  const Text t = text;
+  char before = ' ';  // the last sign that is no space
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    Level& level = levels.back();
+    const char c = t[i];
+    const Text two = t.substr(i, 2);
+    if (c == '(') {
+      levels.push_back({is_name(before), 0});
+    } else if (c == ')' && levels.size() > 1) {
+      levels.pop_back();
+    } else if (two == "||" || two == "&&" || c == '?' || c == ':') {
+      level.comparisons = 0;
+      i += c == '|' || c == '&' ? 1 : 0;
+    } else if (c == ',') {
+      if (!level.of_a_function)
+        return ConditionFault{"has a comma, and only what follows it would count", "join conditions by && or ||, and write numbers as 0.5"};
+      level.comparisons = 0;
+    } else if (const auto op = std::find_if(k_compare.begin(), k_compare.end(), [&](Text o) { return t.substr(i, o.size()) == o; });
+               op != k_compare.end()) {
+      if (++level.comparisons > 1)
+        return ConditionFault{"is a chain of comparisons, which does not mean what it reads", "write for example \"depth_mm > 1 && depth_mm < 5\""};
+      i += op->size() - 1;
+    } else if (c == '/') {
+      const Text by = divisor(t, i + 1);
+      if (!by.empty() && at_zero(by) == 0.0) {
+        if (names_in_expression(std::string(by)).empty()) return ConditionFault{"divides by 0", "divide by something else, or take that part out"};
+        return ConditionFault{"divides by '" + std::string(by) + "', which is 0 when an exam begins",
+                              "multiply instead, or divide by max(" + std::string(by) + ", 1)"};
+      }
+    }
+    if (c != ' ' && c != '\t' && c != '\n') before = c;
+  }
+  return std::nullopt;
 }
 
 Outlook judge_condition(const std::string& text, const std::map<std::string, ValueRange>& ranges) {

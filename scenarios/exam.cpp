@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "scenarios/rubric_check.h"
 #include "scenarios/surface_files.h"
 
 namespace cavum {
@@ -131,7 +132,6 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   }
   if (!options.rubric_file.empty()) {
     s.rubric_toml = read_text_file(options.rubric_file);
-    static_cast<void>(parse_rubric(s.rubric_toml, options.rubric_file));
   }
   ServoConfig config;
   config.max_rpm = scenario.max_rpm;
@@ -139,6 +139,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   s.servo_toml = to_toml(config);
   fill(*setup, scenario_path, tooth_path, point_paths);
   require_tissues(setup->scenario, setup->tooth);
+  if (!options.rubric_file.empty()) require_none(not_in_this_exam(parse_rubric(s.rubric_toml, options.rubric_file), setup->scenario, setup->tooth));
   return setup;
 }
 

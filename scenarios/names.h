@@ -114,4 +114,14 @@ inline constexpr std::array<NamedQuantity, 65> k_metrics{{
   return {};
 }
 
+/// Whether more (1) or less (-1) of a measure is better; 0 where that depends on the task.
+[[nodiscard]] constexpr int better_direction(std::string_view metric) noexcept {
+  for (const std::string_view name : {"target_removed_percent", "dice", "steps_completed"})
+    if (metric == name) return 1;
+  for (const std::string_view name : {"removed_mm3", "outline_width_mm", "outline_length_mm", "depth_mm", "taper_deg", "force_mean_n"})
+    if (metric == name) return 0;
+  if (metric.ends_with("_mean_mm") || metric.ends_with("_p95_mm") || metric.starts_with("touched_")) return 0;
+  return -1;
+}
+
 }  // namespace cavum

@@ -187,6 +187,8 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
   Skill skill = make_skill(skill_name, seed);
   const std::string where = scenario.path.empty() ? "scenario" : scenario.path;
   ChosenPoint chosen = choose_point(zones, tooth, tray);
+  if (chosen.index == tray.size() && !zones.target_is_open())
+    throw Error(where, "the target lies buried: no point comes to it without cutting elsewhere", "let it reach up to the tooth's surface");
   if (chosen.index == tray.size()) throw Error(where, "no allowed diamond point fits into the target", "allow a thinner one");
   if (skill.name == "careless") {
     if (scenario.careless.fails_by.empty()) throw Error(where, "does not say what a careless candidate does", "add [careless] to it");

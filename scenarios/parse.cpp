@@ -56,7 +56,9 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
     std::vector<double> values(known.size(), 0.0);
     const Expression compiled(text, known, values);
     static_cast<void>(compiled);
-    if (problems.strict() && !is_condition(text))
+    if (const auto fault = problems.strict() ? condition_fault(text) : std::nullopt)
+      t.problem(key, "'" + std::string(key) + "' " + fault->what, fault->what_to_do);
+    else if (problems.strict() && !is_condition(text))
       t.problem(key, "'" + std::string(key) + "' is a number, not a condition",
                 "compare it with something, for example \"target_removed_percent >= 90\"");
   } catch (const std::runtime_error& e) {
@@ -104,6 +106,12 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   if (!c.metric.empty() && std::find(names.begin(), names.end(), c.metric) == names.end() && c.metric.rfind("touched_", 0) != 0)
     t.problem("metric", "there is no measure '" + c.metric + "'", suggestion(c.metric, names));
   for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, at + "/" + key);
+  const auto place_of = [&](const char* key) {
+    const auto found = places.find(at + "/" + key);
+    return found != places.end() ? found->second : Place{static_cast<int>(table.source().begin.line), static_cast<int>(table.source().begin.column)};
+  };
+  c.metric_at = place_of("metric");
+  c.zero_at = place_of("zero");
   c.full = t.number("full", -1e9, 1e9, 1, true);
   c.zero = t.number("zero", -1e9, 1e9, 0, true);
   if (t.has("full") && t.has("zero") && c.full == c.zero)
@@ -155,7 +163,7 @@ PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
   return p;
 }
 
-CarelessSpec read_careless(const toml::table& table, const RubricSpec& rubric, ProblemList& problems) {
+CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, ProblemList& problems) {
   CheckedTable t(table, "[careless]", problems);
   CarelessSpec c;
   c.fails_by = t.text("fails_by", "", true);
@@ -164,9 +172,12 @@ CarelessSpec read_careless(const toml::table& table, const RubricSpec& rubric, P
   c.opening_percent = t.number("opening_percent", 10, 100, 100);
   c.perforates = t.truth("perforates", false);
   std::vector<std::string> ids;
-  for (const auto& criterion : rubric.criteria) ids.push_back(criterion.id);
+  for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
     t.problem("fails_by", "the rubric has no criterion '" + c.fails_by + "'", suggestion(c.fails_by, ids));
+  if (c.perforates && scenario.perforation.faults.empty() && problems.strict())
+    t.problem("perforates", "'perforates' is true, and no tissue is a fault",
+              "list what is broken into under faults of [perforation], or leave 'perforates' out");
   if (c == CarelessSpec{.fails_by = c.fails_by})
     t.problem("fails_by", "nothing is done carelessly", "set sides_mm, bottom_mm, opening_percent or perforates");
   t.finish();
@@ -236,20 +247,36 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     pt.finish();
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
-  if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s.rubric, problems);
+  s.rubric.path = path;
+  if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s, problems);
   t.finish();
   return s;
 }
 
 /// Parses the TOML itself; a file that is no TOML has exactly one problem.
 bool read_toml(const std::string& text, const std::string& path, toml::table& table, ProblemList& problems) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string::npos) {
+    const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    problems.add(Place{1, 1}, wide ? "this is a text in UTF-16" : "this is no text: it holds zero bytes",
+                 wide ? "save it as UTF-8" : "give a scenario or rubric, a text file (TOML)");
+    return false;
+  }
   try {
     table = toml::parse(text, path);
     return true;
   } catch (const toml::parse_error& e) {
-    problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
+    const bool encoding = e.description().find("utf-8") != std::string_view::npos;
+    if (encoding)
+      problems.add(e.source(), "a letter here is not in UTF-8, as in a text saved as Latin-1", "save the file as UTF-8");
+    else
+      problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
     return false;
   }
+}
+
+std::string summary(const std::vector<Problem>& list) {
+  const auto more = list.size() - 1;
+  return list[0].what_to_do + (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
 }
 
 void throw_first(const std::vector<Problem>& problems) {
@@ -260,6 +287,12 @@ void throw_first(const std::vector<Problem>& problems) {
 }
 
 }  // namespace
+
+ProblemsError::ProblemsError(std::vector<Problem> list) : Error(list.at(0).where, list[0].what, summary(list)), problems_(std::move(list)) {}
+
+void require_none(std::vector<Problem> problems) {
+  if (!problems.empty()) throw ProblemsError(std::move(problems));
+}
 
 ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading) {
   ProblemList problems(path, reading);
@@ -294,7 +327,8 @@ RubricSpec parse_rubric(const std::string& text, const std::string& path) {
     const auto* inner = table.get_as<toml::table>("rubric");
     r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", places, problems);
   }
-  throw_first(problems.take());
+  r.path = path;
+  require_none(problems.take());
   return r;
 }
 
@@ -331,12 +365,15 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
       if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
         need(shape.bottom.tissue, place + "/bottom");
     }
+  for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
+    const std::string& metric = s.rubric.criteria[i].metric;
+    if (metric.starts_with("touched_") && metric.ends_with("_mm3") && metric.size() > 12)
+      need(metric.substr(8, metric.size() - 12), "rubric/criteria/" + std::to_string(i) + "/metric");
+  }
   return problems;
 }
 
-void require_tissues(const Scenario& scenario, const Tooth& tooth) {
-  if (const auto missing = missing_tissues(scenario, tooth); !missing.empty()) throw Error(missing[0].where, missing[0].what, missing[0].what_to_do);
-}
+void require_tissues(const Scenario& scenario, const Tooth& tooth) { require_none(missing_tissues(scenario, tooth)); }
 
 Problem problem_at(const Scenario& s, const std::string& place, const std::string& what, const std::string& what_to_do) {
   // the place itself, else what holds it

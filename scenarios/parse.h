@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/scenario.h"
 
@@ -16,6 +17,18 @@ struct Problem {
   bool warning = false;
   [[nodiscard]] std::string text() const { return where + ": " + (warning ? "warning: " : "") + what + "; " + what_to_do; }
 };
+
+/// Several mistakes at once. `what()` is the first one's text and how many more there are; the command line prints each on a line of its own.
+class ProblemsError : public Error {
+ public:
+  explicit ProblemsError(std::vector<Problem> list);
+  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+/// Throws ProblemsError unless the list is empty.
+void require_none(std::vector<Problem> problems);
 
 /// A scenario that is to be examined with, or one that an exam has run with already: rules that came later do not bind that one.
 enum class Reading { to_be_run, recorded };
@@ -33,11 +46,11 @@ struct ReadScenario {
 [[nodiscard]] Scenario load_scenario(const std::string& path);
 /// A problem that stands at one of the scenario's `places`, or at the nearest one that holds it.
 [[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const std::string& what, const std::string& what_to_do);
-/// Every tissue that zones or perforation name and the tooth does not have.
+/// Every tissue that zones, perforation or the rubric's measures name and the tooth does not have.
 [[nodiscard]] std::vector<Problem> missing_tissues(const Scenario& scenario, const Tooth& tooth);
-/// Throws Error when a tissue that the scenario names is none of the tooth's: misspelt, it would never be touched.
+/// Throws ProblemsError when a tissue that the scenario names is none of the tooth's: misspelt, it would never be touched.
 void require_tissues(const Scenario& scenario, const Tooth& tooth);
-/// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]).
+/// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]). Throws ProblemsError naming every mistake.
 [[nodiscard]] RubricSpec parse_rubric(const std::string& text, const std::string& path);
 
 /// The tooth file of a scenario: beside the scenario file, else in ../teeth of it, else data/teeth of the

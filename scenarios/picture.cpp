@@ -148,7 +148,11 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   Window w{spec.view, {0, 0, 0}, tree.size(), 0, 0, 0};
   // the crown and what lies around the target; the tips of the roots are not needed
   w.low.z = std::max(0, tree.leaf_at(zones.target_low_mm() - Vec3{0, 0, 4.0}).z);
-  w.high.z = std::min(w.high.z, tree.leaf_at(zones.target_high_mm() + Vec3{0, 0, 0.8}).z + 1);
+  constexpr double k_above_mm = 0.4;  // over the crown's highest place
+  int crown = 0;
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t) { crown = std::max(crown, at.z + edge); });
+  const int over_target = tree.leaf_at(zones.target_high_mm() + Vec3{0, 0, 0.8}).z + 1;
+  w.high.z = std::min(w.high.z, std::max(over_target, crown + static_cast<int>(k_above_mm / leaf)));
   const int below_target = w.low.z;
   const IVec3 probe = tree.leaf_at({spec.at_mm, spec.at_mm, spec.at_mm});
   w.depth = spec.view == View::mesio_distal ? probe.y : spec.view == View::bucco_lingual ? probe.x : probe.z;

@@ -92,6 +92,11 @@ struct StepSpec {
   bool failure_ends_exam = false;
 };
 
+/// Where something stands in the file, from 1; 0 = not written.
+struct Place {
+  int line = 0, column = 0;
+};
+
 /// Which tissues may be broken into, and which must not.
 struct PerforationSpec {
   std::vector<std::string> aims, faults;
@@ -102,6 +107,7 @@ struct CriterionSpec {
   double full = 0.0, zero = 0.0;  ///< metric value for full and for no points; linear between
   double points = 0.0;
   std::optional<double> critical_above, critical_below;  ///< beyond it the exam is failed whatever the sum
+  Place metric_at = {}, zero_at = {};                    ///< in the rubric's file
 };
 
 struct RubricSpec {
@@ -109,6 +115,7 @@ struct RubricSpec {
   double pass_percent = 60.0;       ///< of all points (non-compensatory: of each criterion's)
   double borderline_percent = 0.0;  ///< this close to the pass mark a person decides
   std::vector<CriterionSpec> criteria;
+  std::string path;  ///< file it was read from
 };
 
 /// The mistake that the task exists to catch, made by the simulated candidate `careless`: it cuts as an expert would who has
@@ -137,11 +144,6 @@ struct PauseSpec {
   int count = 0;           ///< breaks allowed; 0 = none
   double longest_s = 0.0;  ///< after which a break ends by itself
   int button = 2;          ///< 1 or 2: pressed once to begin, once more to go on
-};
-
-/// Where something stands in the file, from 1; 0 = not written.
-struct Place {
-  int line = 0, column = 0;
 };
 
 struct Scenario {

@@ -63,6 +63,7 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
     };
     const fs::path path = fs::path(scenario.path).parent_path() / shape.file;
     std::error_code none;
+    if (fs::is_directory(path, none)) return wrong("it is a folder, not a file", "name the STL file in it");
     if (!fs::is_regular_file(path, none)) return wrong("there is no such file", "put it beside the scenario, or give the way to it from there");
     if (fs::file_size(path, none) > k_most_bytes) return wrong("the file is larger than 32 MB", "thin the surface out: a leaf is 0.05 mm wide");
     try {

@@ -85,6 +85,22 @@ Wall ZoneMap::wall(IVec3 leaf) const noexcept {
   return static_cast<Wall>(wall_[index(in)]);
 }
 
+void ZoneMap::guard_beyond(const Octree& tree, const Shape& guard) {
+  tooth_size_ = tree.size();
+  guarded_.assign(static_cast<std::size_t>(tooth_size_.x) * static_cast<std::size_t>(tooth_size_.y) * static_cast<std::size_t>(tooth_size_.z), false);
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
+    if (tissue == k_air) return;
+    for (int z = 0; z < edge; ++z)
+      for (int y = 0; y < edge; ++y)
+        for (int x = 0; x < edge; ++x) {
+          const IVec3 leaf = at + IVec3{x, y, z};
+          if (in_box(leaf) || !(guard.distance_mm(centre_mm(leaf)) < 0)) continue;
+          guarded_[tooth_index(leaf)] = true;
+          ++counts_[static_cast<std::size_t>(Zone::protected_)];
+        }
+  });
+}
+
 ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   const Octree& tree = tooth.octree;
   const ZoneSpec& spec = scenario.zones;
@@ -107,14 +123,18 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   const IVec3 size = map.size_;
   const auto cells = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
 
-  // 1. the shape at every leaf's centre
+  const auto guard = spec.protected_shapes.empty() ? nullptr : maker.make(spec.protected_shapes);
+
+  // 1. the shape at every leaf's centre, without what is protected
   std::vector<std::uint8_t> inside(cells), outside(cells);
   std::vector<float> level(cells);
   std::size_t i = 0;
   for (int z = 0; z < size.z; ++z)
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x, ++i) {
-        const double d = target->distance_mm(map.centre_mm(map.low_ + IVec3{x, y, z}));
+        const Vec3 centre = map.centre_mm(map.low_ + IVec3{x, y, z});
+        double d = target->distance_mm(centre);
+        if (guard != nullptr) d = std::max(d, -guard->distance_mm(centre));
         level[i] = static_cast<float>(d);
         inside[i] = d < 0 ? 1 : 0;
         outside[i] = d < 0 ? 0 : 1;
@@ -222,7 +242,6 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
       for (int y = a.y; y < b.y; ++y)
         for (int x = a.x; x < b.x; ++x) tissue[map.index({x, y, z})] = t;
   });
-  const auto guard = spec.protected_shapes.empty() ? nullptr : maker.make(spec.protected_shapes);
   IVec3 first{1 << 20, 1 << 20, 1 << 20}, last{-1, -1, -1};
   double opening_sum = 0;
   std::uint64_t openings = 0;
@@ -245,6 +264,7 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
           zone = bottom ? Zone::container_bottom : Zone::container_sides;
         map.zone_[i] = static_cast<std::uint8_t>(zone);
         ++map.counts_[static_cast<std::size_t>(zone)];
+        if (zone == Zone::protected_ && target->distance_mm(map.centre_mm(at)) < 0) ++map.guarded_in_target_;
         if (zone != Zone::target) continue;
         first = {std::min(first.x, at.x), std::min(first.y, at.y), std::min(first.z, at.z)};
         last = {std::max(last.x, at.x), std::max(last.y, at.y), std::max(last.z, at.z)};
@@ -252,6 +272,8 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
           return (at_axis > 0 && inside[i - stride] == 0) || (at_axis + 1 < count && inside[i + stride] == 0);
         };
         if (across(x, size.x, sx) || across(y, size.y, sy) || across(z, size.z, sz)) ++map.target_border_;
+        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+          map.target_is_open_ = map.target_is_open_ || tree.tissue(at + step) == k_air;
         if (z + 1 == size.z || tissue[i + sz] == k_air) {
           const double surface = maker.surface().value[maker.surface().index(at.x, at.y)];
           if (std::fabs(surface - map.centre_mm(at).z) <= leaf) {
@@ -260,7 +282,10 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
           }
         }
       }
+  if (map.count(Zone::target) == 0 && map.guarded_in_target_ > 0)
+    throw Error(where, "all of the target is protected", "move the target, or protect less under [[zones.protected]]");
   if (map.count(Zone::target) == 0) throw Error(where, "the target holds no leaf of the tooth '" + tooth.name + "'", "make it larger");
+  if (guard != nullptr) map.guard_beyond(tree, *guard);
 
   // 4. what of each leaf lies in the target: on its border, part by part
   map.target_share_.assign(cells, 0);

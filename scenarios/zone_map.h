@@ -4,8 +4,8 @@
 // Rules. A leaf belongs to the target when its centre lies inside the target's shape. Any other leaf
 // belongs to the *bottom* when the line from the nearest point of the target's surface to the leaf runs
 // within 45° of straight down, otherwise to the *sides*; within the leeway's width there it is leeway,
-// within the container's container, beyond it none. Protected leaves are protected unless they are
-// target. Only leaves that hold tissue have a zone.
+// within the container's container, beyond it none. What is protected is so wherever it lies in the tooth, also beyond the
+// container and where the other zones' shapes reach: it is taken out of the target. Only leaves that hold tissue have a zone.
 #pragma once
 
 #include <array>
@@ -28,9 +28,11 @@ inline constexpr std::size_t k_walls = 5;
 /// Wall that a surface facing out of the target along `direction` belongs to.
 [[nodiscard]] Wall wall_of(Vec3 direction) noexcept;
 
-/// How far a distance to the target's surface may be from the true one, in leaves (shape given exactly): half a leaf off faces, measured at up to 0.54
-/// some leaves off the tilted edge of a box, where leaf centres near the edge are sparse.
+/// How far a distance to the target's surface may be from the true one, in leaves (shape given exactly): half a leaf off faces, measured at up to
+/// 0.54 some leaves off the tilted edge of a box, where leaf centres near the edge are sparse.
 inline constexpr double k_distance_bound_leaves = 0.6;
+
+class Shape;
 
 class ZoneMap {
  public:
@@ -44,16 +46,23 @@ class ZoneMap {
     const IVec3 l = leaf - low_;
     return l.x >= 0 && l.y >= 0 && l.z >= 0 && l.x < size_.x && l.y < size_.y && l.z < size_.z;
   }
-  /// Zone of a leaf of the tooth; none outside the box and where the tooth has no tissue.
-  [[nodiscard]] Zone zone(IVec3 leaf) const noexcept { return in_box(leaf) ? static_cast<Zone>(zone_[index(leaf)]) : Zone::none; }
+  /// Zone of a leaf of the tooth; none where the tooth has no tissue. Outside the box: protected or none.
+  [[nodiscard]] Zone zone(IVec3 leaf) const noexcept {
+    if (in_box(leaf)) return static_cast<Zone>(zone_[index(leaf)]);
+    return guarded_beyond(leaf) ? Zone::protected_ : Zone::none;
+  }
   /// Signed distance of a leaf's centre to the target's surface, mm, negative inside.
   [[nodiscard]] double distance_mm(IVec3 leaf) const noexcept;
   /// The same between leaves (trilinear); beyond the box, the border's value and the way there.
   [[nodiscard]] double distance_mm(Vec3 p) const noexcept;
   [[nodiscard]] Wall wall(IVec3 leaf) const noexcept;
-  /// Leaves (with tissue) of each zone.
+  /// Leaves (with tissue) of each zone; of the whole tooth but for none, which is that of the box.
   [[nodiscard]] const std::array<std::uint64_t, k_zones>& counts() const noexcept { return counts_; }
   [[nodiscard]] std::uint64_t count(Zone z) const noexcept { return counts_[static_cast<std::size_t>(z)]; }
+  /// Some leaf of the target lies beside air: there is a way to it. A buried one can only be come to through what lies around.
+  [[nodiscard]] bool target_is_open() const noexcept { return target_is_open_; }
+  /// Leaves of the target's shapes that were taken out of it because they are protected.
+  [[nodiscard]] std::uint64_t guarded_in_target() const noexcept { return guarded_in_target_; }
   /// Part of a leaf that lies in the target as grading counts it (4x4x4 parts), in units of 1 / k_share_units; 0 without tissue.
   [[nodiscard]] std::uint32_t target_share(IVec3 leaf) const noexcept { return in_box(leaf) ? target_share_[index(leaf)] : 0; }
   /// Of all leaves together, more than 0.
@@ -93,11 +102,24 @@ class ZoneMap {
     return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
            static_cast<std::size_t>(l.x);
   }
+  void guard_beyond(const Octree& tree, const Shape& guard);
+  [[nodiscard]] bool guarded_beyond(IVec3 l) const noexcept {
+    if (guarded_.empty() || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= tooth_size_.x || l.y >= tooth_size_.y || l.z >= tooth_size_.z) return false;
+    return guarded_[tooth_index(l)];
+  }
+  [[nodiscard]] std::size_t tooth_index(IVec3 l) const noexcept {
+    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(tooth_size_.y) + static_cast<std::size_t>(l.y)) *
+               static_cast<std::size_t>(tooth_size_.x) +
+           static_cast<std::size_t>(l.x);
+  }
 
   double leaf_mm_ = 0.05;
   Vec3 origin_mm_;  // of leaf (0,0,0) of the tooth
-  IVec3 low_, size_;
+  IVec3 low_, size_, tooth_size_;
   std::vector<std::uint8_t> zone_, wall_;
+  std::vector<bool> guarded_;  // protected leaves outside the box, of all leaves of the tooth; empty when nothing is protected
+  std::uint64_t guarded_in_target_ = 0;
+  bool target_is_open_ = false;
   std::vector<float> distance_mm_;
   std::vector<std::uint16_t> target_share_;
   std::uint64_t target_shares_ = 0;

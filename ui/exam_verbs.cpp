@@ -15,6 +15,7 @@
 #include "grading/session_input.h"
 #include "scenarios/simulated_exam.h"
 #include "ui/print_json.h"
+#include "ui/seed_check.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -200,7 +201,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
   auto* name = exam->add_option("--operator", o->operator_name,
                                 "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
-  auto* device = exam->add_option("--device", o->device, "haptic device by name, as `cavum devices` lists it");
+  auto* device = exam->add_option("--device", o->device, "haptic device by name; this version drives none");
   motion->excludes(name);
   device->excludes(name)->excludes(motion);
   exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
@@ -211,7 +212,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--extra-time-s", o->grant.extra_time_s, "the same in seconds; both add up");
   exam->add_flag("--left-handed,!--right-handed", o->grant.left_handed, "for this candidate; recorded and shown with the result");
   exam->add_flag("--high-contrast,!--normal-contrast", o->grant.high_contrast, "for this candidate; recorded and shown with the result");
-  exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(CLI::NonNegativeNumber)->capture_default_str();
+  exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
   exam->add_option("--report", o->report, "also write the report (HTML)");

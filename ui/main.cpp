@@ -6,6 +6,7 @@
 
 #include "engine/base/text.h"
 #include "engine/servo/servo.h"
+#include "scenarios/parse.h"
 #include "ui/verbs.h"
 
 int main(int argc, char** argv) {
@@ -37,6 +38,9 @@ int main(int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     std::fprintf(stderr, "cavum: command line: %s; see `cavum --help` or `cavum VERB --help`\n", cavum::one_line(e.what()).c_str());
+    return 2;
+  } catch (const cavum::ProblemsError& e) {
+    for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(p.text()).c_str());
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "cavum: %s\n", cavum::one_line(e.what()).c_str());

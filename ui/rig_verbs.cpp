@@ -15,6 +15,7 @@
 #include "scenarios/exam.h"
 #include "ui/print_json.h"
 #include "ui/rig_pictures.h"
+#include "ui/seed_check.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -102,7 +103,7 @@ void add_common(CLI::App& verb, Common& a, bool runs) {
     verb.add_option("--runs", a.runs, "of each kind, each with an offset, an encoder phase and a noise of its own")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
-    verb.add_option("--seed", a.seed, "of all that differs between runs")->check(CLI::NonNegativeNumber)->capture_default_str();
+    verb.add_option("--seed", a.seed, "of all that differs between runs")->check(seed_check())->capture_default_str();
   }
   verb.add_flag("--json", a.json, "one JSON object on standard output");
 }

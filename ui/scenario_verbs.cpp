@@ -22,6 +22,7 @@
 #include "scenarios/template.h"
 #include "scenarios/zone_map.h"
 #include "ui/print_json.h"
+#include "ui/seed_check.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -143,21 +144,39 @@ struct Caught {
   Result result;
   CriterionResult criterion;
   bool as_named = false;
+  std::string advice;  ///< what to change when it is not caught
 };
+
+/// Why the careless candidate got away, and what to do about it.
+std::string advice_for(const Caught& c) {
+  const CriterionResult& named = c.criterion;
+  const bool lost_all = named.critical_failed || named.points <= 0;
+  if (c.result.progress.finish == "time")
+    return "time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see";
+  if (lost_all && c.result.verdict == Verdict::review)
+    return "a person would have to decide: make '" + named.id + "' critical, or raise the pass mark by more than the borderline band";
+  if (lost_all)
+    return "'" + named.id +
+           "' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory";
+  const std::string value = named.value ? fixed(*named.value, 2) + (named.unit.empty() ? "" : " " + named.unit) : "no value";
+  return "'" + named.id + "' still gives " + fixed(named.points, 1) + " of " + fixed(named.max, 1) + " points for " + value +
+         ": make the mistake in [careless] larger, or the criterion stricter so that it gives none for that, or let fails_by name another";
+}
 
 Caught catch_careless(const Options& o, const ExamSetup& setup, const std::string& session) {
   SimulatedCandidate candidate = make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
-  Caught c{taken(setup, candidate, session), {}, false};
+  Caught c{taken(setup, candidate, session), {}, false, {}};
   for (const auto& one : c.result.criteria)
     if (one.id == setup.scenario.careless.fails_by) c.criterion = one;
   // running out of time is another reason than the one the task is there for
   c.as_named = c.result.verdict == Verdict::fail && c.result.progress.finish != "time" && (c.criterion.critical_failed || c.criterion.points <= 0);
+  if (!c.as_named) c.advice = advice_for(c);
   return c;
 }
 
 nlohmann::ordered_json to_json(const Caught& c) {
   const auto result = to_json(c.result);
-  nlohmann::ordered_json j{{"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", c.criterion.reason}};
+  nlohmann::ordered_json j{{"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", c.criterion.reason}, {"what_to_do", c.advice}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
   return j;
 }
@@ -165,8 +184,9 @@ nlohmann::ordered_json to_json(const Caught& c) {
 std::string to_text(const Caught& c) {
   std::string s = "careless: " + std::string(c.as_named ? "failed by " : "NOT failed by ") + c.criterion.id + " (" + c.criterion.reason + "); " +
                   fixed(c.result.points, 1) + " of " + fixed(c.result.max_points, 1) + " points, " + verdict_name(c.result.verdict) + "\n";
-  if (!c.as_named)
-    for (const auto& reason : c.result.verdict_reasons) s += "because: " + reason + "\n";
+  if (c.as_named) return s;
+  for (const auto& reason : c.result.verdict_reasons) s += "because: " + reason + "\n";
+  s += "what to do: " + c.advice + "\n";
   return s;
 }
 
@@ -219,6 +239,7 @@ int solve(const Options& o) {
 }
 
 int make_new(const Options& o) {
+  require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
   write_text_file(o.out, scenario_template(o.tooth_kind, o.task));
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
@@ -249,7 +270,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
   solves->add_option("--tooth", o->tooth, "solve it on this tooth instead");
   solves->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
-  solves->add_option("--seed", o->seed, "of the expert's tremor")->capture_default_str();
+  solves->add_option("--seed", o->seed, "of the expert's tremor")->check(seed_check())->capture_default_str();
   solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
   solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");
   solves->add_flag("--json", o->json, "one JSON object on standard output");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "engine/base/error.h"
 
@@ -22,12 +23,17 @@ std::vector<std::string> sessions_in(const std::string& folder) {
 
 std::vector<std::string> session_files(const std::vector<std::string>& names) {
   std::vector<std::string> files;
+  std::set<std::filesystem::path> known;
+  const auto add = [&](std::string file) {
+    std::error_code none;
+    if (known.insert(std::filesystem::weakly_canonical(file, none)).second) files.push_back(std::move(file));
+  };
   for (const auto& name : names) {
     if (!std::filesystem::is_directory(name)) {
-      files.push_back(name);
+      add(name);
       continue;
     }
-    for (auto& f : sessions_in(name)) files.push_back(std::move(f));
+    for (auto& f : sessions_in(name)) add(std::move(f));
   }
   return files;
 }

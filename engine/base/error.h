@@ -15,4 +15,7 @@ class Error : public std::runtime_error {
       : std::runtime_error(where + ": " + what_happened + "; " + what_to_do) {}
 };
 
+/// The text of an Error, or of a finding made of one, without its `; what to do`: for one that is told inside another, which says that itself.
+[[nodiscard]] inline std::string without_advice(const std::string& text) { return text.substr(0, text.rfind("; ")); }
+
 }  // namespace cavum

@@ -68,9 +68,9 @@ std::vector<std::size_t> read_header(const Reader& in, std::string_view header) 
     if (found == k_columns.end()) {
       for (const std::string_view axis : {"t", "x", "y", "z"})
         if (name == axis || name.starts_with(std::string(axis) + "_"))
-          in.fail("column '" + std::string(name) + "' has another unit or none",
+          in.fail("column '" + one_line(name) + "' has another unit or none",
                   "convert it to '" + std::string(axis) + (axis == "t" ? "_s" : "_mm") + "'");
-      in.fail("column '" + std::string(name) + "' is not known", "use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point");
+      in.fail("column '" + one_line(name) + "' is not known", "use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point");
     }
     const auto c = static_cast<std::size_t>(found - k_columns.begin());
     if (std::find(column_of.begin(), column_of.end(), c) != column_of.end()) in.fail("column '" + std::string(name) + "' stands twice", "remove one");
@@ -117,6 +117,7 @@ MotionSample read_row(const Reader& in, std::string_view line, const std::vector
 }  // namespace
 
 Motion parse_motion(const std::string& text, const std::string& where) {
+  if (text.find('\0') != std::string::npos) throw Error(where, "is no text: it holds zero bytes", "give a motion as CSV, in UTF-8");
   Reader in(text, where);
   Motion motion;
   std::vector<std::size_t> column_of;

@@ -132,7 +132,7 @@ SessionReader::SessionReader(const std::string& path) : path_(path) {
 }
 
 void SessionReader::require_readable() const {
-  if (!findings_.empty()) throw Error(path_, findings_.front(), "use an intact copy");
+  if (!findings_.empty()) throw Error(path_, without_advice(findings_.front()), "use an intact copy");
 }
 
 std::string SessionReader::fact(const std::string& key) const {

@@ -296,6 +296,7 @@ TEST(Grade, WorkAfterTimeWasUpIsShownAndDoesNotCount) {
   c.events.push_back({10, "late_work", "{\"ticks\":2500,\"pedal_ticks\":1200}"});
   const Result r = c.graded();
   EXPECT_EQ(r.late_work.ticks, 2500);
+  EXPECT_EQ(to_json(r)["late_ticks"], 2500);
   EXPECT_EQ(r.points, before.points);
   ASSERT_EQ(r.notes.size(), before.notes.size() + 1);
   EXPECT_NE(r.notes.back().find("2.500 s after time was up, with the pedal pressed for 1.200 s"), std::string::npos) << r.notes.back();
@@ -322,6 +323,20 @@ TEST(Grade, TruthOfAPerforationIsTheFirstLeafOfAFaultTissue) {
   EXPECT_EQ(r.perforation.fault.tissue, "pulp");
   EXPECT_NEAR(r.perforation.fault.volume_mm3, 1 * 1 * 0.2, 1e-9);
   EXPECT_NEAR(r.volumes.tissue[k_pulp].mm3, 0.2, 1e-9);
+}
+
+TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
+  const std::string guard = "[[zones.protected]]\nshape = \"tissue\"\ntissue = \"pulp\"\n";
+  Carved c(scenario_text(guard + "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 1]\n"), chambered_block(0.1));
+  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -4), 1);  // the container ends at -1.2; the pulp's roof lies at -3
+  const Result r = c.graded();
+  EXPECT_NEAR(zone_volume(r, Zone::protected_).mm3, 1, 0.05);
+  EXPECT_NEAR(*metric_value(r, "protected_mm3").value, 1, 0.05);
+  EXPECT_NEAR(r.volumes.tissue[k_pulp].mm3, 1, 0.05);
+  double sum = 0;
+  for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
+  EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);
+  EXPECT_EQ(r.volumes.zone[static_cast<std::size_t>(Zone::protected_)].first.tick, 1);
 }
 
 TEST(Grade, JsonHoldsEveryPromisedNameEvenForAnUntouchedTooth) {

@@ -207,6 +207,7 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
   }
   volume("overcut", beyond, k.removed_mm3 - k.target_mm3, k.removed_mm3);
   EXPECT_NEAR(r.volumes.dice, 2 * k.target_mm3 / (k.target_mm3 + k.removed_mm3), 0.005);
+  EXPECT_NEAR(r.volumes.dice, 2 * k.target_mm3 / (k.target_mm3 + k.removed_mm3), r.volumes.dice_bound);
   EXPECT_NEAR(r.volumes.target_removed_percent, 100, 1e-9);
   const auto distance = [&](double& kept, const char* name, double found, double truth) {
     kept = std::max(kept, std::fabs(found - truth));
@@ -218,6 +219,7 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
     ASSERT_GT(m.samples, 0u) << wall_name(static_cast<Wall>(w));
     const bool floor = w == static_cast<std::size_t>(Wall::floor);
     distance(worst.wall_mm, wall_name(static_cast<Wall>(w)), m.mean_mm, floor ? k.floor_mm : k.sides_mm);
+    EXPECT_NEAR(m.mean_mm, floor ? k.floor_mm : k.sides_mm, m.mean_bound_mm);
     furthest = std::max(furthest, m.max_over_mm);
     EXPECT_LE(m.max_under_mm, r.shape.bound_mm);
   }
@@ -227,7 +229,7 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
   distance(worst.depth_mm, "depth", *r.shape.depth_mm, k.depth_mm);
   if (!k.upright) return;
   worst.taper_deg = std::max(worst.taper_deg, std::fabs(*r.shape.taper_deg - k.taper_deg));
-  EXPECT_NEAR(*r.shape.taper_deg, k.taper_deg, 1.0);
+  EXPECT_NEAR(*r.shape.taper_deg, k.taper_deg, std::min(1.0, r.shape.taper_bound_deg));
 }
 
 void run(const char* name, const std::function<Known(Random&, bool upright)>& make) {

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "scenarios/expression.h"
+#include "scenarios/rubric_check.h"
 #include "scenarios/template.h"
 #include "tests/scenarios/test_teeth.h"
 
@@ -128,6 +129,39 @@ TEST(Expression, KnowsArithmeticAndLogicOnly) {
   for (const char* text : {"sin(a)", "exp(a)", "sqrt(a)", "rnd()", "a ^ 2", "_pi", "a = 3", "c", "a +", ""})
     EXPECT_THROW(Expression(text, names, values), std::runtime_error) << text;
   EXPECT_DOUBLE_EQ(Expression("a / 0", names, values).value(), 0);
+}
+
+TEST(ParseRubric, NamesEveryMistakeAtOnceEachWithItsPlace) {
+  const std::string text =
+      "rule = \"compensatory\"\npass_percent = 400\n[[criteria]]\nid = \"a\"\nmetric = \"dise\"\nfull = 1\nzero = 1\npoints = 10\n";
+  try {
+    static_cast<void>(parse_rubric(text, "r.toml"));
+    FAIL();
+  } catch (const ProblemsError& e) {
+    ASSERT_EQ(e.problems().size(), 3u);
+    EXPECT_EQ(e.problems()[0].where, "r.toml:2:16");
+    EXPECT_EQ(e.problems()[1].where, "r.toml:5:10");
+    EXPECT_EQ(e.problems()[2].where, "r.toml:7:8");
+    EXPECT_EQ(std::string(e.what()), e.problems()[0].text() + " (and 2 more)");
+  }
+}
+
+TEST(ParseRubric, MeasuresOfWhatTheExamDoesNotHaveAreNamedWithTheirPlace) {
+  const std::string text = testing::scenario_text("[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 1\n");
+  const Scenario s = parse_scenario(text, "s.toml");
+  const Tooth tooth = testing::dentin_block(2, 2, 0.1);
+  std::string rubric = "rule = \"compensatory\"\npass_percent = 60\n";
+  const std::vector<std::string> absent{"touched_pulpa_mm3", "protected_mm3", "overhang_mm3", "canals_covered_percent", "force_over_limit_s"};
+  std::vector<std::string> all = absent;
+  for (const char* there : {"container_mm3", "leeway_sides_mm3", "perforated", "touched_dentin_mm3", "dice"}) all.emplace_back(there);
+  for (const auto& metric : all) rubric += "[[criteria]]\nid = \"" + metric + "\"\nmetric = \"" + metric + "\"\nfull = 0\nzero = 1\npoints = 1\n";
+  const auto found = not_in_this_exam(parse_rubric(rubric, "r.toml"), s, tooth);
+  ASSERT_EQ(found.size(), absent.size());
+  for (std::size_t i = 0; i < absent.size(); ++i) {
+    EXPECT_NE(found[i].what.find("'" + absent[i] + "'"), std::string::npos) << found[i].text();
+    EXPECT_EQ(found[i].where, "r.toml:" + std::to_string(5 + 6 * i) + ":10");
+  }
+  EXPECT_TRUE(not_in_this_exam(s.rubric, s, tooth).empty());
 }
 
 }  // namespace

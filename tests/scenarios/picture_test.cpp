@@ -44,5 +44,16 @@ TEST(Picture, AChannelDrilledFarBelowTheTargetIsShownToItsEnd) {
   }
 }
 
+TEST(Picture, TheCrownIsShownToItsTipAlsoFarAboveTheTarget) {
+  const Tooth block = testing::dentin_block(3, 6, 0.1);  // its top at z = 0
+  const auto drawn = [&](const char* at) {
+    const Scenario s = parse_scenario(
+        testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [3, 0, " + std::string(at) + "]\nsize_mm = [2, 1, 1]\n"), "s.toml");
+    return height_px(section_svg(block, nullptr, build_zones(s, block), {View::mesio_distal, 0.01, k_scale, "", false, nullptr}));
+  };
+  // the target lies in the block's side, its own top 0.5 or 1 mm below the block's; 4 mm below it are shown, and a little air above the block
+  EXPECT_NEAR(drawn("-1.5") - drawn("-1"), 0.5 * k_scale, 0.11 * k_scale);
+}
+
 }  // namespace
 }  // namespace cavum

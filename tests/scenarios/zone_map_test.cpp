@@ -139,11 +139,20 @@ TEST(ZoneMap, SidesBottomLeewayAndContainerFollowTheWrittenRule) {
   EXPECT_NEAR(z.opening_z_mm(), 0, 0.026);
 }
 
-TEST(ZoneMap, ProtectedLeavesStayProtectedInsideLeewayAndContainer) {
+TEST(ZoneMap, WhatIsProtectedIsSoWhereverItLies) {
   const Tooth block = dentin_block(4, 5, 0.05);
-  const auto z = zones_of(block, cylinder(1.5, 3) + "[[zones.protected]]\nshape = \"box\"\nat_mm = [2, 0, -2]\nsize_mm = [1.2, 8, 8]\n");
-  EXPECT_EQ(z.zone(block.octree.leaf_at({1.45, 0, -1})), Zone::target);
-  EXPECT_EQ(z.zone(block.octree.leaf_at({1.6, 0, -1})), Zone::protected_);
+  const auto z = zones_of(block, cylinder(1.5, 3) + "[[zones.protected]]\nshape = \"box\"\nat_mm = [2.7, 0, -2.5]\nsize_mm = [2.6, 8, 5]\n");
+  EXPECT_EQ(z.zone(block.octree.leaf_at({1.35, 0, -1})), Zone::target);
+  EXPECT_EQ(z.zone(block.octree.leaf_at({1.45, 0, -1})), Zone::protected_);  // taken out of the target
+  EXPECT_EQ(z.zone(block.octree.leaf_at({1.6, 0, -1})), Zone::protected_);   // in the leeway
+  EXPECT_EQ(z.zone(block.octree.leaf_at({2.1, 0, -1})), Zone::protected_);   // in the container
+  EXPECT_EQ(z.zone(block.octree.leaf_at({2.4, 0, -1})), Zone::protected_);   // just beyond it
+  EXPECT_EQ(z.zone(block.octree.leaf_at({3.9, 3.9, -4.9})), Zone::protected_);
+  EXPECT_EQ(z.zone(block.octree.leaf_at({3.9, 3.9, 0.1})), Zone::none);  // air
+  EXPECT_EQ(z.zone(block.octree.leaf_at({-3.9, 3.9, -4.9})), Zone::none);
+  EXPECT_NEAR(static_cast<double>(z.count(Zone::protected_)) * z.leaf_volume_mm3(), 2.6 * 8 * 5, 0.5);
+  EXPECT_GT(z.guarded_in_target(), 0u);
+  EXPECT_NEAR(z.distance_mm(Vec3{1.2, 0, -1}), -0.2, 0.03);  // the target ends where the protection begins
   EXPECT_EQ(z.zone(block.octree.leaf_at({-1.6, 0, -1})), Zone::leeway_sides);
 }
 

@@ -158,6 +158,7 @@ TEST_F(CommandLine, SolveLetsTheCarelessCandidateFailByTheCriterionThatTheScenar
   text.replace(text.find("perforates = true"), 17, "sides_mm = 0.1");
   write_text_file(path("mild.toml"), text);
   const Ran mild = run("scenario solve " + path("mild.toml") + tooth + " --careless");
+  EXPECT_NE(mild.out.find("\nwhat to do: "), std::string::npos) << mild.out;
   EXPECT_EQ(mild.exit_code, 1) << mild.out << mild.err;
   EXPECT_NE(mild.out.find("the built-in expert passes"), std::string::npos) << mild.out;
   EXPECT_NE(mild.out.find("careless: NOT failed by perforation"), std::string::npos) << mild.out;
@@ -311,6 +312,7 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
   write_text_file(path("beyond.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,5,1,0,0,0,0,0\n1,0,0,4,1,0,0,0,0,2\n");
   write_text_file(path("go_on.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n0.1,0,0,4,1,0,0,0,0\n");
   const std::string resume = "exam --resume --end --out " + session + " ";
+  expect_refused("grade " + session, {"was not closed; close it as it stands with `" + std::string("cavum exam --resume --end --out ") + session});
   expect_refused(resume + "--candidate berta", {"--candidate berta", "'anna'", "leave it out"});
   expect_refused("exam " + path("other.toml") + " --resume --end --out " + session, {"other.toml", "scenario"});
   expect_refused(resume + "--tooth " + path("other.cvt"), {"--tooth", "other.cvt"});
@@ -504,6 +506,19 @@ TEST_F(CommandLine, OfTwoExamsBegunUnderOneNameOneGoesOn) {
     EXPECT_NE(errors.find("choose another name"), std::string::npos) << errors;
     EXPECT_EQ(run("replay " + path("one.cavum") + " --verify").exit_code, 0);
   }
+}
+
+TEST_F(CommandLine, WrongSeedsFoldersAndFilesThatAreNoTextAreNamedPlainly) {
+  const std::string exam = "exam " + k_block + " --candidate a --operator expert --out " + path("o.cavum");
+  for (const char* seed : {"-1", "99999999999999999999999", "1.5", "abc"}) {
+    expect_refused(exam + " --seed " + seed, {"'" + std::string(seed) + "' is no whole number from 0 to 18446744073709551615"});
+    expect_refused("scenario solve " + k_block + " --seed " + seed, {"is no whole number"});
+  }
+  std::filesystem::create_directory(path("folder"));
+  expect_refused("scenario new --out " + path("folder"), {"folder: is a folder; name a file"});
+  write_text_file(path("bin.csv"), std::string("CVT\0\x01\x02\n", 7));
+  expect_refused("exam " + k_block + " --candidate a --motion " + path("bin.csv") + " --out " + path("o.cavum"), {"bin.csv: is no text"});
+  EXPECT_EQ(run("exam --help").out.find("cavum devices"), std::string::npos);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -42,9 +43,41 @@ std::size_t stl_facets(const Bytes& file) {
 }
 bool is_binary_stl(const Bytes& file) { return file.size() >= k_stl_head && file.size() == k_stl_head + k_stl_facet * stl_facets(file); }
 
+/// A binary STL of another length than its count of triangles asks for, and a text one that ends within a facet.
+void require_whole_stl(const Bytes& file, const std::string& name) {
+  if (file.empty() || is_binary_stl(file)) return;
+  const auto printable = [](unsigned char c) { return c >= 32 || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\v'; };
+  if (std::all_of(file.begin(), file.end(), printable)) {
+    std::istringstream text(std::string(file.begin(), file.end()));
+    std::size_t begun = 0, ended = 0;
+    bool solid = false, whole = false;
+    for (std::string word; text >> word;) {
+      begun += word == "facet" ? 1 : 0;
+      ended += word == "endfacet" ? 1 : 0;
+      solid = solid || word == "solid";
+      whole = whole || word == "endsolid";
+    }
+    if (begun != ended)
+      throw Error(name, "is cut off: it begins " + std::to_string(begun) + " facets and ends " + std::to_string(ended),
+                  "copy or export the whole file again");
+    if (begun > 0 && solid && !whole) throw Error(name, "is cut off: its 'endsolid' is missing", "copy or export the whole file again");
+    return;
+  }
+  if (file.size() < k_stl_head)
+    throw Error(name, "is cut off: it has " + std::to_string(file.size()) + " bytes, and the head of a binary STL alone has 84",
+                "copy or export the whole file again");
+  const std::size_t held = (file.size() - k_stl_head) / k_stl_facet, said = stl_facets(file);
+  throw Error(name,
+              "says that it holds " + std::to_string(said) + (said == 1 ? " triangle" : " triangles") + ", and its length is that of " +
+                  std::to_string(held) + ((file.size() - k_stl_head) % k_stl_facet != 0 ? " and a part" : "") +
+                  (held < said ? ": it is cut off" : ": the count is wrong"),
+              "copy or export the whole file again, as STL");
+}
+
 /// OpenMesh joins the equal corners of an STL while it reads; a corner that is no number is equal to any other, vanishes in that, and
 /// leaves a hole. So they are looked for in the file itself.
 void require_numbers_in_stl(const Bytes& file, const std::string& name) {
+  require_whole_stl(file, name);
   const auto fail = [&](const std::string& where) { throw Error(name, where + " has a corner that is no number", "export the mesh again, in mm"); };
   constexpr std::size_t k_normal = 12, k_corners = 9;
   if (is_binary_stl(file)) {

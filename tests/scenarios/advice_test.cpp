@@ -1,0 +1,55 @@
+// What `cavum scenario check` warns of beyond the golden files: what depends on the tooth.
+#include "scenarios/advice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/base/file.h"
+#include "tests/scenarios/test_teeth.h"
+
+namespace cavum {
+namespace {
+
+std::vector<std::string> warnings(const std::string& target, const Tooth& tooth) {
+  const std::string file = std::string(CAVUM_SOURCE_DIR) + "/data/points/round-1.0.toml";
+  const Scenario s = parse_scenario(testing::scenario_text(target), "s.toml");
+  std::optional<double> expert_s;
+  std::vector<std::string> said;
+  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert_s)) said.push_back(p.what);
+  return said;
+}
+
+bool any_begins(const std::vector<std::string>& said, const std::string& with) {
+  return std::any_of(said.begin(), said.end(), [&](const std::string& w) { return w.starts_with(with); });
+}
+
+std::string hole(const std::string& radius) {
+  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + radius +
+         " }\nbottom = { kind = \"below_surface\", depth_mm = 1.2 }\n";
+}
+
+TEST(Advice, SaysThatABuriedTargetIsBuriedNotThatPointsAreTooThick) {
+  const std::string ball = "[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, -2]\nradius_mm = 1\n";
+  const auto said = warnings(ball, testing::dentin_block(3, 4, 0.05));
+  EXPECT_TRUE(any_begins(said, "the target lies buried"));
+  EXPECT_FALSE(any_begins(said, "no allowed point"));
+  EXPECT_FALSE(any_begins(said, "the point"));
+  EXPECT_FALSE(any_begins(warnings(hole("1.0"), testing::dentin_block(3, 4, 0.05)), "the target lies buried"));
+}
+
+TEST(Advice, OnCoarseLeavesAPointIsNotSaidToMissWhatItReachesOnFineOnes) {
+  for (const char* radius : {"0.55", "0.6", "0.7"}) {
+    const auto fine = warnings(hole(radius), testing::dentin_block(3, 3, 0.05));
+    ASSERT_FALSE(any_begins(fine, "no allowed point")) << radius;
+    for (const double leaf : {0.2, 0.3}) {
+      const auto coarse = warnings(hole(radius), testing::dentin_block(3, 3, leaf));
+      EXPECT_FALSE(any_begins(coarse, "no allowed point")) << radius << " " << leaf;
+      EXPECT_TRUE(any_begins(coarse, "the tooth's leaves are " + std::string(leaf == 0.2 ? "0.2" : "0.3") + " mm wide"));
+    }
+    EXPECT_FALSE(any_begins(fine, "the tooth's leaves"));
+  }
+}
+
+}  // namespace
+}  // namespace cavum
