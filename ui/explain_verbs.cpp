@@ -10,6 +10,7 @@
 #include "engine/explain/explain.h"
 #include "engine/explain/model_file.h"
 #include "engine/explain/protocol.h"
+#include "engine/explain/session_recording.h"
 #include "scenarios/exam.h"
 #include "ui/explain_page.h"
 #include "ui/print_json.h"
@@ -19,7 +20,7 @@ namespace cavum {
 namespace {
 
 struct ExplainArgs {
-  std::string data, rig, model, material, model_out, out, protocol;
+  std::string data, rig, force, model, material, model_out, out, protocol;
   std::vector<std::string> columns;
   std::uint64_t seed = 1;
   std::size_t twins = explain::ExplainOptions{}.twins;
@@ -66,12 +67,19 @@ void write_protocol(const std::string& path) {
   std::cout << "written: " << path << " and " << csv << "\n";
 }
 
+explain::Recording read_data(const ExplainArgs& a) {
+  const bool session = a.data.ends_with(".cavum");
+  if (!session && !a.force.empty()) throw Error("--force", "goes with a session only", "put the force into column f_n of the recording");
+  if (session && (!a.rig.empty() || !a.columns.empty())) throw Error(a.data, "is a session, which needs no --rig and no --column", "leave them out");
+  return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, column_names(a.columns));
+}
+
 void run_explain(const ExplainArgs& a) {
   if (!a.protocol.empty()) return write_protocol(a.protocol);
   if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
   for (const auto& path : {a.out, a.model_out})
     if (!path.empty()) require_writable(path);
-  explain::Recording recording = explain::read_recording(a.data, a.rig, column_names(a.columns));
+  explain::Recording recording = read_data(a);
   explain::ExplainOptions options;
   options.seed = a.seed;
   options.twins = a.twins;
@@ -106,7 +114,8 @@ void run_explain(const ExplainArgs& a) {
 void add_explain_verbs(CLI::App& app, int& exit_code) {
   auto args = std::make_shared<ExplainArgs>();
   CLI::App* verb = app.add_subcommand("explain", "what the simulation gets wrong, why, and what fixing it gains");
-  verb->add_option("data", args->data, "recording (.csv), with rig.toml beside it");
+  verb->add_option("data", args->data, "recording (.csv) with rig.toml beside it, or a session (.cavum)");
+  verb->add_option("--force", args->force, "for a session: force measured beside it (.csv: t_s since the start of the exam, f_n)");
   verb->add_option("--rig", args->rig, "another rig.toml");
   verb->add_option("--column", args->columns, "NAME=COLUMN: the file calls NAME something else; may be repeated");
   verb->add_option("--model", args->model, "force model to explain on top of: a name of data/materials, or a TOML file");

@@ -76,8 +76,10 @@ Series terms_force_n(const ForceTerms& terms, Viscoelastic tissue, const Scene& 
       in.touching = scene.motion.x_mm[i] > 0.0;
       in.penetration_mm = std::max(0.0, scene.motion.x_mm[i]);
       in.approach_mm_s = scene.motion.v_mm_s[i];
-      in.stiffness_n_per_mm = tissue.stiffness_n_per_mm;
-      in.damping_n_s_per_mm = tissue.damping_n_s_per_mm;
+      const Viscoelastic touched{tissue.stiffness_n_per_mm * (r.relative_k.size() > 0 ? r.relative_k[i] : 1.0),
+                                 tissue.damping_n_s_per_mm * (r.relative_c.size() > 0 ? r.relative_c[i] : 1.0)};
+      in.stiffness_n_per_mm = touched.stiffness_n_per_mm;
+      in.damping_n_s_per_mm = touched.damping_n_s_per_mm;
       in.rpm = rpm != nullptr ? (*rpm)[i] : 1.0;
       in.tick = i - rows.begin;
       in.dt_s = i > rows.begin ? scene.dt_s[i - 1] : 0.0;
@@ -86,7 +88,7 @@ Series terms_force_n(const ForceTerms& terms, Viscoelastic tissue, const Scene& 
       if (removed.size() > 0) in.removed_mm3 = removed[i], in.removed_on_mm3 = removed_on[i];
       if (angle != nullptr) in.approach = twice_angle((*angle)[i]);
       if (warm != nullptr) in.warmth_known = true, in.warmer_k = (*warm)[i] - (*warm)[0];
-      out[i] = force_along_feed_n(terms, in, memory) - voigt_force_n(tissue, in.penetration_mm, in.approach_mm_s);
+      out[i] = force_along_feed_n(terms, in, memory) - voigt_force_n(touched, in.penetration_mm, in.approach_mm_s);
     }
   }
   return out;

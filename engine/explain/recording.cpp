@@ -73,7 +73,7 @@ const Series* Recording::column(const std::string& name) const {
   return nullptr;
 }
 
-Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names) {
+Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names, bool with_position) {
   Recording out;
   std::map<std::string, std::string> ours;  // name in the file → name of the contract
   for (const auto& [contract, theirs] : names) ours[theirs] = contract;
@@ -105,7 +105,7 @@ Recording parse_recording(const std::string& csv, const std::string& where, cons
       for (const auto& [contract, theirs] : names)
         if (!seen.contains(contract)) throw Error(at, "there is no column '" + one_line(theirs) + "'", "name a column of the header with --column");
       for (const char* required : {"t_s", "x_mm", "f_n"})
-        if (!seen.contains(required))
+        if (!seen.contains(required) && (with_position || required != std::string_view("x_mm")))
           throw Error(at, std::string("there is no column '") + required + "'",
                       std::string("rename it in the file, or use --column ") + required + "=NAME");
       continue;
