@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/base/toml_reader.h"
+#include "engine/explain/layers.h"
 
 namespace cavum::explain {
 namespace {
@@ -190,6 +191,7 @@ Recording read_recording(const std::string& path, const std::string& rig_path, c
     out.rig = parse_rig(read_text_file(beside), beside);
   else
     out.notes.push_back("no rig.toml beside the recording: k, c and the quanta are found from the data");
+  set_layers(out);
   return out;
 }
 

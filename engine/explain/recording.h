@@ -54,7 +54,8 @@ using ColumnNames = std::map<std::string, std::string>;
 [[nodiscard]] Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names = {}, bool with_position = true);
 /// Throws Error(where:line:column, ...) on unknown keys or values out of range.
 [[nodiscard]] Rig parse_rig(const std::string& toml, const std::string& where);
-/// CSV at `path` with rig.toml in the same folder (or at `rig_path`). Without a rig.toml everything is found from the data, and a note says so.
+/// CSV at `path` with rig.toml in the same folder (or at `rig_path`). Without a rig.toml everything is found from the data, and a
+/// note says so. Layers get their own k and c (layers.h).
 [[nodiscard]] Recording read_recording(const std::string& path, const std::string& rig_path = "", const ColumnNames& names = {});
 
 }  // namespace cavum::explain

@@ -114,7 +114,10 @@ std::vector<Mechanism> tissue_mechanisms() {
                true,
                {{"d0_mm", 1e-4, 100, false, true}},
                [](const Scene& s) {
-                 return points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+                 Grid g = points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+                 for (const double known : s.recording->rig.layer_depths_mm)
+                   if (known > 0.0 && known < deepest_mm(s)) g.push_back({known});
+                 return g;
                },
                [](const Scene& s, const Shape& p) {
                  return Columns{{each(s.motion.x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
