@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "engine/base/error.h"
-#include "engine/force/term_laws.h"
-
 namespace cavum::explain {
 namespace {
 
@@ -58,42 +55,6 @@ void write(std::ostream& out, const char* key, const std::vector<double>& values
 
 }  // namespace
 
-Series terms_force_n(const ForceTerms& terms, Viscoelastic tissue, const Scene& scene) {
-  const Recording& r = *scene.recording;
-  const auto value = [&r](const char* name) { return r.column(name); };
-  const Series *rpm = value("spindle_rpm"), *wet = value("wet"), *angle = value("approach_deg"), *warm = value("temperature_c");
-  Series removed, removed_on;
-  if (value("removed_mm3") != nullptr) {
-    removed = removed_since_new_mm3(scene, false);
-    removed_on = removed_since_new_mm3(scene, true);
-  }
-  Series out = Series::Zero(r.rows());
-  std::vector<TermMemory> memory(terms.size());
-  for (const auto& rows : r.sessions) {
-    std::fill(memory.begin(), memory.end(), TermMemory{});
-    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      TermInput in;
-      in.touching = scene.motion.x_mm[i] > 0.0;
-      in.penetration_mm = std::max(0.0, scene.motion.x_mm[i]);
-      in.approach_mm_s = scene.motion.v_mm_s[i];
-      const Viscoelastic touched{tissue.stiffness_n_per_mm * (r.relative_k.size() > 0 ? r.relative_k[i] : 1.0),
-                                 tissue.damping_n_s_per_mm * (r.relative_c.size() > 0 ? r.relative_c[i] : 1.0)};
-      in.stiffness_n_per_mm = touched.stiffness_n_per_mm;
-      in.damping_n_s_per_mm = touched.damping_n_s_per_mm;
-      in.rpm = rpm != nullptr ? (*rpm)[i] : 1.0;
-      in.tick = i - rows.begin;
-      in.dt_s = i > rows.begin ? scene.dt_s[i - 1] : 0.0;
-      in.time_s = r.t_s[i];
-      in.wet = wet != nullptr ? (*wet)[i] : in.rpm > 0.0 ? 1.0 : 0.0;
-      if (removed.size() > 0) in.removed_mm3 = removed[i], in.removed_on_mm3 = removed_on[i];
-      if (angle != nullptr) in.approach = twice_angle((*angle)[i]);
-      if (warm != nullptr) in.warmth_known = true, in.warmer_k = (*warm)[i] - (*warm)[0];
-      out[i] = force_along_feed_n(terms, in, memory) - voigt_force_n(touched, in.penetration_mm, in.approach_mm_s);
-    }
-  }
-  return out;
-}
-
 std::string material_of(const ForceModel& model) {
   if (model.materials.contains("dentin")) return "dentin";
   for (const auto& [name, m] : model.materials)
@@ -134,32 +95,6 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
       effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");
   }
   return out.str();
-}
-
-Series added_force_n(const ForceModel& model, const std::string& material, const Recording& r, const std::string& where) {
-  Series out = Series::Zero(r.rows());
-  if (model.terms.empty() && model.measurement.empty()) return out;
-  const auto found = model.materials.find(material);
-  if (found == model.materials.end()) throw Error(where, "has no material '" + material + "'", "name one of its materials with --material");
-  const Viscoelastic tissue = found->second.voigt;
-  const Motion motion = estimate_motion(r);
-  const Scene scene = make_scene(r, motion, {tissue.stiffness_n_per_mm, tissue.damping_n_s_per_mm}, 0.0, 0.0);
-  if (!model.terms.empty()) out += terms_force_n(model.terms, tissue, scene);
-  for (const auto& effect : model.measurement) {
-    const int at = find_mechanism(effect.kind);
-    if (at < 0) throw Error(where, "measurement effect '" + effect.kind + "' is unknown", "remove it, or correct its kind");
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(at)];
-    const bool lacks = m.grid(scene).empty() && effect.kind != "chatter";
-    if (lacks || m.shape.size() != effect.shape.size())
-      throw Error(where, "measurement effect '" + effect.kind + "' does not fit this recording", "remove it, or add the column that it needs");
-    const Columns c = m.columns(scene, effect.shape);
-    if (c.own.size() != effect.values.size())
-      throw Error(where, "measurement effect '" + effect.kind + "' has the wrong number of values", "explain again with --model-out");
-    for (std::size_t i = 0; i < c.own.size(); ++i) out += effect.values[i] * c.own[i];
-    if (c.spring.size() > 0) out += tissue.stiffness_n_per_mm * c.spring;
-    if (c.damper.size() > 0) out += tissue.damping_n_s_per_mm * c.damper;
-  }
-  return out;
 }
 
 }  // namespace cavum::explain
