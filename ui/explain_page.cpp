@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,7 @@ std::string axis_label(const std::string& column) {
   if (column == "x_mm") return "penetration x, mm";
   if (column == "v_mm_s") return "speed v, mm/s";
   if (column == "t_s") return "time t, s";
+  if (column == "spindle_rpm") return "spindle, 1000/min";
   auto [name, unit] = name_and_unit(column);
   std::replace(name.begin(), name.end(), '_', ' ');
   return unit.empty() ? name : name + ", " + unit;
@@ -65,6 +67,14 @@ std::vector<ChartPoint> binned(const Series& u, const Series& y) {
 
 std::string svg(const Chart& chart) { return svg_page(chart.width_px, chart.height_px, chart_group(chart, 0, 0)); }
 
+/// How much of the residual goes with `u`: variance of the means over it.
+double strength(const View& before, const Series& u) {
+  double sum = 0.0;
+  const auto means = binned(u, before.residual_n);
+  for (const auto& p : means) sum += p.y * p.y;
+  return means.empty() ? 0.0 : sum / static_cast<double>(means.size());
+}
+
 /// Half the height of a common scale: all residual charts are to be compared at a glance.
 double residual_scale(const View& before, const std::vector<std::pair<std::string, const Series*>>& suspects) {
   double most = 1e-6;
@@ -80,21 +90,41 @@ std::string residual_chart(const View& before, const View& after, const std::str
   c.y_label = "measured - simulated, N";
   c.y_range = {-scale, scale * 1.35};
   c.height_px = 330;
-  const auto first = binned(u, before.residual_n), last = binned(u, after.residual_n);
+  const Series shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
+  const auto first = binned(shown, before.residual_n), last = binned(shown, after.residual_n);
   c.series.push_back({"before", k_before, Style::dots, first, 1.8});
   c.series.push_back({"after", k_after, Style::rings, last, 1.8});
   if (!first.empty()) c.series.push_back({"", "#333333", Style::line, {{first.front().x, 0, 0}, {first.back().x, 0, 0}}, 0.8});
   return svg(c);
 }
 
-/// The stretch of 12 s in which the force is largest, and the residual below.
+constexpr double k_stretch_s = 12.0;
+
+/// Row at which the stretch begins in which the causes change most; where they change nothing, in which the force is largest.
+Eigen::Index telling_stretch(const View& before, const View& after) {
+  const auto& r = *before.scene.recording;
+  const Series change = (after.model_n - before.model_n).square() + 1e-6 * before.force_n.square();
+  double most = -1.0;
+  Eigen::Index best = 0;
+  for (const auto& s : r.sessions) {
+    double sum = 0.0;
+    Eigen::Index from = s.begin;
+    for (Eigen::Index i = s.begin; i < s.end; ++i) {
+      sum += change[i];
+      while (r.t_s[i] - r.t_s[from] > k_stretch_s) sum -= change[from++];
+      if (sum > most) most = sum, best = from;
+    }
+  }
+  return best;
+}
+
+/// Measured and simulated over the most telling 12 s, and the residual below.
 std::string force_charts(const View& before, const View& after) {
   const auto& r = *before.scene.recording;
-  Eigen::Index top = 0;
-  before.force_n.maxCoeff(&top);
-  const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const auto& s) { return top >= s.begin && top < s.end; });
+  const Eigen::Index begin = telling_stretch(before, after);
+  const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const auto& s) { return begin >= s.begin && begin < s.end; });
   Chart c, d;
-  c.title = "session " + session->name + ": the twelve seconds around the greatest force";
+  c.title = "session " + session->name + ": the twelve seconds in which the causes change most";
   d.title = "what is left: measured - simulated";
   c.x_label = d.x_label = "time t, s";
   c.y_label = d.y_label = "force, N";
@@ -104,7 +134,8 @@ std::string force_charts(const View& before, const View& after) {
   ChartSeries measured{"measured", k_measured, Style::line, {}, 2.6}, first{"simulated, before", k_before, Style::dashed, {}, 1.6},
       last{"simulated, with the causes", k_after, Style::line, {}, 1.4}, left{"before", k_before, Style::dashed, {}, 1.2},
       rest{"with the causes", k_after, Style::line, {}, 1.2};
-  const double from = std::max(r.t_s[session->begin], r.t_s[top] - 6.0), to = from + 12.0;
+  const double from = r.t_s[begin], to = std::min(from + k_stretch_s, r.t_s[session->end - 1]);
+  c.x_range = d.x_range = {from, to};
   Eigen::Index shown = 0;
   for (Eigen::Index i = session->begin; i < session->end; ++i) shown += r.t_s[i] >= from && r.t_s[i] <= to;
   const Eigen::Index stride = std::max<Eigen::Index>(1, shown / 1500);
@@ -120,7 +151,7 @@ std::string force_charts(const View& before, const View& after) {
     lowest = std::min({lowest, before.force_n[i], before.model_n[i], after.model_n[i]});
   }
   c.series = {measured, last, first};
-  c.y_range = {lowest - 0.04 * (highest - lowest), lowest + 1.3 * (highest - lowest)};  // room for the legend
+  c.y_range = {lowest - 0.04 * (highest - lowest), lowest + 1.45 * (highest - lowest)};  // room for the legend
   d.series = {left, rest};
   return svg(c) + svg(d);
 }
@@ -143,7 +174,7 @@ std::string head(const std::string& title) {
          "1em}h1{font-size:1.5em;word-break:break-all}"
          "h2{font-size:1.2em;margin-top:2em}.verdict{border-left:.5em solid #0072b2;background:#eef4f9;padding:.6em 1em}"
          ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(26em,1fr));gap:.5em}td,th{text-align:left;vertical-align:top;padding:.2em "
-         "1em .2em 0;border-bottom:1px solid #ddd}td.n{text-align:right;font-variant-numeric:tabular-nums}table{border-collapse:collapse}"
+         "1em .2em 0;border-bottom:1px solid #ddd}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}table{border-collapse:collapse}"
          ".bars td{border:0}.bar{display:inline-block;height:1em}svg{max-width:100%;height:auto}code{background:#f2f2f2}"
          ".next{border-left:.5em solid #009e73;background:#edf7f3;padding:.6em 1em}</style></head><body>\n<h1>" +
          xml_text(title) + "</h1>\n";
@@ -166,9 +197,10 @@ std::string causes_html(const explain::Explanation& e) {
   for (const auto& c : e.causes) {
     const auto& m = explain::mechanisms()[static_cast<std::size_t>(c.term.mechanism)];
     out += "<h3>" + xml_text(m.words) + " <small><code>" + m.name + "</code></small></h3>\n<p>It adds <code>" + xml_text(m.equation) +
-           printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %.2g. ", c.effect_n, c.p_value) +
+           printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %s. ", c.effect_n,
+                   c.p_value < 1e-4 ? "below 0.0001" : printed("%.2g", c.p_value).c_str()) +
            (m.live ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
-    out += "<table><tr><th>value</th><th></th><th>95 %, from</th><th>to</th><th></th></tr>\n";
+    out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
     for (const auto& [parameter, i] : c.parameters) {
       const auto [name, unit] = name_and_unit(parameter);
       out += "<tr><td>" + name + "</td>" +
@@ -194,13 +226,17 @@ std::string causes_html(const explain::Explanation& e) {
 std::string cannot_tell(const explain::Explanation& e) {
   std::string out = "<h2>What these data cannot tell</h2>\n";
   if (e.not_testable.empty()) return out + "<p>Every mechanism could have shown itself.</p>\n";
-  out += "<table><tr><th>mechanism</th><th>why not</th><th>what would show it</th></tr>\n";
-  for (const auto& n : e.not_testable) {
-    const auto& m = explain::mechanisms()[static_cast<std::size_t>(explain::find_mechanism(n.mechanism))];
-    out += "<tr><td>" + xml_text(m.words) + "<br><code>" + m.name + "</code></td><td>" + xml_text(n.reason) + "</td><td>" + xml_text(m.separate) +
-           "</td></tr>\n";
+  std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
+  for (const auto& n : e.not_testable)
+    by_reason[n.reason].push_back(&explain::mechanisms()[static_cast<std::size_t>(explain::find_mechanism(n.mechanism))]);
+  for (const auto& [reason, group] : by_reason) {
+    out += "<p><b>" + xml_text(reason) + ":</b></p>\n<details" + (group.size() > 8 ? "" : " open") +
+           printed("><summary>%zu mechanisms, and what would show them</summary>\n<table>\n", group.size());
+    for (const auto* m : group)
+      out += "<tr><td>" + xml_text(m->words) + " (<code>" + m->name + "</code>)</td><td>" + xml_text(m->separate) + "</td></tr>\n";
+    out += "</table></details>\n";
   }
-  return out + "</table>\n";
+  return out;
 }
 
 std::string verdict_words(const explain::Explanation& e) {
@@ -229,17 +265,20 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
     const auto& scene = e.before->scene;
     out += "<h2>Measured against simulated</h2>\n" + force_charts(*e.before, *e.after);
     out +=
-        "<h2>The residual against each suspect</h2>\n<p>Means over equal shares of the rows with two standard errors; all charts on one "
+        "<h2>The residual against each suspect</h2>\n<p>What moves the residual most comes first. Means over equal shares of the rows with two "
+        "standard errors; all charts on one "
         "scale.</p>\n<div "
         "class=\"pair\">\n";
     std::vector<std::pair<std::string, const Series*>> suspects{
         {"x_mm", &scene.motion.x_mm}, {"v_mm_s", &scene.motion.v_mm_s}, {"t_s", &scene.recording->t_s}};
     for (const auto& [name, u] : scene.recording->columns)
       if (u.maxCoeff() > u.minCoeff()) suspects.emplace_back(name, &u);
+    std::stable_sort(suspects.begin(), suspects.end(),
+                     [&](const auto& a, const auto& b) { return strength(*e.before, *a.second) > strength(*e.before, *b.second); });
     const double scale = residual_scale(*e.before, suspects);
     for (const auto& [name, u] : suspects) out += residual_chart(*e.before, *e.after, name, *u, scale);
     out += "</div>\n" + cannot_tell(e);
-    out += "<h2>What each mechanism would gain alone</h2>\n<table><tr><th>mechanism</th><th>fall of chi²</th><th></th></tr>\n";
+    out += "<h2>What each mechanism would gain alone</h2>\n<table><tr><th>mechanism</th><th class=\"n\">fall of chi²</th><th></th></tr>\n";
     auto candidates = e.candidates;
     std::sort(candidates.begin(), candidates.end(),
               [](const auto& a, const auto& b) { return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain); });
@@ -272,8 +311,8 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   c.height_px = 440;
   c.width_px = 700;
   ChartSeries points{"the table", "#222222", Style::dots, {}, 1.8}, line{"k X and an intercept", k_after, Style::line, {}, 1.8},
-      voigt{"Voigt law alone, best fit: k X + c V, c ~ sqrt(k)", k_before, Style::dashed, {}, 1.8},
-      published{"published: k X at the line's slope, + c V with c = 2 sqrt(k)", k_third, Style::dashed, {}, 1.2};
+      voigt{"Voigt law alone, best fit: k X + c V, c ~ √k", k_before, Style::dashed, {}, 1.8},
+      published{"published: k X at the line's slope, + c V with c = 2 √k", k_third, Style::dashed, {}, 1.2};
   double top = 0.0;
   for (std::size_t i = 0; i < e.table.f_n.size(); ++i)
     points.points.push_back({e.table.k_n_per_mm[i], e.table.f_n[i]}), top = std::max(top, e.table.f_n[i]);
@@ -286,8 +325,11 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   }
   c.series = {line, voigt, published, points};
   c.y_range = {0.0, 1.35 * top};
+  c.x_range = {-0.03 * most, 1.03 * most};
   out += "<h2>Measured against simulated</h2>\n" + svg(c);
-  out += "<table><tr><th>law</th><th>F = … k</th><th>… sqrt(k)</th><th>… at k = 0, N</th><th>rms, N</th><th>row left out, N</th></tr>\n";
+  out +=
+      "<table><tr><th>law</th><th class=\"n\">F = … k</th><th class=\"n\">… √k</th><th class=\"n\">… at k = 0, N</th><th class=\"n\">rms, N</th><th "
+      "class=\"n\">row left out, N</th></tr>\n";
   for (const auto& [name, f] : {std::pair{"Voigt law alone", &e.voigt}, {"k X and an intercept", &e.line}, {"all three", &e.all}})
     out += printed(
         "<tr><td>%s</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.4f</td><td "

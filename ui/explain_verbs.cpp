@@ -50,7 +50,10 @@ std::function<void(double)> progress_bar() {
     const int percent = static_cast<int>(100.0 * part);
     if (percent <= *shown) return;
     *shown = percent;
-    std::fprintf(stderr, "\rexplaining %3d %%%s", percent, percent == 100 ? "\n" : "");
+    constexpr int k_width = 40;
+    const int full = k_width * percent / 100;
+    std::fprintf(stderr, "\rexplaining [%s%s] %3d %%%s", std::string(static_cast<std::size_t>(full), '#').c_str(),
+                 std::string(static_cast<std::size_t>(k_width - full), '.').c_str(), percent, percent == 100 ? "\n" : "");
   };
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "engine/base/error.h"
+
 namespace cavum::explain {
 namespace {
 
@@ -63,6 +65,11 @@ std::string material_of(const ForceModel& model) {
 }
 
 std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
+  std::size_t terms = start.term_values.size();
+  for (const auto& cause : e.causes) terms += !live_term(cause).first.empty();
+  if (terms > k_max_terms)
+    throw Error("force model '" + start.name + "'",
+                "would have " + std::to_string(terms) + " terms, " + std::to_string(k_max_terms) + " are the most", "leave out the smallest");
   std::ostringstream out;
   out.precision(17);
   out << "# Written by `cavum explain`: verdict " << e.verdict << ".\nname = \""

@@ -9,7 +9,7 @@
 namespace cavum::explain {
 
 /// `start` with k and c of all tissues that resist replaced by the fitted ones, and the causes added: those that act in a live
-/// exam as [[terms]], the others as [[measurement]]. Text of the file.
+/// exam as [[terms]], the others as [[measurement]]; terms of `start` are kept. Text of the file. Throws Error beyond k_max_terms.
 [[nodiscard]] std::string extended_model_toml(const Explanation& explanation, const ForceModel& start);
 
 /// "dentin" when the model has it, else the first tissue that resists.

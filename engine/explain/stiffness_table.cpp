@@ -66,27 +66,27 @@ std::vector<std::string> sentences(const TableExplanation& e) {
   const double v = e.table.v_mm_s.front(), most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
   std::vector<std::string> out;
   out.push_back(
-      printed("The Voigt law has no intercept: cutting steadily at V = %.3g mm/s it gives F = k V tau + c V, which is 0 N at k = 0 (eq. 5 "
-              "makes c = 0 there too). The table has %.3f N at k = 0, and no tau and no c can make it.",
+      printed("The Voigt law has no intercept: cutting steadily at V = %.3g mm/s it gives F = k V τ + c V, which is 0 N at k = 0 (eq. 5 "
+              "makes c = 0 there too). The table has %.3f N at k = 0, and no τ and no c can make it.",
               v, e.line.intercept_n));
   out.push_back(
       printed("Friction, bias and edge force cannot be told apart here: the crosshead goes one way, at %s, always in contact and always cutting. "
               "Friction of the joints, a zero error of the load cell and a constant force of the cutting edges lift every row by the same amount.",
               std::set<double>(e.table.v_mm_s.begin(), e.table.v_mm_s.end()).size() == 1 ? "one speed" : "speeds of one sign"));
   out.push_back(
-      printed("c V with c = 2 sqrt(k) adds %.3f sqrt(k) N, %.3f N at k = %.3g, and bends the row. A straight line laid through that bend alone "
-              "has a slope of %.3f mm and an intercept of %.3f N: so a line hides a sqrt(k) as intercept and slope, yet it explains at most "
+      printed("c V with c = 2 √k adds %.3f √k N, %.3f N at k = %.3g, and bends the row. A straight line laid through that bend alone "
+              "has a slope of %.3f mm and an intercept of %.3f N: so a line hides a √k as intercept and slope, yet it explains at most "
               "%.0f %% of the intercept here.",
               e.predicted_root, e.predicted_root * std::sqrt(most), most, e.of_root.slope_mm, e.of_root.intercept_n,
               100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n))));
   out.push_back(
-      printed("Fitted without an intercept, k X + sqrt(k) takes %.3f sqrt(k) N and a slope of %.3f mm to imitate it, and still misses by %.3f N "
-              "rms and by %.3f N at k = 0; with all three the table asks for %.3f +- %.3f sqrt(k) N, where the published c V needs %.3f.",
+      printed("Fitted without an intercept, k X + √k takes %.3f √k N and a slope of %.3f mm to imitate it, and still misses by %.3f N "
+              "rms and by %.3f N at k = 0; with all three the table asks for %.3f ± %.3f √k N, where the published c V needs %.3f.",
               e.voigt.root, e.voigt.slope_mm, e.voigt.rms_n, e.line.intercept_n, e.all.root, k_95 * e.all.root_error, e.predicted_root));
   if (std::fabs(e.all.root - e.predicted_root) > std::max(k_95 * e.all.root_error, 0.1 * e.predicted_root))
     out.push_back(
-        printed("A straight row speaks against a force of c V with c = 2 sqrt(k). If it were there all the same, the slope of k X would be "
-                "%.3f mm, and tau %.2f s instead of %.2f s.",
+        printed("A straight row speaks against a force of c V with c = 2 √k. If it were there all the same, the slope of k X would be "
+                "%.3f mm, and τ %.2f s instead of %.2f s.",
                 e.line.slope_mm - e.of_root.slope_mm, (e.line.slope_mm - e.of_root.slope_mm) / v, e.line.slope_mm / v));
   if (e.exact)
     out.push_back(
@@ -202,7 +202,7 @@ TableExplanation explain_table(const StiffnessTable& table) {
   const double gained = 100.0 * (1.0 - e.line.left_out_rms_n / std::max(1e-12, e.voigt.left_out_rms_n));
   said.gain.percent = {gained, gained, gained};
   said.notes = sentences(e);
-  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), "the table says of itself: " + table.origin);
+  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), "The table says of itself: " + table.origin);
   said.next_experiment = k_next;
   return e;
 }
@@ -217,8 +217,8 @@ std::string to_text(const TableExplanation& e) {
     out += "  none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest\n";
   }
   const auto fit = [](const char* name, const TableFit& f) {
-    return printed("  %-26s F = %7.3f k %+7.3f sqrt(k) %+7.3f N   rms %.4f N, row left out %.4f N\n", name, f.slope_mm, f.root, f.intercept_n,
-                   f.rms_n, f.left_out_rms_n);
+    return printed("  %-26s F = %7.3f k %+7.3f √k %+7.3f N   rms %.4f N, row left out %.4f N\n", name, f.slope_mm, f.root, f.intercept_n, f.rms_n,
+                   f.left_out_rms_n);
   };
   out += "\n" + fit("Voigt law, k X + c V", e.voigt) + fit("k X and an intercept", e.line) + fit("all three", e.all) + "\n";
   for (const auto& s : said.notes) out += wrapped("- " + s);
