@@ -14,7 +14,8 @@ namespace {
 constexpr double k_cube_mm = 10.0, k_leaf_mm = 0.05, k_deepest_mm = 3.0;
 constexpr double k_air_mm = 0.05;      // height from which the crosshead may follow the surface
 constexpr double k_follow_mm_s = 0.5;  // at most
-constexpr double k_upright = 0.7;      // of the contact normal along the feed
+constexpr double k_held_n = 1e-3;
+constexpr double k_upright = 0.7;  // of the contact normal along the feed
 constexpr const char* k_tissue = "dentin";
 
 std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& servo, const Tooth& cube, const RecordOptions& o, int session,
@@ -37,13 +38,15 @@ std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& serv
     input = make_tick_input({{place.x, place.y, z}, {}}, sample.pedal, k_stylus_fresh | k_pedal_fresh, 0, input);
     const TickOutput out = step(servo, state, input);
     removed += out.removed_count * cube.octree.leaf_volume_mm3();
-    // walls of the hole that it cut touch the head too, without a force along the feed
-    const bool pressed = out.contact && out.normal.z > k_upright && out.penetration_mm > 0.0;
+    // walls and rim of the hole that it cut touch the head too, without a force along the feed; its bottom never rises
+    const bool pressed = out.contact && out.normal.z > k_upright && out.penetration_mm > 0.0 && z + out.penetration_mm < surface + k_leaf_mm;
     if (pressed) surface = z + out.penetration_mm;
     if (tick % every != 0) continue;
+    const bool held = out.contact && !pressed && std::fabs(out.rendered_force_n.z) > k_held_n;  // by the rim: not along the feed, left out
     const double v = tick == 0 ? 0.0 : (before - z) / (static_cast<double>(every) * dt);
-    rows.push_back({session, static_cast<double>(tick) * dt, pressed ? out.penetration_mm : std::min(0.0, surface - z),
-                    out.rendered_force_n.z + o.noise_n * random.normal(), v, out.rpm, removed});
+    if (!held)
+      rows.push_back({session, static_cast<double>(tick) * dt, pressed ? out.penetration_mm : std::min(0.0, surface - z),
+                      out.rendered_force_n.z + o.noise_n * random.normal(), v, out.rpm, removed});
     before = z;
   }
   return rows;
