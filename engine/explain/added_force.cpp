@@ -44,12 +44,14 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
   if (is("coulomb_friction")) {
     f.shape = {value("v0_mm_s")}, f.own = {value("fc_n")};
   } else if (is("stribeck_friction")) {
-    if (std::fabs(value("v0_mm_s") / (k_stribeck_v0 * value("vs_mm_s")) - 1.0) > 1e-9) return std::nullopt;
-    f.shape = {value("vs_mm_s")}, f.own = {value("fc_n"), value("fs_n") - value("fc_n")};
+    const bool own_v0 = mechanisms()[static_cast<std::size_t>(f.mechanism)].shape.size() > 1;
+    f.shape = {value("vs_mm_s")};
+    if (own_v0) f.shape.push_back(value("v0_mm_s"));
+    f.own = {value("fc_n"), value("fs_n") - value("fc_n")};
   } else if (is("viscous_friction")) {
     f.own = {value("b_n_s_per_mm")};
   } else if (is("backlash")) {
-    if (value("ahead_mm") > 0.0) return std::nullopt;
+    if (value("ahead_mm") > 0.0 || value("seen") >= 0.5) return std::nullopt;
     f.shape = {value("ahead_mm") < 0.0 ? 1.0 : 2.0, value("b_mm")};
   } else if (is("hysteresis")) {
     if (value("gamma") != 0.0 && value("gamma") != 0.5) return std::nullopt;
@@ -57,6 +59,7 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
   } else if (is("series_compliance")) {
     if (std::isfinite(value("ks_n_per_mm"))) return std::nullopt;
     f.shape = {value("softening_force_n")};
+    f.shape.resize(mechanisms()[static_cast<std::size_t>(f.mechanism)].shape.size(), 0.0);
   } else if (is("nonlinear_stiffness")) {
     f.shape = {value("m")};
   } else if (is("hidden_layer")) {
@@ -78,7 +81,7 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
   } else if (is("wear")) {
     f.shape = {value("carried") < 0.5 ? 0.0 : 1.0}, f.own = {value("per_mm3")};
   } else if (is("run_out")) {
-    if (value("eccentricity_um") != 0.0) return std::nullopt;
+    if (value("eccentricity_um") != 0.0 || value("rate_ratio") != 1.0) return std::nullopt;
     f.shape = {value("by_clock") < 0.5 ? 1.0 : 0.0};
     line(value("amplitude_n"));
   } else if (is("chatter")) {
@@ -91,6 +94,22 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
     return std::nullopt;
   }
   return f;
+}
+
+/// The scene has what the mechanism needs, and as many coefficients are given as it takes there.
+bool has_columns(const Scene& scene, const Found& f) {
+  const Mechanism& m = mechanisms()[static_cast<std::size_t>(f.mechanism)];
+  return !m.grid(scene).empty() && m.shape.size() == f.shape.size() && m.columns(scene, f.shape).own.size() <= f.own.size();
+}
+
+/// A measurement effect of the same kind that fits this recording stands for the term: it knows the phase of each session.
+bool fits_here(const ForceModel& model, const std::string& kind, const Scene& scene) {
+  return std::any_of(model.measurement.begin(), model.measurement.end(), [&](const MeasurementEffect& e) {
+    const int at = find_mechanism(e.kind);
+    if (e.kind != kind || at < 0) return false;
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(at)];
+    return m.shape.size() == e.shape.size() && m.columns(scene, e.shape).own.size() == e.values.size();
+  });
 }
 
 }  // namespace
@@ -143,7 +162,8 @@ Series added_force_n(const ForceModel& model, const std::string& material, const
   ForceTerms others;
   for (std::size_t i = 0; i < model.terms.size(); ++i) {
     const auto found = i < model.term_values.size() ? found_as(model.term_values[i], base) : std::nullopt;
-    if (found && !mechanisms()[static_cast<std::size_t>(found->mechanism)].grid(scene).empty())
+    if (i < model.term_values.size() && fits_here(model, model.term_values[i].kind, scene)) continue;
+    if (found && has_columns(scene, *found))
       out += force_n(scene, *found);
     else
       others.push_back(model.terms[i]);
@@ -152,6 +172,8 @@ Series added_force_n(const ForceModel& model, const std::string& material, const
   for (const auto& effect : model.measurement) {
     const int at = find_mechanism(effect.kind);
     if (at < 0) throw Error(where, "measurement effect '" + effect.kind + "' is unknown", "remove it, or correct its kind");
+    const bool a_term = std::any_of(model.term_values.begin(), model.term_values.end(), [&](const TermValues& t) { return t.kind == effect.kind; });
+    if (a_term && !fits_here(model, effect.kind, scene)) continue;  // another recording: the term itself counts
     const Mechanism& m = mechanisms()[static_cast<std::size_t>(at)];
     const bool lacks = m.grid(scene).empty() && effect.kind != "chatter";
     if (lacks || m.shape.size() != effect.shape.size())

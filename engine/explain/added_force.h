@@ -12,7 +12,8 @@ namespace cavum::explain {
 [[nodiscard]] Series terms_force_n(const ForceTerms& terms, Viscoelastic tissue, const Scene& scene);
 
 /// Force that the terms and measurement effects of `model` add to its Voigt law on the recorded motion, N, shape [rows]. k and c
-/// are those of `material`. Where position or speed is uncertain it is the mean over what they may have been, as when `explain` found it. Throws
+/// are those of `material`. Where position or speed is uncertain it is the mean over what they may have been, as when `explain` found it. A
+/// measurement effect of the kind of a term (phases of each session) counts instead of it when it fits the recording. Throws
 /// Error(where, ...) on an unknown material or measurement effect, or one these data lack a column for.
 [[nodiscard]] Series added_force_n(const ForceModel& model, const std::string& material, const Recording& recording, const std::string& where);
 

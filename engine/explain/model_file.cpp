@@ -12,7 +12,11 @@ using Parameters = std::vector<std::pair<std::string, double>>;
 
 /// Numbers of a cause that stand in its shape and not among its parameters. False: no force term is that shape of it.
 bool add_shape(const std::string& name, const std::vector<double>& shape, Parameters& out) {
-  if (name == "stribeck_friction") out.emplace_back("v0_mm_s", k_stribeck_v0 * shape[0]);
+  const bool second = shape.size() > 1;
+  if (name == "stribeck_friction" && !second) out.emplace_back("v0_mm_s", k_stribeck_v0 * shape[0]);
+  if (name == "series_compliance" && second && shape[1] > 0.0) out.emplace_back("whole", 1.0);
+  if (name == "chatter" && second) out.emplace_back("spinning", shape[1]);
+  if (name == "run_out" && second) out.emplace_back("rate_ratio", shape[1]);
   if (name == "relaxation") out.emplace_back("exponent", shape[2]);
   if (name == "run_out") out.emplace_back("by_clock", shape[0] < 0.5 ? 1.0 : 0.0);
   if (name == "wear") out.emplace_back("carried", shape[0] < 0.5 ? 0.0 : 1.0);
@@ -22,7 +26,8 @@ bool add_shape(const std::string& name, const std::vector<double>& shape, Parame
   }
   if (name == "backlash") {
     if (shape[0] < 0.5) return false;  // a play that keeps its place in air
-    if (shape[0] > 1.5) out.emplace_back("ahead_mm", 0.0);
+    if (shape[0] == 2.0) out.emplace_back("ahead_mm", 0.0);
+    if (shape[0] == 3.0) out.emplace_back("seen", 1.0);
   }
   return true;
 }
@@ -96,10 +101,12 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
     std::vector<double> own;
     const auto count = static_cast<Eigen::Index>(m.columns(e.after->scene, cause.term.shape).own.size());
     for (Eigen::Index i = 0; i < count; ++i) own.push_back(e.after->base_fit.value[at++]);
-    if (const auto [name, parameters] = live_term(cause); !name.empty())
-      out << "\n# " << m.equation << ": felt in an exam too\n" << force_term_toml(name, parameters);
-    else
-      effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");
+    const auto [name, parameters] = live_term(cause);
+    if (!name.empty()) out << "\n# " << m.equation << ": felt in an exam too\n" << force_term_toml(name, parameters);
+    const bool own_phases = (name == "run_out" || name == "chatter") && own.size() > 2;
+    if (own_phases)
+      effect({m.name, cause.term.shape, own}, "the same in this recording, each session with its phase: explain goes by this, an exam by the term");
+    if (name.empty()) effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");
   }
   return out.str();
 }

@@ -11,7 +11,7 @@ TermForce Wear::evaluate(const TermInput& in, TermMemory&) const noexcept {
 }
 
 TermForce Chatter::evaluate(const TermInput& in, TermMemory&) const noexcept {
-  if (!in.touching) return {};
+  if (!in.touching || (spinning_ && in.rpm <= 0.0)) return {};
   const double turns = frequency_hz_ * in.time_s;
   return {amplitude_n_ * line_at(turns - std::floor(turns) + phase_turns_), 0.0};
 }
@@ -29,8 +29,8 @@ const TermKind k_wear{"wear", {{"per_mm3", -100, 100, {}}, {"carried", 0, 1, 0.0
                         return std::make_shared<Wear>(p[0], p[1] >= 0.5);
                       }};
 const TermKind k_chatter{"chatter",
-                         {{"amplitude_n", 0, 100, {}}, {"frequency_hz", 0, 1e5, {}}, {"phase_turns", 0, 1, 0.0}},
-                         [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<Chatter>(p[0], p[1], p[2]); }};
+                         {{"amplitude_n", 0, 100, {}}, {"frequency_hz", 0, 1e5, {}}, {"phase_turns", 0, 1, 0.0}, {"spinning", 0, 1, 0.0}},
+                         [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<Chatter>(p[0], p[1], p[2], p[3] >= 0.5); }};
 const TermKind k_coolant{
     "coolant", {{"fraction", -1, 10, {}}}, [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<Coolant>(p[0]); }};
 const TermKind k_thermal_softening{"thermal_softening",

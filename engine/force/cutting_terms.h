@@ -19,16 +19,17 @@ class Wear final : public ForceTerm {
   bool carried_;
 };
 
-/// A sin(2π (f t + phase)) in contact, t since the exam or the recording began.
+/// A sin(2π (f t + phase)) in contact, or only while the tool turns in it; t since the exam or the recording began.
 class Chatter final : public ForceTerm {
  public:
   /// A in N, f in Hz, phase in turns. A device of 1 kHz feels f at its alias.
-  Chatter(double amplitude_n, double frequency_hz, double phase_turns)
-      : amplitude_n_(amplitude_n), frequency_hz_(frequency_hz), phase_turns_(phase_turns) {}
+  Chatter(double amplitude_n, double frequency_hz, double phase_turns, bool spinning = false)
+      : amplitude_n_(amplitude_n), frequency_hz_(frequency_hz), phase_turns_(phase_turns), spinning_(spinning) {}
   [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override;
 
  private:
   double amplitude_n_, frequency_hz_, phase_turns_;
+  bool spinning_;
 };
 
 /// Water changes the force by a fraction of it: F w wet.

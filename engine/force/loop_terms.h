@@ -23,13 +23,15 @@ class Hysteresis final : public ForceTerm {
 /// air the play is taken up anew, so that each contact begins with the tip b behind.
 class Backlash final : public ForceTerm {
  public:
-  /// b >= 0 and `ahead_mm` >= 0 in mm; a negative `ahead_mm` means b.
-  Backlash(double b_mm, double ahead_mm) : behind_mm_(b_mm), ahead_mm_(ahead_mm < 0.0 ? b_mm : ahead_mm) {}
+  /// b >= 0 and `ahead_mm` >= 0 in mm; a negative `ahead_mm` means b. `seen`: contact is where the drive is seen to touch, so that the tip
+  /// may still be above the surface and its spring take from c V; else a tip above the surface adds nothing.
+  Backlash(double b_mm, double ahead_mm, bool seen = false) : behind_mm_(b_mm), ahead_mm_(ahead_mm < 0.0 ? b_mm : ahead_mm), seen_(seen) {}
   /// memory[0]: place of the tip, mm.
   [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override;
 
  private:
   double behind_mm_, ahead_mm_;
+  bool seen_;
 };
 
 extern const TermKind k_hysteresis;

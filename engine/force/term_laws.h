@@ -47,6 +47,12 @@ namespace cavum {
   return z_mm * kept + moved_mm * (u > 0.0 ? (1.0 - kept) / u : 1.0);
 }
 
+/// First-order lag y' = (g − y)/τ after a time of u·τ in which g went straight from `from` to `to`; exact for any u > 0.
+[[nodiscard]] constexpr double lagged_n(double y, double from, double to, double u) noexcept {
+  const double behind = (to - from) / u;
+  return to - behind + (y - from + behind) * det_exp(-u);
+}
+
 /// Bouc-Wen with n = 1 after the tip moved by `moved_mm`: z' = V − ((1 − γ) |V| z + γ V |z|)/d, exact for a way of any length.
 /// |z| stays below d > 0, mm. γ = 0: Dahl's model; γ = 1/2: unloading is straight. 0 <= γ <= 1/2.
 [[nodiscard]] constexpr double loop_mm(double z_mm, double moved_mm, double d_mm, double gamma) noexcept {

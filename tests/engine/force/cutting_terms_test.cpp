@@ -51,6 +51,29 @@ TEST(CuttingTerms, ASpringThatSoftensLosesHalfAtItsForce) {
   EXPECT_NEAR(make_force_term("series_compliance", {{"softening_force_n", 2.4}}, "test")->evaluate(in, none).tissue_n, 0.24 / 1.1 - 0.24, 1e-15);
 }
 
+TEST(CuttingTerms, AVoigtBodyOnASpringIsALagOfASofterBody) {  // F = k (X − F/ks) + c (V − F'/ks)
+  const double k = 0.8, c = 0.6, ks = 2.0, v = 0.5;
+  const ForceTermPtr term = make_force_term("series_compliance", {{"ks_n_per_mm", ks}, {"whole", 1.0}}, "test");
+  for (const double dt : {0.001, 0.05}) {
+    TermMemory memory{};
+    double force = 0.0, small = 0.0;
+    const int n = static_cast<int>(std::lround(1.0 / dt));
+    for (int i = 1; i <= n; ++i) {
+      TermInput in = cutting(0);
+      in.dt_s = dt;
+      in.penetration_mm = v * dt * i;
+      in.approach_mm_s = v;
+      in.damping_n_s_per_mm = c;
+      force = term->evaluate(in, memory).tissue_n + k * in.penetration_mm + c * v;
+    }
+    const double h = 1e-6;  // the differential equation itself, in small steps
+    for (int i = 1; i <= 1000000; ++i) small = (k * v * h * i + c * v + c / ks / h * small) / (1.0 + k / ks + c / ks / h);
+    EXPECT_NEAR(force, small, 1e-5) << dt;
+    EXPECT_EQ(term->evaluate(TermInput{}, memory).tissue_n, 0.0);
+    EXPECT_EQ(memory, TermMemory{});
+  }
+}
+
 TEST(CuttingTerms, ChatterIsASineOfTheTimeAndNotOfTheTicks) {
   const Chatter term(0.05, 37.5, 0.25);
   TermMemory none{};

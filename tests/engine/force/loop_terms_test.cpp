@@ -91,6 +91,13 @@ TEST(Backlash, TheTipIsBehindByItsPlayBothWays) {
   EXPECT_NEAR(after(Backlash(0.05, 0.0), {0.3, 0.1}, 40), 0.0, 1e-14);
 }
 
+TEST(Backlash, WhereContactIsSeenAtTheDriveTheTipStartsAboveTheSurface) {
+  const Backlash term(0.05, -1.0, true);
+  TermMemory memory{};
+  (void)term.evaluate(TermInput{}, memory);                                        // air takes the play up
+  EXPECT_NEAR(term.evaluate(pressed(0.02), memory).tissue_n, -0.8 * 0.05, 1e-14);  // tip at -0.03 mm
+}
+
 TEST(Backlash, StepsDoNotMatter) {
   const Backlash term(0.02, -1.0);
   EXPECT_EQ(after(term, {0.3, 0.29, 0.5}, 1), after(term, {0.3, 0.29, 0.5}, 1000));
