@@ -124,7 +124,8 @@ std::string force_charts(const View& before, const View& after) {
   const Eigen::Index begin = telling_stretch(before, after);
   const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const auto& s) { return begin >= s.begin && begin < s.end; });
   Chart c, d;
-  c.title = "session " + session->name + ": the twelve seconds in which the causes change most";
+  c.title = "session " + session->name +
+            (after.causes.empty() ? ": the twelve seconds of the greatest forces" : ": the twelve seconds in which the causes change most");
   d.title = "what is left: measured - simulated";
   c.x_label = d.x_label = "time t, s";
   c.y_label = d.y_label = "force, N";
@@ -149,6 +150,10 @@ std::string force_charts(const View& before, const View& after) {
     rest.points.push_back({r.t_s[i], after.residual_n[i]});
     highest = std::max({highest, before.force_n[i], before.model_n[i], after.model_n[i]});
     lowest = std::min({lowest, before.force_n[i], before.model_n[i], after.model_n[i]});
+  }
+  if (after.causes.empty()) {
+    first.label = "simulated";
+    last = rest = {};
   }
   c.series = {measured, last, first};
   c.y_range = {lowest - 0.04 * (highest - lowest), lowest + 1.45 * (highest - lowest)};  // room for the legend
@@ -220,6 +225,7 @@ std::string causes_html(const explain::Explanation& e) {
   if (e.unexplained)
     out += "<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>" + xml_text(axis_label(e.unexplained->variable)) +
            "</b> (" + xml_text(e.unexplained->form) + printed("), %.4f N root mean square.</p>\n", e.unexplained->effect_n);
+  if (const std::string left = left_over_words(e); !left.empty()) out += "<p>" + xml_text(left) + "</p>\n";
   return out.empty() ? "<p>No cause was found.</p>\n" : out;
 }
 
