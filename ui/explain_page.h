@@ -3,11 +3,13 @@
 
 #include <string>
 
-#include "engine/explain/explain.h"
+#include "engine/explain/stiffness_table.h"
 
 namespace cavum {
 
 /// `title`: the recording's name.
 [[nodiscard]] std::string explanation_html(const explain::Explanation& explanation, const std::string& title);
+/// The same for a table of force over stiffness.
+[[nodiscard]] std::string table_html(const explain::TableExplanation& explanation, const std::string& title);
 
 }  // namespace cavum

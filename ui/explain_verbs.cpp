@@ -10,6 +10,8 @@
 #include "engine/explain/explain.h"
 #include "engine/explain/model_file.h"
 #include "engine/explain/protocol.h"
+#include "engine/explain/session_recording.h"
+#include "engine/explain/stiffness_table.h"
 #include "scenarios/exam.h"
 #include "ui/explain_page.h"
 #include "ui/print_json.h"
@@ -19,7 +21,7 @@ namespace cavum {
 namespace {
 
 struct ExplainArgs {
-  std::string data, rig, model, material, model_out, out, protocol;
+  std::string data, rig, force, model, material, model_out, out, protocol;
   std::vector<std::string> columns;
   std::uint64_t seed = 1;
   std::size_t twins = explain::ExplainOptions{}.twins;
@@ -48,7 +50,10 @@ std::function<void(double)> progress_bar() {
     const int percent = static_cast<int>(100.0 * part);
     if (percent <= *shown) return;
     *shown = percent;
-    std::fprintf(stderr, "\rexplaining %3d %%%s", percent, percent == 100 ? "\n" : "");
+    constexpr int k_width = 40;
+    const int full = k_width * percent / 100;
+    std::fprintf(stderr, "\rexplaining [%s%s] %3d %%%s", std::string(static_cast<std::size_t>(full), '#').c_str(),
+                 std::string(static_cast<std::size_t>(k_width - full), '.').c_str(), percent, percent == 100 ? "\n" : "");
   };
 }
 
@@ -66,12 +71,36 @@ void write_protocol(const std::string& path) {
   std::cout << "written: " << path << " and " << csv << "\n";
 }
 
+explain::Recording read_data(const ExplainArgs& a) {
+  const bool session = a.data.ends_with(".cavum");
+  if (!session && !a.force.empty()) throw Error("--force", "goes with a session only", "put the force into column f_n of the recording");
+  if (session && (!a.rig.empty() || !a.columns.empty())) throw Error(a.data, "is a session, which needs no --rig and no --column", "leave them out");
+  return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, column_names(a.columns));
+}
+
+/// A table of force over stiffness. False: the data are none.
+bool ran_table(const ExplainArgs& a) {
+  if (a.data.ends_with(".cavum")) return false;
+  const std::string text = read_text_file(a.data);
+  if (!explain::is_stiffness_table(text)) return false;
+  if (!a.model.empty() || !a.model_out.empty())
+    throw Error(a.data, "is a table of means, without motion", "leave out --model and --model-out; no force model follows from it");
+  const explain::TableExplanation result = explain::explain_table(explain::parse_stiffness_table(text, a.data));
+  if (!a.out.empty()) write_text_file(a.out, table_html(result, a.data));
+  if (a.json)
+    print_json(to_json(result));
+  else
+    std::cout << to_text(result) << (a.out.empty() ? "" : "written: " + a.out + "\n");
+  return true;
+}
+
 void run_explain(const ExplainArgs& a) {
   if (!a.protocol.empty()) return write_protocol(a.protocol);
   if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
   for (const auto& path : {a.out, a.model_out})
     if (!path.empty()) require_writable(path);
-  explain::Recording recording = explain::read_recording(a.data, a.rig, column_names(a.columns));
+  if (ran_table(a)) return;
+  explain::Recording recording = read_data(a);
   explain::ExplainOptions options;
   options.seed = a.seed;
   options.twins = a.twins;
@@ -106,7 +135,9 @@ void run_explain(const ExplainArgs& a) {
 void add_explain_verbs(CLI::App& app, int& exit_code) {
   auto args = std::make_shared<ExplainArgs>();
   CLI::App* verb = app.add_subcommand("explain", "what the simulation gets wrong, why, and what fixing it gains");
-  verb->add_option("data", args->data, "recording (.csv), with rig.toml beside it");
+  verb->add_option("data", args->data,
+                   "recording (.csv) with rig.toml beside it, a session (.cavum), or a table of f_n over k_n_per_mm at v_mm_s (.csv)");
+  verb->add_option("--force", args->force, "for a session: force measured beside it (.csv: t_s since the start of the exam, f_n)");
   verb->add_option("--rig", args->rig, "another rig.toml");
   verb->add_option("--column", args->columns, "NAME=COLUMN: the file calls NAME something else; may be repeated");
   verb->add_option("--model", args->model, "force model to explain on top of: a name of data/materials, or a TOML file");

@@ -10,6 +10,7 @@
 #include "engine/base/file.h"
 #include "engine/rig/cube_rig.h"
 #include "engine/rig/press_rig.h"
+#include "engine/rig/record_rig.h"
 #include "engine/rig/servo_rig.h"
 #include "engine/rig/tooth_rig.h"
 #include "scenarios/exam.h"
@@ -72,6 +73,11 @@ struct ServoArgs {
   double tick_ms = 1000 * k_tick_s;
   bool json = false;
   ServoRigOptions options;
+};
+
+struct RecordArgs {
+  std::string motion, model = "consistent", point = "round-1.0", csv;
+  RecordOptions options;
 };
 
 /// A name in a folder of data/, or a TOML file.
@@ -187,6 +193,19 @@ bool run_servo(const ServoArgs& a) {
   return result.on_time();
 }
 
+void run_record(const RecordArgs& a) {
+  const std::string rig_toml = (fs::path(a.csv).parent_path() / "rig.toml").string();
+  if (fs::path(a.csv).filename() == "rig.toml")
+    throw Error("--csv " + a.csv, "is the name of the description beside it", "use a name ending in .csv");
+  require_writable(a.csv);
+  require_writable(rig_toml);
+  const Motion motion = parse_motion(read_text_file(a.motion), a.motion);
+  const RecordResult result = run_record_rig(motion, load_model(a.model), load_point(a.point), a.options);
+  write_text_file(a.csv, record_csv(result));
+  write_text_file(rig_toml, record_rig_toml(result));
+  std::cout << a.options.sessions << " sessions, " << result.rows.size() << " rows\nwritten: " << a.csv << " and " << rig_toml << "\n";
+}
+
 void add_cube(CLI::App& rig, int& exit_code) {
   auto* verb = rig.add_subcommand("cube", "Cutting force of cubes over their stiffness (the paper's Fig. 6 and eq. 6)");
   const auto a = std::make_shared<CubeArgs>();
@@ -255,6 +274,23 @@ void add_servo(CLI::App& rig, int& exit_code) {
   verb->callback([a, &exit_code] { exit_code = run_servo(*a) ? 0 : 1; });
 }
 
+void add_record(CLI::App& rig, int& exit_code) {
+  auto* verb = rig.add_subcommand("record", "A recording for `cavum explain`: the machine follows a motion into a cube, its load cell writes");
+  const auto a = std::make_shared<RecordArgs>();
+  verb->add_option("--motion", a->motion, "motion (.csv), z = height over the cube; `cavum explain --protocol` writes one")->required();
+  verb->add_option("--csv", a->csv, "recording to write; rig.toml is written beside it")->required();
+  verb->add_option("--model", a->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  verb->add_option("--point", a->point, "diamond point: a name of data/points, or a TOML file")->capture_default_str();
+  verb->add_option("--sessions", a->options.sessions, "each at a new place")->check(CLI::Range(1, 100))->capture_default_str();
+  verb->add_option("--rate-hz", a->options.rate_hz, "rows in a second")->check(between(1.0, 1000.0))->capture_default_str();
+  verb->add_option("--noise-n", a->options.noise_n, "sd of a reading of the load cell")->check(between(0.0, 1.0))->capture_default_str();
+  verb->add_option("--seed", a->options.seed, "of noise and places")->check(CLI::NonNegativeNumber)->capture_default_str();
+  verb->callback([a, &exit_code] {
+    run_record(*a);
+    exit_code = 0;
+  });
+}
+
 }  // namespace
 
 void add_rig_verbs(CLI::App& app, int& exit_code) {
@@ -264,6 +300,7 @@ void add_rig_verbs(CLI::App& app, int& exit_code) {
   add_tooth(*rig, exit_code);
   add_press(*rig, exit_code);
   add_servo(*rig, exit_code);
+  add_record(*rig, exit_code);
 }
 
 }  // namespace cavum

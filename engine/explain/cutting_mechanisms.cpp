@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/explain/mechanism.h"
+#include "engine/force/term_laws.h"
 
 namespace cavum::explain {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-constexpr double k_turn = 2.0 * 3.14159265358979323846;
+constexpr double k_turn = 2.0 * k_pi;
 
 bool has(const Scene& s, const char* column) { return s.recording->column(column) != nullptr; }
 
@@ -40,7 +41,10 @@ Series worn_mm3(const Scene& s, bool carried) {
   return out;
 }
 
-Columns line(const Series& turns, const Series& where) { return {{(turns * k_turn).sin() * where, (turns * k_turn).cos() * where}, {}, {}}; }
+Columns line(const Series& turns, const Series& where) {
+  return {
+      {turns.unaryExpr([](double t) { return line_at(t); }) * where, turns.unaryExpr([](double t) { return line_at(t + 0.25); }) * where}, {}, {}};
+}
 
 /// Turns of the spindle, less whole ones. Variants: 0 rpm/60 · t (a spindle that keeps its rate), 1 the integral of rpm.
 Series spindle_turns(const Scene& s, int variant) {
@@ -67,6 +71,8 @@ std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{
 
 }  // namespace
 
+Series removed_since_new_mm3(const Scene& scene, bool carried) { return worn_mm3(scene, carried); }
+
 std::vector<Mechanism> cutting_mechanisms() {
   std::vector<Mechanism> m;
   m.push_back({"edge_force",
@@ -90,7 +96,7 @@ std::vector<Mechanism> cutting_mechanisms() {
                  return !has(s, "removed_mm3") ? Grid{} : s.recording->sessions.size() > 1 ? Grid{{0.0}, {1.0}} : Grid{{0.0}};
                },
                [](const Scene& s, const Shape& p) {
-                 return Columns{{s.force_n * worn_mm3(s, p[0] > 0.5)}, {}, {}};
+                 return Columns{{s.force_n.binaryExpr(worn_mm3(s, p[0] > 0.5), &worn_n)}, {}, {}};
                },
                [](const Shape&, const Shape& own, Base) { return fraction("per_mm3", own); }});
   m.push_back({"run_out",
@@ -119,7 +125,8 @@ std::vector<Mechanism> cutting_mechanisms() {
                },
                chatter_columns,
                [](const Shape& p, const Shape& own, Base) {
-                 return std::vector<NamedValue>{{"amplitude_n", std::hypot(own[0], own[1])}, {"frequency_hz", p[0]}};
+                 return std::vector<NamedValue>{
+                     {"amplitude_n", std::hypot(own[0], own[1])}, {"frequency_hz", p[0]}, {"phase_turns", std::atan2(own[1], own[0]) / k_turn}};
                }});
   m.push_back({"coolant",
                "F_sim w wet",
@@ -129,7 +136,7 @@ std::vector<Mechanism> cutting_mechanisms() {
                {},
                [](const Scene& s) { return has(s, "wet") ? Grid{{}} : Grid{}; },
                [](const Scene& s, const Shape&) {
-                 return Columns{{s.force_n * *s.recording->column("wet")}, {}, {}};
+                 return Columns{{s.force_n.binaryExpr(*s.recording->column("wet"), &watered_n)}, {}, {}};
                },
                [](const Shape&, const Shape& own, Base) { return fraction("fraction", own); }});
   m.push_back({"thermal_softening",
@@ -141,7 +148,7 @@ std::vector<Mechanism> cutting_mechanisms() {
                [](const Scene& s) { return has(s, "temperature_c") ? Grid{{}} : Grid{}; },
                [](const Scene& s, const Shape&) {
                  const Series& t = *s.recording->column("temperature_c");
-                 return Columns{{-s.force_n * (t - t[0])}, {}, {}};
+                 return Columns{{s.force_n.binaryExpr(t - t[0], &warmed_n)}, {}, {}};
                },
                [](const Shape&, const Shape& own, Base) { return fraction("per_k", own); }});
   return m;

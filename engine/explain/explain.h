@@ -71,5 +71,7 @@ struct ExplainOptions {
 /// The contract of DESIGN.md section 7, and `base.k_n_per_mm`, `base.c_n_s_per_mm`, `notes[]` beside it.
 [[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
 [[nodiscard]] std::string to_text(const Explanation& explanation);
+/// A sentence about what is left when nothing was named and the simulation still misses by half as much again as the noise; else empty.
+[[nodiscard]] std::string left_over_words(const Explanation& explanation);
 
 }  // namespace cavum::explain

@@ -51,6 +51,13 @@ json to_json(const Explanation& e) {
   return j;
 }
 
+std::string left_over_words(const Explanation& e) {
+  constexpr double k_more_than_noise = 1.5;
+  if (!e.causes.empty() || e.unexplained || e.verdict == "data_fault" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return "";
+  return printed("The simulation misses by %.4f N rms where the noise is %.4f N: something is there, and these data cannot say what.",
+                 e.gain.base_rmse_n, e.gain.noise_floor_n);
+}
+
 std::string to_text(const Explanation& e) {
   std::string out = "verdict: " + e.verdict + ". " + in_words(e) + ".\n";
   for (const auto& f : e.data_faults) out += wrapped("fault: " + f);
@@ -69,6 +76,7 @@ std::string to_text(const Explanation& e) {
   if (e.unexplained)
     out += wrapped(printed("unexplained: the force depends on %s (%s), %.4f N rms.", e.unexplained->variable.c_str(), e.unexplained->form.c_str(),
                            e.unexplained->effect_n));
+  if (const std::string left = left_over_words(e); !left.empty()) out += wrapped(left);
   out += printed("\nk = %.5g N/mm (%.5g to %.5g), c = %.5g N s/mm (%.5g to %.5g)\n", e.base.k_n_per_mm, e.k.low, e.k.high, e.base.c_n_s_per_mm,
                  e.c.low, e.c.high);
   out += printed("on sessions not seen: base %.4f N, extended %.4f N rms; noise floor %.4f N\n", e.gain.base_rmse_n, e.gain.extended_rmse_n,

@@ -110,7 +110,7 @@ std::vector<std::string> data_faults(const Recording& r) {
   std::vector<std::string> faults;
   time_stamps(r, faults);
   if (!faults.empty()) return faults;  // everything else would be measured against wrong times
-  speed_against_position(r, faults);
+  if (!r.exact_motion) speed_against_position(r, faults);
   units(r, faults);
   clipping(r, faults);
   if (r.rows() < 200) faults.push_back("only " + std::to_string(r.rows()) + " rows; record for at least a minute");

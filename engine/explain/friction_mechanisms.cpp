@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/explain/mechanism.h"
-#include "engine/force/coulomb_friction.h"
+#include "engine/force/term_laws.h"
 
 namespace cavum::explain {
 namespace {
@@ -11,16 +11,13 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-/// Fc tanh(V/v0) at Fc = 1 by the engine's own term. Where the speed is uncertain by sd the mean over that uncertainty is
+/// Fc tanh(V/v0) at Fc = 1 by the engine's own law. Where the speed is uncertain by sd the mean over that uncertainty is
 /// close to tanh(V/sqrt(v0² + sd²·pi/2)): equal slope at 0, equal ends.
 Series sign_of_motion(const Scene& s, double v0_mm_s) {
   Series out(s.motion.v_mm_s.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double width = std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion.sd_v_mm_s[i] * s.motion.sd_v_mm_s[i]);
-    TermMemory none{};
-    TermInput in;
-    in.speed_mm_s = s.motion.v_mm_s[i];
-    out[i] = CoulombFriction(1.0, width).evaluate(in, none).drag_n;
+    out[i] = sliding_share(s.motion.v_mm_s[i], width);
   }
   return out;
 }
@@ -53,7 +50,7 @@ Series played(const Scene& s, int variant, double b) {
     double y = input(rows.begin);
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double x = input(i);
-      y = variant == 2 ? std::clamp(y, x - b, x) : std::clamp(y, x - b, x + b);
+      y = played_mm(y, x, b, variant == 2 ? 0.0 : b);
       out[i] = y;
     }
   }
@@ -71,15 +68,12 @@ Grid play_grid(const Scene& s) {
 /// (unloads along V), 1 beta = 1 (Dahl's model), 2 the same in air too.
 Series loop_mm(const Scene& s, int variant, double d) {
   Series out(s.force_n.size());
-  const double beta = variant == 0 ? 0.5 : 1.0, gamma = 1.0 - beta;
+  const double gamma = variant == 0 ? 0.5 : 0.0;
   for (const auto& rows : s.recording->sessions) {
     double z = 0.0;
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      const double dx = i > rows.begin ? s.motion.x_mm[i] - s.motion.x_mm[i - 1] : 0.0;
-      if (variant < 2 && s.motion.x_mm[i] <= 0.0)
-        z = 0.0;
-      else  // implicit in the part that bounds z, so that no step is too long
-        z = (z + dx - gamma * dx * std::fabs(z) / d) / (1.0 + beta * std::fabs(dx) / d);
+      const double x = s.motion.x_mm[i], before = i > rows.begin ? s.motion.x_mm[i - 1] : x;
+      z = variant < 2 && x <= 0.0 ? 0.0 : cavum::loop_mm(z, x - (variant < 2 ? std::max(0.0, before) : before), d, gamma);
       out[i] = z;
     }
   }
@@ -122,9 +116,11 @@ std::vector<Mechanism> friction_mechanisms() {
                  return as_grid(speeds(s, {0.1, 0.25, 0.5, 1.0}));
                },
                [](const Scene& s, const Shape& p) {
-                 const Series sign = sign_of_motion(s, 0.03 * p[0]);
+                 const Series sign = sign_of_motion(s, k_stribeck_v0 * p[0]);
                  const Series spread = 1.0 + 2.0 * (s.motion.sd_v_mm_s / p[0]).square();  // mean over the uncertainty of V
-                 return Columns{{sign, sign * (-(s.motion.v_mm_s / p[0]).square() / spread).exp() / spread.sqrt()}, {}, {}};
+                 Series still(sign.size());
+                 for (Eigen::Index i = 0; i < still.size(); ++i) still[i] = static_share(s.motion.v_mm_s[i], p[0] * std::sqrt(spread[i]));
+                 return Columns{{sign, sign * still / spread.sqrt()}, {}, {}};
                },
                [](const Shape& p, const Shape& own, Base) {
                  return std::vector<NamedValue>{{"fc_n", own[0]}, {"fs_n", own[0] + own[1]}, {"vs_mm_s", p[0]}};
@@ -146,7 +142,7 @@ std::vector<Mechanism> friction_mechanisms() {
                "k (play(X, b) - X)",
                "play between the measured position and the tip",
                "reverse within contact, slowly, several times",
-               false,
+               true,
                {{"variant", 0, 2, false, false}, {"b_mm", 1e-5, 100, true, true}},
                play_grid,
                [](const Scene& s, const Shape& p) {

@@ -46,6 +46,9 @@ struct Mechanism {
   std::function<std::vector<NamedValue>(const std::vector<double>& shape, const std::vector<double>& own, Base base)> parameters;
 };
 
+/// stribeck_friction: its v0 over its vs; friction is taken to flip far below the speed by which it falls.
+inline constexpr double k_stribeck_v0 = 0.03;
+
 /// True when own coefficients make sense for the mechanism: friction resists, mass is positive, static friction exceeds sliding.
 /// A fit that needs the opposite is another mechanism in disguise.
 [[nodiscard]] bool makes_sense(const Mechanism& mechanism, const double* own, std::size_t count);
@@ -56,6 +59,10 @@ struct Mechanism {
 [[nodiscard]] const std::vector<Mechanism>& mechanisms();
 /// Position in `mechanisms()`; -1 when there is none of that name.
 [[nodiscard]] int find_mechanism(const std::string& name);
+
+/// Volume that the diamond point had removed since it was new, mm³, shape [rows], from the columns removed_mm3 (which must be there) and
+/// bur_id. `carried`: it goes on where a session begins to count anew with the same point.
+[[nodiscard]] Series removed_since_new_mm3(const Scene& scene, bool carried);
 
 // Families, one file each.
 [[nodiscard]] std::vector<Mechanism> sensor_mechanisms();    ///< bias drift gain_error cross_talk delay low_pass saturation gravity_posture inertia

@@ -8,27 +8,50 @@
 namespace cavum::explain {
 namespace {
 
+using Parameters = std::vector<std::pair<std::string, double>>;
+
+/// Numbers of a cause that stand in its shape and not among its parameters. False: no force term is that shape of it.
+bool add_shape(const std::string& name, const std::vector<double>& shape, Parameters& out) {
+  const bool second = shape.size() > 1;
+  if (name == "stribeck_friction" && !second) out.emplace_back("v0_mm_s", k_stribeck_v0 * shape[0]);
+  if (name == "series_compliance" && second && shape[1] > 0.0) out.emplace_back("whole", 1.0);
+  if (name == "chatter" && second) out.emplace_back("spinning", shape[1]);
+  if (name == "run_out" && second) out.emplace_back("rate_ratio", shape[1]);
+  if (name == "relaxation") out.emplace_back("exponent", shape[2]);
+  if (name == "run_out") out.emplace_back("by_clock", shape[0] < 0.5 ? 1.0 : 0.0);
+  if (name == "wear") out.emplace_back("carried", shape[0] < 0.5 ? 0.0 : 1.0);
+  if (name == "hysteresis") {
+    if (shape[0] > 1.5) return false;  // in air too: a friction whose direction an exam's tip does not have
+    out.emplace_back("gamma", shape[0] < 0.5 ? 0.5 : 0.0);
+  }
+  if (name == "backlash") {
+    if (shape[0] < 0.5) return false;  // a play that keeps its place in air
+    if (shape[0] == 2.0) out.emplace_back("ahead_mm", 0.0);
+    if (shape[0] == 3.0) out.emplace_back("seen", 1.0);
+  }
+  return true;
+}
+
 /// Name and parameters of the engine's force term that is this cause; empty name when it is none.
-std::pair<std::string, std::vector<std::pair<std::string, double>>> live_term(const Cause& cause) {
+std::pair<std::string, Parameters> live_term(const Cause& cause) {
   const Mechanism& m = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)];
   const std::string name = m.name;
   const TermKind* kind = find_term_kind(name);
-  if (!m.live || kind == nullptr) return {};
-  if (name == "run_out" && cause.term.shape[0] < 0.5) return {};      // phase by the clock, not by the spindle's turns
-  if (name == "relaxation" && cause.term.shape[2] != 1.0) return {};  // the engine's relaxes in proportion to X
-  std::vector<std::pair<std::string, double>> parameters;
+  Parameters known;
+  if (!m.live || kind == nullptr || !add_shape(name, cause.term.shape, known)) return {};
+  for (const auto& [parameter, interval] : cause.parameters) known.emplace_back(parameter, interval.value);
+  Parameters given;
   for (const auto& p : kind->parameters) {
-    const auto found = std::find_if(cause.parameters.begin(), cause.parameters.end(), [&](const auto& c) { return c.first == p.name; });
-    if (found == cause.parameters.end()) {
+    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == p.name; });
+    if (found == known.end()) {
       if (!p.otherwise) return {};  // the same name for another formula
       continue;
     }
-    double value = found->second.value;
-    if (name == "run_out" && p.name == std::string("phase_turns") && value < 0.0) value += 1.0;
+    const double value = p.name == std::string("phase_turns") && found->second < 0.0 ? found->second + 1.0 : found->second;
     if (value < p.low || value > p.high) return {};
-    parameters.emplace_back(p.name, value);
+    given.emplace_back(p.name, value);
   }
-  return {name, parameters};
+  return {name, given};
 }
 
 void write(std::ostream& out, const char* key, const std::vector<double>& values) {
@@ -47,6 +70,11 @@ std::string material_of(const ForceModel& model) {
 }
 
 std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
+  std::size_t terms = start.term_values.size();
+  for (const auto& cause : e.causes) terms += !live_term(cause).first.empty();
+  if (terms > k_max_terms)
+    throw Error("force model '" + start.name + "'",
+                "would have " + std::to_string(terms) + " terms, " + std::to_string(k_max_terms) + " are the most", "leave out the smallest");
   std::ostringstream out;
   out.precision(17);
   out << "# Written by `cavum explain`: verdict " << e.verdict << ".\nname = \""
@@ -65,6 +93,7 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
     write(out, "shape", m.shape);
     write(out, "values", m.values);
   };
+  for (const auto& t : start.term_values) out << "\n# kept from the model that was given\n" << force_term_toml(t.kind, t.parameters);
   for (const auto& m : start.measurement) effect(m, "kept from the model that was given");
   Eigen::Index at = 2;
   for (const auto& cause : e.causes) {
@@ -72,54 +101,14 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
     std::vector<double> own;
     const auto count = static_cast<Eigen::Index>(m.columns(e.after->scene, cause.term.shape).own.size());
     for (Eigen::Index i = 0; i < count; ++i) own.push_back(e.after->base_fit.value[at++]);
-    if (const auto [name, parameters] = live_term(cause); !name.empty())
-      out << "\n# " << m.equation << ": felt in an exam too\n" << force_term_toml(name, parameters);
-    else
-      effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");
+    const auto [name, parameters] = live_term(cause);
+    if (!name.empty()) out << "\n# " << m.equation << ": felt in an exam too\n" << force_term_toml(name, parameters);
+    const bool own_phases = (name == "run_out" || name == "chatter") && own.size() > 2;
+    if (own_phases)
+      effect({m.name, cause.term.shape, own}, "the same in this recording, each session with its phase: explain goes by this, an exam by the term");
+    if (name.empty()) effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");
   }
   return out.str();
-}
-
-Series added_force_n(const ForceModel& model, const std::string& material, const Recording& r, const std::string& where) {
-  Series out = Series::Zero(r.rows());
-  if (model.terms.empty() && model.measurement.empty()) return out;
-  const auto found = model.materials.find(material);
-  if (found == model.materials.end()) throw Error(where, "has no material '" + material + "'", "name one of its materials with --material");
-  const Viscoelastic tissue = found->second.voigt;
-  const Motion motion = estimate_motion(r);
-  const Scene scene = make_scene(r, motion, {tissue.stiffness_n_per_mm, tissue.damping_n_s_per_mm}, 0.0, 0.0);
-  const Series* rpm = r.column("spindle_rpm");
-  std::vector<TermMemory> memory(model.terms.size());
-  for (const auto& rows : r.sessions) {
-    std::fill(memory.begin(), memory.end(), TermMemory{});
-    for (Eigen::Index i = rows.begin; i < rows.end && !model.terms.empty(); ++i) {
-      TermInput in;
-      in.touching = motion.x_mm[i] > 0.0;
-      in.penetration_mm = std::max(0.0, motion.x_mm[i]);
-      in.approach_mm_s = motion.v_mm_s[i];
-      in.stiffness_n_per_mm = tissue.stiffness_n_per_mm;
-      in.damping_n_s_per_mm = tissue.damping_n_s_per_mm;
-      in.rpm = rpm != nullptr ? (*rpm)[i] : 1.0;  // without that column the tool is taken to spin
-      in.tick = i - rows.begin;
-      in.dt_s = i > rows.begin ? scene.dt_s[i - 1] : 0.0;
-      out[i] += force_along_feed_n(model.terms, in, memory) - voigt_force_n(tissue, in.penetration_mm, in.approach_mm_s);
-    }
-  }
-  for (const auto& effect : model.measurement) {
-    const int at = find_mechanism(effect.kind);
-    if (at < 0) throw Error(where, "measurement effect '" + effect.kind + "' is unknown", "remove it, or correct its kind");
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(at)];
-    const bool lacks = m.grid(scene).empty() && effect.kind != "chatter";
-    if (lacks || m.shape.size() != effect.shape.size())
-      throw Error(where, "measurement effect '" + effect.kind + "' does not fit this recording", "remove it, or add the column that it needs");
-    const Columns c = m.columns(scene, effect.shape);
-    if (c.own.size() != effect.values.size())
-      throw Error(where, "measurement effect '" + effect.kind + "' has the wrong number of values", "explain again with --model-out");
-    for (std::size_t i = 0; i < c.own.size(); ++i) out += effect.values[i] * c.own[i];
-    if (c.spring.size() > 0) out += tissue.stiffness_n_per_mm * c.spring;
-    if (c.damper.size() > 0) out += tissue.damping_n_s_per_mm * c.damper;
-  }
-  return out;
 }
 
 }  // namespace cavum::explain

@@ -1,19 +1,16 @@
 // What was found, as a force model: a TOML file that exam and rigs load, and `explain --model` takes off the measured force
-// before it looks for more.
+// before it looks for more (added_force.h).
 #pragma once
 
+#include "engine/explain/added_force.h"
 #include "engine/explain/explain.h"
 #include "engine/force/force_model.h"
 
 namespace cavum::explain {
 
 /// `start` with k and c of all tissues that resist replaced by the fitted ones, and the causes added: those that act in a live
-/// exam as [[terms]], the others as [[measurement]]. Text of the file.
+/// exam as [[terms]], the others as [[measurement]]; terms of `start` are kept. Text of the file. Throws Error beyond k_max_terms.
 [[nodiscard]] std::string extended_model_toml(const Explanation& explanation, const ForceModel& start);
-
-/// Force that the terms and measurement effects of `model` add to its Voigt law on the recorded motion, N, shape [rows]. k and c
-/// are those of `material`. Throws Error(where, ...) on an unknown material or measurement effect, or one these data lack a column for.
-[[nodiscard]] Series added_force_n(const ForceModel& model, const std::string& material, const Recording& recording, const std::string& where);
 
 /// "dentin" when the model has it, else the first tissue that resists.
 [[nodiscard]] std::string material_of(const ForceModel& model);

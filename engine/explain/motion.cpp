@@ -216,6 +216,13 @@ Motion estimated(const Recording& r, bool sharp) {
   Motion out;
   const Eigen::Index n = r.rows();
   for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
+  if (r.exact_motion) {
+    out.x_mm = r.x_mm;
+    out.v_mm_s = r.v_mm_s;
+    for (const auto& rows : r.sessions)
+      for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) out.a_mm_s2[i] = (r.v_mm_s[i] - r.v_mm_s[i - 1]) / (r.t_s[i] - r.t_s[i - 1]);
+    return out;
+  }
   out.quantum_mm = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
   if (r.v_mm_s.size() > 0) out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
   const bool recedes = surface_recedes(r);

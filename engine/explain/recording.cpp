@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/base/toml_reader.h"
+#include "engine/explain/layers.h"
 
 namespace cavum::explain {
 namespace {
@@ -73,7 +74,7 @@ const Series* Recording::column(const std::string& name) const {
   return nullptr;
 }
 
-Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names) {
+Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names, bool with_position) {
   Recording out;
   std::map<std::string, std::string> ours;  // name in the file → name of the contract
   for (const auto& [contract, theirs] : names) ours[theirs] = contract;
@@ -105,7 +106,7 @@ Recording parse_recording(const std::string& csv, const std::string& where, cons
       for (const auto& [contract, theirs] : names)
         if (!seen.contains(contract)) throw Error(at, "there is no column '" + one_line(theirs) + "'", "name a column of the header with --column");
       for (const char* required : {"t_s", "x_mm", "f_n"})
-        if (!seen.contains(required))
+        if (!seen.contains(required) && (with_position || required != std::string_view("x_mm")))
           throw Error(at, std::string("there is no column '") + required + "'",
                       std::string("rename it in the file, or use --column ") + required + "=NAME");
       continue;
@@ -190,6 +191,7 @@ Recording read_recording(const std::string& path, const std::string& rig_path, c
     out.rig = parse_rig(read_text_file(beside), beside);
   else
     out.notes.push_back("no rig.toml beside the recording: k, c and the quanta are found from the data");
+  set_layers(out);
   return out;
 }
 

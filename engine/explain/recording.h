@@ -35,6 +35,8 @@ struct Recording {
   Series v_mm_s;                                        ///< measured speed; empty when there is none
   std::vector<std::pair<std::string, Series>> columns;  ///< all others in the order of the file; words are numbered in order of appearance
   Rig rig;
+  Series relative_k, relative_c;   ///< k and c of the tissue touched over those of the reference, row by row, > 0 or 0; empty = 1 everywhere
+  bool exact_motion = false;       ///< x and v come from the engine itself: nothing to estimate or to check
   bool specimens = false;          ///< sessions are different specimens, brought to a common scale (specimens.h)
   std::vector<std::string> notes;  ///< what was assumed while reading, in words
 
@@ -47,11 +49,13 @@ struct Recording {
 using ColumnNames = std::map<std::string, std::string>;
 
 /// Parses the CSV. A header line with names; `#` lines are skipped. Missing values of optional columns repeat the last one.
-/// Throws Error(where:line, ...) when a required column is missing, or a required value is no finite number.
-[[nodiscard]] Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names = {});
+/// Throws Error(where:line, ...) when a required column is missing, or a required value is no finite number. `with_position` false: a force
+/// over time, which needs no x_mm.
+[[nodiscard]] Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names = {}, bool with_position = true);
 /// Throws Error(where:line:column, ...) on unknown keys or values out of range.
 [[nodiscard]] Rig parse_rig(const std::string& toml, const std::string& where);
-/// CSV at `path` with rig.toml in the same folder (or at `rig_path`). Without a rig.toml everything is found from the data, and a note says so.
+/// CSV at `path` with rig.toml in the same folder (or at `rig_path`). Without a rig.toml everything is found from the data, and a
+/// note says so. Layers get their own k and c (layers.h).
 [[nodiscard]] Recording read_recording(const std::string& path, const std::string& rig_path = "", const ColumnNames& names = {});
 
 }  // namespace cavum::explain

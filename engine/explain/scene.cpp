@@ -21,24 +21,26 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
   s.dt_s = intervals_s(recording);
   const Eigen::Index n = recording.rows();
   for (Series* a : {&s.touching, &s.active, &s.spring_mm, &s.damper_mm_s, &s.force_n, &s.spinning, &s.weight}) *a = Series::Zero(n);
-  const Viscoelastic tissue{base.k_n_per_mm, base.c_n_s_per_mm};
   // noise of correlation rho, summed over many rows, is that of independent rows times (1 + rho)/(1 - rho)
   const double lasting = recording.rows() > 0 ? k_lasting_s / std::max(1e-6, s.dt_s.mean()) : 1.0;
   const double noise2 = noise_sd_n * noise_sd_n * std::max(1.0, (1.0 + rho) / (1.0 - rho)) / std::max(1.0, lasting);
   for (Eigen::Index i = 0; i < n; ++i) {
+    const double rk = recording.relative_k.size() > 0 ? recording.relative_k[i] : 1.0;
+    const double rc = recording.relative_c.size() > 0 ? recording.relative_c[i] : 1.0;
+    const double k = rk * base.k_n_per_mm, c = rc * base.c_n_s_per_mm;
     const double x = motion.x_mm[i], v = motion.v_mm_s[i], sx = motion.sd_x_mm[i], sv = motion.sd_v_mm_s[i];
     // away from the surface this is 0 or 1; the width of 1e-5 mm stands for positions without error
     const double p = normal_cdf(x / (sx + 1e-5));
     s.touching[i] = p;
-    const double pressed = base.k_n_per_mm * x + base.c_n_s_per_mm * v;
-    const double slope = std::hypot(base.k_n_per_mm * sx, base.c_n_s_per_mm * sv);
+    const double pressed = k * x + c * v;
+    const double slope = std::hypot(k * sx, c * sv);
     const double on = base.k_n_per_mm <= 0.0 || pressed > 0.0 ? 1.0 : 0.0;
     s.active[i] = p * on;
-    s.spring_mm[i] = x * s.active[i];
-    s.damper_mm_s[i] = v * s.active[i];
-    s.force_n[i] = p * voigt_force_n(tissue, std::max(x, 1e-300), v);
+    s.spring_mm[i] = rk * x * s.active[i];
+    s.damper_mm_s[i] = rc * v * s.active[i];
+    s.force_n[i] = p * voigt_force_n({k, c}, std::max(x, 1e-300), v);
     // error of the base force: through X and V while in contact, and the step by c V where contact itself is in doubt
-    const double jump2 = p * (1.0 - p) * base.c_n_s_per_mm * base.c_n_s_per_mm * v * v;
+    const double jump2 = p * (1.0 - p) * c * c * v * v;
     const double error2 = s.active[i] * slope * slope + jump2;
     s.weight[i] = noise2 > 0.0 ? noise2 / (noise2 + error2) : 1.0;
     // pressed down to zero while still in contact: whether another force would show there depends on what "never pulls" includes

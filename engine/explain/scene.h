@@ -20,8 +20,8 @@ struct Scene {
   Series dt_s;
   Series touching;               ///< 0..1: probability that X > 0, given the uncertainty of X
   Series active;                 ///< touching, and the base force is above zero (not clipped by "never pulls")
-  Series spring_mm;              ///< X · active: the column of k
-  Series damper_mm_s;            ///< V · active: the column of c
+  Series spring_mm;              ///< X · active (times relative_k): the column of k
+  Series damper_mm_s;            ///< V · active (times relative_c): the column of c
   Series force_n;                ///< base force F_sim
   Series spinning;               ///< 1 where spindle_rpm > 0; all 0 without that column
   Series weight;                 ///< 0..1: less where the position leaves the base force uncertain, and near contact transitions

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/explain/mechanism.h"
+#include "engine/force/term_laws.h"
 
 namespace cavum::explain {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-constexpr double k_radians = 3.14159265358979323846 / 180.0;
+constexpr double k_radians = k_pi / 180.0;
+constexpr double k_rest_mm_s = 1e-4;  // speeds below are taken for rest: |V|^n is infinitely steep there when n < 1
 
 double deepest_mm(const Scene& s) { return std::max(1e-6, s.spring_mm.maxCoeff()); }
 
@@ -20,12 +22,15 @@ Grid points(std::initializer_list<double> values, double unit = 1.0) {
   return g;
 }
 
-/// x^m of the penetration, in mm, where the base acts.
-Series power(const Series& x_mm, double m) { return (x_mm.max(1e-12).log() * m).exp(); }
+/// `law` of each value, by the engine.
+template <class Law>
+Series each(const Series& values, const Law& law) {
+  return values.unaryExpr([&](double v) { return law(v); });
+}
 
 /// z' = d(X^m)/dt − z/tau while in contact, 0 in air; exact for a constant rate within a row. m = 1: z' = V − z/tau.
 Series relaxing_mm(const Scene& s, double tau_s, double m) {
-  const auto stretch = [m](double x_mm) { return m == 1.0 ? x_mm : std::pow(x_mm, m); };
+  const auto stretch = [m](double x_mm) { return m == 1.0 ? x_mm : det_pow(x_mm, m); };
   Series out(s.force_n.size());
   for (const auto& rows : s.recording->sessions) {
     double z = 0.0;
@@ -34,8 +39,7 @@ Series relaxing_mm(const Scene& s, double tau_s, double m) {
       if (x <= 0.0) {
         z = 0.0;
       } else if (i > rows.begin) {
-        const double u = s.dt_s[i - 1] / tau_s, before = std::max(0.0, s.motion.x_mm[i - 1]);
-        z = z * std::exp(-u) + (stretch(x) - stretch(before)) * -std::expm1(-u) / u;
+        z = relaxed_mm(z, stretch(x) - stretch(std::max(0.0, s.motion.x_mm[i - 1])), s.dt_s[i - 1] / tau_s);
       }
       out[i] = z;
     }
@@ -62,9 +66,11 @@ Grid relaxation_grid(const Scene& s) {
 
 /// Shape {variant}: the part that turns is 0 the whole base force, 1 a force of its own while in contact.
 Columns anisotropy_columns(const Scene& s, const Shape& p) {
-  const Series angle = *s.recording->column("approach_deg") * (2.0 * k_radians);
+  const Series& angle = *s.recording->column("approach_deg");
   const Series what = p[0] < 0.5 ? s.force_n : s.active;
-  return {{what * angle.cos(), what * angle.sin()}, {}, {}};
+  return {{what * each(angle, [](double deg) { return twice_angle(deg).cos; }), what * each(angle, [](double deg) { return twice_angle(deg).sin; })},
+          {},
+          {}};
 }
 
 }  // namespace
@@ -81,8 +87,7 @@ std::vector<Mechanism> tissue_mechanisms() {
                  return points({0.5, 1.5, 5.0, 20.0}, std::max(1e-6, s.force_n.maxCoeff()));
                },
                [](const Scene& s, const Shape& p) {
-                 const Series f = s.base.k_n_per_mm * s.spring_mm / p[0];
-                 return Columns{{}, -s.spring_mm * f / (1.0 + f), {}};
+                 return Columns{{}, each(s.spring_mm, [&](double x) { return softened_mm(x, s.base.k_n_per_mm, p[0]); }), {}};
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"softening_force_n", p[0]}};
@@ -97,7 +102,7 @@ std::vector<Mechanism> tissue_mechanisms() {
                  return points({0.5, 0.7, 0.85, 0.95, 1.05, 1.2, 1.5, 2.0, 2.7, 3.5});
                },
                [](const Scene& s, const Shape& p) {
-                 return Columns{{}, power(s.spring_mm, p[0]) * (s.spring_mm > 0.0).cast<double>() - s.spring_mm, {}};
+                 return Columns{{}, each(s.spring_mm, [&](double x) { return power_beyond_mm(x, p[0]); }), {}};
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"m", p[0]}};
@@ -109,10 +114,13 @@ std::vector<Mechanism> tissue_mechanisms() {
                true,
                {{"d0_mm", 1e-4, 100, false, true}},
                [](const Scene& s) {
-                 return points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+                 Grid g = points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+                 for (const double known : s.recording->rig.layer_depths_mm)
+                   if (known > 0.0 && known < deepest_mm(s)) g.push_back({known});
+                 return g;
                },
                [](const Scene& s, const Shape& p) {
-                 return Columns{{(s.motion.x_mm - p[0]).max(0.0) * s.active}, {}, {}};
+                 return Columns{{each(s.motion.x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
                },
                [](const Shape& p, const Shape& own, Base) {
                  return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
@@ -125,7 +133,7 @@ std::vector<Mechanism> tissue_mechanisms() {
                {},
                [](const Scene&) { return Grid{{}}; },
                [](const Scene& s, const Shape&) {
-                 return Columns{{s.spring_mm * s.spring_mm}, {}, {}};
+                 return Columns{{each(s.spring_mm, [](double x) { return graded_n(1.0, -1.0, x); })}, {}, {}};
                },
                [](const Shape&, const Shape& own, Base b) {
                  return std::vector<NamedValue>{{"alpha_per_mm", -own[0] / b.k_n_per_mm}};
@@ -171,7 +179,10 @@ std::vector<Mechanism> tissue_mechanisms() {
                  return points({0.15, 0.35, 0.55, 0.75, 0.9, 1.15, 1.5, 2.0});
                },
                [](const Scene& s, const Shape& p) {
-                 return Columns{{}, {}, s.damper_mm_s * (power(s.motion.v_mm_s.abs() + 1e-4, p[0] - 1.0) - 1.0)};
+                 return Columns{{}, {}, each(s.motion.v_mm_s, [&](double v) {
+                                          const double size = std::hypot(v, k_rest_mm_s);
+                                          return v / size * feed_beyond_mm_s(size, p[0]);
+                                        }) * s.active};
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"n", p[0]}};

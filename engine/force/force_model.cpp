@@ -56,6 +56,10 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     for (const auto& node : *terms) {
       if (!node.is_table()) in.fail("terms", "hold something that is not a table", "write [[terms]] with kind = \"…\" for each");
       model.terms.push_back(read_force_term(*node.as_table(), where));
+      TermValues values{node.as_table()->get("kind")->value_or(std::string()), {}};
+      for (const auto& p : find_term_kind(values.kind)->parameters)
+        if (const auto* given = node.as_table()->get(p.name)) values.parameters.emplace_back(p.name, given->value_or(0.0));
+      model.term_values.push_back(std::move(values));
     }
   }
   if (const auto* effects = in.array("measurement"))

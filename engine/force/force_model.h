@@ -25,12 +25,19 @@ struct MeasurementEffect {
   std::vector<double> values;  ///< its coefficients, in order
 };
 
+/// A force term as the file gives it, for writing it again.
+struct TermValues {
+  std::string kind;
+  std::vector<std::pair<std::string, double>> parameters;  ///< those that were given
+};
+
 struct ForceModel {
   std::string name;
   double rpm_ref = 200000.0;  ///< speed of the handpiece that τ holds for; recession is proportional to speed
   RenderingModel rendering;
   std::map<std::string, Material, std::less<>> materials;  ///< by tissue name
   ForceTerms terms;                                        ///< [[terms]] in the order of the file; shared by copies, constant
+  std::vector<TermValues> term_values;                     ///< of `terms`, in the same order
   std::vector<MeasurementEffect> measurement;              ///< [[measurement]]
 };
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/base/det_math.h"
+
 namespace cavum {
 
 /// What a term may look at in one tick. Terms add up; none sees another.
@@ -19,7 +21,15 @@ struct TermInput {
   double voigt_n = 0.0;             ///< voigt_force_n of the above
   double rpm = 0.0;                 ///< of the handpiece
   std::int64_t tick = 0;
-  double dt_s = 0.0;  ///< since the last evaluation
+  double dt_s = 0.0;            ///< since the last evaluation; 0: the first one of a recording, which may begin in contact
+  double time_s = 0.0;          ///< since the start of the exam or of the recording
+  double wet = 0.0;             ///< 0 dry … 1 water on. Servo: the spray runs while the handpiece turns
+  double removed_mm3 = 0.0;     ///< by the mounted point since it was new. Servo: every point is new at the start
+  double removed_on_mm3 = 0.0;  ///< the same, where a recording counts anew in each session though the point stayed; else equal
+  SinCos approach{};      ///< of 2φ, φ the angle of approach: of the contact normal from the tooth's z towards x, 0 = from above. Servo: shorter
+                          ///< than 1 as the normal leaves that plane
+  double warmer_k = 0.0;  ///< tissue above its first temperature, where it was measured
+  bool warmth_known = false;  ///< false: a term that needs it goes by a law of its own
 };
 
 /// What a term adds.
@@ -38,6 +48,8 @@ class ForceTerm {
   /// A function of its two arguments alone, by + - * / and sqrt (det_math.h for more). The servo may try it on copies of
   /// the memory with other speeds before the call that counts. A drag must not fall below 0 at positive speed.
   [[nodiscard]] virtual TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept = 0;
+  /// True when it looks at `removed_mm3`: the servo then counts, and the count is part of its state.
+  [[nodiscard]] virtual bool counts_removed() const noexcept { return false; }
 };
 
 }  // namespace cavum

@@ -56,6 +56,13 @@ double force_along_feed_n(const ForceTerms& terms, TermInput in, std::span<TermM
   return voigt_force_n(tissue, x, v, f.tissue_n) + f.drag_n;
 }
 
+TermsState make_terms_state(const ForceTerms& terms) noexcept {
+  TermsState s;
+  s.count = terms.size();
+  s.counts_removed = std::any_of(terms.begin(), terms.end(), [](const ForceTermPtr& t) { return t->counts_removed(); });
+  return s;
+}
+
 TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering, TermInput in, Vec3 moved_mm, TermsState& state) noexcept {
   TermsForce out;
   if (terms.empty()) return out;
@@ -77,7 +84,8 @@ TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering,
 std::uint64_t hash_of(const TermsState& s, std::uint64_t seed) noexcept {
   if (s.count == 0) return seed;
   const std::array<double, 6> motion{s.velocity_mm_s.x, s.velocity_mm_s.y, s.velocity_mm_s.z, s.stretch_n.x, s.stretch_n.y, s.stretch_n.z};
-  return fast_hash(s.memory.data(), s.count * sizeof(TermMemory), fast_hash(motion.data(), sizeof motion, seed));
+  seed = fast_hash(s.memory.data(), s.count * sizeof(TermMemory), fast_hash(motion.data(), sizeof motion, seed));
+  return s.counts_removed ? fast_hash(s.removed_leaves.data(), sizeof s.removed_leaves, seed) : seed;
 }
 
 }  // namespace cavum

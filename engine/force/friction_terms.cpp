@@ -1,14 +1,13 @@
 #include "engine/force/friction_terms.h"
 
-#include "engine/base/det_math.h"
+#include "engine/force/term_laws.h"
 
 namespace cavum {
 
 TermForce ViscousFriction::evaluate(const TermInput& in, TermMemory&) const noexcept { return {0.0, b_ * in.speed_mm_s}; }
 
 TermForce StribeckFriction::evaluate(const TermInput& in, TermMemory&) const noexcept {
-  const double u = in.speed_mm_s / vs_mm_s_;
-  return {0.0, (fc_n_ + (fs_n_ - fc_n_) * det_exp(-u * u)) * det_tanh(in.speed_mm_s / v0_mm_s_)};
+  return {0.0, (fc_n_ + (fs_n_ - fc_n_) * static_share(in.speed_mm_s, vs_mm_s_)) * sliding_share(in.speed_mm_s, v0_mm_s_)};
 }
 
 const TermKind k_viscous_friction{"viscous_friction", {{"b_n_s_per_mm", 0, 100, {}}}, [](const std::vector<double>& p) -> ForceTermPtr {

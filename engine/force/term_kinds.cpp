@@ -4,7 +4,9 @@
 #include <sstream>
 
 #include "engine/force/coulomb_friction.h"
+#include "engine/force/cutting_terms.h"
 #include "engine/force/friction_terms.h"
+#include "engine/force/loop_terms.h"
 #include "engine/force/run_out.h"
 #include "engine/force/series_compliance.h"
 #include "engine/force/tissue_terms.h"
@@ -28,8 +30,24 @@ std::string all_kinds() {
 
 const std::vector<const TermKind*>& term_kinds() {
   static const std::vector<const TermKind*> kinds{
-      &k_coulomb_friction, &k_series_compliance,   &k_run_out,        &k_viscous_friction, &k_stribeck_friction, &k_hidden_layer,
-      &k_graded_stiffness, &k_nonlinear_stiffness, &k_feed_power_law, &k_relaxation,       &k_edge_force,
+      &k_coulomb_friction,
+      &k_series_compliance,
+      &k_run_out,
+      &k_viscous_friction,
+      &k_stribeck_friction,
+      &k_hidden_layer,
+      &k_graded_stiffness,
+      &k_nonlinear_stiffness,
+      &k_feed_power_law,
+      &k_relaxation,
+      &k_edge_force,
+      &k_anisotropy,
+      &k_hysteresis,
+      &k_backlash,
+      &k_wear,
+      &k_chatter,
+      &k_coolant,
+      &k_thermal_softening,
   };
   return kinds;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/force/term_kinds.h"
+#include "engine/force/term_laws.h"
 
 namespace cavum {
 
@@ -46,15 +47,17 @@ class FeedPowerLaw final : public ForceTerm {
   double n_;
 };
 
-/// One or two Maxwell branches beside the Voigt law: Σ k_i ∫ e^(−(t−s)/τ_i) V ds since contact began. k_i in N/mm, τ_i in s.
+/// One or two Maxwell branches beside the Voigt law: Σ k_i ∫ e^(−(t−s)/τ_i) d(X^m) since contact began. k_i in N/mm, τ_i in s; m = 1, or
+/// the power of X by which the elastic force of a soft specimen grows (X in mm).
 class Relaxation final : public ForceTerm {
  public:
-  Relaxation(double k1_n_per_mm, double tau1_s, double k2_n_per_mm, double tau2_s) : k_n_per_mm_{k1_n_per_mm, k2_n_per_mm}, tau_s_{tau1_s, tau2_s} {}
-  /// memory[0], [1]: stretch of the branches, mm; memory[2]: X of the tick before, mm.
+  Relaxation(double k1_n_per_mm, double tau1_s, double k2_n_per_mm, double tau2_s, double exponent = 1.0)
+      : k_n_per_mm_{k1_n_per_mm, k2_n_per_mm}, tau_s_{tau1_s, tau2_s}, exponent_(exponent) {}
+  /// memory[0], [1]: stretch of the branches, mm; memory[2]: X^m of the tick before.
   [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override;
 
  private:
-  double k_n_per_mm_[2], tau_s_[2];
+  double k_n_per_mm_[2], tau_s_[2], exponent_;
 };
 
 /// A constant force of the cutting edges while in contact and spinning, N.
@@ -67,11 +70,25 @@ class EdgeForce final : public ForceTerm {
   double edge_n_;
 };
 
+/// Tissue with a grain (tubules, prisms): (ε F + A) cos 2(φ − φ0) in contact, F the Voigt force, φ the angle of approach. It is
+/// stiffest from φ0 and softest across it.
+class Anisotropy final : public ForceTerm {
+ public:
+  /// ε: part of the force, -1 … 1; A: a force of its own, N; φ0 in degrees.
+  Anisotropy(double epsilon, double amplitude_n, double phi0_deg) : epsilon_(epsilon), amplitude_n_(amplitude_n), phi0_(twice_angle(phi0_deg)) {}
+  [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override;
+
+ private:
+  double epsilon_, amplitude_n_;
+  SinCos phi0_;
+};
+
 extern const TermKind k_hidden_layer;
 extern const TermKind k_graded_stiffness;
 extern const TermKind k_nonlinear_stiffness;
 extern const TermKind k_feed_power_law;
 extern const TermKind k_relaxation;
 extern const TermKind k_edge_force;
+extern const TermKind k_anisotropy;
 
 }  // namespace cavum

@@ -37,6 +37,9 @@ double next_rpm(const ServoConfig& config, double rpm, const TickInput& input) n
   return wanted == 0.0 && rpm < k_still_share * config.max_rpm ? 0.0 : rpm;
 }
 
+/// Sine and cosine of twice the angle from z towards x, times the square of the normal's part in that plane: no jump where it leaves it.
+SinCos approach_of(Vec3 normal) noexcept { return {2.0 * normal.x * normal.z, normal.z * normal.z - normal.x * normal.x}; }
+
 /// Goes on with the carve under way.
 void carve(const ServoModel& model, ServoState& state, int work, TickOutput& out) noexcept {
   const auto& head = model.tray[static_cast<std::size_t>(state.carving.now.point)].point;
@@ -150,7 +153,7 @@ ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 fi
   state.followed_edit = state.tooth.edit_hash();
   state.estimate = make_tip_estimate(make_tick_input({first_tip_mm, {}}, 0.0, 0, 0, {}).tip_nm);
   state.last_tip_mm = first_tip_mm;
-  state.terms.count = model.force.terms.size();
+  state.terms = make_terms_state(model.force.terms);
   state.removed.reserve(k_removed_room);
   return state;
 }
@@ -197,6 +200,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     out.model_force_n = voigt_force_n(tissue, penetration, state.render.speed_mm_s);
     TermsForce terms;
     if (!model.force.terms.empty()) {
+      const double removed_mm3 = state.terms.removed_leaves[input.point] * state.tooth.leaf_volume_mm3();
       const TermInput seen{.touching = contact.touching,
                            .penetration_mm = penetration,
                            .approach_mm_s = state.render.speed_mm_s,
@@ -205,7 +209,12 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
                            .voigt_n = out.model_force_n,
                            .rpm = state.rpm,
                            .tick = state.tick,
-                           .dt_s = dt};
+                           .dt_s = dt,
+                           .time_s = static_cast<double>(state.tick) * dt,
+                           .wet = state.rpm > 0.0 ? 1.0 : 0.0,
+                           .removed_mm3 = removed_mm3,
+                           .removed_on_mm3 = removed_mm3,
+                           .approach = contact.touching ? approach_of(contact.normal) : SinCos{}};
       terms = apply_terms(model.force.terms, model.force.rendering, seen, device.tip_mm - state.last_tip_mm, state.terms);
       out.model_force_n = voigt_force_n(tissue, penetration, state.render.speed_mm_s, terms.tissue_n);
       if (contact.touching) out.model_force_n += dot(terms.drag_n, contact.normal);
@@ -217,6 +226,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
                               fastest_mm_s(state.estimate, contact.normal, state.tick, model.config.position_quantum_mm, dt));
     if (state.rpm < k_still_share * model.config.max_rpm || state.carving.now.point != input.point) drop_carving(state.carving);
     if (state.rpm >= k_still_share * model.config.max_rpm) cut(model, state, tool, contact, means, penetration, input.point, out);
+    if (state.terms.counts_removed) state.terms.removed_leaves[input.point] += static_cast<std::uint32_t>(state.removed.size());
     state.last_tip_mm = device.tip_mm;
     out.contact = contact.touching;
     out.penetration_mm = penetration;

@@ -1,0 +1,57 @@
+// `cavum explain` as a user runs it, on the data that ship.
+#include "tests/ui/program.h"
+
+namespace cavum {
+namespace {
+
+const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data/";
+
+class ExplainVerbs : public testing_ui::Program {};
+
+TEST_F(ExplainVerbs, TheTableOfFig6IsAnAliasAndItsReportSaysWhy) {
+  const auto j = run_json("explain " + k_data + "measured/fig6/fig6.csv --out " + path("fig6.html"));
+  EXPECT_EQ(j["verdict"], "alias");
+  EXPECT_FALSE(j["next_experiment"].get<std::string>().empty());
+  const std::string page = read_text_file(path("fig6.html"));
+  for (const char* part : {"<svg", "has no intercept", "cannot be told apart", "The next experiment"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("http://", page.find("</head>")), page.find("http://www.w3.org/2000/svg")) << "self-contained";
+  expect_refused("explain " + k_data + "measured/fig6/fig6.csv --model-out " + path("m.toml"), {"table of means"});
+}
+
+TEST_F(ExplainVerbs, TheModelOfTheHuntIsLoadedByRigExamAndExplain) {
+  const std::string recording = k_data + "measured/hunt/recording.csv", model = path("found.toml");
+  const auto found = run_json("explain " + recording + " --seed 3 --model-out " + model + " --out " + path("hunt.html"));
+  ASSERT_EQ(found["verdict"], "named");
+  EXPECT_EQ(run_json("explain " + recording + " --seed 3"), found) << "the same seed gives the same answer";
+  const std::string page = read_text_file(path("hunt.html"));
+  for (const char* part : {"Measured against simulated", "The residual against each suspect", "What these data cannot tell", "The next experiment"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+
+  EXPECT_EQ(run_json("explain " + recording + " --model " + model)["verdict"], "clean");
+  EXPECT_EQ(run_json("rig cube --model " + model + " --k 0.4,0.8,1.2 --runs 1")["experiment"], "cube");
+  const auto exam =
+      run("exam " + k_data + "scenarios/slot.toml --candidate x --operator expert --model " + model + " --out " + path("s.cavum") + " --quiet");
+  EXPECT_EQ(exam.exit_code, 0) << exam.err;
+  EXPECT_EQ(run("replay " + path("s.cavum") + " --verify").exit_code, 0);
+  // the session, explained: no force was measured in it, and it says so
+  const auto session = run_json("explain " + path("s.cavum"));
+  EXPECT_NE(session["notes"].dump().find("as rendered"), std::string::npos);
+}
+
+TEST_F(ExplainVerbs, ASessionTakesNoColumnsAndARecordingNoForce) {
+  expect_refused("explain " + path("none.cavum"), {"none.cavum"});
+  expect_refused("explain " + path("none.cavum") + " --column x_mm=z", {"is a session"});
+  expect_refused("explain " + k_data + "measured/hunt/recording.csv --force f.csv", {"--force", "session only"});
+}
+
+TEST_F(ExplainVerbs, ARecordingIsMadeAlongTheProtocolsMotion) {
+  ASSERT_EQ(run("explain --protocol " + path("protocol.html")).exit_code, 0);
+  ASSERT_EQ(run("rig record --motion " + path("protocol.csv") + " --sessions 1 --rate-hz 25 --csv " + path("r.csv")).exit_code, 0);
+  EXPECT_TRUE(read_text_file(path("r.csv")).starts_with("session,t_s,x_mm,f_n"));
+  EXPECT_NE(read_text_file(path("rig.toml")).find("k_n_per_mm = 0.8"), std::string::npos);
+  expect_refused("rig record --motion " + path("protocol.csv") + " --csv " + path("x/rig.toml"), {"rig.toml"});
+}
+
+}  // namespace
+}  // namespace cavum
