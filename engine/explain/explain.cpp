@@ -88,10 +88,12 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
       std::vector<Term> causes = others;
       causes.push_back(start);
       causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
-      const FitResult fitted = fit_terms(v, causes);
+      const View own_contact = without_pulling(v, causes);
+      causes = refine(own_contact, causes, 1, others.size());
+      const FitResult fitted = fit_terms(own_contact, causes);
       const auto own = m.columns(v.scene, causes.back().shape).own.size();
       if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
-      const double chi2 = penalised_chi2(v, causes);
+      const double chi2 = penalised_chi2(own_contact, causes);
       if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
     }
     if (!best.causes.empty()) out.push_back(best);
@@ -118,12 +120,12 @@ View without(const View& v, std::size_t i) {
 std::vector<std::vector<NamedValue>> named_values(const View& v, const Eigen::VectorXd& value) {
   std::vector<std::vector<NamedValue>> out;
   Eigen::Index own_at = 2, tangent_at = 2;
-  for (const auto& h : v.known) tangent_at += h.own;
+  for (const auto& h : v.known) tangent_at += h.coefficients();
   const Base base{value[0], value[1]};
   for (const auto& h : v.known) {
     const Mechanism& m = mechanisms()[static_cast<std::size_t>(h.term.mechanism)];
-    std::vector<double> own(value.data() + own_at, value.data() + own_at + h.own), shape = h.term.shape;
-    own_at += h.own;
+    std::vector<double> own(value.data() + own_at, value.data() + own_at + h.coefficients()), shape = h.term.shape;
+    own_at += h.coefficients();
     for (std::size_t s = 0; s < shape.size(); ++s) {
       if (!m.shape[s].fitted || shape[s] == 0.0 || tangent_at >= value.size()) continue;
       shape[s] = std::clamp(shape[s] + value[tangent_at++], m.shape[s].low, m.shape[s].high);
@@ -179,12 +181,12 @@ void set_parameters(Explanation& e, const Step& last) {
     for (std::size_t p = 0; p < middle[c].size(); ++p) e.causes[c].parameters.emplace_back(middle[c][p].name, interval[c][p]);
     auto others = v.causes;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
-    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].own);
+    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].coefficients());
     Eigen::Index to = 0, from = 2;
     rest[to++] = v.base_fit.value[0];
     rest[to++] = v.base_fit.value[1];
     for (std::size_t k = 0; k < v.known.size(); ++k) {
-      for (Eigen::Index i = 0; i < v.known[k].own; ++i, ++from)
+      for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
         if (k != c) rest[to++] = v.base_fit.value[from];
     }
     e.causes[c].effect_n = std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());

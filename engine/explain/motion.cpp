@@ -14,6 +14,7 @@ constexpr std::size_t k_window = 4;  // rows on each side over which the walk's 
 constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maximisation; more changed speeds by less than 1 %
 // Where a coarse encoder says nothing (within a cell) the walk's variance would stay at its first guess: a prior towards rest,
 // as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/motion_test.cpp).
+constexpr double k_steps_of_span = 4.0;  // of the encoder, for its position to be held against a measured speed
 constexpr double k_prior_weight = 0.3, k_prior_walk = 1e-3;
 
 struct State {
@@ -249,9 +250,14 @@ Motion estimated(const Recording& r, bool sharp) {
 Agreement position_over_speed(const Recording& r) {
   if (r.v_mm_s.size() == 0) return {};
   const Series* rpm = r.column("spindle_rpm");
-  double xy[2] = {0, 0}, xx[2] = {0, 0}, yy[2] = {0, 0};
+  double xy[2] = {0, 0}, xx[2] = {0, 0}, yy[2] = {0, 0}, spans = 0.0;
+  const double q = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
   for (const auto& s : r.sessions) {
-    const Eigen::Index span = std::max<Eigen::Index>(2, (s.end - s.begin) / 200);
+    // long enough for several steps of the encoder, and eight spans at least
+    double path = 0.0;
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) path += std::fabs(r.x_mm[i] - r.x_mm[i - 1]);
+    const double rows = static_cast<double>(s.end - s.begin), steps = path > 0.0 ? k_steps_of_span * q / path * rows : 0.0;
+    const auto span = static_cast<Eigen::Index>(std::max({2.0, rows / 200, std::min(steps, rows / 8)}));
     for (Eigen::Index a = s.begin; a + span < s.end; a += span) {
       double way = 0.0;
       for (Eigen::Index i = a; i < a + span; ++i) way += 0.5 * (r.v_mm_s[i] + r.v_mm_s[i + 1]) * (r.t_s[i + 1] - r.t_s[i]);
@@ -260,10 +266,15 @@ Agreement position_over_speed(const Recording& r) {
       xy[cutting] += way * moved;
       xx[cutting] += way * way;
       yy[cutting] += moved * moved;
+      spans += cutting == 0 ? 1.0 : 0.0;
     }
   }
   Agreement out;
-  if (xx[0] > 0.0 && yy[0] > 0.0) out = {xy[0] / xx[0], xy[0] / std::sqrt(xx[0] * yy[0]), 0.0};
+  if (xx[0] > 0.0 && yy[0] > 0.0) out = {xy[0] / xx[0], xy[0] / std::sqrt(xx[0] * yy[0]), 0.0, 0.0, 1.0};
+  if (const double noise2 = q * q / 6.0; xx[0] > 0.0) {  // both ends of a span are rounded
+    out.slope_sd = std::sqrt(noise2 / xx[0]);
+    out.expected_correlation = std::sqrt(xx[0] / (xx[0] + spans * noise2));
+  }
   if (xx[1] > 0.0) out.cutting_slope = xy[1] / xx[1];
   return out;
 }

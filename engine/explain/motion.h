@@ -29,8 +29,9 @@ struct Motion {
 /// How far the position moves over the integral of the measured speed: slope and correlation over short spans, those spent
 /// cutting (in contact and spinning) apart from all others. Zero where there is no such motion or no measured speed.
 struct Agreement {
-  double slope = 0, correlation = 0;  ///< not cutting
-  double cutting_slope = 0;           ///< cutting: below 1 when x_mm counts from a surface that recedes
+  double slope = 0, correlation = 0;              ///< not cutting
+  double cutting_slope = 0;                       ///< cutting: below 1 when x_mm counts from a surface that recedes
+  double slope_sd = 0, expected_correlation = 1;  ///< what the steps of the encoder leave of both
 };
 [[nodiscard]] Agreement position_over_speed(const Recording& recording);
 /// True when x_mm counts from a surface that is cut away under the tool: then the measured speed is the tip's, and no derivative of x.

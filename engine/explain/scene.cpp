@@ -13,7 +13,13 @@ double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 }  // namespace
 
-Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho) {
+void never_pull(Scene& s, const Series* pressed_n) {
+  s.active = pressed_n == nullptr ? s.touching : Series(s.touching * (*pressed_n > 0.0).cast<double>());
+  s.spring_mm = s.motion.x_mm * s.active;
+  s.damper_mm_s = s.motion.v_mm_s * s.active;
+}
+
+Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho, const Series* pressed_n) {
   Scene s;
   s.recording = &recording;
   s.motion = motion;
@@ -30,7 +36,7 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
     // away from the surface this is 0 or 1; the width of 1e-5 mm stands for positions without error
     const double p = normal_cdf(x / (sx + 1e-5));
     s.touching[i] = p;
-    const double pressed = base.k_n_per_mm * x + base.c_n_s_per_mm * v;
+    const double pressed = pressed_n != nullptr ? (*pressed_n)[i] : base.k_n_per_mm * x + base.c_n_s_per_mm * v;
     const double slope = std::hypot(base.k_n_per_mm * sx, base.c_n_s_per_mm * sv);
     const double on = base.k_n_per_mm <= 0.0 || pressed > 0.0 ? 1.0 : 0.0;
     s.active[i] = p * on;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/explain/lags.h"
 #include "engine/explain/mechanism.h"
 
 namespace cavum::explain {
@@ -57,39 +58,6 @@ Grid posture_grid(const Scene& s) {
   Grid g;
   for (const double z : zero) g.push_back({z});
   return g;
-}
-
-/// Value of `u` a time tau ago, held before the start of the session.
-Series delayed(const Scene& s, const Series& u, double tau_s) {
-  Series out(u.size());
-  const Series& t = s.recording->t_s;
-  for (const auto& rows : s.recording->sessions) {
-    Eigen::Index j = rows.begin;
-    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      const double then = t[i] - tau_s;
-      while (j + 1 < i && t[j + 1] <= then) ++j;
-      if (then <= t[rows.begin]) {
-        out[i] = u[rows.begin];
-        continue;
-      }
-      const double part = std::clamp((then - t[j]) / std::max(1e-12, t[j + 1] - t[j]), 0.0, 1.0);
-      out[i] = u[j] + part * (u[j + 1] - u[j]);
-    }
-  }
-  return out;
-}
-
-/// First-order lag y' = (u − y)/tau, u held between rows.
-Series lagged(const Scene& s, const Series& u, double tau_s) {
-  Series out(u.size());
-  for (const auto& rows : s.recording->sessions) {
-    double y = u[rows.begin];
-    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      if (i > rows.begin) y += (u[i] - y) * -std::expm1(-s.dt_s[i - 1] / tau_s);
-      out[i] = y;
-    }
-  }
-  return out;
 }
 
 /// From half a row to 0.3 s.
@@ -211,9 +179,7 @@ std::vector<Mechanism> sensor_mechanisms() {
                false,
                {{"tau_s", 2e-4, 2.0, true, true}},
                lag_grid,
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{}, delayed(s, s.spring_mm, p[0]) - s.spring_mm, delayed(s, s.damper_mm_s, p[0]) - s.damper_mm_s};
-               },
+               [](const Scene& s, const Shape& p) { return delayed(s, p[0]); },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"tau_s", p[0]}};
                }});
@@ -224,9 +190,7 @@ std::vector<Mechanism> sensor_mechanisms() {
                false,
                {{"tau_s", 2e-4, 2.0, true, true}},
                lag_grid,
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{}, lagged(s, s.spring_mm, p[0]) - s.spring_mm, lagged(s, s.damper_mm_s, p[0]) - s.damper_mm_s};
-               },
+               [](const Scene& s, const Shape& p) { return lagged(s, p[0]); },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"tau_s", p[0]}};
                }});
