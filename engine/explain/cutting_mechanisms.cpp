@@ -43,7 +43,12 @@ Series worn_mm3(const Scene& s, bool carried) {
 
 /// Sine and cosine of `turns` times `where`, a pair for each session, for a spindle starts at any angle.
 Columns line(const Scene& s, const Series& turns, const Series& where) {
-  const Series sine = (turns * k_turn).sin() * where, cosine = (turns * k_turn).cos() * where;
+  Series sine = Series::Zero(turns.size()), cosine = Series::Zero(turns.size());
+  for (Eigen::Index i = 0; i < turns.size(); ++i) {
+    if (where[i] <= 0.0) continue;
+    sine[i] = std::sin(k_turn * turns[i]) * where[i];
+    cosine[i] = std::cos(k_turn * turns[i]) * where[i];
+  }
   if (session_groups(*s.recording) == 1) return {{sine, cosine}, {}, {}};
   Columns c;
   for (const auto& rows : s.recording->sessions)

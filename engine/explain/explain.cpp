@@ -9,6 +9,7 @@
 
 #include "engine/explain/faults.h"
 #include "engine/explain/heldout.h"
+#include "engine/explain/intervals.h"
 #include "engine/explain/specimens.h"
 
 namespace cavum::explain {
@@ -116,85 +117,6 @@ View without(const View& v, std::size_t i) {
   return out;
 }
 
-/// Parameters of all causes, then k and c, from shapes and a fit with tangents (or without: tangents 0).
-std::vector<std::vector<NamedValue>> named_values(const View& v, const Eigen::VectorXd& value) {
-  std::vector<std::vector<NamedValue>> out;
-  Eigen::Index own_at = 2, tangent_at = 2;
-  for (const auto& h : v.known) tangent_at += h.coefficients();
-  const Base base{value[0], value[1]};
-  for (const auto& h : v.known) {
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(h.term.mechanism)];
-    std::vector<double> own(value.data() + own_at, value.data() + own_at + h.coefficients()), shape = h.term.shape;
-    own_at += h.coefficients();
-    for (std::size_t s = 0; s < shape.size(); ++s) {
-      if (!m.shape[s].fitted || shape[s] == 0.0 || tangent_at >= value.size()) continue;
-      shape[s] = std::clamp(shape[s] + value[tangent_at++], m.shape[s].low, m.shape[s].high);
-    }
-    out.push_back(m.parameters(shape, own, base));
-  }
-  out.push_back({{"k_n_per_mm", base.k_n_per_mm}, {"c_n_s_per_mm", base.c_n_s_per_mm}});
-  return out;
-}
-
-/// Intervals: what the noise leaves (delta method), or what the twins scatter around their truth, whichever is more.
-void set_parameters(Explanation& e, const Step& last) {
-  const View& v = last.view;
-  const FitResult f = fit(v.products, known_of(v), -1, true);
-  Eigen::VectorXd at = f.value;
-  const Eigen::VectorXd truth = [&] {  // what the twins were made with: shapes as they are
-    Eigen::VectorXd t = f.value;
-    t.head(v.base_fit.value.size()) = v.base_fit.value;
-    t.tail(t.size() - v.base_fit.value.size()).setZero();
-    return t;
-  }();
-  const auto middle = named_values(v, truth);
-  const double scale = std::max(1.0, f.chi2 / std::max(1.0, v.products.rows));
-  std::vector<std::vector<Interval>> interval(middle.size());
-  for (std::size_t c = 0; c < middle.size(); ++c)
-    for (std::size_t p = 0; p < middle[c].size(); ++p) {
-      Eigen::VectorXd slope(at.size());
-      for (Eigen::Index i = 0; i < at.size(); ++i) {
-        const double step = 1e-3 * std::sqrt(std::max(1e-30, f.covariance(i, i)));
-        Eigen::VectorXd moved = truth;
-        moved[i] += step;
-        slope[i] = (named_values(v, moved)[c][p].value - middle[c][p].value) / step;
-      }
-      double variance = scale * slope.dot(f.covariance * slope);
-      double bias = 0.0, scatter = 0.0, n = 0.0;
-      for (const auto& value : last.null.values) {
-        if (value.size() != at.size()) continue;
-        const double d = named_values(v, value)[c][p].value - middle[c][p].value;
-        bias += d;
-        scatter += d * d;
-        n += 1.0;
-      }
-      if (n > 3.0) {
-        bias /= n;
-        scatter = scatter / n - bias * bias;
-        variance = std::max(variance, scatter * n / (n - 1.0)) + bias * bias;
-      }
-      const double half = 1.96 * std::sqrt(std::max(0.0, variance)), value = middle[c][p].value;
-      interval[c].push_back({value, value - half, value + half});
-    }
-  for (std::size_t c = 0; c < e.causes.size(); ++c) {
-    e.causes[c].parameters.clear();
-    for (std::size_t p = 0; p < middle[c].size(); ++p) e.causes[c].parameters.emplace_back(middle[c][p].name, interval[c][p]);
-    auto others = v.causes;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
-    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].coefficients());
-    Eigen::Index to = 0, from = 2;
-    rest[to++] = v.base_fit.value[0];
-    rest[to++] = v.base_fit.value[1];
-    for (std::size_t k = 0; k < v.known.size(); ++k) {
-      for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
-        if (k != c) rest[to++] = v.base_fit.value[from];
-    }
-    e.causes[c].effect_n = std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
-  }
-  e.k = interval.back()[0];
-  e.c = interval.back()[1];
-}
-
 void list_not_testable(Explanation& e, const std::vector<Candidate>& candidates, const Scene& scene) {
   for (const auto& c : candidates) {
     if (c.testable) continue;
@@ -276,6 +198,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   const Recording& recording = *scaled;
   e.recording = scaled;
   e.notes = recording.notes;
+  if (options.twins == 0) e.notes.emplace_back("without twins: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
@@ -378,7 +301,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
         if (name != other && std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end()) cause.aliases.emplace_back(other);
     }
 
-  set_parameters(e, step);
+  set_parameters(e, step.view, step.null, step.judgement.inflation);
   list_not_testable(e, first.scores.candidates, first.view.scene);
   e.base = {step.view.base_fit.value[0], step.view.base_fit.value[1]};
   e.noise = step.view.noise;

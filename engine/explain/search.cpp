@@ -17,7 +17,8 @@ constexpr double k_twin_doubt = 2.0;
 constexpr double k_expected_gain = 12.0;  // of the best of a grid, or of a curve of five parameters, in noise alone
 constexpr double k_least_width = 0.35, k_least_top = 1.5;
 constexpr double k_blur_gain = 12.0;
-constexpr double k_noise_gain = 3.0;  // what the best of a mechanism's grid gains in noise alone, about
+constexpr double k_plain_trials = 200.0;  // hypotheses of the grids and curves, about
+constexpr double k_noise_gain = 3.0;      // what the best of a mechanism's grid gains in noise alone, about
 
 std::vector<const Hypothesis*> known_of(const View& v) {
   std::vector<const Hypothesis*> out;
@@ -161,6 +162,14 @@ Judgement judge(const Scores& data, const Null& null) {
   std::vector<double> largest(n, -1e300);
   Judgement j;
   double gained = 0.0;
+  if (n == 0) {  // the plain rule: as if noise alone could gain anything, times the number of things that are tried
+    for (std::size_t e = 0; e < entries; ++e) {
+      const double gain = e < mechanisms_n ? data.candidates[e].raw_gain : data.structures[e - mechanisms_n].raw_gain;
+      j.z.push_back(gain / k_noise_gain);
+      j.p_value.push_back(std::min(1.0, k_plain_trials * std::exp(-0.5 * std::max(0.0, gain))));
+    }
+    return j;
+  }
   for (std::size_t e = 0; e < entries; ++e) {
     std::vector<double> twins(n);
     for (std::size_t t = 0; t < n; ++t) twins[t] = gain_in(null.twins[t], e);

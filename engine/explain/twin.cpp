@@ -42,10 +42,11 @@ Recording make_twin(const View& v, std::uint64_t seed) {
   for (const auto& s : r.sessions) {
     const Wander wander(random);
     const double amplitude = q / std::sqrt(12.0);
-    double way = 0.0;
+    double way = 0.0, off = amplitude * wander.at(0.0);
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
-      if (i > s.begin) way += std::fabs(m.x_mm[i] - m.x_mm[i - 1]);
-      if (q > 0.0) true_motion.x_mm[i] = m.x_mm[i] + amplitude * wander.at(way);
+      if (q <= 0.0) break;
+      if (const double step = i > s.begin ? std::fabs(m.x_mm[i] - m.x_mm[i - 1]) : 0.0; step > 1e-7) off = amplitude * wander.at(way += step);
+      true_motion.x_mm[i] = m.x_mm[i] + off;
     }
     if (q > 0.0)
       for (Eigen::Index i = s.begin; i < s.end; ++i) {
