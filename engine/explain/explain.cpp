@@ -133,12 +133,6 @@ bool is_untestable(const Explanation& e, const char* name) {
 /// What only a reversal can tell apart (PHYSICS.md section 2): in one direction friction is an offset, and so is an edge force.
 constexpr std::array<std::string_view, 6> k_need_reversal{"bias", "drift", "coulomb_friction", "stribeck_friction", "viscous_friction", "edge_force"};
 
-/// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
-bool moves_one_way(const Motion& m) {
-  const double fastest = m.v_mm_s.maxCoeff();
-  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
-}
-
 /// The verdict and the experiment that would say more.
 void conclude(Explanation& e, bool one_way) {
   const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
@@ -291,6 +285,11 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     step = look(recording, motion, causes, options, done);
   }
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
+  for (auto& cause : e.causes)  // what is named beside it is no other word for it
+    std::erase_if(cause.aliases, [&](const std::string& a) {
+      return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(find_mechanism(a)); }) &&
+             law_of(find_mechanism(a)) != law_of(cause.term.mechanism);
+    });
   const bool one_way = moves_one_way(motion);
   if (one_way)
     for (auto& cause : e.causes) {

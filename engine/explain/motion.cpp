@@ -291,6 +291,11 @@ bool surface_recedes(const Recording& r) {
   return a.slope > 0.9 && a.slope < 1.1 && a.correlation > 0.9 && a.cutting_slope != 0.0 && a.cutting_slope < 0.9;
 }
 
+bool moves_one_way(const Motion& m) {
+  const double fastest = m.v_mm_s.maxCoeff();
+  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
+}
+
 Motion estimate_motion(const Recording& r) { return estimated(r, false); }
 Motion estimate_sharp_motion(const Recording& r) { return estimated(r, true); }
 

@@ -22,6 +22,8 @@ struct Motion {
   double speed_sd_mm_s = 0.0;  ///< scatter of the measured speed; 0 without a v column
 };
 
+/// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
+[[nodiscard]] bool moves_one_way(const Motion& motion);
 /// Sampling interval of one row to the next, s; of the session's last row the one before.
 [[nodiscard]] Series intervals_s(const Recording& recording);
 /// Step that all positions are multiples of, mm; 0 when the data show none coarser than 1e-5 of their range.

@@ -85,13 +85,16 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
   const Eigen::MatrixXd sums =
       left_out < 0 ? v.products.all : Eigen::MatrixXd(v.products.all - v.products.by_session[static_cast<std::size_t>(left_out)]);
   std::vector<const Hypothesis*> model = known_of(v);
+  const bool one_way = moves_one_way(v.scene.motion);
   const double before = fit(sums, v.products, model, left_out).chi2;
   Eigen::Index own_at = 2;  // of the candidate, after the causes' own coefficients
   for (const auto* h : model) own_at += h->coefficients();
   model.push_back(nullptr);
   for (const auto& h : v.grid) {
     Candidate& c = out[static_cast<std::size_t>(h.term.mechanism)];
-    if (share_left(v, h) < k_testable) continue;
+    // an offset in one direction is c in other words, but no other cause may be named for want of it
+    const bool offset = one_way && mechanisms()[static_cast<std::size_t>(h.term.mechanism)].name == std::string("bias");
+    if (!offset && share_left(v, h) < k_testable) continue;
     c.testable = true;
     if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(h.term.mechanism); })) continue;
     const bool changes = h.spring >= 0 || h.damper >= 0;
