@@ -131,7 +131,28 @@ bool is_untestable(const Explanation& e, const char* name) {
 }
 
 /// What only a reversal can tell apart (PHYSICS.md section 2): in one direction friction is an offset, and so is an edge force.
-constexpr std::array<std::string_view, 6> k_need_reversal{"bias", "drift", "coulomb_friction", "stribeck_friction", "viscous_friction", "edge_force"};
+constexpr std::array<std::string_view, 3> k_offsets{"bias", "coulomb_friction", "edge_force"};
+constexpr std::array<std::string_view, 5> k_need_reversal{"drift", "stribeck_friction", "viscous_friction", "backlash", "hysteresis"};
+
+bool is_offset(std::string_view name) { return std::find(k_offsets.begin(), k_offsets.end(), name) != k_offsets.end(); }
+bool needs_reversal(std::string_view name) {
+  return is_offset(name) || std::find(k_need_reversal.begin(), k_need_reversal.end(), name) != k_need_reversal.end();
+}
+std::string_view name_of(const Term& term) { return mechanisms()[static_cast<std::size_t>(term.mechanism)].name; }
+
+/// What needs a reversal to be known, as the plain offset that fits best in its place.
+Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
+  Term best = causes[i];
+  double least = 1e300;
+  for (const auto name : k_offsets) {
+    const int at = find_mechanism(std::string(name));
+    for (auto& shape : mechanisms()[static_cast<std::size_t>(at)].grid(v.scene)) {
+      causes[i] = {at, shape};
+      if (const double chi2 = fit_terms(v, causes).chi2; chi2 < least) least = chi2, best = causes[i];
+    }
+  }
+  return best;
+}
 
 /// The verdict and the experiment that would say more.
 void conclude(Explanation& e, bool one_way) {
@@ -281,24 +302,22 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     e.causes.push_back(cause);
     ++i;
   }
-  if (changed) {
-    step = look(recording, motion, causes, options, done);
-  }
+  const bool one_way = moves_one_way(motion);
+  for (std::size_t i = 0; one_way && i < causes.size(); ++i)
+    if (needs_reversal(name_of(causes[i])) && !is_offset(name_of(causes[i]))) causes[i] = as_offset(step.view, causes, i), changed = true;
+  if (changed) step = look(recording, motion, causes, options, done);
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
   for (auto& cause : e.causes)  // what is named beside it is no other word for it
     std::erase_if(cause.aliases, [&](const std::string& a) {
       return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(find_mechanism(a)); }) &&
              law_of(find_mechanism(a)) != law_of(cause.term.mechanism);
     });
-  const bool one_way = moves_one_way(motion);
-  if (one_way)
-    for (auto& cause : e.causes) {
-      const std::string name = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)].name;
-      const auto needs = [](const std::string& n) { return std::find(k_need_reversal.begin(), k_need_reversal.end(), n) != k_need_reversal.end(); };
-      if (!needs(name) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs)) continue;
-      for (const char* other : {"bias", "coulomb_friction", "edge_force"})
-        if (name != other && std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end()) cause.aliases.emplace_back(other);
-    }
+  for (auto& cause : e.causes) {
+    if (!one_way || (!needs_reversal(name_of(cause.term)) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs_reversal))) continue;
+    std::erase_if(cause.aliases, needs_reversal);
+    for (const auto other : k_offsets)
+      if (other != name_of(cause.term)) cause.aliases.emplace_back(other);
+  }
 
   set_parameters(e, step.view, step.null, step.judgement.inflation);
   list_not_testable(e, first.scores.candidates, first.view.scene);
