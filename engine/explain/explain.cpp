@@ -154,6 +154,16 @@ Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
   return best;
 }
 
+/// A lag shorter than the time in which a coarse position leaves open when contact began: a delay and a filter differ in what follows that instant.
+bool is_too_short_to_tell(const Term& term, const Motion& m, bool speed_is_measured) {
+  const std::string_view name = name_of(term);
+  if (speed_is_measured || m.quantum_mm <= 1e-5 || (name != "delay" && name != "low_pass")) return false;
+  double way = 0.0, moving = 0.0;
+  for (const double v : m.v_mm_s)
+    if (std::fabs(v) > 0.05 * m.v_mm_s.maxCoeff()) way += std::fabs(v), moving += 1.0;
+  return moving > 0.0 && term.shape[0] < 0.5 * m.quantum_mm / (way / moving);
+}
+
 /// The verdict and the experiment that would say more.
 void conclude(Explanation& e, bool one_way) {
   const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
@@ -307,6 +317,12 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     if (needs_reversal(name_of(causes[i])) && !is_offset(name_of(causes[i]))) causes[i] = as_offset(step.view, causes, i), changed = true;
   if (changed) step = look(recording, motion, causes, options, done);
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
+  for (auto& cause : e.causes) {
+    const char* other = name_of(cause.term) == "delay" ? "low_pass" : "delay";
+    if (is_too_short_to_tell(cause.term, motion, recording.v_mm_s.size() > 0) &&
+        std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
+      cause.aliases.emplace_back(other);
+  }
   for (auto& cause : e.causes)  // what is named beside it is no other word for it
     std::erase_if(cause.aliases, [&](const std::string& a) {
       return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(find_mechanism(a)); }) &&

@@ -6,6 +6,8 @@
 namespace cavum::explain {
 namespace {
 
+constexpr double k_open_instant = 0.25;  // of the way from row to row
+
 /// The way from one row to the next: where the contact acts, and the motion at both ends.
 struct Way {
   double x0, v0, x1, v1, dt_s;
@@ -16,7 +18,8 @@ struct Way {
 Way way_to(const Scene& s, Eigen::Index i) {
   Way w{s.motion.x_mm[i - 1],           s.motion.v_mm_s[i - 1], s.motion.x_mm[i], s.motion.v_mm_s[i],
         std::max(1e-12, s.dt_s[i - 1]), s.active[i - 1],        s.active[i]};
-  if (std::fabs(w.on1 - w.on0) < 0.5) return w;
+  // a position that leaves the instant of contact open has no jump: what is expected then changes evenly
+  if (std::fabs(w.on1 - w.on0) < 0.5 || s.motion.sd_x_mm[i] > k_open_instant * std::fabs(w.x1 - w.x0)) return w;
   const double f0 = s.base.k_n_per_mm * w.x0 + s.base.c_n_s_per_mm * w.v0, f1 = s.base.k_n_per_mm * w.x1 + s.base.c_n_s_per_mm * w.v1;
   const auto crossing = [](double a, double b) { return a * b < 0.0 ? a / (a - b) : 0.5; };
   w.jump = w.x0 * w.x1 < 0.0 ? crossing(w.x0, w.x1) : crossing(f0, f1);

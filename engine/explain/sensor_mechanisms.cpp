@@ -68,6 +68,15 @@ Grid lag_grid(const Scene& s) {
   return g;
 }
 
+/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so half rows up to 8 rows.
+Grid delay_grid(const Scene& s) {
+  const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
+  Grid g;
+  for (int half = 1; half <= 16; ++half) g.push_back({0.5 * half * row});
+  for (const double rows : {10.0, 13.0, 18.0, 25.0, 35.0}) g.push_back({rows * row});
+  return g;
+}
+
 Grid saturation_grid(const Scene& s) {
   std::vector<double> pressed;
   for (Eigen::Index i = 0; i < s.force_n.size(); ++i)
@@ -178,7 +187,7 @@ std::vector<Mechanism> sensor_mechanisms() {
                "press in fast ramps at two speeds, with sharp reversals",
                false,
                {{"tau_s", 2e-4, 2.0, true, true}},
-               lag_grid,
+               delay_grid,
                [](const Scene& s, const Shape& p) { return delayed(s, p[0]); },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"tau_s", p[0]}};

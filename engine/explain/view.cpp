@@ -165,7 +165,8 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
     v.base_fit = fit_design(d, v.force_n, whitening_of(v), recording.rig, false);
     v.model_n = combined(d, v.base_fit.value);
     v.residual_n = v.force_n - v.model_n;
-    base = {std::max(1e-9, v.base_fit.value[0]), v.base_fit.value[1]};
+    base = {std::max(1e-9, v.base_fit.value[0]),
+            std::max(0.0, v.base_fit.value[1])};  // a damper that pushes is an offset in disguise: no contact is lost by it
     v.noise = estimate_noise(recording, v.residual_n, v.scene.weight);
     noise_sd = v.noise.sd_n;
     if (any_inside(causes)) pressed = pressed_n(v.scene, causes, v.base_fit.value);
