@@ -166,7 +166,7 @@ std::vector<Mechanism> friction_mechanisms() {
                "a loop that does not depend on speed",
                "reverse within contact at two speeds, with strokes of several lengths",
                true,
-               {{"variant", 0, 2, false, false}, {"d_mm", 1e-5, 100, true, true}},
+               {{"variant", 0, 2, false, false}, {"d_mm", 2e-3, 100, true, true}},
                loop_grid,
                [](const Scene& s, const Shape& p) {
                  return Columns{{loop_mm(s, static_cast<int>(p[0]), p[1])}, {}, {}};
