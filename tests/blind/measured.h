@@ -1,4 +1,4 @@
-// What the last long run counted, so that a sample fails when things get worse, and says which promises of issue 5 are not kept yet.
+// What the last long run counted, so that a sample fails when things get worse, and says which promises are not kept yet.
 // Rates in the order of `rates()`; replace them after every long run (`./dev blind`), never by wish.
 #pragma once
 
