@@ -63,6 +63,7 @@ ForceModel load_model(const std::string& wanted) {
 }
 
 void write_protocol(const std::string& path) {
+  if (path.starts_with("-")) throw Error("--protocol " + path, "is no name of a file", "write --protocol protocol.html, or --help alone");
   const std::string csv = std::filesystem::path(path).replace_extension(".csv").string();
   require_writable(path);
   require_writable(csv);
@@ -145,9 +146,13 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
   verb->add_option("--model-out", args->model_out, "write the extended force model (.toml), for exam, rig and explain");
   verb->add_option("--out,--html", args->out, "write a report (.html)");
   verb->add_option("--protocol", args->protocol,
-                   "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)");
+                   "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)")
+      ->expected(0, 1)
+      ->default_str("protocol.html");
   verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->capture_default_str();
-  verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search")->capture_default_str()->check(CLI::Range(8, 1000));
+  verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search; 0: none, a plain rule for comparison")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 1000) | CLI::IsMember({0}));
   verb->add_flag("--json", args->json, "one JSON object on standard output");
   verb->callback([args, &exit_code] {
     run_explain(*args);

@@ -44,10 +44,7 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
   if (is("coulomb_friction")) {
     f.shape = {value("v0_mm_s")}, f.own = {value("fc_n")};
   } else if (is("stribeck_friction")) {
-    const bool own_v0 = mechanisms()[static_cast<std::size_t>(f.mechanism)].shape.size() > 1;
-    f.shape = {value("vs_mm_s")};
-    if (own_v0) f.shape.push_back(value("v0_mm_s"));
-    f.own = {value("fc_n"), value("fs_n") - value("fc_n")};
+    f.shape = {value("vs_mm_s"), value("v0_mm_s")}, f.own = {value("fc_n"), value("fs_n") - value("fc_n")};
   } else if (is("viscous_friction")) {
     f.own = {value("b_n_s_per_mm")};
   } else if (is("backlash")) {
@@ -58,8 +55,7 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
     f.shape = {value("gamma") == 0.0 ? 1.0 : 0.0, value("d_mm")}, f.own = {value("alpha_n_per_mm")};
   } else if (is("series_compliance")) {
     if (std::isfinite(value("ks_n_per_mm"))) return std::nullopt;
-    f.shape = {value("softening_force_n")};
-    f.shape.resize(mechanisms()[static_cast<std::size_t>(f.mechanism)].shape.size(), 0.0);
+    f.shape = {value("softening_force_n"), 0.0};
   } else if (is("nonlinear_stiffness")) {
     f.shape = {value("m")};
   } else if (is("hidden_layer")) {
@@ -82,7 +78,7 @@ std::optional<Found> found_as(const TermValues& term, Base base) {
     f.shape = {value("carried") < 0.5 ? 0.0 : 1.0}, f.own = {value("per_mm3")};
   } else if (is("run_out")) {
     if (value("eccentricity_um") != 0.0 || value("rate_ratio") != 1.0) return std::nullopt;
-    f.shape = {value("by_clock") < 0.5 ? 1.0 : 0.0};
+    f.shape = {value("by_clock") < 0.5 ? 1.0 : 0.0, 1.0};
     line(value("amplitude_n"));
   } else if (is("chatter")) {
     return std::nullopt;  // its grid is what this recording's spectrum shows; the engine's own term needs none

@@ -10,6 +10,7 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
+constexpr double k_slip = 2.5e-5;
 constexpr double k_turn = 2.0 * k_pi;
 
 bool has(const Scene& s, const char* column) { return s.recording->column(column) != nullptr; }
@@ -41,30 +42,51 @@ Series worn_mm3(const Scene& s, bool carried) {
   return out;
 }
 
-Columns line(const Series& turns, const Series& where) {
-  return {
-      {turns.unaryExpr([](double t) { return line_at(t); }) * where, turns.unaryExpr([](double t) { return line_at(t + 0.25); }) * where}, {}, {}};
+/// Sine and cosine of `turns` times `where`, a pair for each session, for a spindle starts at any angle.
+Columns line(const Scene& s, const Series& turns, const Series& where) {
+  Series sine = Series::Zero(turns.size()), cosine = Series::Zero(turns.size());
+  for (Eigen::Index i = 0; i < turns.size(); ++i) {
+    if (where[i] <= 0.0) continue;
+    sine[i] = line_at(turns[i]) * where[i];
+    cosine[i] = line_at(turns[i] + 0.25) * where[i];
+  }
+  if (session_groups(*s.recording) == 1) return {{sine, cosine}, {}, {}};
+  Columns c;
+  for (const auto& rows : s.recording->sessions)
+    for (const Series* part : {&sine, &cosine}) {
+      c.own.push_back(Series::Zero(turns.size()));
+      c.own.back().segment(rows.begin, rows.end - rows.begin) = part->segment(rows.begin, rows.end - rows.begin);
+    }
+  return c;
 }
 
-/// Turns of the spindle, less whole ones. Variants: 0 rpm/60 · t (a spindle that keeps its rate), 1 the integral of rpm.
-Series spindle_turns(const Scene& s, int variant) {
+/// Of all sessions that show the line: their mean amplitude, each with its own phase.
+double amplitude_of(const Shape& own) {
+  double sum = 0.0, n = 0.0;
+  for (std::size_t i = 0; i + 1 < own.size(); i += 2)
+    if (const double a = std::hypot(own[i], own[i + 1]); a > 0.0) sum += a, n += 1.0;
+  return n > 0.0 ? sum / n : 0.0;
+}
+
+/// Turns of the spindle, less whole ones. Variants: 0 rpm/60 · t (a spindle that keeps its rate), 1 the integral of rpm. `ratio`: true rate over rpm.
+Series spindle_turns(const Scene& s, int variant, double ratio) {
   const Series& rpm = *s.recording->column("spindle_rpm");
   Series out(rpm.size());
   for (const auto& rows : s.recording->sessions) {
     double turns = 0.0;
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      if (variant == 1 && i > rows.begin) turns += rpm[i] / 60.0 * s.dt_s[i - 1];
-      const double t = variant == 0 ? rpm[i] / 60.0 * s.recording->t_s[i] : turns;
+      if (variant == 1 && i > rows.begin) turns += ratio * rpm[i] / 60.0 * s.dt_s[i - 1];
+      const double t = variant == 0 ? ratio * rpm[i] / 60.0 * s.recording->t_s[i] : turns;
       out[i] = t - std::floor(t);
     }
   }
   return out;
 }
 
-/// Shape {hz, everywhere}: lines that were found in the residual.
+/// Shape {hz, spinning only}: lines that were found in the residual.
 Columns chatter_columns(const Scene& s, const Shape& p) {
   const Series turns = s.recording->t_s * p[0];
-  return line(turns - turns.floor(), s.active);
+  return line(s, turns - turns.floor(), p[1] > 0.5 ? Series(s.touching * s.spinning) : s.touching);
 }
 
 std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{name, own[0]}}; }
@@ -104,30 +126,38 @@ std::vector<Mechanism> cutting_mechanisms() {
                "a diamond point that turns off its axis",
                "record the force at more than twice the spindle's rate",
                true,
-               {{"variant", 0, 1, false, false}},
-               [](const Scene& s) {
-                 return s.spinning.maxCoeff() > 0.0 ? Grid{{0.0}, {1.0}} : Grid{};
+               {{"variant", 0, 1, false, false}, {"rate_ratio", 0.999, 1.001, false, true}},
+               [](const Scene& s) {  // a rate that is written in whole turns per minute is off by up to 3e-5
+                 return s.spinning.maxCoeff() > 0.0 ? Grid{{0.0, 1.0}, {0.0, 1.0 - k_slip}, {0.0, 1.0 + k_slip}, {1.0, 1.0}} : Grid{};
                },
-               [](const Scene& s, const Shape& p) { return line(spindle_turns(s, static_cast<int>(p[0])), s.active * s.spinning); },
+               [](const Scene& s, const Shape& p) { return line(s, spindle_turns(s, static_cast<int>(p[0]), p[1]), s.touching * s.spinning); },
                [](const Shape&, const Shape& own, Base) {
-                 return std::vector<NamedValue>{{"amplitude_n", std::hypot(own[0], own[1])}, {"phase_turns", std::atan2(own[1], own[0]) / k_turn}};
-               }});
+                 std::vector<NamedValue> p{{"amplitude_n", amplitude_of(own)}};
+                 if (own.size() == 2) p.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
+                 return p;
+               },
+               true});
   m.push_back({"chatter",
                "A sin(2 pi f t + phase) in contact",
                "a vibration at a rate that is not the spindle's",
                "press at two depths and two spindle speeds: chatter keeps its rate",
                true,
-               {{"frequency_hz", 0.1, 1e5, false, true}},
+               {{"frequency_hz", 0.1, 1e5, false, true}, {"spinning", 0, 1, false, false}},
                [](const Scene& s) {
                  Grid g;
-                 for (const double hz : s.lines_hz) g.push_back({hz});
+                 for (const double hz : s.lines_hz) {
+                   g.push_back({hz, 0.0});
+                   if (s.spinning.maxCoeff() > 0.0) g.push_back({hz, 1.0});
+                 }
                  return g;
                },
                chatter_columns,
                [](const Shape& p, const Shape& own, Base) {
-                 return std::vector<NamedValue>{
-                     {"amplitude_n", std::hypot(own[0], own[1])}, {"frequency_hz", p[0]}, {"phase_turns", std::atan2(own[1], own[0]) / k_turn}};
-               }});
+                 std::vector<NamedValue> named{{"amplitude_n", amplitude_of(own)}, {"frequency_hz", p[0]}};
+                 if (own.size() == 2) named.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
+                 return named;
+               },
+               true});
   m.push_back({"coolant",
                "F_sim w wet",
                "water, which changes the cutting force",

@@ -9,6 +9,7 @@
 
 #include "engine/explain/faults.h"
 #include "engine/explain/heldout.h"
+#include "engine/explain/intervals.h"
 #include "engine/explain/specimens.h"
 
 namespace cavum::explain {
@@ -88,10 +89,12 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
       std::vector<Term> causes = others;
       causes.push_back(start);
       causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
-      const FitResult fitted = fit_terms(v, causes);
+      const View own_contact = without_pulling(v, causes);
+      causes = refine(own_contact, causes, 1, others.size());
+      const FitResult fitted = fit_terms(own_contact, causes);
       const auto own = m.columns(v.scene, causes.back().shape).own.size();
       if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
-      const double chi2 = penalised_chi2(v, causes);
+      const double chi2 = penalised_chi2(own_contact, causes);
       if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
     }
     if (!best.causes.empty()) out.push_back(best);
@@ -114,85 +117,6 @@ View without(const View& v, std::size_t i) {
   return out;
 }
 
-/// Parameters of all causes, then k and c, from shapes and a fit with tangents (or without: tangents 0).
-std::vector<std::vector<NamedValue>> named_values(const View& v, const Eigen::VectorXd& value) {
-  std::vector<std::vector<NamedValue>> out;
-  Eigen::Index own_at = 2, tangent_at = 2;
-  for (const auto& h : v.known) tangent_at += h.own;
-  const Base base{value[0], value[1]};
-  for (const auto& h : v.known) {
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(h.term.mechanism)];
-    std::vector<double> own(value.data() + own_at, value.data() + own_at + h.own), shape = h.term.shape;
-    own_at += h.own;
-    for (std::size_t s = 0; s < shape.size(); ++s) {
-      if (!m.shape[s].fitted || shape[s] == 0.0 || tangent_at >= value.size()) continue;
-      shape[s] = std::clamp(shape[s] + value[tangent_at++], m.shape[s].low, m.shape[s].high);
-    }
-    out.push_back(m.parameters(shape, own, base));
-  }
-  out.push_back({{"k_n_per_mm", base.k_n_per_mm}, {"c_n_s_per_mm", base.c_n_s_per_mm}});
-  return out;
-}
-
-/// Intervals: what the noise leaves (delta method), or what the twins scatter around their truth, whichever is more.
-void set_parameters(Explanation& e, const Step& last) {
-  const View& v = last.view;
-  const FitResult f = fit(v.products, known_of(v), -1, true);
-  Eigen::VectorXd at = f.value;
-  const Eigen::VectorXd truth = [&] {  // what the twins were made with: shapes as they are
-    Eigen::VectorXd t = f.value;
-    t.head(v.base_fit.value.size()) = v.base_fit.value;
-    t.tail(t.size() - v.base_fit.value.size()).setZero();
-    return t;
-  }();
-  const auto middle = named_values(v, truth);
-  const double scale = std::max(1.0, f.chi2 / std::max(1.0, v.products.rows));
-  std::vector<std::vector<Interval>> interval(middle.size());
-  for (std::size_t c = 0; c < middle.size(); ++c)
-    for (std::size_t p = 0; p < middle[c].size(); ++p) {
-      Eigen::VectorXd slope(at.size());
-      for (Eigen::Index i = 0; i < at.size(); ++i) {
-        const double step = 1e-3 * std::sqrt(std::max(1e-30, f.covariance(i, i)));
-        Eigen::VectorXd moved = truth;
-        moved[i] += step;
-        slope[i] = (named_values(v, moved)[c][p].value - middle[c][p].value) / step;
-      }
-      double variance = scale * slope.dot(f.covariance * slope);
-      double bias = 0.0, scatter = 0.0, n = 0.0;
-      for (const auto& value : last.null.values) {
-        if (value.size() != at.size()) continue;
-        const double d = named_values(v, value)[c][p].value - middle[c][p].value;
-        bias += d;
-        scatter += d * d;
-        n += 1.0;
-      }
-      if (n > 3.0) {
-        bias /= n;
-        scatter = scatter / n - bias * bias;
-        variance = std::max(variance, scatter * n / (n - 1.0)) + bias * bias;
-      }
-      const double half = 1.96 * std::sqrt(std::max(0.0, variance)), value = middle[c][p].value;
-      interval[c].push_back({value, value - half, value + half});
-    }
-  for (std::size_t c = 0; c < e.causes.size(); ++c) {
-    e.causes[c].parameters.clear();
-    for (std::size_t p = 0; p < middle[c].size(); ++p) e.causes[c].parameters.emplace_back(middle[c][p].name, interval[c][p]);
-    auto others = v.causes;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
-    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].own);
-    Eigen::Index to = 0, from = 2;
-    rest[to++] = v.base_fit.value[0];
-    rest[to++] = v.base_fit.value[1];
-    for (std::size_t k = 0; k < v.known.size(); ++k) {
-      for (Eigen::Index i = 0; i < v.known[k].own; ++i, ++from)
-        if (k != c) rest[to++] = v.base_fit.value[from];
-    }
-    e.causes[c].effect_n = std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
-  }
-  e.k = interval.back()[0];
-  e.c = interval.back()[1];
-}
-
 void list_not_testable(Explanation& e, const std::vector<Candidate>& candidates, const Scene& scene) {
   for (const auto& c : candidates) {
     if (c.testable) continue;
@@ -207,12 +131,37 @@ bool is_untestable(const Explanation& e, const char* name) {
 }
 
 /// What only a reversal can tell apart (PHYSICS.md section 2): in one direction friction is an offset, and so is an edge force.
-constexpr std::array<std::string_view, 6> k_need_reversal{"bias", "drift", "coulomb_friction", "stribeck_friction", "viscous_friction", "edge_force"};
+constexpr std::array<std::string_view, 3> k_offsets{"bias", "coulomb_friction", "edge_force"};
+constexpr std::array<std::string_view, 5> k_need_reversal{"drift", "stribeck_friction", "viscous_friction", "backlash", "hysteresis"};
 
-/// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
-bool moves_one_way(const Motion& m) {
-  const double fastest = m.v_mm_s.maxCoeff();
-  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
+bool is_offset(std::string_view name) { return std::find(k_offsets.begin(), k_offsets.end(), name) != k_offsets.end(); }
+bool needs_reversal(std::string_view name) {
+  return is_offset(name) || std::find(k_need_reversal.begin(), k_need_reversal.end(), name) != k_need_reversal.end();
+}
+std::string_view name_of(const Term& term) { return mechanisms()[static_cast<std::size_t>(term.mechanism)].name; }
+
+/// What needs a reversal to be known, as the plain offset that fits best in its place.
+Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
+  Term best = causes[i];
+  double least = 1e300;
+  for (const auto name : k_offsets) {
+    const int at = find_mechanism(std::string(name));
+    for (auto& shape : mechanisms()[static_cast<std::size_t>(at)].grid(v.scene)) {
+      causes[i] = {at, shape};
+      if (const double chi2 = fit_terms(v, causes).chi2; chi2 < least) least = chi2, best = causes[i];
+    }
+  }
+  return best;
+}
+
+/// A lag shorter than the time in which a coarse position leaves open when contact began: a delay and a filter differ in what follows that instant.
+bool is_too_short_to_tell(const Term& term, const Motion& m, bool speed_is_measured) {
+  const std::string_view name = name_of(term);
+  if (speed_is_measured || m.quantum_mm <= 1e-5 || (name != "delay" && name != "low_pass")) return false;
+  double way = 0.0, moving = 0.0;
+  for (const double v : m.v_mm_s)
+    if (std::fabs(v) > 0.05 * m.v_mm_s.maxCoeff()) way += std::fabs(v), moving += 1.0;
+  return moving > 0.0 && term.shape[0] < 0.5 * m.quantum_mm / (way / moving);
 }
 
 /// The verdict and the experiment that would say more.
@@ -274,6 +223,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   const Recording& recording = *scaled;
   e.recording = scaled;
   e.notes = recording.notes;
+  if (options.twins == 0) e.notes.emplace_back("without twins: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
@@ -362,21 +312,30 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     e.causes.push_back(cause);
     ++i;
   }
-  if (changed) {
-    step = look(recording, motion, causes, options, done);
-  }
-  for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
   const bool one_way = moves_one_way(motion);
-  if (one_way)
-    for (auto& cause : e.causes) {
-      const std::string name = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)].name;
-      const auto needs = [](const std::string& n) { return std::find(k_need_reversal.begin(), k_need_reversal.end(), n) != k_need_reversal.end(); };
-      if (!needs(name) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs)) continue;
-      for (const char* other : {"bias", "coulomb_friction", "edge_force"})
-        if (name != other && std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end()) cause.aliases.emplace_back(other);
-    }
+  for (std::size_t i = 0; one_way && i < causes.size(); ++i)
+    if (needs_reversal(name_of(causes[i])) && !is_offset(name_of(causes[i]))) causes[i] = as_offset(step.view, causes, i), changed = true;
+  if (changed) step = look(recording, motion, causes, options, done);
+  for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
+  for (auto& cause : e.causes) {
+    const char* other = name_of(cause.term) == "delay" ? "low_pass" : "delay";
+    if (is_too_short_to_tell(cause.term, motion, recording.v_mm_s.size() > 0) &&
+        std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
+      cause.aliases.emplace_back(other);
+  }
+  for (auto& cause : e.causes)  // what is named beside it is no other word for it
+    std::erase_if(cause.aliases, [&](const std::string& a) {
+      return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(find_mechanism(a)); }) &&
+             law_of(find_mechanism(a)) != law_of(cause.term.mechanism);
+    });
+  for (auto& cause : e.causes) {
+    if (!one_way || (!needs_reversal(name_of(cause.term)) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs_reversal))) continue;
+    std::erase_if(cause.aliases, needs_reversal);
+    for (const auto other : k_offsets)
+      if (other != name_of(cause.term)) cause.aliases.emplace_back(other);
+  }
 
-  set_parameters(e, step);
+  set_parameters(e, step.view, step.null, step.judgement.inflation);
   list_not_testable(e, first.scores.candidates, first.view.scene);
   e.base = {step.view.base_fit.value[0], step.view.base_fit.value[1]};
   e.noise = step.view.noise;

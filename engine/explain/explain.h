@@ -60,7 +60,7 @@ struct Explanation {
 
 struct ExplainOptions {
   std::uint64_t seed = 1;
-  std::size_t twins = 24;  ///< at most, for each step of the search
+  std::size_t twins = 24;  ///< at most, for each step of the search; 0 = a plain rule instead of the null, for comparison
   int max_causes = 3;
   const Series* fixed_n = nullptr;       ///< forces of a loaded model, [rows]
   std::function<void(double)> progress;  ///< 0..1, may be called from other threads

@@ -43,12 +43,12 @@ void speed_against_position(const Recording& r, std::vector<std::string>& faults
                        " times as far as v_mm_s says; one of x, v and t is in metres or milliseconds, convert it");
       return;
     }
-  if (agree < 0.7) {
+  if (agree < 0.7 * agreement.expected_correlation) {
     faults.push_back("time base: x_mm and the integral of v_mm_s have little in common (correlation " + plain_number(agree) +
                      "); check that both belong to the same run");
     return;
   }
-  if (std::fabs(slope - 1.0) > k_time_tolerance)
+  if (std::fabs(slope - 1.0) > k_time_tolerance + 4.0 * agreement.slope_sd)
     faults.push_back("time base: x_mm moves " + plain_number(slope) +
                      " times as far as the integral of v_mm_s over t_s says; correct the sampling rate");
 }

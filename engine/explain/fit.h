@@ -19,14 +19,16 @@ struct Term {
 /// A term whose columns are in the products.
 struct Hypothesis {
   Term term;
-  Eigen::Index first = 0;                 ///< its own columns
-  Eigen::Index own = 0;                   ///< how many
+  Eigen::Index first = 0;    ///< its own columns
+  Eigen::Index own = 0;      ///< how many
+  Eigen::Index repeats = 1;  ///< sessions (Products::by_session) that have coefficients of their own for these columns; 1 = all share them
   Eigen::Index spring = -1, damper = -1;  ///< changes of the columns of k and c; -1 = none
   /// These changes times this: between nothing (0) and the point of the grid (1) the search interpolates.
   double scale = 1.0;
   /// Derivatives by its fitted shape parameters: columns [tangents, tangents + tangent_count); empty for hypotheses of the grid.
   Eigen::Index tangents = 0, tangent_count = 0;
-  [[nodiscard]] Eigen::Index parameters() const;  ///< linear ones and fitted shapes
+  [[nodiscard]] Eigen::Index coefficients() const { return own * repeats; }
+  [[nodiscard]] Eigen::Index parameters() const;  ///< linear ones and fitted shapes; a phase for each session beside one amplitude
 };
 
 /// Sums of products of whitened columns: 0 the force, 1 the column of k, 2 that of c, then the hypotheses'.
@@ -47,8 +49,8 @@ struct FitResult {
 
 /// All sessions but `left_out` (-1 = all).
 [[nodiscard]] FitResult fit(const Products& products, const std::vector<const Hypothesis*>& model, int left_out = -1, bool covariance = false);
-/// The same from one matrix of sums.
-[[nodiscard]] FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::vector<const Hypothesis*>& model,
+/// The same; `sums` are those of all sessions but `left_out`.
+[[nodiscard]] FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out = -1,
                             bool covariance = false);
 
 }  // namespace cavum::explain

@@ -42,11 +42,12 @@ Grid as_grid(const std::vector<double>& values) {
 /// Largest penetration, mm.
 double deepest_mm(const Scene& s) { return std::max(1e-6, s.spring_mm.maxCoeff()); }
 
-/// Play of radius b (variants 0: of the penetration; 1: of the position, in air too), or of width b behind the motion (2).
+/// Play of radius b (variants 0: of the penetration; 1: of the position, in air too; 3: the same, with contact where the encoder shows it and not
+/// the tip), or of width b behind the motion (2).
 Series played(const Scene& s, int variant, double b) {
   Series out(s.force_n.size());
   for (const auto& rows : s.recording->sessions) {
-    const auto input = [&](Eigen::Index i) { return variant == 1 ? s.motion.x_mm[i] : std::max(0.0, s.motion.x_mm[i]); };
+    const auto input = [&](Eigen::Index i) { return variant == 1 || variant == 3 ? s.motion.x_mm[i] : std::max(0.0, s.motion.x_mm[i]); };
     double y = input(rows.begin);
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double x = input(i);
@@ -54,12 +55,12 @@ Series played(const Scene& s, int variant, double b) {
       out[i] = y;
     }
   }
-  return out.max(0.0);
+  return variant == 3 ? out : Series(out.max(0.0));
 }
 
 Grid play_grid(const Scene& s) {
   Grid g;
-  for (const double variant : {0.0, 1.0, 2.0})
+  for (const double variant : {0.0, 1.0, 2.0, 3.0})
     for (const double part : {0.005, 0.015, 0.04, 0.1, 0.25}) g.push_back({variant, part * deepest_mm(s)});
   return g;
 }
@@ -107,23 +108,26 @@ std::vector<Mechanism> friction_mechanisms() {
                  return std::vector<NamedValue>{{"fc_n", own[0]}, {"v0_mm_s", p[0]}};
                }});
   m.push_back({"stribeck_friction",
-               "[Fc + (Fs - Fc) e^(-(V/vs)^2)] sign V, in air too",
+               "[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too",
                "friction that falls as the motion becomes faster",
                "stroke to and fro in air at five speeds, the slowest near 0.01 mm/s",
                true,
-               {{"vs_mm_s", 1e-5, 100, true, true}},
+               {{"vs_mm_s", 1e-5, 100, true, true}, {"v0_mm_s", 1e-5, 100, true, true}},
                [](const Scene& s) {
-                 return as_grid(speeds(s, {0.1, 0.25, 0.5, 1.0}));
+                 Grid g;
+                 for (const double vs : speeds(s, {0.1, 0.25, 0.5, 1.0}))
+                   for (const double part : {0.03, 0.1}) g.push_back({vs, part * vs});
+                 return g;
                },
                [](const Scene& s, const Shape& p) {
-                 const Series sign = sign_of_motion(s, k_stribeck_v0 * p[0]);
+                 const Series sign = sign_of_motion(s, p[1]);
                  const Series spread = 1.0 + 2.0 * (s.motion.sd_v_mm_s / p[0]).square();  // mean over the uncertainty of V
                  Series still(sign.size());
                  for (Eigen::Index i = 0; i < still.size(); ++i) still[i] = static_share(s.motion.v_mm_s[i], p[0] * std::sqrt(spread[i]));
                  return Columns{{sign, sign * still / spread.sqrt()}, {}, {}};
                },
                [](const Shape& p, const Shape& own, Base) {
-                 return std::vector<NamedValue>{{"fc_n", own[0]}, {"fs_n", own[0] + own[1]}, {"vs_mm_s", p[0]}};
+                 return std::vector<NamedValue>{{"fc_n", own[0]}, {"fs_n", own[0] + own[1]}, {"vs_mm_s", p[0]}, {"v0_mm_s", p[1]}};
                }});
   m.push_back({"viscous_friction",
                "b V, in air too",
@@ -143,20 +147,22 @@ std::vector<Mechanism> friction_mechanisms() {
                "play between the measured position and the tip",
                "reverse within contact, slowly, several times",
                true,
-               {{"variant", 0, 2, false, false}, {"b_mm", 1e-5, 100, true, true}},
+               {{"variant", 0, 3, false, false}, {"b_mm", 1e-5, 100, true, true}},
                play_grid,
                [](const Scene& s, const Shape& p) {
                  return Columns{{}, (played(s, static_cast<int>(p[0]), p[1]) - s.motion.x_mm.max(0.0)) * s.active, {}};
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"b_mm", p[1]}};
-               }});
+               },
+               false,
+               true});
   m.push_back({"hysteresis",
                "alpha z, z' = V - (beta |V| z + gamma V |z|)/d in contact",
                "a loop that does not depend on speed",
                "reverse within contact at two speeds, with strokes of several lengths",
                true,
-               {{"variant", 0, 2, false, false}, {"d_mm", 1e-5, 100, true, true}},
+               {{"variant", 0, 2, false, false}, {"d_mm", 2e-3, 100, true, true}},
                loop_grid,
                [](const Scene& s, const Shape& p) {
                  return Columns{{loop_mm(s, static_cast<int>(p[0]), p[1])}, {}, {}};

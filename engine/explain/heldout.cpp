@@ -41,10 +41,36 @@ std::vector<Term> search_without(const View& view, const Scores& whole, const Nu
     const Candidate* chosen = nullptr;
     for (const auto& f : found)
       if (f.second->hypothesis.term.mechanism == causes.back().mechanism) chosen = f.second;
+    now = without_pulling(now, causes);
     now.known.push_back(chosen->hypothesis);
     now.causes = causes;
   }
   return causes;
+}
+
+/// A phase is no property of the rig: where a mechanism has one for each session, the others give the amplitude, and the phase comes from the
+/// rows [begin, end) that are left out.
+void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index begin, Eigen::Index end, Eigen::VectorXd& value) {
+  Eigen::Index at = 2;
+  for (const auto& term : causes) {
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+    const Columns c = m.columns(view.scene, term.shape);
+    const auto count = static_cast<Eigen::Index>(c.own.size()), first = at;
+    at += count;
+    if (!m.by_session || count <= 2) continue;
+    double amplitude = 0.0, others = 0.0;
+    for (Eigen::Index i = 0; i + 1 < count; i += 2)
+      if (const double a = std::hypot(value[first + i], value[first + i + 1]); a > 0.0) amplitude += a, others += 1.0;
+    const Series left = (view.force_n - force_of(view.scene, causes, value)).segment(begin, end - begin);
+    for (Eigen::Index i = 0; i + 1 < count && others > 0.0; i += 2) {
+      const Series sine = c.own[static_cast<std::size_t>(i)].segment(begin, end - begin),
+                   cosine = c.own[static_cast<std::size_t>(i + 1)].segment(begin, end - begin);
+      const double a = (left * sine).sum(), b = (left * cosine).sum(), size = std::hypot(a, b);
+      if (!(size > 0.0) || value[first + i] != 0.0) continue;
+      value[first + i] = amplitude / others * a / size;
+      value[first + i + 1] = amplitude / others * b / size;
+    }
+  }
 }
 
 }  // namespace
@@ -58,7 +84,10 @@ Gain heldout_gain(const View& first, const Scores& scores, const Null& null, std
     masked.robust.segment(begin, end - begin) = 0.0;
     const auto causes = count > 0 ? search_without(masked, scores, null, static_cast<int>(f), count) : std::vector<Term>{};
     const auto error2 = [&](const std::vector<Term>& terms) {
-      const Series model = force_of(first.scene, terms, fit_terms(masked, terms).value);
+      const View seen = terms.empty() ? masked : without_pulling(masked, terms);
+      Eigen::VectorXd value = fit_terms(seen, terms).value;
+      fill_phases(seen, terms, begin, end, value);
+      const Series model = force_of(seen.scene, terms, value);
       return (first.force_n - model).segment(begin, end - begin).square().sum();
     };
     base[f] = error2({});

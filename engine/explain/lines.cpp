@@ -12,21 +12,23 @@ namespace {
 constexpr double k_lowest_hz = 1.0;  // below, other mechanisms are slow enough to look like a line
 constexpr double k_two_pi = 6.283185307179586;
 
-/// Power at `hz`, phases as t_s says, over all sessions.
+/// Power at `hz`, summed over the sessions, each with a phase of its own.
 double power_at(const Recording& r, const Series& z, double hz) {
-  std::complex<double> sum = 0.0;
+  double power = 0.0;
   for (const auto& s : r.sessions) {
+    std::complex<double> sum = 0.0;
     std::complex<double> turn = std::polar(1.0, -k_two_pi * std::fmod(hz * r.t_s[s.begin], 1.0)), step = 1.0;
     double dt = -1.0;
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
       sum += z[i] * turn;
       if (i + 1 == s.end) break;
       const double now = r.t_s[i + 1] - r.t_s[i];
-      if (now != dt) step = std::polar(1.0, -k_two_pi * hz * now), dt = now;
+      if (std::fabs(now - dt) > 1e-9) step = std::polar(1.0, -k_two_pi * hz * now), dt = now;
       turn *= step;
     }
+    power += std::norm(sum);
   }
-  return std::norm(sum);
+  return power;
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ std::vector<double> strongest_lines_hz(const Scene& scene, const Series& whitene
     for (std::size_t i = 1; i + 1 < power.size(); ++i) {
       const double hz = static_cast<double>(i) * bin_hz;
       if (hz < k_lowest_hz || power[i] < power[i - 1] || power[i] < power[i + 1]) continue;
-      if (std::any_of(own.begin(), own.end(), [&](double o) { return std::fabs(o - hz) < 4 * bin_hz; })) continue;
+      if (std::any_of(own.begin(), own.end(), [&](double o) { return std::fabs(o - hz) < std::max(0.25, 4 * bin_hz); })) continue;
       if (best == 0 || power[i] > power[best]) best = i;
     }
     if (best == 0) break;

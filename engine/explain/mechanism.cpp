@@ -57,6 +57,8 @@ bool makes_sense(const Mechanism& m, const double* own, std::size_t count) {
   return true;
 }
 
+std::size_t session_groups(const Recording& r) { return r.sessions.size() <= 12 ? std::max<std::size_t>(1, r.sessions.size()) : 1; }
+
 int law_of(int mechanism) {
   const std::string name = mechanisms()[static_cast<std::size_t>(mechanism)].name;
   for (const auto& [variant, law] : {std::pair{"stribeck_friction", "coulomb_friction"},

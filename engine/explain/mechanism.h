@@ -44,10 +44,14 @@ struct Mechanism {
   std::function<Columns(const Scene&, const std::vector<double>& shape)> columns;
   /// Parameters in the names of the formula, from shape and own coefficients.
   std::function<std::vector<NamedValue>(const std::vector<double>& shape, const std::vector<double>& own, Base base)> parameters;
+  /// The columns come session after session, the same number for each: what they share is no coefficient (a phase differs from session to session).
+  bool by_session = false;
+  /// Acts inside max(0, ...) of the contact, which never pulls; otherwise it is added to it.
+  bool inside = false;
 };
 
-/// stribeck_friction: its v0 over its vs; friction is taken to flip far below the speed by which it falls.
-inline constexpr double k_stribeck_v0 = 0.03;
+/// Sessions that have coefficients of their own in a mechanism with `by_session`: all, when there are 2 to 12 of them; else 1, for all rows together.
+[[nodiscard]] std::size_t session_groups(const Recording& recording);
 
 /// True when own coefficients make sense for the mechanism: friction resists, mass is positive, static friction exceeds sliding.
 /// A fit that needs the opposite is another mechanism in disguise.

@@ -12,11 +12,9 @@ using Parameters = std::vector<std::pair<std::string, double>>;
 
 /// Numbers of a cause that stand in its shape and not among its parameters. False: no force term is that shape of it.
 bool add_shape(const std::string& name, const std::vector<double>& shape, Parameters& out) {
-  const bool second = shape.size() > 1;
-  if (name == "stribeck_friction" && !second) out.emplace_back("v0_mm_s", k_stribeck_v0 * shape[0]);
-  if (name == "series_compliance" && second && shape[1] > 0.0) out.emplace_back("whole", 1.0);
-  if (name == "chatter" && second) out.emplace_back("spinning", shape[1]);
-  if (name == "run_out" && second) out.emplace_back("rate_ratio", shape[1]);
+  if (name == "series_compliance" && shape[1] > 0.0) out.emplace_back("whole", 1.0);
+  if (name == "chatter") out.emplace_back("spinning", shape[1]);
+  if (name == "run_out") out.emplace_back("rate_ratio", shape[1]);
   if (name == "relaxation") out.emplace_back("exponent", shape[2]);
   if (name == "run_out") out.emplace_back("by_clock", shape[0] < 0.5 ? 1.0 : 0.0);
   if (name == "wear") out.emplace_back("carried", shape[0] < 0.5 ? 0.0 : 1.0);

@@ -10,10 +10,12 @@ namespace {
 constexpr double k_min_walk = 1e-5;  // (mm/s)²/s: a hold may creep by 3 µm/s in a second
 constexpr double k_exact_mm = 3e-7;  // a position without quantum is written with about six digits
 constexpr double k_shared_s = 0.4;   // a hold is pulled to the middle of its cell after this time; of 0.15 to 1 s it gave the least error of speed
+constexpr double k_slope_s = 0.015;  // on each side, for the acceleration of a coarse position; of 5 to 40 ms it gave inertia with the least error
 constexpr std::size_t k_window = 4;  // rows on each side over which the walk's variance is averaged
 constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maximisation; more changed speeds by less than 1 %
 // Where a coarse encoder says nothing (within a cell) the walk's variance would stay at its first guess: a prior towards rest,
 // as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/motion_test.cpp).
+constexpr double k_steps_of_span = 4.0;  // of the encoder, for its position to be held against a measured speed
 constexpr double k_prior_weight = 0.3, k_prior_walk = 1e-3;
 
 struct State {
@@ -168,8 +170,14 @@ void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
         s.q > 0.0 && s.run_rows[i] > s.shared_rows && s.v == nullptr ? s.q * s.q / 12.0 * (1.0 - s.shared_rows / s.run_rows[i]) : 0.0;
     out.sd_x_mm[row] = std::sqrt(std::max({0.0, o.xx, repeated}));
     out.sd_v_mm_s[row] = std::sqrt(std::max(0.0, o.vv));
-    const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(n - 1, i + 1);
-    out.a_mm_s2[row] = after > before ? (s.smoothed[after].v - s.smoothed[before].v) / (s.t[after] - s.t[before]) : 0.0;
+    // slope of a straight line through the speeds around: what the steps of an encoder do from row to row is no acceleration
+    const double dt = (s.t[n - 1] - s.t[0]) / static_cast<double>(n - 1);
+    const auto half = s.q > 0.0 && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / std::max(1e-9, dt)), 1L, 50L)) : 1;
+    const std::size_t before = i > half ? i - half : 0, after = std::min(n - 1, i + half);
+    double mean = 0.0, moment = 0.0, square = 0.0;
+    for (std::size_t j = before; j <= after; ++j) mean += s.t[j] / static_cast<double>(after - before + 1);
+    for (std::size_t j = before; j <= after; ++j) moment += (s.t[j] - mean) * s.smoothed[j].v, square += (s.t[j] - mean) * (s.t[j] - mean);
+    out.a_mm_s2[row] = square > 0.0 ? moment / square : 0.0;
   }
 }
 
@@ -256,9 +264,14 @@ Motion estimated(const Recording& r, bool sharp) {
 Agreement position_over_speed(const Recording& r) {
   if (r.v_mm_s.size() == 0) return {};
   const Series* rpm = r.column("spindle_rpm");
-  double xy[2] = {0, 0}, xx[2] = {0, 0}, yy[2] = {0, 0};
+  double xy[2] = {0, 0}, xx[2] = {0, 0}, yy[2] = {0, 0}, spans = 0.0;
+  const double q = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
   for (const auto& s : r.sessions) {
-    const Eigen::Index span = std::max<Eigen::Index>(2, (s.end - s.begin) / 200);
+    // long enough for several steps of the encoder, and eight spans at least
+    double path = 0.0;
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) path += std::fabs(r.x_mm[i] - r.x_mm[i - 1]);
+    const double rows = static_cast<double>(s.end - s.begin), steps = path > 0.0 ? k_steps_of_span * q / path * rows : 0.0;
+    const auto span = static_cast<Eigen::Index>(std::max({2.0, rows / 200, std::min(steps, rows / 8)}));
     for (Eigen::Index a = s.begin; a + span < s.end; a += span) {
       double way = 0.0;
       for (Eigen::Index i = a; i < a + span; ++i) way += 0.5 * (r.v_mm_s[i] + r.v_mm_s[i + 1]) * (r.t_s[i + 1] - r.t_s[i]);
@@ -267,10 +280,15 @@ Agreement position_over_speed(const Recording& r) {
       xy[cutting] += way * moved;
       xx[cutting] += way * way;
       yy[cutting] += moved * moved;
+      spans += cutting == 0 ? 1.0 : 0.0;
     }
   }
   Agreement out;
-  if (xx[0] > 0.0 && yy[0] > 0.0) out = {xy[0] / xx[0], xy[0] / std::sqrt(xx[0] * yy[0]), 0.0};
+  if (xx[0] > 0.0 && yy[0] > 0.0) out = {xy[0] / xx[0], xy[0] / std::sqrt(xx[0] * yy[0]), 0.0, 0.0, 1.0};
+  if (const double noise2 = q * q / 6.0; xx[0] > 0.0) {  // both ends of a span are rounded
+    out.slope_sd = std::sqrt(noise2 / xx[0]);
+    out.expected_correlation = std::sqrt(xx[0] / (xx[0] + spans * noise2));
+  }
   if (xx[1] > 0.0) out.cutting_slope = xy[1] / xx[1];
   return out;
 }
@@ -278,6 +296,11 @@ Agreement position_over_speed(const Recording& r) {
 bool surface_recedes(const Recording& r) {
   const Agreement a = position_over_speed(r);
   return a.slope > 0.9 && a.slope < 1.1 && a.correlation > 0.9 && a.cutting_slope != 0.0 && a.cutting_slope < 0.9;
+}
+
+bool moves_one_way(const Motion& m) {
+  const double fastest = m.v_mm_s.maxCoeff();
+  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
 }
 
 Motion estimate_motion(const Recording& r) { return estimated(r, false); }

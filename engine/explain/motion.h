@@ -22,6 +22,8 @@ struct Motion {
   double speed_sd_mm_s = 0.0;  ///< scatter of the measured speed; 0 without a v column
 };
 
+/// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
+[[nodiscard]] bool moves_one_way(const Motion& motion);
 /// Sampling interval of one row to the next, s; of the session's last row the one before.
 [[nodiscard]] Series intervals_s(const Recording& recording);
 /// Step that all positions are multiples of, mm; 0 when the data show none coarser than 1e-5 of their range.
@@ -29,8 +31,9 @@ struct Motion {
 /// How far the position moves over the integral of the measured speed: slope and correlation over short spans, those spent
 /// cutting (in contact and spinning) apart from all others. Zero where there is no such motion or no measured speed.
 struct Agreement {
-  double slope = 0, correlation = 0;  ///< not cutting
-  double cutting_slope = 0;           ///< cutting: below 1 when x_mm counts from a surface that recedes
+  double slope = 0, correlation = 0;              ///< not cutting
+  double cutting_slope = 0;                       ///< cutting: below 1 when x_mm counts from a surface that recedes
+  double slope_sd = 0, expected_correlation = 1;  ///< what the steps of the encoder leave of both
 };
 [[nodiscard]] Agreement position_over_speed(const Recording& recording);
 /// True when x_mm counts from a surface that is cut away under the tool: then the measured speed is the tip's, and no derivative of x.

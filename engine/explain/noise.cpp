@@ -28,12 +28,13 @@ double clipped_mean_square(std::vector<double>& v) {
 }  // namespace
 
 Noise estimate_noise(const Recording& recording, const Series& residual, const Series& weight) {
-  std::array<double, k_lags + 1> half{};  // variogram
+  std::array<double, k_lags + 1> half{};                                          // variogram
+  const double enough = (weight > 0.5).count() * 20 > weight.size() ? 0.5 : 0.0;  // where the position leaves all rows uncertain, all count
   for (int lag = 1; lag <= k_lags; ++lag) {
     std::vector<double> d;
     for (const auto& s : recording.sessions)
       for (Eigen::Index i = s.begin + lag; i < s.end; ++i)
-        if (weight[i] > 0.5 && weight[i - lag] > 0.5) d.push_back(residual[i] - residual[i - lag]);
+        if (weight[i] > enough && weight[i - lag] > enough) d.push_back(residual[i] - residual[i - lag]);
     half[static_cast<std::size_t>(lag)] = 0.5 * clipped_mean_square(d);
   }
   // for each ρ the best sd² is linear: take the ρ with the smallest relative error over all lags

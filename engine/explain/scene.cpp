@@ -13,7 +13,15 @@ double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 }  // namespace
 
-Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho) {
+void never_pull(Scene& s, const Series* pressed_n) {
+  s.active = pressed_n == nullptr ? s.touching : Series(s.touching * (*pressed_n > 0.0).cast<double>());
+  s.spring_mm = s.motion.x_mm * s.active;
+  s.damper_mm_s = s.motion.v_mm_s * s.active;
+  if (s.recording->relative_k.size() > 0) s.spring_mm *= s.recording->relative_k;
+  if (s.recording->relative_c.size() > 0) s.damper_mm_s *= s.recording->relative_c;
+}
+
+Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho, const Series* pressed_n) {
   Scene s;
   s.recording = &recording;
   s.motion = motion;
@@ -25,14 +33,13 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
   const double lasting = recording.rows() > 0 ? k_lasting_s / std::max(1e-6, s.dt_s.mean()) : 1.0;
   const double noise2 = noise_sd_n * noise_sd_n * std::max(1.0, (1.0 + rho) / (1.0 - rho)) / std::max(1.0, lasting);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double rk = recording.relative_k.size() > 0 ? recording.relative_k[i] : 1.0;
-    const double rc = recording.relative_c.size() > 0 ? recording.relative_c[i] : 1.0;
+    const double rk = relative_at(recording.relative_k, i), rc = relative_at(recording.relative_c, i);
     const double k = rk * base.k_n_per_mm, c = rc * base.c_n_s_per_mm;
     const double x = motion.x_mm[i], v = motion.v_mm_s[i], sx = motion.sd_x_mm[i], sv = motion.sd_v_mm_s[i];
     // away from the surface this is 0 or 1; the width of 1e-5 mm stands for positions without error
     const double p = normal_cdf(x / (sx + 1e-5));
     s.touching[i] = p;
-    const double pressed = k * x + c * v;
+    const double pressed = pressed_n != nullptr ? (*pressed_n)[i] : k * x + c * v;
     const double slope = std::hypot(k * sx, c * sv);
     const double on = base.k_n_per_mm <= 0.0 || pressed > 0.0 ? 1.0 : 0.0;
     s.active[i] = p * on;

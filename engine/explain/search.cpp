@@ -17,7 +17,8 @@ constexpr double k_twin_doubt = 2.0;
 constexpr double k_expected_gain = 12.0;  // of the best of a grid, or of a curve of five parameters, in noise alone
 constexpr double k_least_width = 0.35, k_least_top = 1.5;
 constexpr double k_blur_gain = 12.0;
-constexpr double k_noise_gain = 3.0;  // what the best of a mechanism's grid gains in noise alone, about
+constexpr double k_plain_trials = 200.0;  // hypotheses of the grids and curves, about
+constexpr double k_noise_gain = 3.0;      // what the best of a mechanism's grid gains in noise alone, about
 
 std::vector<const Hypothesis*> known_of(const View& v) {
   std::vector<const Hypothesis*> out;
@@ -72,7 +73,8 @@ double z_of(double gain, const Spread& s, double blur) {
 
 Eigen::Index parameters_of(const Term& term, const Scene& scene) {
   const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
-  Eigen::Index n = static_cast<Eigen::Index>(m.columns(scene, term.shape).own.size());
+  auto n = static_cast<Eigen::Index>(m.columns(scene, term.shape).own.size());
+  if (const auto groups = static_cast<Eigen::Index>(session_groups(*scene.recording)); m.by_session) n = n / groups + groups - 1;
   for (std::size_t i = 0; i < m.shape.size(); ++i) n += m.shape[i].fitted && term.shape[i] != 0.0;
   return n;
 }
@@ -83,13 +85,16 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
   const Eigen::MatrixXd sums =
       left_out < 0 ? v.products.all : Eigen::MatrixXd(v.products.all - v.products.by_session[static_cast<std::size_t>(left_out)]);
   std::vector<const Hypothesis*> model = known_of(v);
-  const double before = fit(sums, v.products, model).chi2;
+  const bool one_way = moves_one_way(v.scene.motion);
+  const double before = fit(sums, v.products, model, left_out).chi2;
   Eigen::Index own_at = 2;  // of the candidate, after the causes' own coefficients
-  for (const auto* h : model) own_at += h->own;
+  for (const auto* h : model) own_at += h->coefficients();
   model.push_back(nullptr);
   for (const auto& h : v.grid) {
     Candidate& c = out[static_cast<std::size_t>(h.term.mechanism)];
-    if (share_left(v, h) < k_testable) continue;
+    // an offset in one direction is c in other words, but no other cause may be named for want of it
+    const bool offset = one_way && mechanisms()[static_cast<std::size_t>(h.term.mechanism)].name == std::string("bias");
+    if (!offset && share_left(v, h) < k_testable) continue;
     c.testable = true;
     if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(h.term.mechanism); })) continue;
     const bool changes = h.spring >= 0 || h.damper >= 0;
@@ -98,8 +103,9 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
       Hypothesis trial = h;
       trial.scale = scale;
       model.back() = &trial;
-      const FitResult f = fit(sums, v.products, model);
-      if (!makes_sense(mechanisms()[static_cast<std::size_t>(h.term.mechanism)], f.value.data() + own_at, static_cast<std::size_t>(h.own))) continue;
+      const FitResult f = fit(sums, v.products, model, left_out);
+      if (!makes_sense(mechanisms()[static_cast<std::size_t>(h.term.mechanism)], f.value.data() + own_at, static_cast<std::size_t>(h.coefficients())))
+        continue;
       const double gain = before - f.chi2 - k_parameter_penalty * static_cast<double>(h.parameters() - 1);
       if (gain > c.gain) {
         c.gain = gain;
@@ -159,6 +165,14 @@ Judgement judge(const Scores& data, const Null& null) {
   std::vector<double> largest(n, -1e300);
   Judgement j;
   double gained = 0.0;
+  if (n == 0) {  // the plain rule: as if noise alone could gain anything, times the number of things that are tried
+    for (std::size_t e = 0; e < entries; ++e) {
+      const double gain = e < mechanisms_n ? data.candidates[e].raw_gain : data.structures[e - mechanisms_n].raw_gain;
+      j.z.push_back(gain / k_noise_gain);
+      j.p_value.push_back(std::min(1.0, k_plain_trials * std::exp(-0.5 * std::max(0.0, gain))));
+    }
+    return j;
+  }
   for (std::size_t e = 0; e < entries; ++e) {
     std::vector<double> twins(n);
     for (std::size_t t = 0; t < n; ++t) twins[t] = gain_in(null.twins[t], e);
@@ -186,7 +200,7 @@ Term start_of(const View& v, const Candidate& c) {
   for (const double part : {1.0, 0.5, 0.25, 0.12, 0.06, 0.03, 2.0, 4.0, 8.0}) {
     Term trial = term;
     for (std::size_t i = 0; i < m.shape.size(); ++i) {
-      if (!m.shape[i].fitted) continue;
+      if (!m.shape[i].fitted || term.shape[i] == 0.0) continue;
       const bool power = std::string(m.shape[i].name) == "m" || std::string(m.shape[i].name) == "n";
       trial.shape[i] = std::clamp(power ? 1.0 + (term.shape[i] - 1.0) * part : term.shape[i] * part, m.shape[i].low, m.shape[i].high);
     }
@@ -209,7 +223,7 @@ std::vector<Term> refine(const View& v, std::vector<Term> causes, int cycles, st
   std::vector<std::vector<double>> width(causes.size());
   for (std::size_t i = 0; i < causes.size(); ++i)
     for (const auto& s : mechanisms()[static_cast<std::size_t>(causes[i].mechanism)].shape)
-      width[i].push_back(std::string(s.name) == "frequency_hz" ? 4e-3 : s.logarithmic ? 0.35 : 0.1);
+      width[i].push_back(std::string(s.name) == "frequency_hz" ? 4e-3 : std::string(s.name) == "rate_ratio" ? 1e-5 : s.logarithmic ? 0.35 : 0.1);
   for (int cycle = 0; cycle < cycles; ++cycle)
     for (std::size_t i = first; i < causes.size(); ++i) {
       const auto& ranges = mechanisms()[static_cast<std::size_t>(causes[i].mechanism)].shape;

@@ -45,6 +45,7 @@ struct Judgement {
   std::vector<double> p_value;  ///< chance that the largest z of a twin exceeds it (Gumbel fit to the twins' largest)
   double inflation = 1.0;       ///< what twins gain on average, over what noise alone would
 };
+/// Without any twins: the chance that independent noise gains as much in one of all trials.
 [[nodiscard]] Judgement judge(const Scores& data, const Null& null);
 
 /// Shapes of `causes` that fit best, starting where they are; coordinate search on each fitted shape within its range.

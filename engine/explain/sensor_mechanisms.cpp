@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/explain/lags.h"
 #include "engine/explain/mechanism.h"
 
 namespace cavum::explain {
@@ -59,44 +60,20 @@ Grid posture_grid(const Scene& s) {
   return g;
 }
 
-/// Value of `u` a time tau ago, held before the start of the session.
-Series delayed(const Scene& s, const Series& u, double tau_s) {
-  Series out(u.size());
-  const Series& t = s.recording->t_s;
-  for (const auto& rows : s.recording->sessions) {
-    Eigen::Index j = rows.begin;
-    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      const double then = t[i] - tau_s;
-      while (j + 1 < i && t[j + 1] <= then) ++j;
-      if (then <= t[rows.begin]) {
-        out[i] = u[rows.begin];
-        continue;
-      }
-      const double part = std::clamp((then - t[j]) / std::max(1e-12, t[j + 1] - t[j]), 0.0, 1.0);
-      out[i] = u[j] + part * (u[j + 1] - u[j]);
-    }
-  }
-  return out;
-}
-
-/// First-order lag y' = (u − y)/tau, u held between rows.
-Series lagged(const Scene& s, const Series& u, double tau_s) {
-  Series out(u.size());
-  for (const auto& rows : s.recording->sessions) {
-    double y = u[rows.begin];
-    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      if (i > rows.begin) y += (u[i] - y) * -std::expm1(-s.dt_s[i - 1] / tau_s);
-      out[i] = y;
-    }
-  }
-  return out;
-}
-
 /// From half a row to 0.3 s.
 Grid lag_grid(const Scene& s) {
   const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
   Grid g;
   for (const double rows : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) g.push_back({rows * row});
+  return g;
+}
+
+/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so half rows up to 8 rows.
+Grid delay_grid(const Scene& s) {
+  const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
+  Grid g;
+  for (int half = 1; half <= 16; ++half) g.push_back({0.5 * half * row});
+  for (const double rows : {10.0, 13.0, 18.0, 25.0, 35.0}) g.push_back({rows * row});
   return g;
 }
 
@@ -210,10 +187,8 @@ std::vector<Mechanism> sensor_mechanisms() {
                "press in fast ramps at two speeds, with sharp reversals",
                false,
                {{"tau_s", 2e-4, 2.0, true, true}},
-               lag_grid,
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{}, delayed(s, s.spring_mm, p[0]) - s.spring_mm, delayed(s, s.damper_mm_s, p[0]) - s.damper_mm_s};
-               },
+               delay_grid,
+               [](const Scene& s, const Shape& p) { return delayed(s, p[0]); },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"tau_s", p[0]}};
                }});
@@ -224,9 +199,7 @@ std::vector<Mechanism> sensor_mechanisms() {
                false,
                {{"tau_s", 2e-4, 2.0, true, true}},
                lag_grid,
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{}, lagged(s, s.spring_mm, p[0]) - s.spring_mm, lagged(s, s.damper_mm_s, p[0]) - s.damper_mm_s};
-               },
+               [](const Scene& s, const Shape& p) { return lagged(s, p[0]); },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"tau_s", p[0]}};
                }});

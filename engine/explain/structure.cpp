@@ -83,7 +83,7 @@ Gain gain_of(const Left& l, const std::vector<Series>& raw) {
 /// Piecewise linear curves over quantiles of u, the mean over `where` taken out, times `where`. Empty when u is constant.
 std::vector<Series> curve(const Series& u, const Series& where) {
   std::vector<double> sorted;
-  const Eigen::Index stride = std::max<Eigen::Index>(1, u.size() / 20000);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, u.size() / 5000);
   for (Eigen::Index i = 0; i < u.size(); i += stride)
     if (where[i] > 0.0) sorted.push_back(u[i]);
   if (sorted.size() < 50) return {};
@@ -93,7 +93,8 @@ std::vector<Series> curve(const Series& u, const Series& where) {
     const double q = sorted[static_cast<std::size_t>(static_cast<double>(k) / (k_knots - 1) * static_cast<double>(sorted.size() - 1))];
     if (knots.empty() || q > knots.back() + 1e-9 * (sorted.back() - sorted.front())) knots.push_back(q);
   }
-  if (std::set<double> few(sorted.begin(), sorted.end()); few.size() <= k_knots) knots.assign(few.begin(), few.end());
+  if (std::vector<double> few = sorted; few.erase(std::unique(few.begin(), few.end()), few.end()), few.size() <= k_knots)
+    knots.assign(few.begin(), few.end());
   if (knots.size() < 2) return {};
   std::vector<Series> out(knots.size() - 1, Series::Zero(u.size()));
   for (Eigen::Index i = 0; i < u.size(); ++i) {

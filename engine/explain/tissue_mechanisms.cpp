@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/explain/lags.h"
 #include "engine/explain/mechanism.h"
 #include "engine/force/term_laws.h"
 
@@ -78,20 +79,27 @@ Columns anisotropy_columns(const Scene& s, const Shape& p) {
 std::vector<Mechanism> tissue_mechanisms() {
   std::vector<Mechanism> m;
   m.push_back({"series_compliance",
-               "k X/(1 + k X/Fs) - k X",
+               "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
                "something elastic between the tool and the tooth",
                "press a block of steel in the same holder",
                true,
-               {{"softening_force_n", 1e-3, 1e6, true, true}},
-               [](const Scene& s) {
-                 return points({0.5, 1.5, 5.0, 20.0}, std::max(1e-6, s.force_n.maxCoeff()));
+               {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
+               [](const Scene& s) {  // either of the two: 0 = not that one
+                 Grid g;
+                 for (const double part : {0.5, 1.5, 5.0, 20.0}) g.push_back({part * std::max(1e-6, s.force_n.maxCoeff()), 0.0});
+                 if (s.base.k_n_per_mm > 0.0 && s.base.c_n_s_per_mm > 1e-3 * s.base.k_n_per_mm)
+                   for (const double softer : {0.03, 0.08, 0.2, 0.5, 1.2}) g.push_back({0.0, softer / s.base.k_n_per_mm});
+                 return g;
                },
                [](const Scene& s, const Shape& p) {
+                 if (p[1] > 0.0) return in_series(s, p[1]);
                  return Columns{{}, each(s.spring_mm, [&](double x) { return softened_mm(x, s.base.k_n_per_mm, p[0]); }), {}};
                },
                [](const Shape& p, const Shape&, Base) {
-                 return std::vector<NamedValue>{{"softening_force_n", p[0]}};
-               }});
+                 return std::vector<NamedValue>{p[1] > 0.0 ? NamedValue{"ks_n_per_mm", 1.0 / p[1]} : NamedValue{"softening_force_n", p[0]}};
+               },
+               false,
+               true});
   m.push_back({"nonlinear_stiffness",
                "k (X^m - X), X in mm",
                "a stiffness that grows or falls as a power of the depth",
@@ -106,7 +114,9 @@ std::vector<Mechanism> tissue_mechanisms() {
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"m", p[0]}};
-               }});
+               },
+               false,
+               true});
   m.push_back({"hidden_layer",
                "dk (X - d0)+",
                "a layer below the surface with another stiffness",
@@ -124,7 +134,9 @@ std::vector<Mechanism> tissue_mechanisms() {
                },
                [](const Shape& p, const Shape& own, Base) {
                  return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
-               }});
+               },
+               false,
+               true});
   m.push_back({"graded_stiffness",
                "-k alpha X^2",
                "a stiffness that changes evenly with depth",
@@ -137,7 +149,9 @@ std::vector<Mechanism> tissue_mechanisms() {
                },
                [](const Shape&, const Shape& own, Base b) {
                  return std::vector<NamedValue>{{"alpha_per_mm", -own[0] / b.k_n_per_mm}};
-               }});
+               },
+               false,
+               true});
   m.push_back({"anisotropy",
                "F_sim e cos 2(phi - phi0)",
                "a stiffness that depends on the angle of approach",
@@ -168,7 +182,9 @@ std::vector<Mechanism> tissue_mechanisms() {
                  if (p[1] <= 0.0) return std::vector<NamedValue>{{"k1_n_per_mm", own[0]}, {"tau1_s", p[0]}};
                  const std::size_t a = p[0] <= p[1] ? 0 : 1, b = 1 - a;
                  return std::vector<NamedValue>{{"k1_n_per_mm", own[a]}, {"tau1_s", p[a]}, {"k2_n_per_mm", own[b]}, {"tau2_s", p[b]}};
-               }});
+               },
+               false,
+               true});
   m.push_back({"feed_power_law",
                "c (|V|^n sign V - V), V in mm/s",
                "a force that grows with another power of the speed",
@@ -186,7 +202,9 @@ std::vector<Mechanism> tissue_mechanisms() {
                },
                [](const Shape& p, const Shape&, Base) {
                  return std::vector<NamedValue>{{"n", p[0]}};
-               }});
+               },
+               false,
+               true});
   return m;
 }
 

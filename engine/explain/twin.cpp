@@ -42,10 +42,11 @@ Recording make_twin(const View& v, std::uint64_t seed) {
   for (const auto& s : r.sessions) {
     const Wander wander(random);
     const double amplitude = q / std::sqrt(12.0);
-    double way = 0.0;
+    double way = 0.0, off = amplitude * wander.at(0.0);
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
-      if (i > s.begin) way += std::fabs(m.x_mm[i] - m.x_mm[i - 1]);
-      if (q > 0.0) true_motion.x_mm[i] = m.x_mm[i] + amplitude * wander.at(way);
+      if (q <= 0.0) break;
+      if (const double step = i > s.begin ? std::fabs(m.x_mm[i] - m.x_mm[i - 1]) : 0.0; step > 1e-7) off = amplitude * wander.at(way += step);
+      true_motion.x_mm[i] = m.x_mm[i] + off;
     }
     if (q > 0.0)
       for (Eigen::Index i = s.begin; i < s.end; ++i) {
@@ -59,6 +60,11 @@ Recording make_twin(const View& v, std::uint64_t seed) {
   Scene truth = make_scene(r, true_motion, v.scene.base, v.noise.sd_n, v.noise.rho);
   truth.lines_hz = v.scene.lines_hz;
   Recording twin = r;
+  // in one direction an offset hides in c: that c is not the rig's is then all that shows it, and twins, which have no offset, agree with their rig
+  if (moves_one_way(m)) {
+    if (r.rig.k_n_per_mm) twin.rig.k_n_per_mm = std::max(1e-9, v.base_fit.value[0]);
+    if (r.rig.c_n_s_per_mm) twin.rig.c_n_s_per_mm = std::max(1e-9, v.base_fit.value[1]);
+  }
   twin.f_n = force_of(truth, v.causes, v.base_fit.value) + (r.f_n - v.force_n);
 
   // innovations as they were, where the model is certain

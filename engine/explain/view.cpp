@@ -56,7 +56,7 @@ FitResult fit_design(const Design& design, const Series& force, const Whitening&
   rest.term.mechanism = 0;
   rest.first = 3;
   rest.own = n - 3;
-  return fit(sums, p, rest.own > 0 ? std::vector<const Hypothesis*>{&rest} : std::vector<const Hypothesis*>{}, covariance);
+  return fit(sums, p, rest.own > 0 ? std::vector<const Hypothesis*>{&rest} : std::vector<const Hypothesis*>{}, -1, covariance);
 }
 
 Series combined(const Design& d, const Eigen::VectorXd& value) {
@@ -65,7 +65,37 @@ Series combined(const Design& d, const Eigen::VectorXd& value) {
   return out;
 }
 
+/// Force of the base and of those causes that act inside the contact, as if it could pull, [rows].
+Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
+  Scene open = scene;
+  never_pull(open, nullptr);
+  Series f = value[0] * open.spring_mm + value[1] * open.damper_mm_s;
+  Eigen::Index at = 2;
+  for (const auto& term : causes) {
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+    const Columns c = m.columns(open, term.shape);
+    if (m.inside) {
+      for (std::size_t i = 0; i < c.own.size(); ++i) f += value[at + static_cast<Eigen::Index>(i)] * c.own[i];
+      if (c.spring.size() > 0) f += value[0] * c.spring;
+      if (c.damper.size() > 0) f += value[1] * c.damper;
+    }
+    at += static_cast<Eigen::Index>(c.own.size());
+  }
+  return f;
+}
+
+bool any_inside(const std::vector<Term>& causes) {
+  return std::any_of(causes.begin(), causes.end(), [](const Term& t) { return mechanisms()[static_cast<std::size_t>(t.mechanism)].inside; });
+}
+
 }  // namespace
+
+View without_pulling(const View& view, const std::vector<Term>& causes) {
+  View v = view;
+  const Series pressed = pressed_n(v.scene, causes, fit_terms(v, causes).value);
+  never_pull(v.scene, &pressed);
+  return v;
+}
 
 Series force_of(const Scene& scene, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
   return combined(design_of(scene, causes), value);
@@ -91,7 +121,8 @@ std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std:
   for (std::size_t i = 0; i < m.shape.size(); ++i) {
     if (!m.shape[i].fitted || term.shape[i] == 0.0) continue;
     const double step = m.shape[i].logarithmic ? 0.02 * term.shape[i] : 0.01 * std::max(0.1, std::fabs(term.shape[i]));
-    const double real_step = std::string(m.shape[i].name) == "frequency_hz" ? 1e-3 : step;
+    const std::string name = m.shape[i].name;
+    const double real_step = name == "frequency_hz" ? 1e-3 : name == "rate_ratio" ? 3e-6 : step;
     auto up = term.shape, down = term.shape;
     up[i] += real_step;
     down[i] -= real_step;
@@ -126,17 +157,19 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
     base = {*recording.rig.k_n_per_mm, recording.rig.c_n_s_per_mm.value_or(0.0)};
   }
   double noise_sd = 0.0;
-  Series no_weights;
+  Series pressed;
   for (int round = 0; round < k_rounds; ++round) {
-    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho);
+    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr);
     if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0};
     const Design d = design_of(v.scene, causes);
     v.base_fit = fit_design(d, v.force_n, whitening_of(v), recording.rig, false);
     v.model_n = combined(d, v.base_fit.value);
     v.residual_n = v.force_n - v.model_n;
-    base = {std::max(1e-9, v.base_fit.value[0]), v.base_fit.value[1]};
+    base = {std::max(1e-9, v.base_fit.value[0]),
+            std::max(0.0, v.base_fit.value[1])};  // a damper that pushes is an offset in disguise: no contact is lost by it
     v.noise = estimate_noise(recording, v.residual_n, v.scene.weight);
     noise_sd = v.noise.sd_n;
+    if (any_inside(causes)) pressed = pressed_n(v.scene, causes, v.base_fit.value);
     v.robust.resize(0);
     Series z = v.residual_n;
     whitening_of(v).apply(z);
@@ -165,8 +198,14 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
     h.term = term;
     Columns c = mechanisms()[static_cast<std::size_t>(term.mechanism)].columns(v.scene, term.shape);
     h.first = static_cast<Eigen::Index>(z.size());
-    h.own = static_cast<Eigen::Index>(c.own.size());
-    for (auto& o : c.own) add(std::move(o));
+    const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+    h.repeats = m.by_session ? static_cast<Eigen::Index>(session_groups(recording)) : 1;
+    h.own = static_cast<Eigen::Index>(c.own.size()) / h.repeats;
+    for (Eigen::Index i = 0; i < h.own; ++i) {  // columns of different sessions do not overlap: their sum holds them all
+      Series whole = std::move(c.own[static_cast<std::size_t>(i)]);
+      for (Eigen::Index s = 1; s < h.repeats; ++s) whole += c.own[static_cast<std::size_t>(s * h.own + i)];
+      add(std::move(whole));
+    }
     if (c.spring.size() > 0) h.spring = add(std::move(c.spring));
     if (c.damper.size() > 0) h.damper = add(std::move(c.damper));
     return h;
@@ -175,7 +214,7 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   for (const auto& term : causes) {
     Hypothesis h = add_term(term);
     std::vector<double> own;
-    for (Eigen::Index i = 0; i < h.own; ++i) own.push_back(v.base_fit.value[own_at++]);
+    for (Eigen::Index i = 0; i < h.coefficients(); ++i) own.push_back(v.base_fit.value[own_at++]);
     h.tangents = static_cast<Eigen::Index>(z.size());
     for (auto& t : tangents_of(v.scene, term, own, base)) {
       add(std::move(t));

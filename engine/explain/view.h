@@ -35,6 +35,8 @@ struct ViewOptions {
 [[nodiscard]] View make_view(const Recording& recording, const Motion& motion, const std::vector<Term>& causes, std::optional<Base> start = {},
                              const ViewOptions& options = {});
 
+/// The view with contact lost where base and `causes` together would pull, as they fit now; weights and noise stay, so that chi² can be compared.
+[[nodiscard]] View without_pulling(const View& view, const std::vector<Term>& causes);
 /// Whitening as the view's products were made with.
 [[nodiscard]] Whitening whitening_of(const View& view);
 /// Force of causes at given values (in the order of FitResult), on any scene.

@@ -96,7 +96,14 @@ Outcome run(const Options& o, const Request& request, const std::filesystem::pat
   Outcome outcome;
   outcome.hidden = write_recording(request, folder);
   if (!o.only_simpler) outcome.verdict = ask(o.cavum, folder, request.seed % 1000000);
-  if (request.kind == Kind::single || request.kind == Kind::clean) outcome.simpler = ask_simpler(folder);
+  if (request.kind == Kind::single || request.kind == Kind::clean) {
+    outcome.simpler = ask_simpler(folder);
+    if (!o.only_simpler) {
+      std::filesystem::rename(folder / "answer.json", folder / "kept.json");
+      outcome.plain = ask(o.cavum, folder, request.seed % 1000000, "--twins 0");
+      std::filesystem::rename(folder / "kept.json", folder / "answer.json");
+    }
+  }
   return outcome;
 }
 

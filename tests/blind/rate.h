@@ -14,7 +14,7 @@ namespace cavum::blind {
 
 struct Rate {
   std::string name;
-  double promise = 0.0;  ///< of issue 5
+  double promise = 0.0;  ///< what explain has to show
   int successes = 0, trials = 0;
 
   void count(bool success) { successes += success, ++trials; }

@@ -30,11 +30,12 @@ void compare_parameters(const std::vector<Parameter>& truth, const Cause& cause,
       }
 }
 
-/// Of held-out error, in percent: what the generating model gains over the base. Up to a quantum of 0.01 mm nothing but the noise is left to it; with
-/// a coarse encoder, the base's error without the effect.
+/// Of held-out error, in percent: what the generating model gains over the base when it sees the motion that was recorded. With exact positions, or
+/// a measured speed and a quantum up to 0.01 mm, nothing but the noise is left to it; else the base's error without the effect.
 double possible_gain_percent(const Hidden& h, const Verdict& v) {
   const double base = v.base_rmse_n, noise2 = h.noise_n * h.noise_n;
-  const double left2 = h.request.quantum_mm <= 0.01 ? noise2 : std::max(noise2, base * base - h.effect_n * h.effect_n);
+  const double left2 =
+      h.request.quantum_mm == 0.0 || (h.has_v && h.request.quantum_mm <= 0.01) ? noise2 : std::max(noise2, base * base - h.effect_n * h.effect_n);
   return base > 0.0 ? 100.0 * std::max(0.0, 1.0 - std::sqrt(left2) / base) : 0.0;
 }
 
@@ -219,6 +220,10 @@ void print_simpler(const std::vector<Outcome>& outcomes) {
     };
     const Mark m = mark(o);
     if (o.verdict.answered) count("explain", m.found, m.causes, m.true_causes);
+    if (o.plain.answered) {
+      const Mark plain = mark({o.hidden, o.plain, {}, {}});
+      count("explain without twins", plain.found, plain.causes, plain.true_causes);
+    }
     count_list("thresholded least squares", o.simpler.thresholded);
     count_list("forward BIC", o.simpler.forward_bic);
   }

@@ -12,6 +12,7 @@ namespace cavum::blind {
 struct Outcome {
   Hidden hidden;
   Verdict verdict;
+  Verdict plain;  ///< of the program without twins, for the comparison
   SimplerAnswers simpler;
 };
 

@@ -51,11 +51,11 @@ bool Cause::holds(const std::string& name) const {
   return aliases.size() <= 2 && (mechanism == name || std::find(aliases.begin(), aliases.end(), name) != aliases.end());
 }
 
-Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed) {
+Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed, const std::string& options) {
   Verdict v;
   const auto begin = std::chrono::steady_clock::now();
   const std::string command = "'" + cavum.string() + "' explain '" + (folder / "recording.csv").string() + "' --json --seed " + std::to_string(seed) +
-                              " > '" + (folder / "answer.json").string() + "' 2> '" + (folder / "errors.txt").string() + "'";
+                              " " + options + " > '" + (folder / "answer.json").string() + "' 2> '" + (folder / "errors.txt").string() + "'";
   const int status = std::system(command.c_str());
   v.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   try {

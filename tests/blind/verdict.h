@@ -39,6 +39,7 @@ struct Verdict {
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
 /// Runs `cavum explain folder/recording.csv --json --seed seed`.
-[[nodiscard]] Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed);
+[[nodiscard]] Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed,
+                          const std::string& options = "");
 
 }  // namespace cavum::blind

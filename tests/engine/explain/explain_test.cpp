@@ -95,6 +95,41 @@ TEST(Explain, OneDirectionNeverNamesFrictionBiasOrEdgeForceAlone) {
   }
 }
 
+TEST(Explain, ALineKeepsItsAmplitudeWhenEverySessionHasItsPhase) {
+  double phase = 0.0;
+  const Recording r = made::recording({}, [&](const made::Row& q) {
+    if (q.first) phase += 2.0;
+    return q.x_mm > 0 ? 0.03 * std::sin(2 * 3.14159265358979 * 7.3 * q.t_s + phase) : 0.0;
+  });
+  const Explanation e = explain(r);
+  ASSERT_EQ(first_cause(e), "chatter") << to_text(e);
+  EXPECT_EQ(e.causes.size(), 1u);
+  EXPECT_NEAR(parameter(e, "amplitude_n").value, 0.03, 0.002);
+  EXPECT_NEAR(parameter(e, "frequency_hz").value, 7.3, 0.01);
+  EXPECT_GT(e.gain.percent.low, 10.0);  // in sessions that were left out too
+}
+
+TEST(Explain, AnIntervalHoldsTheTruthOfAStiffnessThatGrows) {
+  const Recording r = made::recording({}, [](const made::Row& q) {
+    if (q.x_mm <= 0) return 0.0;
+    return std::max(0.0, made::k_k * std::pow(q.x_mm, 1.6) + made::k_c * q.v_mm_s) - q.base_n;  // neither of the two laws pulls
+  });
+  const Explanation e = explain(r);
+  ASSERT_EQ(first_cause(e), "nonlinear_stiffness") << to_text(e);
+  EXPECT_LT(parameter(e, "m").low, 1.6);
+  EXPECT_GT(parameter(e, "m").high, 1.6);
+  EXPECT_LT(parameter(e, "m").high - parameter(e, "m").low, 0.2);
+}
+
+TEST(Explain, WithoutTwinsAPlainRuleAnswersAndSaysSo) {
+  ExplainOptions plain;
+  plain.twins = 0;
+  const Explanation e = explain(made::recording({}, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); }), plain);
+  EXPECT_EQ(first_cause(e), "coulomb_friction") << to_text(e);
+  ASSERT_FALSE(e.notes.empty());
+  EXPECT_NE(e.notes.back().find("without twins"), std::string::npos);
+}
+
 TEST(Explain, TheSameSeedGivesTheSameAnswer) {
   made::Options o;
   o.quantum_mm = 0.01;
