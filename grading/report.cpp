@@ -110,7 +110,8 @@ std::string report_html(const Result& r, const GradeInput& input, const ReportFa
        xml_text(facts.created) + " &middot; " + xml_text(r.tooth_name) + " &middot; " + xml_text(facts.device) + "</p>\n";
   if (regrade != nullptr) h += "<p class='regrade'><b>Regrade</b>: " + xml_text(regrade_text(*regrade)) + ".</p>\n";
   h += "<div class='verdict " + std::string(verdict_name(r.verdict)) + "'><div><b>" + verdict_name(r.verdict) + "</b><br>" + fixed(r.points, 1) +
-       " &plusmn; " + fixed(r.points_bound, 1) + " of " + fixed(r.max_points, 1) + " points</div><ul>";
+       " of " + fixed(r.max_points, 1) + " points<br><small>&plusmn; " + fixed(r.points_bound, 1) +
+       " if every figure were off by its whole bound</small></div><ul>";
   for (const auto& reason : r.verdict_reasons) h += "<li>" + xml_text(reason) + "</li>";
   h += "</ul></div>\n";
   if (regrade != nullptr) h += regrade_html(*regrade);

@@ -195,8 +195,8 @@ Json to_json(const Result& r) {
 
 std::string to_text(const Result& r) {
   std::string s = r.scenario_title + " (" + r.tooth_name + ")\n";
-  s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " ± " + fixed(r.points_bound, 1) + " of " +
-       fixed(r.max_points, 1) + " points\n";
+  s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points (± " +
+       fixed(r.points_bound, 1) + " if every figure were off by its whole bound)\n";
   for (const auto& reason : r.verdict_reasons) s += "  " + reason + "\n";
   s += "\n";
   for (const auto& c : r.criteria)

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <mutex>
 
@@ -14,7 +15,9 @@
 #include "engine/explain/stiffness_table.h"
 #include "scenarios/exam.h"
 #include "ui/explain_page.h"
+#include "ui/own_places.h"
 #include "ui/print_json.h"
+#include "ui/seed_check.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -65,8 +68,8 @@ ForceModel load_model(const std::string& wanted) {
 void write_protocol(const std::string& path) {
   if (path.starts_with("-")) throw Error("--protocol " + path, "is no name of a file", "write --protocol protocol.html, or --help alone");
   const std::string csv = std::filesystem::path(path).replace_extension(".csv").string();
-  require_writable(path);
-  require_writable(csv);
+  if (csv == path) throw Error("--protocol " + path, "is the name of the motion beside the page", "use a name ending in .html");
+  require_own_places({{path, path}, {csv, csv}}, {});
   write_text_file(csv, explain::protocol_motion_csv());
   write_text_file(path, explain::protocol_page());
   std::cout << "written: " << path << " and " << csv << "\n";
@@ -96,10 +99,16 @@ bool ran_table(const ExplainArgs& a) {
 }
 
 void run_explain(const ExplainArgs& a) {
-  if (!a.protocol.empty()) return write_protocol(a.protocol);
+  if (!a.protocol.empty()) {
+    if (!a.data.empty()) throw Error("--protocol " + a.protocol, "goes without a recording", "leave out " + a.data + ", or --protocol");
+    return write_protocol(a.protocol);
+  }
   if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
-  for (const auto& path : {a.out, a.model_out})
-    if (!path.empty()) require_writable(path);
+  if (a.out.ends_with(".pdf")) throw Error("--out " + a.out, "reports are HTML", "use a name ending in .html, and print it from a browser");
+  const std::string rig = a.rig.empty() ? (std::filesystem::path(a.data).parent_path() / "rig.toml").string() : a.rig;
+  require_own_places({{"--out " + a.out, a.out}, {"--model-out " + a.model_out, a.model_out}},
+                     {{"", a.data}, {"", rig}, {"", a.force}, {"", a.model.ends_with(".toml") ? a.model : ""}});
+  if (!a.material.empty() && a.model.empty()) throw Error("--material " + a.material, "goes with --model only", "name the force model, too");
   if (ran_table(a)) return;
   explain::Recording recording = read_data(a);
   explain::ExplainOptions options;
@@ -110,6 +119,9 @@ void run_explain(const ExplainArgs& a) {
   explain::Series added;
   if (!a.model.empty()) {
     const std::string material = a.material.empty() ? explain::material_of(start) : a.material;
+    const auto owner = start.materials.find(material);
+    if (owner == start.materials.end() || !(owner->second.voigt.stiffness_n_per_mm > 0.0))
+      throw Error("--material " + material, "is no material of " + a.model + " that resists", "name one of its materials with k_n_per_mm above 0");
     added = explain::added_force_n(start, material, recording, a.model);
     const auto& tissue = start.materials.find(material)->second.voigt;
     recording.rig.k_n_per_mm = tissue.stiffness_n_per_mm;
@@ -117,18 +129,17 @@ void run_explain(const ExplainArgs& a) {
     options.fixed_n = &added;
   }
   const explain::Explanation result = explain::explain(recording, options);
-  if (!a.model_out.empty()) {
-    if (result.verdict == "data_fault") throw Error(a.data, result.data_faults.front(), "no model can be made of this recording");
-    write_text_file(a.model_out, explain::extended_model_toml(result, start));
-  }
+  const bool faulty = result.verdict == "data_fault", models = !a.model_out.empty() && !faulty;
+  if (models) write_text_file(a.model_out, explain::extended_model_toml(result, start));
   if (!a.out.empty()) write_text_file(a.out, explanation_html(result, a.data));
   if (a.json) {
     print_json(to_json(result));
   } else {
     std::cout << to_text(result);
-    for (const auto& path : {a.out, a.model_out})
+    for (const auto& path : {a.out, models ? a.model_out : ""})
       if (!path.empty()) std::cout << "written: " << path << "\n";
   }
+  if (faulty && !a.model_out.empty()) throw Error("--model-out " + a.model_out, "was not written", "no model can be made of a recording with faults");
 }
 
 }  // namespace
@@ -149,10 +160,16 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
                    "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)")
       ->expected(0, 1)
       ->default_str("protocol.html");
-  verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->capture_default_str();
+  verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->check(seed_check())->capture_default_str();
   verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search; 0: none, a plain rule for comparison")
       ->capture_default_str()
-      ->check(CLI::Range(8, 1000) | CLI::IsMember({0}));
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            int n = -1;
+            return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 8 && n <= 1000)) ? std::string()
+                                                                                           : "'" + text + "' is neither 0 nor 8 to 1000";
+          },
+          "0, or 8 to 1000"));
   verb->add_flag("--json", args->json, "one JSON object on standard output");
   verb->callback([args, &exit_code] {
     run_explain(*args);

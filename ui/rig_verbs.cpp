@@ -14,6 +14,7 @@
 #include "engine/rig/servo_rig.h"
 #include "engine/rig/tooth_rig.h"
 #include "scenarios/exam.h"
+#include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/rig_pictures.h"
 #include "ui/seed_check.h"
@@ -127,8 +128,8 @@ void run_cube(CubeArgs a) {
   require_picture(a.out);
   const std::string rig_toml = (fs::path(a.csv).parent_path() / "rig.toml").string();
   if (!a.csv.empty()) {
-    require_writable(a.csv);
-    require_writable(rig_toml);
+    require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.point}});
+    require_rigs_own(rig_toml);
     if (fs::path(a.csv).filename() == "rig.toml")
       throw Error("--csv " + a.csv, "is the name of the description beside it", "use a name ending in .csv");
     bool there = false;
@@ -197,8 +198,8 @@ void run_record(const RecordArgs& a) {
   const std::string rig_toml = (fs::path(a.csv).parent_path() / "rig.toml").string();
   if (fs::path(a.csv).filename() == "rig.toml")
     throw Error("--csv " + a.csv, "is the name of the description beside it", "use a name ending in .csv");
-  require_writable(a.csv);
-  require_writable(rig_toml);
+  require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.motion}, {"", a.model}, {"", a.point}});
+  require_rigs_own(rig_toml);
   const Motion motion = parse_motion(read_text_file(a.motion), a.motion);
   const RecordResult result = run_record_rig(motion, load_model(a.model), load_point(a.point), a.options);
   write_text_file(a.csv, record_csv(result));

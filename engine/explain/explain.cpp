@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "engine/base/text.h"
 #include "engine/explain/faults.h"
 #include "engine/explain/heldout.h"
 #include "engine/explain/intervals.h"
@@ -199,7 +200,7 @@ void conclude(Explanation& e, bool one_way) {
 }
 
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
-void compare_with_rig(Explanation& e, const Rig& rig) {
+void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   constexpr double k_known = 0.1;  // relative; rigs are calibrated to a few percent
   if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
   const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
@@ -207,7 +208,16 @@ void compare_with_rig(Explanation& e, const Rig& rig) {
   char text[200];
   std::snprintf(text, sizeof text, "fitted k is %.3g times, c is %.3g times that of rig.toml", k, c);
   if (std::fabs(k - 1.0) > k_known || off) e.notes.emplace_back(text);
-  if (e.verdict == "clean" && off && std::fabs(k - 1.0) < 0.5 * k_known) {
+  if (e.verdict != "clean" || !off || std::fabs(k - 1.0) > 0.5 * k_known) return;
+  if (speed_known || c <= 0.0) {  // no clock does that
+    e.verdict = "unexplained";
+    e.unexplained = Unexplained{"v_mm_s", "c differs from that of rig.toml",
+                                std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene.damper_mm_s.square().mean())};
+    if (c < 1.0)
+      e.notes.push_back("a lag of " + plain_number((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm) +
+                        " s of the force (delay or low_pass) takes as much from c: k and c alone cannot tell");
+    e.next_experiment = "press and stop suddenly, several times: a lag shows after each stop, a wrong c does not";
+  } else {
     e.verdict = "data_fault";
     e.data_faults.push_back(std::string("time base: ") + text + ", as when the clock is off by that factor; check the sampling rate, or c");
     e.next_experiment = "record the speed too, or check the sampling rate against a clock";
@@ -353,7 +363,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   e.before = first.view;
   e.after = step.view;
   conclude(e, one_way);
-  compare_with_rig(e, recording.rig);
+  compare_with_rig(e, recording.rig, recording.v_mm_s.size() > 0);
   if (options.progress) options.progress(1.0);
   return e;
 }

@@ -18,8 +18,9 @@ std::string in_words(const Explanation& e) {
   if (e.verdict == "not_testable") return "these data cannot show anything either way: every mechanism that matters can hide behind k and c";
   if (e.verdict == "data_fault") return "the recording cannot be trusted, so nothing was explained";
   if (e.verdict == "unexplained") return "the force depends on something that no mechanism here describes";
-  if (e.verdict == "alias") return "something is missing, but these data cannot tell which of several mechanisms it is";
-  return "the simulation lacks what is named below";
+  const std::string more = e.unexplained ? ", and that is not all: something about " + e.unexplained->variable + " stays unexplained" : "";
+  if (e.verdict == "alias") return "something is missing, but these data cannot tell which of several mechanisms it is" + more;
+  return "the simulation lacks what is named below" + more;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double k_time_tolerance = 0.02;  // of the slope of x over the integral of v: a clock is far better, a quantised position not much
 constexpr double k_unit_band = 3.0;        // a unit taken for another is off by 1000; no calibration is off by 300
+constexpr double k_against = 0.5;          // correlation of force and penetration, about zero, below which the force pulls
 constexpr double k_clipped_share = 0.002;  // of all rows at the limit
 
 void time_stamps(const Recording& r, std::vector<std::string>& faults) {
@@ -55,11 +56,16 @@ void speed_against_position(const Recording& r, std::vector<std::string>& faults
 
 void units(const Recording& r, std::vector<std::string>& faults) {
   const double pressed = r.f_n.maxCoeff();
-  double xf = 0.0, xx = 0.0;
+  double xf = 0.0, xx = 0.0, ff = 0.0;
   for (Eigen::Index i = 0; i < r.rows(); ++i)
-    if (r.x_mm[i] > 0.0) xf += r.x_mm[i] * r.f_n[i], xx += r.x_mm[i] * r.x_mm[i];
+    if (r.x_mm[i] > 0.0) xf += r.x_mm[i] * r.f_n[i], xx += r.x_mm[i] * r.x_mm[i], ff += r.f_n[i] * r.f_n[i];
   if (!(xx > 0.0)) {
     faults.push_back("x_mm is never positive, so the tool never touches; check the sign and the zero of the position");
+    return;
+  }
+  if (xf < -k_against * std::sqrt(xx * ff)) {
+    faults.push_back("sign: f_n falls below zero as the tool presses deeper (" + plain_number(xf / xx) +
+                     " N/mm); a force that resists is positive, multiply f_n by -1");
     return;
   }
   if (r.rig.k_n_per_mm) {

@@ -80,10 +80,13 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
       << "\n\n[rendering]\nkvc_n_per_mm = " << start.rendering.kvc_n_per_mm
       << "\nfiltered_damping_n_s_per_mm = " << start.rendering.filtered_damping_n_s_per_mm << "\nspeed_filter_s = " << start.rendering.speed_filter_s
       << "\ndrag_n_per_mm = " << start.rendering.drag_n_per_mm << "\n";
+  // What was measured is the one material; the others keep their ratio to it.
+  const std::string measured = material_of(start);
+  const Viscoelastic of_measured = start.materials.contains(measured) ? start.materials.at(measured).voigt : Viscoelastic{};
+  const auto scaled = [](double value, double from, double to) { return from > 0.0 ? std::max(0.0, to) * (value / from) : value; };
   for (const auto& [name, m] : start.materials) {
-    const bool resists = m.voigt.stiffness_n_per_mm > 0.0;
-    out << "\n[materials." << name << "]\nk_n_per_mm = " << (resists ? std::max(0.0, e.base.k_n_per_mm) : 0.0)
-        << "\nc_n_s_per_mm = " << (resists ? std::max(0.0, e.base.c_n_s_per_mm) : 0.0) << "\n";
+    out << "\n[materials." << name << "]\nk_n_per_mm = " << scaled(m.voigt.stiffness_n_per_mm, of_measured.stiffness_n_per_mm, e.base.k_n_per_mm)
+        << "\nc_n_s_per_mm = " << scaled(m.voigt.damping_n_s_per_mm, of_measured.damping_n_s_per_mm, e.base.c_n_s_per_mm) << "\n";
     if (m.tau_s > 0.0) out << "tau_s = " << m.tau_s << "\n";
   }
   const auto effect = [&](const MeasurementEffect& m, const std::string& why) {

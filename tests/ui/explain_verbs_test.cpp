@@ -1,4 +1,7 @@
 // `cavum explain` as a user runs it, on the data that ship.
+#include <filesystem>
+#include <sstream>
+
 #include "tests/ui/program.h"
 
 namespace cavum {
@@ -43,6 +46,55 @@ TEST_F(ExplainVerbs, ASessionTakesNoColumnsAndARecordingNoForce) {
   expect_refused("explain " + path("none.cavum"), {"none.cavum"});
   expect_refused("explain " + path("none.cavum") + " --column x_mm=z", {"is a session"});
   expect_refused("explain " + k_data + "measured/hunt/recording.csv --force f.csv", {"--force", "session only"});
+}
+
+TEST_F(ExplainVerbs, NothingThatIsReadIsWrittenOver) {
+  const std::string data = read_text_file(k_data + "measured/hunt/recording.csv"), rig = read_text_file(k_data + "measured/hunt/rig.toml");
+  write_text_file(path("r.csv"), data);
+  write_text_file(path("rig.toml"), rig);
+  for (const std::string& options : {"--out " + path("r.csv"), "--out " + path("./r.csv"), "--model-out " + path("rig.toml"),
+                                     "--model-out " + path("r.csv"), "--out " + path("a.html") + " --model-out " + path("a.html")})
+    expect_refused("explain " + path("r.csv") + " " + options, {"cavum"});
+  EXPECT_EQ(read_text_file(path("r.csv")), data);
+  EXPECT_EQ(read_text_file(path("rig.toml")), rig);
+  // a rig.toml of somebody's own beside a recording that a rig would write
+  write_text_file(path("rig.toml"), "k_n_per_mm = 0.9\n");
+  ASSERT_EQ(run("explain --protocol " + path("protocol.html")).exit_code, 0);
+  expect_refused("rig record --motion " + path("protocol.csv") + " --sessions 1 --csv " + path("new.csv"), {"rig.toml", "would be lost"});
+  expect_refused("rig record --motion " + path("protocol.csv") + " --sessions 1 --csv " + path("protocol.csv"), {"also what is read"});
+  expect_refused("explain --protocol " + path("p.csv"), {"motion beside the page"});
+  EXPECT_EQ(read_text_file(path("rig.toml")), "k_n_per_mm = 0.9\n");
+}
+
+TEST_F(ExplainVerbs, WrongOptionsAreRefused) {
+  const std::string hunt = "explain " + k_data + "measured/hunt/recording.csv ";
+  for (const std::string wrong : {"--seed -1", "--twins 5", "--material pulp --model consistent", "--material unobtainium --model consistent",
+                                  "--material dentin", "--out r.pdf", "--protocol p.html"})
+    expect_refused(hunt + wrong, {"cavum"});
+}
+
+TEST_F(ExplainVerbs, ForceOfTheWrongSignIsAFaultAndSaysSoInJsonWhateverElseIsAsked) {
+  const std::string data = read_text_file(k_data + "measured/hunt/recording.csv");
+  std::istringstream in(data);
+  std::string line, turned;
+  std::getline(in, line);
+  turned = line + "\n";
+  const auto comma = [&](std::size_t n) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < n; ++i) at = line.find(',', at) + 1;
+    return at;
+  };
+  while (std::getline(in, line)) {
+    const std::size_t at = comma(3);
+    turned += line[at] == '-' ? line.substr(0, at) + line.substr(at + 1) + "\n" : line.substr(0, at) + "-" + line.substr(at) + "\n";
+  }
+  write_text_file(path("turned.csv"), turned);
+  const auto ran = run("explain " + path("turned.csv") + " --json --model-out " + path("m.toml"));
+  EXPECT_EQ(ran.exit_code, 2);
+  const auto j = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(j["verdict"], "data_fault");
+  EXPECT_NE(j["data_faults"].dump().find("multiply f_n by -1"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path("m.toml")));
 }
 
 TEST_F(ExplainVerbs, ARecordingIsMadeAlongTheProtocolsMotion) {
