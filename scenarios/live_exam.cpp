@@ -53,8 +53,8 @@ void LiveExam::take(const ServoTick& tick) {
   view_.output = tick.output;
   view_.edit_hash = exam_->state().tooth.edit_hash();
   if (!error.empty()) view_.recording_error = error;
-  if (error.empty() && exam_->recorder().ticks_on_disk() > 0 && exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < 2000)
-    view_.recording_error.clear();
+  if (exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < k_chunk_ticks)
+    view_.recording_error.clear();  // all but the running second is on disk
 }
 
 LiveView LiveExam::view() const {

@@ -14,6 +14,7 @@
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/simulated_exam.h"
+#include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/seed_check.h"
 #include "ui/verbs.h"
@@ -128,11 +129,9 @@ void finish(const Options& o, Exam& exam) {
 
 /// What would spoil the end of an exam is said before it begins.
 void require_places(const Options& o) {
-  require_writable(o.out);
-  if (o.report.empty()) return;
-  require_writable(o.report);
-  if (std::filesystem::weakly_canonical(o.report) == std::filesystem::weakly_canonical(o.out))
-    throw Error("--report " + o.report, "is also the name of the session", "give the report a name of its own");
+  const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
+  require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}},
+                     {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}});
 }
 
 void run_new(const Options& o) {

@@ -14,6 +14,7 @@
 #include "engine/base/text.h"
 #include "engine/session/station_key.h"
 #include "engine/session/verify.h"
+#include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/session_files.h"
 #include "ui/verbs.h"
@@ -135,10 +136,13 @@ void print(const Outcome& o) {
 
 int run(const Options& options) {
   const std::string station_key = options.station_key ? parse_public_key(*options.station_key, "--station-key") : "";
-  if (!options.junit.empty()) require_writable(options.junit);
   const bool folder = std::filesystem::is_directory(options.path);
+  const std::vector<std::string> sessions = folder ? sessions_in(options.path) : std::vector{options.path};
+  std::vector<NamedFile> read;
+  for (const auto& path : sessions) read.push_back({path, path});
+  require_own_places({{"--junit " + options.junit, options.junit}}, read);
   std::vector<Outcome> outcomes;
-  for (const auto& path : folder ? sessions_in(options.path) : std::vector{options.path}) outcomes.push_back(verify_timed(path, station_key));
+  for (const auto& path : sessions) outcomes.push_back(verify_timed(path, station_key));
   if (!options.junit.empty()) write_text_file(options.junit, to_junit(outcomes));  // CI wants its file whatever happened
   if (!folder && !outcomes[0].readable()) std::rethrow_exception(outcomes[0].unreadable);
   if (options.as_json) {

@@ -23,7 +23,9 @@
 #include "engine/tooth/tooth.h"
 #include "scenarios/checked_toml.h"
 #include "scenarios/exam.h"
+#include "ui/own_places.h"
 #include "ui/print_json.h"
+#include "ui/tooth_facts.h"
 #include "ui/verbs.h"
 #ifdef CAVUM_WITH_IMPORT
 #include "engine/tooth/import/import_meshes.h"
@@ -56,55 +58,6 @@ Vec3 parse_vec(const std::string& text, const std::string& option) {
   return {n[0], n[1], n[2]};
 }
 
-/// Box of everything but air and periodontium, mm.
-struct Bounds {
-  Vec3 low, high;
-};
-Bounds bounds_of(const Tooth& tooth) {
-  const auto& o = tooth.octree;
-  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
-  o.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    if (t == k_periodontium) return;
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
-  });
-  if (high.x < 0) return {};
-  const auto mm = [&](IVec3 l) { return o.origin_mm() + Vec3{double(l.x), double(l.y), double(l.z)} * o.leaf_mm(); };
-  return {mm(low), mm(high)};
-}
-
-double rounded(double v, double unit) { return std::round(v / unit) * unit; }
-
-Json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
-  const auto& o = tooth.octree;
-  const auto count = o.count_leaves();
-  const Bounds b = bounds_of(tooth);
-  const auto triple = [](Vec3 v) { return Json::array({rounded(v.x, 1e-6), rounded(v.y, 1e-6), rounded(v.z, 1e-6)}); };
-  Json tissues = Json::array();
-  for (const auto& t : tooth.tissues)
-    if (count[t.id] > 0)
-      tissues.push_back(
-          {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
-  return {{"name", tooth.name},       {"source", tooth.source},
-          {"leaf_mm", o.leaf_mm()},   {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
-          {"tissues", tissues},       {"memory_bytes", o.memory_bytes()},
-          {"file_bytes", file_bytes}, {"hash", tooth_hash(tooth)}};
-}
-
-void print(const Json& d) {
-  std::printf("%s\n", d["name"].get<std::string>().c_str());
-  std::printf("  from    %s\n", d["source"].get<std::string>().c_str());
-  const auto& low = d["bounds_mm"]["low"];
-  const auto& high = d["bounds_mm"]["high"];
-  std::printf("  leaf    %g mm; x %.2f..%.2f  y %.2f..%.2f  z %.2f..%.2f mm\n", d["leaf_mm"].get<double>(), low[0].get<double>(),
-              high[0].get<double>(), low[1].get<double>(), high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
-  for (const auto& t : d["tissues"])
-    std::printf("  %-14s %10.3f mm3%s\n", t["name"].get<std::string>().c_str(), t["volume_mm3"].get<double>(),
-                t["solid"].get<bool>() ? "" : "  (not solid)");
-  std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
-  std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
-}
-
 /// Saves the tooth and says what it is; `more` adds fields to the JSON.
 void finish(const Tooth& tooth, const std::string& path, bool json, const Json& more = Json::object()) {
   save_tooth_file(tooth, path);
@@ -114,7 +67,7 @@ void finish(const Tooth& tooth, const std::string& path, bool json, const Json& 
     d.update(more);
     print_json(d);
   } else {
-    print(d);
+    print_tooth(d);
     std::printf("  wrote   %s\n", path.c_str());
   }
 }
@@ -182,6 +135,12 @@ void add_make(CLI::App& tooth) {
     return c;
   };
 
+  // Without a place for it nothing is made.
+  const auto made = [](const Common& c, const auto& maker) {
+    require_own_places({{"--out " + c.out, c.out}}, {});
+    finish(with_lesion(maker(), c.lesion), c.out, c.json);
+  };
+
   auto* molar = make->add_subcommand("molar", "A parametric lower first molar");
   auto shape = std::make_shared<MolarShape>();
   auto mc = common(molar);
@@ -192,10 +151,7 @@ void add_make(CLI::App& tooth) {
   molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
   molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
   molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
-  molar->callback([=] {
-    require_writable(mc->out);
-    finish(with_lesion(make_molar(*shape), mc->lesion), mc->out, mc->json);
-  });
+  molar->callback([=] { made(*mc, [&] { return make_molar(*shape); }); });
 
   auto* premolar = make->add_subcommand("premolar", "A parametric upper second premolar");
   auto premolar_shape = std::make_shared<PremolarShape>();
@@ -206,7 +162,7 @@ void add_make(CLI::App& tooth) {
   premolar->add_option("--occlusal-enamel-mm", premolar_shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
   premolar->add_option("--lateral-enamel-mm", premolar_shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
   premolar->add_option("--chamber-roof-mm", premolar_shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
-  premolar->callback([=] { finish(with_lesion(make_premolar(*premolar_shape), pc->lesion), pc->out, pc->json); });
+  premolar->callback([=] { made(*pc, [&] { return make_premolar(*premolar_shape); }); });
 
   auto* incisor = make->add_subcommand("incisor", "A parametric upper central incisor");
   auto incisor_shape = std::make_shared<IncisorShape>();
@@ -216,7 +172,7 @@ void add_make(CLI::App& tooth) {
   incisor->add_option("--incisal-enamel-mm", incisor_shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
   incisor->add_option("--lateral-enamel-mm", incisor_shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
   incisor->add_option("--chamber-top-mm", incisor_shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
-  incisor->callback([=] { finish(with_lesion(make_incisor(*incisor_shape), ic->lesion), ic->out, ic->json); });
+  incisor->callback([=] { made(*ic, [&] { return make_incisor(*incisor_shape); }); });
 
   auto* block = make->add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
   struct BlockArgs {
@@ -229,14 +185,15 @@ void add_make(CLI::App& tooth) {
   block->add_option("--layers", ba->layers, "name:thickness_mm from top to bottom")->capture_default_str();
   block->add_option("--leaf-mm", ba->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   block->callback([=] {
-    require_writable(bc->out);
-    const Vec3 size = parse_vec(ba->size, "--size-mm");
-    const std::vector<Layer> layers = parse_layers(ba->layers);
-    const Tooth made = with_lesion(make_block(size, layers, ba->leaf_mm), bc->lesion);
-    notice_unknown_tissues(made);
-    notice_part_leaves({size.x, size.y, size.z}, ba->leaf_mm, "a side");
-    for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, ba->leaf_mm, ("layer '" + layer.tissue + "'").c_str());
-    finish(made, bc->out, bc->json);
+    made(*bc, [&] {
+      const Vec3 size = parse_vec(ba->size, "--size-mm");
+      const std::vector<Layer> layers = parse_layers(ba->layers);
+      Tooth layered = make_block(size, layers, ba->leaf_mm);
+      notice_unknown_tissues(layered);
+      notice_part_leaves({size.x, size.y, size.z}, ba->leaf_mm, "a side");
+      for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, ba->leaf_mm, ("layer '" + layer.tissue + "'").c_str());
+      return layered;
+    });
   });
 
   auto* cube = make->add_subcommand("cube", "A cube of one tissue; origin at the centre of its top face");
@@ -250,11 +207,12 @@ void add_make(CLI::App& tooth) {
   cube->add_option("--tissue", ca->tissue, "Tissue")->capture_default_str();
   cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   cube->callback([=] {
-    require_writable(cc->out);
-    const Tooth made = with_lesion(make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm), cc->lesion);
-    notice_unknown_tissues(made);
-    notice_part_leaves({ca->edge_mm}, ca->leaf_mm, "an edge");
-    finish(made, cc->out, cc->json);
+    made(*cc, [&] {
+      Tooth plain = make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm);
+      notice_unknown_tissues(plain);
+      notice_part_leaves({ca->edge_mm}, ca->leaf_mm, "an edge");
+      return plain;
+    });
   });
 }
 
@@ -282,7 +240,7 @@ void require_meshes(const ImportArgs& a) {
 }
 
 void run_import(const ImportArgs& a) {
-  require_writable(a.out);
+  require_own_places({{"--out " + a.out, a.out}}, {{"", a.volume}, {"", a.enamel}, {"", a.dentin}, {"", a.pulp}});
   FrameOptions frame;
   if (!a.occlusal.empty()) frame.occlusal_axis = parse_vec(a.occlusal, "--occlusal-axis");
   if (!a.mesial.empty()) frame.mesial_axis = parse_vec(a.mesial, "--mesial-axis");
@@ -365,7 +323,7 @@ void add_info(CLI::App& tooth) {
     if (*json)
       print_json(d);
     else
-      print(d);
+      print_tooth(d);
   });
 }
 
@@ -381,7 +339,7 @@ void add_mesh(CLI::App& tooth) {
   mesh->add_option("--out", a->out, "Mesh to write (.stl or .ply), mm")->required();
   mesh->add_flag("--json", a->json, "One JSON object on stdout");
   mesh->callback([=] {
-    require_writable(a->out);
+    require_own_places({{"--out " + a->out, a->out}}, {{"", a->file}});
     const TriangleMesh m = surface_mesh(load_tooth_file(a->file), a->tissue);
     write_mesh_file(m, a->out);
     const double volume = rounded(signed_volume_mm3(m), 1e-6);

@@ -11,22 +11,12 @@ using testing::box_hole;
 using testing::Carved;
 using testing::chambered_block;
 using testing::dentin_block;
+using testing::k_chamber_target;
+using testing::opening_pulp;
 using testing::scenario_text;
 
-// The chambered block: chamber 3 x 2 x 1.5 mm with its floor at z = -4.5, canals 0.4 x 0.6 mm at x = ±1.
-const char k_access[] =
-    "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
-    "kind = \"level\", z_mm = -4.5 }\n";
-
-std::string opening_pulp(const std::string& target) {
-  std::string text = scenario_text(target);
-  const std::string from = "aims = []\nfaults = [\"pulp\", \"periodontium\"]";
-  text.replace(text.find(from), from.size(), "aims = [\"pulp\"]\nfaults = [\"periodontium\"]");
-  return text;
-}
-
 TEST(Access, AWholeRoofTakenOffLeavesNothingOverChamberAndCanals) {
-  Carved c(opening_pulp(k_access), chambered_block(0.05));
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -4.5), 0);
   const AccessMeasures a = c.graded().access;
   ASSERT_TRUE(a.overhang);
@@ -37,7 +27,7 @@ TEST(Access, AWholeRoofTakenOffLeavesNothingOverChamberAndCanals) {
 }
 
 TEST(Access, AStripOfRoofLeftHasItsVolumeAndCoversOneCanalOfTwo) {
-  Carved c(opening_pulp(k_access), chambered_block(0.05));
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 0);  // 1 mm of the roof stays: 3 mm of dentin and enamel, less the horn of 0.5 x 0.6 x 0.5 mm
   const Result r = c.graded();
   ASSERT_TRUE(r.access.overhang);
@@ -49,7 +39,7 @@ TEST(Access, AStripOfRoofLeftHasItsVolumeAndCoversOneCanalOfTwo) {
 }
 
 TEST(Access, UndercutRoofIsOverhangAlthoughTheChamberBelowItIsEmpty) {
-  Carved c(opening_pulp(k_access), chambered_block(0.05));
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 0);
   const double before = c.graded().access.overhang->mm3;
   c.carve([](Vec3 p) { return std::max({std::fabs(p.x) - 1.5, std::fabs(p.y) - 1.0, std::fabs(p.z + 3.75) - 0.75}); }, 1);
@@ -59,7 +49,7 @@ TEST(Access, UndercutRoofIsOverhangAlthoughTheChamberBelowItIsEmpty) {
 }
 
 TEST(Access, OnlyHardTissueBelowTheTargetCountsAsFloorCut) {
-  Carved c(opening_pulp(k_access), chambered_block(0.05));
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -4.5), 0);
   c.carve(box_hole(-1.4, -0.4, -0.5, 0.5, -4.8), 3);  // 0.3 mm of floor under 1 mm2, of which the canal takes 0.4 x 0.6
   const Result r = c.graded();
@@ -68,7 +58,7 @@ TEST(Access, OnlyHardTissueBelowTheTargetCountsAsFloorCut) {
 }
 
 TEST(Access, WithoutAnAimThereIsNothingToOverhang) {
-  Carved c(scenario_text(k_access), chambered_block(0.1));
+  Carved c(scenario_text(k_chamber_target), chambered_block(0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -4.5), 0);
   const Result r = c.graded();
   EXPECT_FALSE(r.access.overhang);

@@ -43,6 +43,18 @@ struct Carved {
   }
 };
 
+/// A target over the whole chamber of chambered_block: 3 x 2 x 1.5 mm with its floor at z = -4.5, canals 0.4 x 0.6 mm at x = ±1.
+inline constexpr char k_chamber_target[] =
+    "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
+    "kind = \"level\", z_mm = -4.5 }\n";
+
+/// scenario_text of a task that is to open the pulp, not to spare it.
+inline std::string opening_pulp(const std::string& target) {
+  std::string text = scenario_text(target);
+  const std::string from = "aims = []\nfaults = [\"pulp\", \"periodontium\"]";
+  return text.replace(text.find(from), from.size(), "aims = [\"pulp\"]\nfaults = [\"periodontium\"]");
+}
+
 /// Distance to a straight-sided hole of cross-section `side(x, y)` (negative inside) and floor at z.
 template <class Side>
 auto hole(const Side& side, double floor_z) {

@@ -15,17 +15,9 @@ using testing::box_hole;
 using testing::Carved;
 using testing::chambered_block;
 using testing::dentin_block;
+using testing::k_chamber_target;
+using testing::opening_pulp;
 using testing::scenario_text;
-
-const char k_access[] =
-    "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
-    "kind = \"level\", z_mm = -4.5 }\n";
-
-std::string opening_pulp() {
-  std::string text = scenario_text(k_access);
-  const std::string from = "aims = []\nfaults = [\"pulp\", \"periodontium\"]";
-  return text.replace(text.find(from), from.size(), "aims = [\"pulp\"]\nfaults = [\"periodontium\"]");
-}
 
 /// The one criterion `metric`, half of whose points are lost; `sign` 1 where more is to be better.
 RubricSpec half_lost(const Result& r, const std::string& metric, double sign) {
@@ -48,7 +40,7 @@ double points_of(const Why& w) {
 }
 
 TEST(Why, PointsAddUpToWhatWasLostForEveryMeasureAndBothDirections) {
-  Carved c(opening_pulp(), chambered_block(0.1));
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.1));
   c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
   c.carve(box_hole(0.2, 0.9, -3.4, -2, -1), 2000);
@@ -87,7 +79,7 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
 }
 
 TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
-  Carved c(opening_pulp(), chambered_block(0.05));
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 77);  // a millimetre of roof stays, over one canal of two
   const Result measured = c.graded();
   for (const char* metric : {"overhang_mm3", "canals_covered_percent"}) {
@@ -106,7 +98,7 @@ TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
 }
 
 TEST(Why, IdleTimeIsListedInSpansThatAddUpToIt) {
-  Carved c(scenario_text(k_access), dentin_block(4, 5, 0.1));
+  Carved c(scenario_text(k_chamber_target), dentin_block(4, 5, 0.1));
   for (int i = 0; i < 3000; ++i) {
     TickInput in;
     in.tip_nm = {i >= 1000 && i < 1600 ? (i - 1000) * 2000 : 1200000, 0, 4000000};  // it moves for 0.6 s; 1.0 s and 1.4 s rest
@@ -132,7 +124,7 @@ TEST(Why, IdleTimeIsListedInSpansThatAddUpToIt) {
 }
 
 TEST(Why, TicksThatFollowEachOtherAreOneStretch) {
-  Carved c(scenario_text(k_access), dentin_block(2, 2, 0.2));
+  Carved c(scenario_text(k_chamber_target), dentin_block(2, 2, 0.2));
   for (int i = 0; i < 50; ++i) {
     c.inputs.emplace_back();
     c.records.emplace_back().rpm = i < 10 || i > 30 ? 2000 : 0;

@@ -18,53 +18,39 @@ SessionSetup setup_with_terms(const std::string& fc_n) {
   return setup;
 }
 
-TEST(TermsSession, ReplaysAndResumesWithItsForceTerms) {
+/// Drills, is cut off, goes on from the file alone, and verifies. Returns the state in which it was cut off.
+ServoState replays_and_resumes(const SessionSetup& setup, std::size_t terms) {
   const Folder folder;
   const std::string path = folder.file("terms.cavum");
-  const SessionSetup setup = setup_with_terms("0.26");
-  std::uint64_t after = 0;
+  ServoState cut_off;
   {
     Simulation simulation = make_simulation(setup, "test");
-    ASSERT_EQ(simulation.model.force.terms.size(), 3u);
+    EXPECT_EQ(simulation.model.force.terms.size(), terms);
     Recorder recorder = Recorder::create(path, setup);
     test::drill(simulation, recorder, 0, 2500);
     recorder.flush();
-    after = state_hash(simulation.state);
+    cut_off = simulation.state;
   }
   ResumedSession resumed = resume_session(path);
   EXPECT_EQ(resumed.ticks, 2500);
-  EXPECT_EQ(state_hash(resumed.simulation.state), after);
+  EXPECT_EQ(state_hash(resumed.simulation.state), state_hash(cut_off));
   test::drill(resumed.simulation, resumed.recorder, 2500, 1200);
   resumed.recorder.close(save_tooth(drilled_tooth(resumed.simulation)), "{}");
   const VerifyReport report = verify_session(path);
   EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
   EXPECT_EQ(report.ticks_replayed, 3700);
+  return cut_off;
 }
 
+TEST(TermsSession, ReplaysAndResumesWithItsForceTerms) { replays_and_resumes(setup_with_terms("0.26"), 3); }
+
 TEST(TermsSession, ReplaysAndResumesWithWhatRemembersAndCounts) {
-  const Folder folder;
-  const std::string path = folder.file("cutting.cavum");
   SessionSetup setup = test::block_setup();
   for (const char* term : {"hysteresis\"\nalpha_n_per_mm = 0.2\nd_mm = 0.05\ngamma = 0.5", "backlash\"\nb_mm = 0.01", "wear\"\nper_mm3 = 0.5",
                            "chatter\"\namplitude_n = 0.02\nfrequency_hz = 37", "coolant\"\nfraction = -0.1", "thermal_softening\"\nper_k = 0.01",
                            "anisotropy\"\nepsilon = 0.2\nphi0_deg = 20", "run_out\"\namplitude_n = 0.01\nby_clock = 1"})
     setup.force_model_toml += std::string("\n[[terms]]\nkind = \"") + term + "\n";
-  std::uint64_t after = 0;
-  {
-    Simulation simulation = make_simulation(setup, "test");
-    ASSERT_EQ(simulation.model.force.terms.size(), 8u);
-    Recorder recorder = Recorder::create(path, setup);
-    test::drill(simulation, recorder, 0, 2500);
-    recorder.flush();
-    after = state_hash(simulation.state);
-    EXPECT_GT(simulation.state.terms.removed_leaves[0], 0u);
-  }
-  ResumedSession resumed = resume_session(path);
-  EXPECT_EQ(state_hash(resumed.simulation.state), after);
-  test::drill(resumed.simulation, resumed.recorder, 2500, 1200);
-  resumed.recorder.close(save_tooth(drilled_tooth(resumed.simulation)), "{}");
-  const VerifyReport report = verify_session(path);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_GT(replays_and_resumes(setup, 8).terms.removed_leaves[0], 0u);
 }
 
 TEST(TermsSession, OtherFrictionIsAnotherHistory) {
