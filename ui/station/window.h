@@ -1,0 +1,53 @@
+// One window with an OpenGL 3.3 context and Dear ImGui in it. Everything of GLFW stays behind it; keys that a script presses come in by the same
+// door as those of a keyboard.
+#pragma once
+
+#include <memory>
+#include <string>
+
+struct GLFWwindow;
+
+namespace cavum {
+
+class Window {
+ public:
+  /// Throws Error when there is no display or no OpenGL 3.3. `width`, `height` in pixels.
+  Window(const std::string& title, int width, int height);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Takes what keyboard and mouse did, and begins a frame.
+  void begin_frame();
+  /// Draws the frame's ImGui content over what was drawn and shows it, unless the window is hidden.
+  void end_frame();
+  /// Fonts for another size of text, 1 = normal; between frames.
+  void set_text_scale(double scale);
+
+  [[nodiscard]] bool closing() const;
+  void ask_to_close();
+  void set_visible(bool visible);
+  [[nodiscard]] int width() const;   ///< pixels
+  [[nodiscard]] int height() const;  ///< pixels
+  [[nodiscard]] std::string renderer() const;
+  /// The computer's processor draws: slow, and every core it takes is one less for the servo.
+  [[nodiscard]] bool software() const noexcept { return software_; }
+
+  /// As if typed; `key` of GLFW. The key is released in the next frame.
+  void press(int key, int modifiers = 0);
+  void type(const std::string& text);
+  /// The picture on the screen as PNG, after end_frame. Throws Error when it cannot be written.
+  void save_picture(const std::string& path) const;
+
+ private:
+  GLFWwindow* window_ = nullptr;
+  bool software_ = false;
+  int pressed_ = 0;
+};
+
+/// Fonts of the last set_text_scale.
+enum class Font : int { body, heading, clock, small };
+void push_font(Font font);
+void pop_font();
+
+}  // namespace cavum
