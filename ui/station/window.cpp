@@ -104,6 +104,14 @@ void Window::end_frame() {
   glClearColor(back.x, back.y, back.z, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (!picture_.empty()) {
+    std::vector<unsigned char> pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadBuffer(GL_BACK);
+    glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    write_png(picture_, w, h, pixels);
+    picture_.clear();
+  }
   glfwSwapBuffers(window_);
   if (pressed_ != 0) ImGui_ImplGlfw_KeyCallback(window_, pressed_, 0, GLFW_RELEASE, 0);
   pressed_ = 0;
@@ -136,22 +144,13 @@ std::string Window::renderer() const {
   return name != nullptr ? name : "";
 }
 
-void Window::press(int key, int modifiers) {
-  ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_PRESS, modifiers);
-  pressed_ = key;
+void Window::press(int key, bool held) {
+  ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_PRESS, 0);
+  pressed_ = held ? 0 : key;
 }
 
 void Window::type(const std::string& text) {
   for (const char c : text) ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned char>(c));
-}
-
-void Window::save_picture(const std::string& path) const {
-  const int w = width(), h = height();
-  std::vector<unsigned char> pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadBuffer(GL_FRONT);
-  glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-  write_png(path, w, h, pixels);
 }
 
 }  // namespace cavum

@@ -33,16 +33,17 @@ class Window {
   /// The computer's processor draws: slow, and every core it takes is one less for the servo.
   [[nodiscard]] bool software() const noexcept { return software_; }
 
-  /// As if typed; `key` of GLFW. The key is released in the next frame.
-  void press(int key, int modifiers = 0);
+  /// As if a hand did it; `key` of GLFW. It is released after this frame, unless it is `held`: then by the next press that does not hold it.
+  void press(int key, bool held = false);
   void type(const std::string& text);
-  /// The picture on the screen as PNG, after end_frame. Throws Error when it cannot be written.
-  void save_picture(const std::string& path) const;
+  /// The running frame is written as PNG by end_frame, which throws Error when it cannot.
+  void keep_picture(const std::string& path) { picture_ = path; }
 
  private:
   GLFWwindow* window_ = nullptr;
   bool software_ = false;
-  int pressed_ = 0;
+  int pressed_ = 0;      // by `press`, to be released
+  std::string picture_;  // of the running frame
 };
 
 /// Fonts of the last set_text_scale.
