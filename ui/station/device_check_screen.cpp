@@ -35,7 +35,7 @@ void sign(const Theme& t, CheckItem::State state) {
 void device_check_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  begin_card(t, "Stylus, pedal, finger rest", 660, 520);
+  begin_card(t, "Stylus, pedal, finger rest", 660);
   const bool prepared = c.sitting->stage() != Stage::preparing;
   bool good = false;
   if (!prepared) {

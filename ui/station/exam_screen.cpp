@@ -126,14 +126,14 @@ void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
     if (chosen) c.sitting->desk().point.store(number, std::memory_order_relaxed);
     if (may) draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ink(t.raised), t.px(5));
     if (mounted || marked) draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
-    const ImU32 steel = ink(may ? t.text : t.line), coated = ink(may ? t.warn : t.line);
+    const ImU32 steel = ink(may ? t.text : t.line), coated = ink(may ? t.warn : t.quiet);
     draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(34)}, steel, coated);
     push_font(Font::small);
-    const float name = ImGui::CalcTextSize(c.shelf[i].name.c_str()).x;
-    draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
-    draw.AddText({at.x + std::max(t.px(4), (size.x - name) / 2), at.y + size.y - t.px(22)}, ink(may ? t.text : t.quiet), c.shelf[i].name.c_str());
+    // the longest names a little smaller, so that all can be read
+    const float room = size.x - t.px(4), wide = ImGui::CalcTextSize(c.shelf[i].name.c_str()).x, font = ImGui::GetFontSize() * std::min(1.0F, room / wide);
+    const float name = std::min(wide, room);
+    draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - name) / 2, at.y + size.y - t.px(22)}, ink(may ? t.text : t.quiet), c.shelf[i].name.c_str());
     if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), ("F" + std::to_string(i + 1)).c_str());
-    draw.PopClipRect();
     pop_font();
   }
   end_area();

@@ -38,7 +38,7 @@ void criteria(const Theme& t, const Result& r) {
 }  // namespace
 
 void grading_screen(const ScreenContext& c) {
-  begin_card(c.theme, "The exam is over", 560, 230);
+  begin_card(c.theme, "The exam is over", 560);
   wrapped_text("Your work is being graded and sealed. You may put the handpiece down.");
   const double phase = ImGui::GetTime() - static_cast<long>(ImGui::GetTime());
   ImGui::ProgressBar(static_cast<float>(phase), {-1, c.theme.px(6)}, "");
@@ -46,7 +46,7 @@ void grading_screen(const ScreenContext& c) {
 }
 
 void trouble_screen(const ScreenContext& c) {
-  begin_card(c.theme, "The exam was interrupted", 640, 380);
+  begin_card(c.theme, "The exam was interrupted", 640);
   wrapped_text(c.state.message);
   ImGui::Dummy({0, c.theme.px(8)});
   if (c.sitting != nullptr && !c.sitting->path().empty()) {

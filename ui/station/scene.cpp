@@ -61,7 +61,7 @@ in vec3 eye_at, eye_normal;
 in vec4 colour;
 in float gloss;
 uniform vec3 background;
-uniform float near_mm, far_mm, flat_light;
+uniform float near_mm, far_mm, flat_light, glass;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(eye_normal);
@@ -71,13 +71,15 @@ void main() {
   float head = max(dot(n, to_eye), 0.0);
   float side = max(dot(n, key), 0.0);
   float sky = 0.5 + 0.5 * n.y;
-  float lit = mix(0.16 + 0.40 * head * head + 0.42 * side + 0.12 * sky, 0.55 + 0.45 * head, flat_light);
+  float lit = mix(0.20 + 0.46 * head + 0.30 * side + 0.10 * sky, 0.55 + 0.45 * head, flat_light);
   vec3 halfway = normalize(key + to_eye);
   float shine = gloss * (0.30 * pow(max(dot(n, halfway), 0.0), 48.0) + 0.10 * pow(head, 90.0));
   float rim = gloss * 0.16 * pow(1.0 - head, 3.0);
   vec3 c = colour.rgb * lit + vec3(shine) + rim * vec3(0.72, 0.82, 0.95);
   float depth = clamp((-eye_at.z - near_mm) / (far_mm - near_mm), 0.0, 1.0);
-  pixel = vec4(mix(c, background, 0.62 * depth), colour.a);
+  float edge = 1.0 - head;  // glass is seen at its edges
+  float opacity = mix(colour.a, colour.a * (0.42 + 1.9 * edge * edge), glass);
+  pixel = vec4(mix(c, background, 0.62 * depth), min(opacity, 1.0));
 })";
 
 bool same(const SceneView& a, const SceneView& b) {
@@ -144,7 +146,7 @@ MeshData target_mesh(const ZoneMap& zones) {
 }
 
 Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target)
-    : tooth_(tooth, target != nullptr),
+    : tooth_(tooth),
       tissues_(tissues),
       points_(meshes_of(tray)),
       tissue_program_(k_tissue_vertex, k_fragment),
@@ -180,14 +182,17 @@ void Scene::light(const ShaderProgram& program, const SceneView& view, const glm
   program.set("near_mm", view.camera.distance_mm);
   program.set("far_mm", view.camera.distance_mm + 34.0F);
   program.set("flat_light", 0.0F);
+  program.set("glass", 0.0F);
 }
 
 void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int height) {
   glViewport(x, 0, width, height);
   const glm::mat4 look = view.camera.view(eye), projection = view.camera.projection(static_cast<float>(width) / static_cast<float>(height));
+  const ToothDrawing::Sight sight{view.camera.position_mm(eye), projection * look};
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
+  glFrontFace(view.camera.mirror ? GL_CW : GL_CCW);
 
   light(plain_program_, view, look, projection);
   const bool tool = view.point >= 0 && static_cast<std::size_t>(view.point) < points_.size();
@@ -197,29 +202,35 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
   }
   light(tissue_program_, view, look, projection);
   tissue_program_.set("colours", colours(view.high_contrast));
+  tooth_.draw_pulp(sight);
   if (view.clear) {
-    tooth_.draw_pulp();
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
     light(plain_program_, view, look, projection);
-    plain_program_.set("opacity", 0.34F);
+    plain_program_.set("opacity", 0.45F);
     plain_program_.set("flat_light", 1.0F);
     target_.draw();
     glDepthMask(GL_TRUE);
     // the nearest surface alone, so that walls behind walls do not add up to white
     tissue_program_.use();
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    tooth_.draw_hard_tissue();
+    tooth_.draw_hard_tissue(sight);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
-    tissue_program_.set("opacity", 0.42F);
-    tooth_.draw_hard_tissue();
+    tissue_program_.set("opacity", 0.45F);
+    tissue_program_.set("glass", 1.0F);
+    tissue_program_.set("flat_light", 0.6F);
+    tooth_.draw_hard_tissue(sight);
     glDepthFunc(GL_LESS);
   } else {
-    tooth_.draw_hard_tissue();
+    tooth_.draw_hard_tissue(sight);
   }
-  if (tool && view.handpiece) {
+  // the head would hide the work from whoever looks along the handpiece
+  const glm::vec3 sight_line = glm::normalize(view.camera.target_mm - view.camera.position_mm(eye));
+  const float along = tool ? std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2])))) : 0.0F;
+  const float opacity = 0.24F * (1.0F - glm::smoothstep(0.55F, 0.85F, along));
+  if (tool && view.handpiece && opacity > 0.01F) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     light(plain_program_, view, look, projection);
@@ -228,11 +239,12 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     handpiece_.draw();
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
-    plain_program_.set("opacity", 0.22F);
+    plain_program_.set("opacity", opacity);
     handpiece_.draw();
     glDepthFunc(GL_LESS);
   }
   glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 

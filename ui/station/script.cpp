@@ -19,7 +19,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<const char*, 12> k_words{"wait", "until", "type", "key", "sleep", "stall", "hide", "show", "picture", "memory", "fail", "close"};
+constexpr std::array<const char*, 13> k_words{"wait", "go", "until", "type", "key", "sleep", "stall", "hide", "show", "picture", "memory", "fail", "close"};
 
 int key_of(const std::string& name) {
   if (name == "enter") return GLFW_KEY_ENTER;
@@ -83,14 +83,23 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
 
 bool Script::run(const Command& c, Window& window, Screen screen, double exam_s, double now_s) {
   const std::string where = path_ + ":" + std::to_string(c.line);
-  if (c.word == "wait") {
+  if (c.word == "wait" || c.word == "go") {
+    constexpr double k_again_s = 0.5;
+    const bool there = c.text == screen_name(screen);
+    if (c.word == "go" && !there && now_s - pressed_s_ > k_again_s) {
+      window.press(GLFW_KEY_ENTER);
+      pressed_s_ = now_s;
+    }
     constexpr double k_patience_s = 300;
     if (now_s - since_s_ > k_patience_s)
       throw Error(where, "the screen '" + c.text + "' did not come, '" + screen_name(screen) + "' shows", "correct the script");
-    return c.text == screen_name(screen);
+    return there;
   }
   if (c.word == "until") return exam_s >= c.number;
-  if (c.word == "type") window.type(c.text);
+  if (c.word == "type") {
+    if (!window.wants_text()) return false;
+    window.type(c.text);
+  }
   if (c.word == "key") {
     window.press(c.key, now_s - since_s_ < c.number);
     return now_s - since_s_ >= c.number;

@@ -1,6 +1,7 @@
 // Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. One command a
 // line, # begins a comment:
 //   wait SCREEN      until that screen shows (sign-in, device-check, briefing, exam, grading, result, trouble), 300 s at most
+//   go SCREEN        presses enter now and then until that screen shows
 //   until SECONDS    until the exam's clock has come so far
 //   type TEXT        letters
 //   key NAME         enter, escape, space, tab, f1 to f12, a letter, a digit, [ ] + -; a second word holds it so many seconds
@@ -44,7 +45,8 @@ class Script {
   std::string path_, pictures_;
   std::vector<Command> commands_;
   std::size_t next_ = 0;
-  double since_s_ = -1.0;  // when the running command began
+  double since_s_ = -1.0;    // when the running command began
+  double pressed_s_ = -1.0;  // when `go` last pressed enter
 };
 
 }  // namespace cavum

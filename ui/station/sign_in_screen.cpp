@@ -9,9 +9,9 @@ namespace cavum {
 void sign_in_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  begin_card(t, c.practice ? "Practice" : "Examination", 620, 560);
+  begin_card(t, c.practice ? "Practice" : "Examination", 620);
   wrapped_text(c.scenario.title);
-  quiet_text(t, c.scenario.description);
+  if (!c.scenario.description.empty()) quiet_text(t, c.scenario.description);
   ImGui::Dummy({0, t.px(10)});
   ImGui::TextUnformatted("Your candidate code");
   ImGui::SetNextItemWidth(-1);

@@ -8,7 +8,7 @@ namespace cavum {
 
 void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated) {
   constexpr int k_slices = 90;
-  constexpr float k_shown_mm = 11.0F;
+  constexpr float k_shown_mm = 7.0F;
   const float scale = size.y / k_shown_mm, middle = at.x + size.x / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (int i = 0; i < k_slices; ++i) {

@@ -222,6 +222,7 @@ class Station {
     scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.points, practice ? &setup.zones : nullptr);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
+    state_.view.camera.distance_mm = 36.0F;
     state_.view.clear = practice;
     constexpr double k_below_mm = 1.5;  // of the opening: the whole crown is in the picture
     state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),

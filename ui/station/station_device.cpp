@@ -10,7 +10,7 @@ namespace {
 
 /// Before the exam its hand rests on the finger rest, and its foot tries the pedal once.
 HandIntent resting(Vec3 at, double t_s) {
-  const double tremor_mm = 0.05;
+  const double tremor_mm = 0.25;
   at += Vec3{tremor_mm * std::sin(9.0 * t_s), tremor_mm * std::sin(7.0 * t_s + 1.0), 0};
   const double pressed = t_s > 0.4 && t_s < 0.9 ? 1.0 : 0.0;
   return {at, pressed};

@@ -98,12 +98,18 @@ void apply_theme(const Theme& t) {
   ImGui::GetStyle() = style;
 }
 
+namespace {
+
+constexpr ImGuiWindowFlags k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+}  // namespace
+
 void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool panel) {
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, panel ? theme.panel : theme.back);
-  ImGui::Begin(id, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::Begin(id, nullptr, k_plain);
 }
 
 void end_area() {
@@ -111,14 +117,17 @@ void end_area() {
   ImGui::PopStyleColor();
 }
 
-void begin_card(const Theme& theme, const char* heading, float width, float height) {
+void begin_card(const Theme& theme, const char* heading, float width) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   width = std::fmin(theme.px(width), screen.x - 20.0F);
-  height = std::fmin(theme.px(height), screen.y - 20.0F);
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, screen.y - 20.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(36), theme.px(30)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(10));
-  begin_area(theme, heading, {(screen.x - width) / 2, (screen.y - height) / 2}, {width, height}, true);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, theme.panel);
+  ImGui::Begin(heading, nullptr, k_plain | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PopStyleVar(2);
+  ImGui::Dummy({width - theme.px(72), 0});
   heading_text(heading);
   ImGui::Dummy({0, theme.px(4)});
 }

@@ -149,6 +149,8 @@ void Window::press(int key, bool held) {
   pressed_ = held ? 0 : key;
 }
 
+bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
+
 void Window::type(const std::string& text) {
   for (const char c : text) ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned char>(c));
 }

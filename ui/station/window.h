@@ -36,6 +36,8 @@ class Window {
   /// As if a hand did it; `key` of GLFW. It is released after this frame, unless it is `held`: then by the next press that does not hold it.
   void press(int key, bool held = false);
   void type(const std::string& text);
+  /// A field waits for letters.
+  [[nodiscard]] bool wants_text() const;
   /// The running frame is written as PNG by end_frame, which throws Error when it cannot.
   void keep_picture(const std::string& path) { picture_ = path; }
 
