@@ -49,7 +49,7 @@ constexpr bool fan_is_sound(const Outline& outline, int first) {
 }
 
 constexpr CubeCase work_out(unsigned inside) {
-  // On each face the surface runs from where a run of inside corners ends to where it began.
+  // On each face the surface runs from where a run of inside corners begins to where it ends.
   std::array<int, 12> next{};
   next.fill(-1);
   for (const auto& face : k_faces)
@@ -58,7 +58,7 @@ constexpr CubeCase work_out(unsigned inside) {
       if (!is_in(i) || is_in(i + 1)) continue;
       std::size_t began = i + 4;
       while (is_in(began - 1)) --began;
-      next[static_cast<std::size_t>(edge_between(face[i], face[(i + 1) % 4]))] = edge_between(face[(began - 1) % 4], face[began % 4]);
+      next[static_cast<std::size_t>(edge_between(face[(began - 1) % 4], face[began % 4]))] = edge_between(face[i], face[(i + 1) % 4]);
     }
   CubeCase made;
   for (std::size_t start = 0; start < 12; ++start) {
