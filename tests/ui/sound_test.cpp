@@ -150,7 +150,8 @@ Wav read_wav(const std::string& path) {
     return value;
   };
   Wav wav;
-  std::uint16_t channels = 0, bits = 0;
+  std::size_t channels = 0;
+  int bits = 0;
   for (std::size_t i = 12; i + 8 <= file.size();) {
     const auto size = at(i + 4, std::uint32_t{});
     if (std::memcmp(file.data() + i, "fmt ", 4) == 0) {
@@ -159,7 +160,7 @@ Wav read_wav(const std::string& path) {
       bits = at(i + 22, std::uint16_t{});
     }
     if (std::memcmp(file.data() + i, "data", 4) == 0 && channels > 0 && bits == 16)
-      for (std::size_t s = i + 8; s + 2u * channels <= std::min(file.size(), i + 8 + size); s += 2u * channels)
+      for (std::size_t s = i + 8; s + 2 * channels <= std::min(file.size(), i + 8 + size); s += 2 * channels)
         wav.left.push_back(static_cast<float>(at(s, std::int16_t{})) / 32768.0f);
     i += 8 + size + (size & 1);
   }

@@ -335,7 +335,7 @@ TEST(LeafBlocks, HoldEveryLeafAfterRandomCuts) {
   }
   leaves.take(tree, changed);
   constexpr int k_cube = 40;
-  std::vector<std::uint8_t> tissue(k_cube * k_cube * k_cube);
+  std::vector<std::uint8_t> tissue(std::size_t{k_cube} * k_cube * k_cube);
   std::vector<std::int8_t> code(tissue.size());
   const IVec3 low{-5, -3, -7};
   leaves.copy_cube(low, k_cube, tissue.data(), code.data());
