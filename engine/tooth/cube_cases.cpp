@@ -1,7 +1,5 @@
 #include "engine/tooth/cube_cases.h"
 
-#include <utility>
-
 namespace cavum {
 namespace {
 
@@ -16,13 +14,13 @@ constexpr std::array<std::array<int, 4>, 6> k_faces = [] {
   return faces;
 }();
 
-constexpr int edge_between(int a, int b) {
+int edge_between(int a, int b) {
   for (std::size_t e = 0; e < k_cube_edges.size(); ++e)
     if (k_cube_edges[e].low_corner == (a < b ? a : b) && k_cube_edges[e].high_corner() == (a < b ? b : a)) return static_cast<int>(e);
   return -1;
 }
 
-constexpr bool in_one_face(int edge_a, int edge_b) {
+bool in_one_face(int edge_a, int edge_b) {
   for (const auto& face : k_faces) {
     bool a = false, b = false;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -42,14 +40,14 @@ struct Outline {
 };
 
 /// Is a fan from corner `first` of the outline free of sides that lie in a face?
-constexpr bool fan_is_sound(const Outline& outline, int first) {
+bool fan_is_sound(const Outline& outline, int first) {
   for (int i = 2; i + 1 < outline.count; ++i)
     if (in_one_face(outline.edge[static_cast<std::size_t>(first)], outline.edge[static_cast<std::size_t>((first + i) % outline.count)])) return false;
   return true;
 }
 
-constexpr CubeCase work_out(unsigned inside) {
-  // On each face the surface runs from where a run of inside corners ends to where it began.
+CubeCase work_out(unsigned inside) {
+  // On each face the surface runs from where a run of inside corners begins to where it ends.
   std::array<int, 12> next{};
   next.fill(-1);
   for (const auto& face : k_faces)
@@ -58,7 +56,7 @@ constexpr CubeCase work_out(unsigned inside) {
       if (!is_in(i) || is_in(i + 1)) continue;
       std::size_t began = i + 4;
       while (is_in(began - 1)) --began;
-      next[static_cast<std::size_t>(edge_between(face[i], face[(i + 1) % 4]))] = edge_between(face[(began - 1) % 4], face[began % 4]);
+      next[static_cast<std::size_t>(edge_between(face[(began - 1) % 4], face[began % 4]))] = edge_between(face[i], face[(i + 1) % 4]);
     }
   CubeCase made;
   for (std::size_t start = 0; start < 12; ++start) {
@@ -71,27 +69,27 @@ constexpr CubeCase work_out(unsigned inside) {
     }
     if (outline.count == 0) continue;
     int first = 0;
-    while (first < outline.count && !fan_is_sound(outline, first)) ++first;
+    while (!fan_is_sound(outline, first)) ++first;  // there always is one
     for (int i = 1; i + 1 < outline.count; ++i) {
       const int corners[3]{first, (first + i) % outline.count, (first + i + 1) % outline.count};
       for (int c = 0; c < 3; ++c)
         made.edge[static_cast<std::size_t>(3 * made.triangles + c)] =
-            static_cast<std::uint8_t>(outline.edge.at(static_cast<std::size_t>(corners[c])));  // no sound fan: does not compile
+            static_cast<std::uint8_t>(outline.edge.at(static_cast<std::size_t>(corners[c])));
       ++made.triangles;
     }
   }
   return made;
 }
 
-template <unsigned... inside>
-constexpr std::array<CubeCase, 256> all_cases(std::integer_sequence<unsigned, inside...>) {
-  return {work_out(inside)...};
-}
-
-constexpr std::array<CubeCase, 256> k_cases = all_cases(std::make_integer_sequence<unsigned, 256>{});
-
 }  // namespace
 
-const std::array<CubeCase, 256>& cube_cases() noexcept { return k_cases; }
+const std::array<CubeCase, 256>& cube_cases() {
+  static const std::array<CubeCase, 256> cases = [] {
+    std::array<CubeCase, 256> all;
+    for (unsigned inside = 0; inside < all.size(); ++inside) all[inside] = work_out(inside);
+    return all;
+  }();
+  return cases;
+}
 
 }  // namespace cavum

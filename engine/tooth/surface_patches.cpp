@@ -16,9 +16,8 @@ constexpr std::size_t k_window_leaves = static_cast<std::size_t>(k_window) * k_w
 constexpr std::size_t k_point_count = static_cast<std::size_t>(k_points) * k_points * k_points;
 constexpr std::uint16_t k_none = 0xffff;
 constexpr std::array<int, 3> k_step{1, k_window, k_window* k_window};
-constexpr std::array<int, 3> k_point_step{1, k_points, k_points* k_points};
-/// A neighbour's leaves twice around, counted by `blur`: 27 times 27.
-constexpr int k_all = 729, k_half = 364;
+/// Half of what `blur` counts when all is of the tissue: 27 leaves, 27 times.
+constexpr double k_half = 0.5 * 729;
 
 /// Lowest leaf of the points of a patch: the first has a layer of air below the tooth.
 constexpr int first_point(int patch) { return patch * SurfacePatches::k_edge - 1; }
@@ -95,7 +94,7 @@ struct SurfacePatches::Maker {
       outwards = code_slope(low) * (1.0 - place) + code_slope(high) * place;
       if ((code[l] < 0) != low_inside) outwards = -outwards;  // of a void tissue, which lies on the other side
     } else {
-      const double of_low = share[l] - k_half - 0.5, of_high = share[h] - k_half - 0.5;
+      const double of_low = share[l] - k_half, of_high = share[h] - k_half;
       if ((of_low > 0) == low_inside && (of_high > 0) != low_inside) place = std::clamp(of_low / (of_low - of_high), 0.05, 0.95);
       outwards = share_slope(low) * (1.0 - place) + share_slope(high) * place;
     }
@@ -146,10 +145,11 @@ struct SurfacePatches::Maker {
     const std::array<std::uint32_t, 4> row{lower[static_cast<std::size_t>(y)], lower[static_cast<std::size_t>(y + 1)],
                                            upper[static_cast<std::size_t>(y)], upper[static_cast<std::size_t>(y + 1)]};
     const std::uint32_t any = row[0] | row[1] | row[2] | row[3], all = row[0] & row[1] & row[2] & row[3];
+    const auto& cases = cube_cases();
     for (std::uint32_t cells = (any | any >> 1) & ~(all & all >> 1) & ((1u << k_edge) - 1); cells != 0; cells &= cells - 1) {
       const int x = std::countr_zero(cells);
       const std::size_t corners = (row[0] >> x & 3) | (row[1] >> x & 3) << 2 | (row[2] >> x & 3) << 4 | (row[3] >> x & 3) << 6;
-      const CubeCase& found = cube_cases()[corners];
+      const CubeCase& found = cases[corners];
       for (int t = 0; t < found.triangles; ++t) {
         std::array<std::uint16_t, 3> triangle;
         for (std::size_t i = 0; i < 3; ++i) triangle[i] = vertex(k_cube_edges[found.edge[static_cast<std::size_t>(3 * t) + i]], x, y, z);
@@ -160,8 +160,7 @@ struct SurfacePatches::Maker {
 };
 
 SurfacePatches::SurfacePatches(const LeafBlocks& leaves, std::uint8_t tissue)
-    : tissue_(tissue),
-      size_{patches_along(leaves.size().x), patches_along(leaves.size().y), patches_along(leaves.size().z)},
+    : size_{patches_along(leaves.size().x), patches_along(leaves.size().y), patches_along(leaves.size().z)},
       maker_(std::make_unique<Maker>()),
       patches_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z)),
       reached_(patches_.size(), 0) {

@@ -54,8 +54,7 @@ class SurfacePatches {
 
  private:
   struct Maker;  // room to work in
-  std::uint8_t tissue_;
-  IVec3 size_;  // patches
+  IVec3 size_;   // patches
   std::unique_ptr<Maker> maker_;
   std::vector<SurfacePatch> patches_;
   std::vector<std::uint8_t> reached_;  // by patch, while updating

@@ -1,5 +1,5 @@
-// What the surface for the eye costs: made whole, and again where a ball of 0.5 mm was cut into the molar. Prints triangles, memory, and the time of a
-// remesh (leaves taken from the octree, patches made anew) beside that of a whole one in the same run.
+// What the surface for the eye costs: made whole, and again where a ball of 0.5 mm was cut into the molar. Prints triangles, memory, and the time of
+// a remesh (leaves taken from the octree, patches made anew) beside that of a whole one in the same run.
 //   remesh_bench [TOOTH.cvt] [CUTS]
 #include <algorithm>
 #include <cstdio>
@@ -51,9 +51,9 @@ void run(Tooth tooth, int cuts) {
       if (hard.patch(p).vertices[v].position_mm[2] > 0) places.emplace_back(p, v);
   }
   std::printf("%s, leaf %.3f mm\n", tooth.name.c_str(), tree.leaf_mm());
-  std::printf("  hard tissue: %zu triangles, %zu vertices in %zu patches, %.1f MB; copy of the leaves %.1f MB; octree %.1f MB\n", hard.triangle_count(),
-              vertices, full, 1e-6 * static_cast<double>(hard.memory_bytes()), 1e-6 * static_cast<double>(blocks.memory_bytes()),
-              1e-6 * static_cast<double>(tree.memory_bytes()));
+  std::printf("  hard tissue: %zu triangles, %zu vertices in %zu patches, %.1f MB; copy of the leaves %.1f MB; octree %.1f MB\n",
+              hard.triangle_count(), vertices, full, 1e-6 * static_cast<double>(hard.memory_bytes()),
+              1e-6 * static_cast<double>(blocks.memory_bytes()), 1e-6 * static_cast<double>(tree.memory_bytes()));
   std::printf("  enamel, dentin, pulp: %zu, %zu, %zu triangles, %.1f MB\n", enamel.triangle_count(), dentin.triangle_count(), pulp.triangle_count(),
               1e-6 * static_cast<double>(enamel.memory_bytes() + dentin.memory_bytes() + pulp.memory_bytes()));
   std::printf("  whole: leaves copied %.0f us, hard tissue made %.0f us, three tissues %.0f us\n", copying, whole, tissues);
@@ -90,7 +90,8 @@ void run(Tooth tooth, int cuts) {
     three_us.push_back(thread_us() - made);
     patches.push_back(static_cast<double>(touched.size()));
   }
-  std::printf("  %zu balls of 0.5 mm diameter at random places of the surface; %.0f patches touched in the median\n", take_us.size(), share(patches, 0.5));
+  std::printf("  %zu balls of 0.5 mm diameter at random places of the surface; %.0f patches touched in the median\n", take_us.size(),
+              share(patches, 0.5));
   print("  leaves taken (octree must stand still)", take_us);
   print("  hard tissue made anew", hard_us);
   print("  both", both_us);
