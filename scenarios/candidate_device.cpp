@@ -18,7 +18,8 @@ DeviceReading CandidateDevice::read(double elapsed_s) {
   Vec3 tip;
   for (int i = 0; i < steps; ++i) {
     intent = candidate_.hands.act(seen_, k_tick_s);
-    tip = advance_omni(omni_, candidate_.hands.skill().hand, state_, cut_.load(std::memory_order_acquire) ? Vec3{} : force_n_, intent.tip_mm, k_tick_s);
+    tip =
+        advance_omni(omni_, candidate_.hands.skill().hand, state_, cut_.load(std::memory_order_acquire) ? Vec3{} : force_n_, intent.tip_mm, k_tick_s);
     if (intent.done && ++rested_ > k_rest_ticks) done_.store(true, std::memory_order_release);
   }
   progress_.store(candidate_.hands.progress(), std::memory_order_relaxed);

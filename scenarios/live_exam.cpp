@@ -1,5 +1,6 @@
 #include "scenarios/live_exam.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
@@ -7,7 +8,10 @@
 namespace cavum {
 
 LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
-    : exam_(Exam::start(setup, path, first_tip_mm)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
+    : exam_(Exam::start(setup, path, first_tip_mm)),
+      servo_state_(exam_->state()),
+      device_(device),
+      target_shares_(static_cast<double>(setup.zones.target_shares())) {
   view_.limit_ticks = exam_->limit_ticks();
   servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
   writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
@@ -55,6 +59,14 @@ void LiveExam::take(const ServoTick& tick) {
   view_.over = exam_->over();
   view_.input = tick.input;
   view_.output = tick.output;
+  if (const auto& removed = exam_->state().removed; !removed.empty()) {
+    const auto share_of = [&removed](std::uint8_t tissue) {
+      const auto count = std::count_if(removed.begin(), removed.end(), [tissue](const RemovedLeaf& leaf) { return leaf.tissue == tissue; });
+      return static_cast<double>(count) / static_cast<double>(removed.size());
+    };
+    view_.enamel_share = share_of(k_enamel);
+    view_.dentin_share = share_of(k_dentin);
+  }
   view_.edit_hash = exam_->state().tooth.edit_hash();
   if (!error.empty()) view_.recording_error = error;
   if (exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < k_chunk_ticks)

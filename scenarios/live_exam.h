@@ -27,8 +27,9 @@ struct LiveView {
   bool paused = false, over = false;
   TickInput input;
   TickOutput output;
-  std::uint64_t edit_hash = 0;  ///< of the tooth: changes when it is cut
-  std::string recording_error;  ///< empty, or why the recording cannot be written at the moment; nothing is lost meanwhile
+  double enamel_share = 0.0, dentin_share = 0.0;  ///< of the leaves removed in the last tick that removed any, 0..1
+  std::uint64_t edit_hash = 0;                    ///< of the tooth: changes when it is cut
+  std::string recording_error;                    ///< empty, or why the recording cannot be written at the moment; nothing is lost meanwhile
 };
 
 struct LiveReport {
@@ -54,8 +55,8 @@ class LiveExam {
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
-  /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever draws
-  /// takes what changed and leaves, within a few milliseconds. Not from within `look`.
+  /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever
+  /// draws takes what changed and leaves, within a few milliseconds. Not from within `look`.
   void look_at_tooth(const std::function<void(const Octree&)>& look) const;
   /// Stops the servo and waits until every tick is taken. Then `exam` may be graded, and closed when it is over.
   const LiveReport& finish();

@@ -209,10 +209,14 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--extra-time-s", o->grant.extra_time_s, "the same in seconds; both add up");
   // by callbacks: bound to an optional, a flag that is not given would be set to false, and take away what the scenario grants
   const char* shown = "for this candidate; recorded and shown with the result";
-  exam->add_flag_callback("--left-handed", [o] { o->grant.left_handed = true; }, shown);
-  exam->add_flag_callback("--right-handed", [o] { o->grant.left_handed = false; }, "takes back what the scenario grants");
-  exam->add_flag_callback("--high-contrast", [o] { o->grant.high_contrast = true; }, shown);
-  exam->add_flag_callback("--normal-contrast", [o] { o->grant.high_contrast = false; }, "takes back what the scenario grants");
+  exam->add_flag_callback(
+      "--left-handed", [o] { o->grant.left_handed = true; }, shown);
+  exam->add_flag_callback(
+      "--right-handed", [o] { o->grant.left_handed = false; }, "takes back what the scenario grants");
+  exam->add_flag_callback(
+      "--high-contrast", [o] { o->grant.high_contrast = true; }, shown);
+  exam->add_flag_callback(
+      "--normal-contrast", [o] { o->grant.high_contrast = false; }, "takes back what the scenario grants");
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");

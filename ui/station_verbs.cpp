@@ -36,7 +36,8 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
   station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse")->capture_default_str();
-  station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")->capture_default_str();
+  station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
+      ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
   station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
   station->add_option("--candidate", s.candidate, "code that stands in the field already");
@@ -52,7 +53,8 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
   station->add_option("--script", s.script, "press the keys that this file lists (for demonstrations and tests)");
   station->add_option("--pictures", s.pictures, "folder for the pictures that the script takes");
-  station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")->check(CLI::Range(1, 100000));
+  station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")
+      ->check(CLI::Range(1, 100000));
   station->callback([o, &exit_code] {
     require_sound(o->station);
     if (o->frame_times > 0) {

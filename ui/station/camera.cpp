@@ -34,9 +34,7 @@ glm::mat4 Camera::view(int eye) const {
   return glm::translate(m, -target_mm);
 }
 
-glm::mat4 Camera::projection(float width_over_height) const {
-  return glm::perspective(glm::radians(k_field_deg), width_over_height, 1.0F, 250.0F);
-}
+glm::mat4 Camera::projection(float width_over_height) const { return glm::perspective(glm::radians(k_field_deg), width_over_height, 1.0F, 250.0F); }
 
 glm::vec3 Camera::position_mm(int eye) const { return glm::vec3(glm::inverse(view(eye)) * glm::vec4(0, 0, 0, 1)); }
 

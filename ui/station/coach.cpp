@@ -13,7 +13,8 @@ std::string coaching_hint(const ExamSetup& setup, const LiveView& view) {
     return number_text("Too much force: %.1f N. ", force_n) + number_text("Let the diamond do the work, below %.1f N.", scenario.force_limit_n);
   if (!now.contact) {
     constexpr double k_far_mm = 1.5;
-    if (now.rpm > 1000 && zones.distance_mm(now.proxy_mm) > k_far_mm) return "The handpiece turns in the air: bring it to the tooth first, then press the pedal.";
+    if (now.rpm > 1000 && zones.distance_mm(now.proxy_mm) > k_far_mm)
+      return "The handpiece turns in the air: bring it to the tooth first, then press the pedal.";
     return {};
   }
   if (!now.cutting) return "In contact. Press the pedal to cut.";

@@ -22,7 +22,8 @@ CheckItem stylus_item(const DeviceSight& s) {
   using State = CheckItem::State;
   if (!s.error.empty()) return {State::bad, "Stylus", s.error};
   if (!s.read_once) return {State::waiting, "Stylus", "waiting for its first word"};
-  if (s.rate_hz < DeviceCheck::k_least_rate_hz) return {State::waiting, "Stylus", "speaks too seldom: " + number("%.0f", s.rate_hz) + " times a second"};
+  if (s.rate_hz < DeviceCheck::k_least_rate_hz)
+    return {State::waiting, "Stylus", "speaks too seldom: " + number("%.0f", s.rate_hz) + " times a second"};
   return {State::good, "Stylus", number("speaks %.0f times a second", s.rate_hz)};
 }
 

@@ -94,9 +94,11 @@ void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   }
   ImGui::Dummy({0, t.px(4)});
   if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
+  if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
   ImGui::Dummy({0, t.px(4)});
   quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
-  if (c.sitting->device().pointer() != nullptr) quiet_text(t, "Stylus: mouse or arrows, wheel or PgUp PgDn for depth, space bar or left button = pedal");
+  if (c.sitting->device().pointer() != nullptr)
+    quiet_text(t, "Stylus: mouse or arrows, wheel or PgUp PgDn for depth, space bar or left button = pedal");
   end_area();
 }
 
@@ -125,14 +127,17 @@ void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
     ImGui::PopID();
     if (chosen) c.sitting->desk().point.store(number, std::memory_order_relaxed);
     if (may) draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ink(t.raised), t.px(5));
-    if (mounted || marked) draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
+    if (mounted || marked)
+      draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
     const ImU32 steel = ink(may ? t.text : t.line), coated = ink(may ? t.warn : t.quiet);
     draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(34)}, steel, coated);
     push_font(Font::small);
     // the longest names a little smaller, so that all can be read
-    const float room = size.x - t.px(4), wide = ImGui::CalcTextSize(c.shelf[i].name.c_str()).x, font = ImGui::GetFontSize() * std::min(1.0F, room / wide);
+    const float room = size.x - t.px(4), wide = ImGui::CalcTextSize(c.shelf[i].name.c_str()).x,
+                font = ImGui::GetFontSize() * std::min(1.0F, room / wide);
     const float name = std::min(wide, room);
-    draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - name) / 2, at.y + size.y - t.px(22)}, ink(may ? t.text : t.quiet), c.shelf[i].name.c_str());
+    draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - name) / 2, at.y + size.y - t.px(22)}, ink(may ? t.text : t.quiet),
+                 c.shelf[i].name.c_str());
     if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), ("F" + std::to_string(i + 1)).c_str());
     pop_font();
   }
@@ -177,7 +182,8 @@ void ask_whether_finished(const ScreenContext& c) {
   if (fresh) ImGui::OpenPopup("Finished?");
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal("Finished?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return;
+  if (!ImGui::BeginPopupModal("Finished?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
+    return;
   heading_text("Have you finished?");
   ImGui::TextUnformatted("Your work will be graded as it is now. The clock runs on until then.");
   ImGui::Dummy({0, c.theme.px(6)});

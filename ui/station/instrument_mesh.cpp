@@ -8,7 +8,7 @@ namespace cavum {
 namespace {
 
 struct Ring {
-  float r = 0, z = 0;        // mm
+  float r = 0, z = 0;  // mm
   float normal_r = 1, normal_z = 0;
   std::array<std::uint8_t, 4> colour{};
   bool grain = false;  // diamond: each vertex a little lighter or darker
@@ -53,8 +53,8 @@ MeshData diamond_point_mesh(const DiamondPoint& point) {
   std::vector<Ring> rings;
   for (const auto& p : point.profile.walk(0.06, point.profile.length_mm())) {
     const bool coated = p.at.z_mm <= point.cutting_length_mm;
-    rings.push_back({static_cast<float>(p.at.r_mm), static_cast<float>(p.at.z_mm), static_cast<float>(p.normal.r_mm), static_cast<float>(p.normal.z_mm),
-                     coated ? k_diamond : k_steel, coated});
+    rings.push_back({static_cast<float>(p.at.r_mm), static_cast<float>(p.at.z_mm), static_cast<float>(p.normal.r_mm),
+                     static_cast<float>(p.normal.z_mm), coated ? k_diamond : k_steel, coated});
   }
   if (!rings.empty() && rings.back().z < k_shank_ends_mm) {
     Ring end = rings.back();
@@ -74,7 +74,9 @@ MeshData handpiece_mesh() {
   MeshData mesh;
   // the head around the turbine: flat below, rounded above
   std::vector<Ring> head;
-  const auto edge = [&head](float r, float z, float nr, float nz, const std::array<std::uint8_t, 4>& colour) { head.push_back({r, z, nr, nz, colour, false}); };
+  const auto edge = [&head](float r, float z, float nr, float nz, const std::array<std::uint8_t, 4>& colour) {
+    head.push_back({r, z, nr, nz, colour, false});
+  };
   edge(0.8F, 11.0F, 0, -1, k_dark);
   edge(3.6F, 11.0F, 0, -1, k_dark);
   edge(3.9F, 11.2F, 0.7F, -0.7F, k_metal);

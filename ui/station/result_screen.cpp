@@ -72,13 +72,15 @@ void result_screen(const ScreenContext& c) {
   ImGui::PopStyleColor();
   pop_font();
   heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
-  quiet_text(t, r.scenario_title + ",  candidate " + c.sitting->candidate() + ",  " + clock_text(r.motion.time_s) + " minutes" + (c.practice ? ",  practice" : ""));
+  quiet_text(t, r.scenario_title + ",  candidate " + c.sitting->candidate() + ",  " + clock_text(r.motion.time_s) + " minutes" +
+                    (c.practice ? ",  practice" : ""));
   for (const auto& reason : r.verdict_reasons) wrapped_text(reason);
   ImGui::Dummy({0, t.px(4)});
   const float below = t.px(s.message.empty() ? 96 : 126);
   ImGui::BeginChild("table", {0, ImGui::GetContentRegionAvail().y - below}, false);
   criteria(t, r);
-  if (c.sitting->report().first_disagreement >= 0) wrapped_text("The servo and its recording disagree: this result is doubtful. Tell the supervisor.");
+  if (c.sitting->report().first_disagreement >= 0)
+    wrapped_text("The servo and its recording disagree: this result is doubtful. Tell the supervisor.");
   ImGui::EndChild();
   quiet_text(t, "Recorded and sealed: " + c.sitting->path());
   if (!s.message.empty()) quiet_text(t, s.message);

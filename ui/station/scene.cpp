@@ -71,9 +71,9 @@ void main() {
   float head = max(dot(n, to_eye), 0.0);
   float side = max(dot(n, key), 0.0);
   float sky = 0.5 + 0.5 * n.y;
-  float lit = mix(0.20 + 0.46 * head + 0.30 * side + 0.10 * sky, 0.55 + 0.45 * head, flat_light);
+  float lit = mix(0.17 + 0.42 * head + 0.27 * side + 0.10 * sky, 0.55 + 0.45 * head, flat_light);
   vec3 halfway = normalize(key + to_eye);
-  float shine = gloss * (0.30 * pow(max(dot(n, halfway), 0.0), 48.0) + 0.10 * pow(head, 90.0));
+  float shine = gloss * (0.20 * pow(max(dot(n, halfway), 0.0), 60.0) + 0.06 * pow(head, 120.0));
   float rim = gloss * 0.16 * pow(1.0 - head, 3.0);
   vec3 c = colour.rgb * lit + vec3(shine) + rim * vec3(0.72, 0.82, 0.95);
   float depth = clamp((-eye_at.z - near_mm) / (far_mm - near_mm), 0.0, 1.0);

@@ -19,7 +19,8 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<const char*, 13> k_words{"wait", "go", "until", "type", "key", "sleep", "stall", "hide", "show", "picture", "memory", "fail", "close"};
+constexpr std::array<const char*, 13> k_words{"wait", "go",   "until",   "type",   "key",  "sleep", "stall",
+                                              "hide", "show", "picture", "memory", "fail", "close"};
 
 int key_of(const std::string& name) {
   if (name == "enter") return GLFW_KEY_ENTER;

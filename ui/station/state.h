@@ -23,12 +23,12 @@ struct StationState {
   bool left_handed = false;
   bool high_contrast = false;
   double text_scale = 1.0;
+  bool muted = false;
   bool confirm_end = false;
   double pause_key_s = 0.0;      ///< for so long the pause button stays pressed
   double handpiece_speed = 1.0;  ///< of the dial, 0.1..1
-  Vec3 wanted_mm;                 ///< where mouse and keyboard want the tip, tooth frame
-  Quat wanted_rotation;           ///< of the handpiece then
-  bool help = false;
+  Vec3 wanted_mm;                ///< where mouse and keyboard want the tip, tooth frame
+  Quat wanted_rotation;          ///< of the handpiece then
   bool focus_code = true;
 };
 

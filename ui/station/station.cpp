@@ -14,6 +14,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "ui/sound/sound_output.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
 #include "ui/station/termination.h"
@@ -81,6 +82,7 @@ class Station {
     window_.begin_frame();
     show(frame_s);
     window_.end_frame();
+    sound();
     grant(std::exchange(state_.wish, Wish::none));
     go_on();
     // no more pictures than eyes need, fewer when the processor draws: the servo shares it
@@ -110,7 +112,8 @@ class Station {
   }
 
   void show(double frame_s) {
-    const ScreenContext context{theme_, state_, scenario_, shelf_, sitting_.get(), scene_.get(), frame_s, window_.software() ? 1 : 4, options_.sitting.practice};
+    const ScreenContext context{
+        theme_, state_, scenario_, shelf_, sitting_.get(), scene_.get(), frame_s, window_.software() ? 1 : 4, options_.sitting.practice};
     switch (state_.screen) {
       case Screen::sign_in:
         return sign_in_screen(context);
@@ -129,6 +132,21 @@ class Station {
       case Screen::replay:
         return;
     }
+  }
+
+  /// What the handpiece does is heard.
+  void sound() {
+    SoundParameters heard;
+    if (state_.screen == Screen::exam && sitting_->stage() == Stage::running) {
+      const LiveView view = sitting_->live().view();
+      heard.rpm = view.output.rpm;
+      heard.load_n = length(view.output.rendered_force_n);
+      heard.cutting = view.output.cutting;
+      heard.enamel_share = view.enamel_share;
+      heard.dentin_share = view.dentin_share;
+    }
+    sound_.set(heard);
+    sound_.set_muted(state_.muted);
   }
 
   void grant(Wish wish) {
@@ -242,6 +260,7 @@ class Station {
   Scenario scenario_;
   std::vector<DiamondPoint> shelf_;
   Termination termination_;
+  SoundOutput sound_;
   Window window_;
   Script script_;
   StationState state_;
@@ -279,8 +298,8 @@ void print_frame_times(const StationOptions& options, int frames) {
   }
   std::sort(times_ms.begin(), times_ms.end());
   const auto at = [&](double share) { return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))]; };
-  std::printf("%s, %d x %d, %zu triangles: first mesh %.2f s; a picture takes %.1f ms (median of %d), 95 %% within %.1f ms\n", window.renderer().c_str(),
-              options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
+  std::printf("%s, %d x %d, %zu triangles: first mesh %.2f s; a picture takes %.1f ms (median of %d), 95 %% within %.1f ms\n",
+              window.renderer().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
 }
 
 }  // namespace cavum

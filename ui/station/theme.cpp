@@ -13,7 +13,8 @@ namespace cavum {
 namespace {
 
 ImVec4 rgb(unsigned hex) {
-  return {static_cast<float>(hex >> 16U & 255U) / 255.0F, static_cast<float>(hex >> 8U & 255U) / 255.0F, static_cast<float>(hex & 255U) / 255.0F, 1.0F};
+  return {static_cast<float>(hex >> 16U & 255U) / 255.0F, static_cast<float>(hex >> 8U & 255U) / 255.0F, static_cast<float>(hex & 255U) / 255.0F,
+          1.0F};
 }
 
 ImVec4 mixed(const ImVec4& a, const ImVec4& b, float share) {
@@ -100,8 +101,8 @@ void apply_theme(const Theme& t) {
 
 namespace {
 
-constexpr ImGuiWindowFlags k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags k_plain =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 }  // namespace
 

@@ -54,7 +54,8 @@ void pop_font() { ImGui::PopFont(); }
 
 Window::Window(const std::string& title, int width, int height) {
   ::setenv("LP_NUM_THREADS", "1", 0);  // a software renderer leaves the other cores to the servo
-  if (glfwInit() != GLFW_TRUE) throw Error("window", "cannot be opened (" + glfw_reason() + ")", "start the station from a desktop, or under xvfb-run");
+  if (glfwInit() != GLFW_TRUE)
+    throw Error("window", "cannot be opened (" + glfw_reason() + ")", "start the station from a desktop, or under xvfb-run");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
