@@ -27,8 +27,9 @@ glm::mat4 Camera::view(int eye) const {
   glm::mat4 m(1.0F);
   if (mirror) m = glm::scale(m, glm::vec3(-1, 1, 1));
   m = glm::rotate(m, glm::radians(roll_deg), glm::vec3(0, 0, 1));
-  m = glm::translate(m, glm::vec3(-0.5F * static_cast<float>(eye) * eyes_apart_mm, 0, -distance_mm));
-  m = glm::rotate(m, std::atan2(0.5F * static_cast<float>(eye) * eyes_apart_mm, distance_mm), glm::vec3(0, 1, 0));
+  m = glm::translate(m, glm::vec3(0, 0, -distance_mm));
+  // the eyes stand on a circle round what they look at
+  m = glm::rotate(m, -static_cast<float>(eye) * std::atan2(0.5F * eyes_apart_mm, distance_mm), glm::vec3(0, 1, 0));
   m = glm::rotate(m, glm::radians(rise_deg - 90.0F), glm::vec3(1, 0, 0));
   m = glm::rotate(m, glm::radians(turn_deg + 180.0F), glm::vec3(0, 0, 1));
   return glm::translate(m, -target_mm);

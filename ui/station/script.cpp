@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "ui/station/window.h"
@@ -122,7 +123,9 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
 void Script::step(Window& window, Screen screen, double exam_s, double now_s) {
   if (done()) return;
   if (since_s_ < 0) since_s_ = now_s;
+  if (std::exchange(let_go_, false)) return;  // a frame without the key, so that the same one can be pressed again
   if (!run(commands_[next_], window, screen, exam_s, now_s)) return;
+  let_go_ = commands_[next_].word == "key";
   ++next_;
   since_s_ = -1.0;
 }

@@ -45,6 +45,7 @@ class Script {
   std::string path_, pictures_;
   std::vector<Command> commands_;
   std::size_t next_ = 0;
+  bool let_go_ = false;
   double since_s_ = -1.0;    // when the running command began
   double pressed_s_ = -1.0;  // when `go` last pressed enter
 };
