@@ -65,6 +65,7 @@ class LiveExam {
       if (held.load(std::memory_order_acquire)) reading.pedal = 0.0;
       return reading;
     }
+    void show(const TickOutput& output) noexcept override { device_.show(output); }
     void send_force(Vec3 force_n) override { device_.send_force(force_n); }
     void cut_force() noexcept override { device_.cut_force(); }
     std::atomic<bool> held{false};

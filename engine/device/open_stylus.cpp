@@ -1,0 +1,55 @@
+#include "engine/device/open_stylus.h"
+
+#include <chrono>
+#include <thread>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+std::unique_ptr<Stylus> open_simulated(const StylusOptions& options) {
+  if (options.hand) return std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s, options.hand);
+  const HandModel nobody{.mass_kg = 0.0, .stiffness_n_per_mm = 0.0, .damping_n_s_per_mm = 0.0};
+  return std::make_unique<SimulatedStylus>(OmniModel{}, nobody, k_tick_s, [at = options.free_at_mm](double) { return HandIntent{at, 0.0}; });
+}
+
+std::string found_words(const std::vector<StylusInfo>& found) {
+  std::string words;
+  for (const auto& info : found) words += (words.empty() ? "" : "; ") + info.id + ": " + (info.there ? info.name : "not there");
+  return words;
+}
+
+}  // namespace
+
+std::vector<StylusInfo> list_styluses() { return {{.id = "simulated", .name = "simulated Omni in a simulated hand", .there = true, .problem = {}}}; }
+
+std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options) {
+  if (wanted == "simulated") return open_simulated(options);
+  throw Error("stylus '" + wanted + "'", "is not known (" + found_words(list_styluses()) + ")",
+              "name one of simulated, falcon, touch; `cavum devices` lists what is there");
+}
+
+std::unique_ptr<Stylus> open_stylus(const std::string& wanted) {
+  StylusOptions options;
+  options.station = load_station_stylus(wanted);
+  return open_stylus(wanted, options);
+}
+
+Pose first_pose(Stylus& stylus, double patience_s) {
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + std::chrono::duration<double>(patience_s);
+  constexpr double k_look_s = 0.001;
+  for (;;) {
+    const DeviceReading reading = stylus.read(k_look_s);
+    stylus.send_force({});
+    if ((reading.flags & k_stylus_fresh) != 0 && stylus.health().ready) return reading.pose;
+    if (Clock::now() >= until) break;
+    std::this_thread::sleep_for(std::chrono::duration<double>(k_look_s));
+  }
+  const StylusHealth health = stylus.health();
+  throw Error("stylus " + stylus.facts().id, health.problem.empty() ? "gives no position" : without_advice(health.problem),
+              health.problem.find("; ") == std::string::npos ? "see `cavum devices`" : health.problem.substr(health.problem.rfind("; ") + 2));
+}
+
+}  // namespace cavum
