@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "engine/base/error.h"
+#include "engine/device/falcon_stylus.h"
 
 namespace cavum {
 namespace {
@@ -26,6 +27,11 @@ std::vector<StylusInfo> list_styluses() { return {{.id = "simulated", .name = "s
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options) {
   if (wanted == "simulated") return open_simulated(options);
+  if (wanted == "falcon") {
+    bool there = false;
+    if (const std::string problem = falcon_problem(there); there && !problem.empty()) throw Error("stylus falcon", "cannot be used", problem);
+    return std::make_unique<FalconStylus>(options.station);
+  }
   throw Error("stylus '" + wanted + "'", "is not known (" + found_words(list_styluses()) + ")",
               "name one of simulated, falcon, touch; `cavum devices` lists what is there");
 }
