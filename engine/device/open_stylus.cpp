@@ -21,15 +21,27 @@ std::string found_words(const std::vector<StylusInfo>& found) {
   return words;
 }
 
+/// A problem is the text of an Error already.
+[[noreturn]] void throw_problem(const std::string& problem) {
+  const auto what = problem.find(": ") + 2, todo = problem.rfind("; ");
+  throw Error(problem.substr(0, what - 2), problem.substr(what, todo - what), problem.substr(todo + 2));
+}
+
 }  // namespace
 
-std::vector<StylusInfo> list_styluses() { return {{.id = "simulated", .name = "simulated Omni in a simulated hand", .there = true, .problem = {}}}; }
+std::vector<StylusInfo> list_styluses() {
+  std::vector<StylusInfo> found{{.id = "simulated", .name = "simulated Omni in a simulated hand", .there = true, .problem = {}}};
+  StylusInfo falcon{.id = "falcon", .name = falcon_facts().name, .there = false, .problem = {}};
+  falcon.problem = falcon_problem(falcon.there);
+  found.push_back(falcon);
+  return found;
+}
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options) {
   if (wanted == "simulated") return open_simulated(options);
   if (wanted == "falcon") {
     bool there = false;
-    if (const std::string problem = falcon_problem(there); there && !problem.empty()) throw Error("stylus falcon", "cannot be used", problem);
+    if (const std::string problem = falcon_problem(there); there && !problem.empty()) throw_problem(problem);
     return std::make_unique<FalconStylus>(options.station);
   }
   throw Error("stylus '" + wanted + "'", "is not known (" + found_words(list_styluses()) + ")",
@@ -53,9 +65,8 @@ Pose first_pose(Stylus& stylus, double patience_s) {
     if (Clock::now() >= until) break;
     std::this_thread::sleep_for(std::chrono::duration<double>(k_look_s));
   }
-  const StylusHealth health = stylus.health();
-  throw Error("stylus " + stylus.facts().id, health.problem.empty() ? "gives no position" : without_advice(health.problem),
-              health.problem.find("; ") == std::string::npos ? "see `cavum devices`" : health.problem.substr(health.problem.rfind("; ") + 2));
+  const std::string problem = stylus.health().problem;
+  throw_problem(problem.empty() ? "stylus " + stylus.facts().id + ": gives no position; see `cavum devices`" : problem);
 }
 
 }  // namespace cavum
