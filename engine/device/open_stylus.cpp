@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/device/falcon_stylus.h"
+#include "engine/device/openhaptics_stylus.h"
 
 namespace cavum {
 namespace {
@@ -34,6 +35,13 @@ std::vector<StylusInfo> list_styluses() {
   StylusInfo falcon{.id = "falcon", .name = falcon_facts().name, .there = false, .problem = {}};
   falcon.problem = falcon_problem(falcon.there);
   found.push_back(falcon);
+  StylusInfo touch{.id = "touch", .name = "Touch or PHANTOM Omni through OpenHaptics", .there = false, .problem = {}};
+  try {
+    touch.problem = openhaptics_problem(load_station_stylus("touch"), touch.there);
+  } catch (const Error& e) {
+    touch.problem = e.what();  // the station's file
+  }
+  found.push_back(touch);
   return found;
 }
 
@@ -44,6 +52,7 @@ std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptio
     if (const std::string problem = falcon_problem(there); there && !problem.empty()) throw_problem(problem);
     return std::make_unique<FalconStylus>(options.station);
   }
+  if (wanted == "touch") return std::make_unique<OpenHapticsStylus>(options.station);
   throw Error("stylus '" + wanted + "'", "is not known (" + found_words(list_styluses()) + ")",
               "name one of simulated, falcon, touch; `cavum devices` lists what is there");
 }
