@@ -7,7 +7,7 @@
 namespace cavum {
 
 LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
-    : exam_(Exam::start(setup, path, first_tip_mm)), servo_state_(exam_->state()), device_(device) {
+    : exam_(Exam::start(setup, path, first_tip_mm)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
   view_.limit_ticks = exam_->limit_ticks();
   servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
   writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
@@ -31,6 +31,7 @@ void LiveExam::take(const ServoTick& tick) {
   }
   std::string error;
   try {
+    const std::lock_guard lock(tooth_mutex_);
     exam_->follow(tick.input);
   } catch (const Error& e) {  // full disk …: the tick is kept, and written with a later one
     error = e.what();
@@ -47,6 +48,9 @@ void LiveExam::take(const ServoTick& tick) {
   view_.ticks = runner.ticks;
   view_.paused_ticks = runner.paused_ticks;
   view_.step = runner.step;
+  view_.pauses = runner.pauses;
+  view_.depth_mm = runner.depth_mm;
+  view_.target_removed_percent = 100.0 * static_cast<double>(runner.target_shares) / target_shares_;
   view_.paused = Runner::paused(runner);
   view_.over = exam_->over();
   view_.input = tick.input;
@@ -55,6 +59,11 @@ void LiveExam::take(const ServoTick& tick) {
   if (!error.empty()) view_.recording_error = error;
   if (exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < k_chunk_ticks)
     view_.recording_error.clear();  // all but the running second is on disk
+}
+
+void LiveExam::look_at_tooth(const std::function<void(const Octree&)>& look) const {
+  const std::lock_guard lock(tooth_mutex_);
+  look(exam_->state().tooth);
 }
 
 LiveView LiveExam::view() const {

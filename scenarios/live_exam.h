@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,6 +21,9 @@ struct LiveView {
   std::int64_t paused_ticks = 0;  ///< of them; the exam's clock shows the others
   std::int64_t limit_ticks = 0;   ///< of the exam's clock; 0 = none
   int step = 0;                   ///< 0-based
+  int pauses = 0;                 ///< begun so far
+  double depth_mm = 0.0;          ///< deepest so far below the opening
+  double target_removed_percent = 0.0;
   bool paused = false, over = false;
   TickInput input;
   TickOutput output;
@@ -50,6 +54,9 @@ class LiveExam {
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
+  /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever draws
+  /// takes what changed and leaves, within a few milliseconds. Not from within `look`.
+  void look_at_tooth(const std::function<void(const Octree&)>& look) const;
   /// Stops the servo and waits until every tick is taken. Then `exam` may be graded, and closed when it is over.
   const LiveReport& finish();
   /// Of the caller after `finish`, of the writing thread before.
@@ -79,13 +86,15 @@ class LiveExam {
   std::unique_ptr<Exam> exam_;
   ServoState servo_state_;
   Restrained device_;
+  double target_shares_;
   TickStream stream_;
   std::unique_ptr<RealTimeServo> servo_;
   std::unique_ptr<SessionWriter> writer_;
   std::atomic<bool> end_asked_{false};
   LiveReport report_;
   bool finished_ = false;
-  mutable std::mutex mutex_;  // of the view
+  mutable std::mutex tooth_mutex_;  // of the twin's tooth, between its thread and whoever draws it
+  mutable std::mutex mutex_;        // of the view
   LiveView view_;
 };
 

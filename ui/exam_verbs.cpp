@@ -10,9 +10,9 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "grading/close_exam.h"
 #include "grading/report.h"
 #include "grading/result_json.h"
-#include "grading/session_input.h"
 #include "scenarios/simulated_exam.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
@@ -112,11 +112,9 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
 
 /// Grades what was recorded, seals the session with it, prints it.
 void finish(const Options& o, Exam& exam) {
-  exam.recorder().flush();
-  const auto graded = load_for_grading(SessionReader(o.out), exam.tooth_now());
-  const Result result = grade(graded->input(), graded->rubric);
-  exam.close(to_json(result).dump());
-  if (!o.report.empty()) write_text_file(o.report, report_html(result, graded->input(), graded->facts));
+  const ClosedExam closed = grade_and_close(exam, o.out);
+  const Result& result = closed.result;
+  if (!o.report.empty()) write_text_file(o.report, report_html(result, closed.graded->input(), closed.graded->facts));
   if (o.json) {
     auto j = to_json(result);
     j["session"] = o.out;
