@@ -43,6 +43,8 @@ class LiveExam {
  public:
   /// Begins the recording at `path`. Setup and device must outlive it. Throws Error when it cannot record.
   LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options = {});
+  /// The same with one that was started or resumed already.
+  LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options = {});
   /// Stops. A session that was not closed can be resumed.
   ~LiveExam();
   LiveExam(const LiveExam&) = delete;
@@ -54,8 +56,8 @@ class LiveExam {
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
-  /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever draws
-  /// takes what changed and leaves, within a few milliseconds. Not from within `look`.
+  /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever
+  /// draws takes what changed and leaves, within a few milliseconds. Not from within `look`.
   void look_at_tooth(const std::function<void(const Octree&)>& look) const;
   /// Stops the servo and waits until every tick is taken. Then `exam` may be graded, and closed when it is over.
   const LiveReport& finish();
