@@ -38,9 +38,10 @@ class SimulatedSource final : public LiveSource {
 
 class StylusSource final : public LiveSource {
  public:
-  explicit StylusSource(LiveSourceOptions options) : options_(std::move(options)), station_pedal_(require_pedal()) {
+  explicit StylusSource(LiveSourceOptions options) : options_(std::move(options)) {
     stylus_options_.station = load_station_stylus(options_.device);
     stylus_ = open_stylus(options_.device, stylus_options_);
+    station_pedal_ = require_pedal();
     const auto& p = station_pedal_;
     pedal_ = std::make_unique<HidPedal>(p.vendor, p.product, p.calibration);
     with_pedal_ = std::make_unique<WithPedal>(*stylus_, *pedal_);
