@@ -58,6 +58,7 @@ void EmulatedUsb::plug_in() {
   g_signal_connect(ioctls_.get(), "handle-ioctl", G_CALLBACK(answer), this);
   if (umockdev_testbed_attach_ioctl(bed_.get(), node().c_str(), ioctls_.get(), &error) == FALSE)
     throw std::runtime_error(std::string("umockdev could not answer for the device: ") + (error != nullptr ? error->message : ""));
+  umockdev_testbed_uevent(bed_.get(), device_.c_str(), "add");
 }
 
 void EmulatedUsb::unplug() {
@@ -70,6 +71,7 @@ void EmulatedUsb::unplug() {
     ::usleep(1000);
   }
   with_lock([&] { urbs_.clear(); });
+  unplugging();
   umockdev_testbed_uevent(bed_.get(), device_.c_str(), "remove");
   umockdev_testbed_remove_device(bed_.get(), device_.c_str());
 }
@@ -134,6 +136,8 @@ void EmulatedUsb::serve(UMockdevIoctlClient* client) {
       umockdev_ioctl_data_update(place.get(), 0, reinterpret_cast<guint8*>(&none), sizeof none);
       return done(0);
     }
+    case USBDEVFS_GETDRIVER:
+      return done(ENODATA);
     case USBDEVFS_CLAIMINTERFACE:
     case USBDEVFS_RELEASEINTERFACE:
     case USBDEVFS_DISCONNECT_CLAIM:

@@ -36,6 +36,8 @@ class EmulatedUsb {
   /// What it says to a transfer of `room` bytes that waits since `since`; nothing: let it wait.
   virtual std::optional<Bytes> say(std::size_t room, std::chrono::steady_clock::time_point since) = 0;
   virtual void plugged_in() {}
+  /// Without the lock, before it is taken away.
+  virtual void unplugging() {}
   /// Of a derived class' destructor: nobody calls it any more.
   void leave();
 
