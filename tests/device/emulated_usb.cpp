@@ -2,6 +2,7 @@
 
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,6 +34,12 @@ void EmulatedUsb::leave() {
 }
 
 std::string EmulatedUsb::node() const { return "/dev/bus/usb/003/00" + std::to_string(number_); }
+
+void EmulatedUsb::forbid() {
+  gchar* root = umockdev_testbed_get_root_dir(bed_.get());
+  ::chmod((std::string(root) + node()).c_str(), 0);
+  g_free(root);
+}
 
 void EmulatedUsb::plug_in() {
   const std::string number = std::to_string(++number_), minor = std::to_string(255 + number_);

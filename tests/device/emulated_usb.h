@@ -26,6 +26,8 @@ class EmulatedUsb {
 
   void plug_in();
   void unplug();
+  /// Takes away the right to open it.
+  void forbid();
   [[nodiscard]] std::string node() const;
 
  protected:

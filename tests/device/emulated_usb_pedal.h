@@ -23,7 +23,6 @@ class EmulatedUsbPedal final : public EmulatedUsb {
     const std::lock_guard lock(mutex_);
     return asked_;
   }
-  void forbid() {}
 
  protected:
   std::optional<Bytes> control(const Bytes& setup) override;

@@ -1,5 +1,6 @@
 // The Falcon through the real libusb, on one emulated by umockdev: firmware, homing, places, forces bit by bit, unplugged in the middle.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -261,6 +262,17 @@ TEST_F(FalconTest, OpensByNameAndErrorsNameWhatThereIs) {
   EXPECT_FALSE(none[1].there);
   EXPECT_NE(none[1].problem.find("power supply"), std::string::npos);
   EXPECT_NE(error_of([] { static_cast<void>(open_stylus("phantom")); }).find("simulated, falcon, touch"), std::string::npos);
+}
+
+TEST_F(FalconTest, OneThatMayNotBeOpenedNamesTheRule) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may open everything";
+  EmulatedFalcon falcon;
+  falcon.forbid();
+  bool there = false;
+  const std::string problem = falcon_problem(there);
+  EXPECT_TRUE(there);
+  EXPECT_NE(problem.find(R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48")"), std::string::npos) << problem;
+  EXPECT_NE(error_of([] { static_cast<void>(open_stylus("falcon")); }).find("/etc/udev/rules.d"), std::string::npos);
 }
 
 }  // namespace
