@@ -80,7 +80,7 @@ void list(const Options& o) {
       for (const auto& axis : p.axes) axes.push_back(axis_json(axis));
       all.push_back({{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", p.problem}, {"calibrated", calibrated(p)}});
     }
-    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", calibration_problem}, {"styluses", styluses_json()}});
+    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", calibration_problem}, {"styluses", styluses_json(o.live)}});
     return;
   }
   std::cout << "pedals\n";
@@ -96,7 +96,7 @@ void list(const Options& o) {
   if (station && std::none_of(pedals.begin(), pedals.end(), calibrated))
     std::cout << "  " << usb_id(station->vendor, station->product) << "  is calibrated for this station, and not plugged in\n";
   if (!calibration_problem.empty()) std::cout << "  " << calibration_problem << "\n";
-  std::cout << styluses_text() << std::flush;
+  std::cout << styluses_text(o.live) << std::flush;
 }
 
 int test(const Options& o) {

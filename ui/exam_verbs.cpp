@@ -115,6 +115,8 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
     options.device = live->name();
     options.notes = live->notes();
     options.position_quantum_mm = live->position_quantum_mm();
+    options.peak_n = live->peak_n();
+    options.continuous_n = live->continuous_n();
   }
   options.grant = o.grant;
   return prepare_exam(o.scenario, options);

@@ -49,6 +49,8 @@ class StylusSource final : public LiveSource {
   }
   [[nodiscard]] std::string name() const override { return stylus_->facts().name; }
   [[nodiscard]] double position_quantum_mm() const override { return stylus_->facts().position_quantum_mm; }
+  [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }
+  [[nodiscard]] double continuous_n() const override { return stylus_->facts().continuous_n; }
   [[nodiscard]] SourceNotes notes() const override {
     return {
         {"stylus", stylus_->facts().id}, {"stylus_calibration", to_toml(stylus_options_.station)}, {"pedal_calibration", to_toml(station_pedal_)}};

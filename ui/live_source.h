@@ -23,6 +23,8 @@ class LiveSource {
   virtual ~LiveSource() = default;
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;
+  [[nodiscard]] virtual double peak_n() const { return 0.0; }        ///< that it bears; 0 = as usual
+  [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same
   /// Kept as notes of the session: what was set, and how it stood.
   [[nodiscard]] virtual SourceNotes notes() const = 0;
   /// Makes it ready for this exam and waits until it knows where the tip is; prints what it waits for. Throws Error when that takes over a minute, or

@@ -24,16 +24,16 @@ constexpr double k_patience_s = 10.0;
 
 }  // namespace
 
-nlohmann::json styluses_json() {
+nlohmann::json styluses_json(bool again) {
   nlohmann::json all = nlohmann::json::array();
-  for (const auto& s : list_styluses())
+  for (const auto& s : list_styluses(!again))
     all.push_back({{"id", s.id}, {"name", s.name}, {"there", s.there}, {"problem", s.problem}, {"placed", placed(s.id)}});
   return all;
 }
 
-std::string styluses_text() {
+std::string styluses_text(bool again) {
   std::string text = "styluses\n";
-  for (const auto& s : list_styluses()) {
+  for (const auto& s : list_styluses(!again)) {
     std::string id = s.id;
     id.resize(10, ' ');
     text += "  " + id + " " + one_line(s.name) + (s.there ? "" : "  (not there)") + (placed(s.id) ? "  (placed)" : "") + "\n";

@@ -28,7 +28,12 @@ FalconDrive drive_of(const StationStylus& station) {
 }  // namespace
 
 StylusFacts falcon_facts() {
-  return {.id = "falcon", .name = "Novint Falcon", .position_quantum_mm = k_falcon_quantum_mm, .peak_n = 8.9, .continuous_n = 2.0, .measures_direction = false};
+  return {.id = "falcon",
+          .name = "Novint Falcon",
+          .position_quantum_mm = k_falcon_quantum_mm,
+          .peak_n = 8.9,
+          .continuous_n = 2.0,
+          .measures_direction = false};
 }
 
 FalconStylus::FalconStylus(const StationStylus& station)
@@ -81,7 +86,7 @@ void FalconStylus::set_problem(const std::string& problem) {
 
 bool FalconStylus::wait(double seconds) {
   std::unique_lock lock(mutex_);
-  return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_; });
+  return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_.load(); });
 }
 
 void FalconStylus::run() {
@@ -128,10 +133,7 @@ void FalconStylus::serve(FalconUsb& usb) {
   static_cast<void>(ask_for_fifo(69));  // as the servo, where the system allows it; its periods are in the health either way
   ask_for_sharp_timers();
   for (std::int64_t due = monotonic_ns();; sleep_until(due)) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (stop_) break;
-    }
+    if (stop_.load(std::memory_order_relaxed)) break;
     due = std::max(due + k_period_ns, monotonic_ns() - k_period_ns);
     FalconAnswer answer;
     const auto heard = usb.exchange(command, answer, k_patience_ms);

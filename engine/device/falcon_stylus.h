@@ -64,7 +64,7 @@ class FalconStylus final : public Stylus {
   std::atomic<std::int64_t> plugged_in_{0}, unplugged_{0}, forces_cut_{0};
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable stop_asked_;
-  bool stop_ = false;
+  std::atomic<bool> stop_{false};  // changed with the mutex held, so that nobody sleeps through it
   std::string problem_ = "stylus falcon: not looked for yet; wait a second";
   std::thread thread_;
 };

@@ -30,14 +30,14 @@ std::string found_words(const std::vector<StylusInfo>& found) {
 
 }  // namespace
 
-std::vector<StylusInfo> list_styluses() {
+std::vector<StylusInfo> list_styluses(bool begin_touch) {
   std::vector<StylusInfo> found{{.id = "simulated", .name = "simulated Omni in a simulated hand", .there = true, .problem = {}}};
   StylusInfo falcon{.id = "falcon", .name = falcon_facts().name, .there = false, .problem = {}};
   falcon.problem = falcon_problem(falcon.there);
   found.push_back(falcon);
   StylusInfo touch{.id = "touch", .name = "Touch or PHANTOM Omni through OpenHaptics", .there = false, .problem = {}};
   try {
-    touch.problem = openhaptics_problem(load_station_stylus("touch"), touch.there);
+    touch.problem = openhaptics_problem(load_station_stylus("touch"), touch.there, begin_touch);
   } catch (const Error& e) {
     touch.problem = e.what();  // the station's file
   }

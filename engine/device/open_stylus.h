@@ -25,8 +25,9 @@ struct StylusInfo {
   bool there = false;
   std::string problem;  ///< why it cannot be opened, and what to do; empty when it can
 };
-/// The three kinds: `simulated`, `falcon`, `touch`. Opens none for longer than a look.
-[[nodiscard]] std::vector<StylusInfo> list_styluses();
+/// The three kinds: `simulated`, `falcon`, `touch`. Opens none for longer than a look; `touch` only with `begin_touch`, for its driver does not like
+/// to be begun again and again: otherwise its library alone counts.
+[[nodiscard]] std::vector<StylusInfo> list_styluses(bool begin_touch = true);
 
 /// Opens `wanted`, one of those names. A Falcon may be plugged in later, and again: see its health. Throws Error on another name, naming what there
 /// is, or when it can never work as it stands (no library, no firmware, no permission).

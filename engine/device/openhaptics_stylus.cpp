@@ -143,12 +143,12 @@ struct OpenHapticsStylus::Library {
   }
 };
 
-std::string openhaptics_problem(const StationStylus& station, bool& there) {
+std::string openhaptics_problem(const StationStylus& station, bool& there, bool begin) {
   there = false;
   try {
     const auto library = OpenHapticsStylus::Library::load(station.library);
     const std::lock_guard lock(library->mutex);
-    if (library->running == 0) library->disable_device(library->begin(station.device_name));
+    if (begin && library->running == 0) library->disable_device(library->begin(station.device_name));
     there = true;
   } catch (const Error& e) {
     return e.what();

@@ -13,8 +13,9 @@
 
 namespace cavum {
 
-/// Empty when the library is there and a device begins; otherwise what is wrong, and what to do. `there`: whether a device is.
-[[nodiscard]] std::string openhaptics_problem(const StationStylus& station, bool& there);
+/// Empty when the library is there and, with `begin`, its device begins; otherwise what is wrong, and what to do. `there`: whether it is. Not to be
+/// begun again and again.
+[[nodiscard]] std::string openhaptics_problem(const StationStylus& station, bool& there, bool begin = true);
 
 class OpenHapticsStylus final : public Stylus {
  public:

@@ -127,6 +127,30 @@ TEST_F(ExamDevice, ASignalLeavesASessionThatGoesOn) {
   }
 }
 
+TEST_F(ExamDevice, KilledItLosesASecondAtMostAndGoesOn) {
+  const pid_t child = start(exam({"--device", "simulated", "--operator", "novice", "--quiet"}, "s.cavum"));
+  ASSERT_TRUE(holds("s.cavum", 2000));
+  const auto seen = SessionReader(folder_.file("s.cavum")).ticks();
+  ::kill(child, SIGKILL);
+  EXPECT_EQ(end_of(child), -1);
+  EXPECT_GE(SessionReader(folder_.file("s.cavum")).ticks(), seen) << "what was on the disk stays there";
+  EXPECT_EQ(end_of(start({CAVUM_BINARY, "exam", "--resume", "--out", folder_.file("s.cavum"), "--end"})), 0) << said();
+  const auto report = verify_session(folder_.file("s.cavum"));
+  EXPECT_TRUE(report.verified);
+  EXPECT_GE(report.ticks, seen);
+}
+
+TEST_F(ExamDevice, GoesOnOnlyWithTheEncoderItWasBegunWith) {
+  write_text_file(folder_.file("m.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,8,1,0,0,0,0\n60,0,0,8,1,0,0,0,0\n");
+  const pid_t child = start(exam({"--motion", folder_.file("m.csv")}, "s.cavum"));  // exact places
+  static_cast<void>(holds("s.cavum", 1000));
+  ::kill(child, SIGKILL);
+  static_cast<void>(end_of(child));
+  if (SessionReader(folder_.file("s.cavum")).closed()) GTEST_SKIP() << "it was faster than the signal";
+  EXPECT_EQ(end_of(start({CAVUM_BINARY, "exam", "--resume", "--out", folder_.file("s.cavum"), "--device", "simulated", "--operator", "expert"})), 2);
+  EXPECT_NE(said().find("another encoder"), std::string::npos) << said();
+}
+
 TEST_F(ExamDevice, WhatIsMissingIsSaidBeforeAnythingIsWritten) {
   const auto refuses = [&](const std::vector<std::string>& more, const std::string& words) {
     EXPECT_EQ(end_of(start(exam(more, "x.cavum"))), 2);
