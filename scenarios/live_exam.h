@@ -44,6 +44,8 @@ class LiveExam {
  public:
   /// Begins the recording at `path`. Setup and device must outlive it. Throws Error when it cannot record.
   LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options = {});
+  /// The same with one that was started or resumed already.
+  LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options = {});
   /// Stops. A session that was not closed can be resumed.
   ~LiveExam();
   LiveExam(const LiveExam&) = delete;
