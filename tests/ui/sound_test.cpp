@@ -1,5 +1,6 @@
 // The handpiece's sound by its spectrum, from the generator alone and through OpenAL into a file.
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -387,6 +388,37 @@ TEST(SoundOutput, GoesThroughOpenAlAsItWasMade) {
   const Wav again = read_wav(made);
   ASSERT_EQ(again.left.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) ASSERT_NEAR(again.left[i], all[i], 1e-4);
+}
+
+// A computer that stands still for half a second: the device plays everything that was queued, and more is asked for at once.
+TEST(SoundOutput, GoesOnAfterAStall) {
+  const testing_basics::Folder folder;
+  write_text_file(folder.file(".alsoftrc"), "[general]\ndrivers = wave\n[wave]\nfile = " + folder.file("heard.wav") + "\n");
+  ASSERT_EQ(in_child([&] {
+              setenv("HOME", folder.path().c_str(), 1);
+              unsetenv("ALSOFT_CONF");
+              setenv("ALSOFT_DRIVERS", "wave", 1);
+              const pid_t self = getpid(), other = fork();
+              if (other == 0) {
+                std::this_thread::sleep_for(500ms);
+                kill(self, SIGSTOP);
+                std::this_thread::sleep_for(500ms);
+                kill(self, SIGCONT);
+                _exit(0);
+              }
+              SoundOutput out;
+              out.set(idle(200000));
+              waitpid(other, nullptr, 0);
+              for (int i = 0; i < 1000 && out.report().dropouts == 0; ++i) std::this_thread::sleep_for(10ms);
+              const SoundReport stalled = out.report();
+              EXPECT_GT(stalled.dropouts, 0);
+              for (int i = 0; i < 1000 && out.report().blocks < stalled.blocks + 50; ++i) std::this_thread::sleep_for(10ms);
+              const SoundReport report = out.report();
+              EXPECT_TRUE(report.playing);
+              EXPECT_GE(report.blocks, stalled.blocks + 50);
+              EXPECT_LT(report.blocks, 5000);  // no faster than they are played
+            }),
+            0);
 }
 
 TEST(SoundOutput, WithoutADeviceIsSilentAndSaysWhy) {

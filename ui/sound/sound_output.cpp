@@ -103,8 +103,8 @@ class Player {
     return connected != ALC_FALSE;
   }
 
-  /// Is there a buffer to fill? Takes back those that were played.
-  [[nodiscard]] bool wants_block() {
+  /// Takes back the buffers that were played. Once a round: a source that has stopped counts whatever is queued as played.
+  void take_back() {
     ALint played = 0;
     alGetSourcei(source_, AL_BUFFERS_PROCESSED, &played);
     for (; played > 0; --played) {
@@ -112,8 +112,8 @@ class Player {
       alSourceUnqueueBuffers(source_, 1, &buffer);
       spare_.push_back(buffer);
     }
-    return !spare_.empty();
   }
+  [[nodiscard]] bool wants_block() const { return !spare_.empty(); }
   void queue(std::span<const float> samples) {
     const ALuint buffer = spare_.back();
     spare_.pop_back();
@@ -232,6 +232,7 @@ void SoundOutput::run(const std::shared_ptr<Shared>& shared) noexcept {
         int blocks_to_fade = 0;  // the last ones, after `stop`
         while (player.connected() && !(stopped() && blocks_to_fade > 20)) {
           std::int64_t made = 0;
+          player.take_back();
           while (player.wants_block() && !(stopped() && blocks_to_fade > 20)) {
             SoundParameters now = unpack(shared->parameters.load(std::memory_order_acquire));
             const bool silent = stopped() || shared->muted.load(std::memory_order_acquire);
