@@ -136,6 +136,9 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   ServoConfig config;
   config.max_rpm = scenario.max_rpm;
   config.position_quantum_mm = options.position_quantum_mm;
+  // A device that bears more than usual gives no more: every candidate feels the same tooth.
+  if (options.peak_n > 0) config.limits.peak_n = std::min(config.limits.peak_n, options.peak_n);
+  if (options.continuous_n > 0) config.limits.continuous_n = std::min(config.limits.continuous_n, options.continuous_n);
   s.servo_toml = to_toml(config);
   fill(*setup, scenario_path, tooth_path, point_paths);
   require_tissues(setup->scenario, setup->tooth);

@@ -33,6 +33,7 @@ struct ExamOptions {
   std::string candidate;                                   ///< pseudonym
   std::string device;                                      ///< name of what gives the input
   double position_quantum_mm = 0.0;                        ///< step of its encoder; 0 = exact
+  double peak_n = 0.0, continuous_n = 0.0;                 ///< forces that it bears; 0 or more than usual = the usual limits
   std::string tooth_file;                                  ///< empty: the scenario's
   std::string force_model = "consistent";                  ///< name of data/materials/NAME.toml, or a path ending in .toml
   std::string rubric_file;                                 ///< empty: the scenario's own rubric counts

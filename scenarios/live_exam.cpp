@@ -1,5 +1,6 @@
 #include "scenarios/live_exam.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
@@ -7,7 +8,17 @@
 namespace cavum {
 
 LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
-    : exam_(Exam::start(setup, path, first_tip_mm)), servo_state_(exam_->state()), device_(device) {
+<<<<<<< HEAD
+    : exam_(Exam::start(setup, path, first_tip_mm)),
+      servo_state_(exam_->state()),
+      device_(device),
+      target_shares_(static_cast<double>(setup.zones.target_shares())) {
+=======
+    : LiveExam(setup, Exam::start(setup, path, first_tip_mm), device, options) {}
+
+LiveExam::LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options)
+    : exam_(std::move(exam)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
+>>>>>>> styluses
   view_.limit_ticks = exam_->limit_ticks();
   servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
   writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
@@ -31,6 +42,7 @@ void LiveExam::take(const ServoTick& tick) {
   }
   std::string error;
   try {
+    const std::lock_guard lock(tooth_mutex_);
     exam_->follow(tick.input);
   } catch (const Error& e) {  // full disk …: the tick is kept, and written with a later one
     error = e.what();
@@ -47,14 +59,30 @@ void LiveExam::take(const ServoTick& tick) {
   view_.ticks = runner.ticks;
   view_.paused_ticks = runner.paused_ticks;
   view_.step = runner.step;
+  view_.pauses = runner.pauses;
+  view_.depth_mm = runner.depth_mm;
+  view_.target_removed_percent = 100.0 * static_cast<double>(runner.target_shares) / target_shares_;
   view_.paused = Runner::paused(runner);
   view_.over = exam_->over();
   view_.input = tick.input;
   view_.output = tick.output;
+  if (const auto& removed = exam_->state().removed; !removed.empty()) {
+    const auto share_of = [&removed](std::uint8_t tissue) {
+      const auto count = std::count_if(removed.begin(), removed.end(), [tissue](const RemovedLeaf& leaf) { return leaf.tissue == tissue; });
+      return static_cast<double>(count) / static_cast<double>(removed.size());
+    };
+    view_.enamel_share = share_of(k_enamel);
+    view_.dentin_share = share_of(k_dentin);
+  }
   view_.edit_hash = exam_->state().tooth.edit_hash();
   if (!error.empty()) view_.recording_error = error;
   if (exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < k_chunk_ticks)
     view_.recording_error.clear();  // all but the running second is on disk
+}
+
+void LiveExam::look_at_tooth(const std::function<void(const Octree&)>& look) const {
+  const std::lock_guard lock(tooth_mutex_);
+  look(exam_->state().tooth);
 }
 
 LiveView LiveExam::view() const {

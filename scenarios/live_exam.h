@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,11 +21,15 @@ struct LiveView {
   std::int64_t paused_ticks = 0;  ///< of them; the exam's clock shows the others
   std::int64_t limit_ticks = 0;   ///< of the exam's clock; 0 = none
   int step = 0;                   ///< 0-based
+  int pauses = 0;                 ///< begun so far
+  double depth_mm = 0.0;          ///< deepest so far below the opening
+  double target_removed_percent = 0.0;
   bool paused = false, over = false;
   TickInput input;
   TickOutput output;
-  std::uint64_t edit_hash = 0;  ///< of the tooth: changes when it is cut
-  std::string recording_error;  ///< empty, or why the recording cannot be written at the moment; nothing is lost meanwhile
+  double enamel_share = 0.0, dentin_share = 0.0;  ///< of the leaves removed in the last tick that removed any, 0..1
+  std::uint64_t edit_hash = 0;                    ///< of the tooth: changes when it is cut
+  std::string recording_error;                    ///< empty, or why the recording cannot be written at the moment; nothing is lost meanwhile
 };
 
 struct LiveReport {
@@ -39,6 +44,8 @@ class LiveExam {
  public:
   /// Begins the recording at `path`. Setup and device must outlive it. Throws Error when it cannot record.
   LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options = {});
+  /// The same with one that was started or resumed already.
+  LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options = {});
   /// Stops. A session that was not closed can be resumed.
   ~LiveExam();
   LiveExam(const LiveExam&) = delete;
@@ -50,6 +57,9 @@ class LiveExam {
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
+  /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever
+  /// draws takes what changed and leaves, within a few milliseconds. Not from within `look`.
+  void look_at_tooth(const std::function<void(const Octree&)>& look) const;
   /// Stops the servo and waits until every tick is taken. Then `exam` may be graded, and closed when it is over.
   const LiveReport& finish();
   /// Of the caller after `finish`, of the writing thread before.
@@ -65,6 +75,7 @@ class LiveExam {
       if (held.load(std::memory_order_acquire)) reading.pedal = 0.0;
       return reading;
     }
+    void show(const TickOutput& output) noexcept override { device_.show(output); }
     void send_force(Vec3 force_n) override { device_.send_force(force_n); }
     void cut_force() noexcept override { device_.cut_force(); }
     std::atomic<bool> held{false};
@@ -78,13 +89,15 @@ class LiveExam {
   std::unique_ptr<Exam> exam_;
   ServoState servo_state_;
   Restrained device_;
+  double target_shares_;
   TickStream stream_;
   std::unique_ptr<RealTimeServo> servo_;
   std::unique_ptr<SessionWriter> writer_;
   std::atomic<bool> end_asked_{false};
   LiveReport report_;
   bool finished_ = false;
-  mutable std::mutex mutex_;  // of the view
+  mutable std::mutex tooth_mutex_;  // of the twin's tooth, between its thread and whoever draws it
+  mutable std::mutex mutex_;        // of the view
   LiveView view_;
 };
 

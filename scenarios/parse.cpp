@@ -203,6 +203,20 @@ void check_pause_button(const Scenario& s, ProblemList& problems) {
     }
 }
 
+GaugeSpec read_gauges(CheckedTable& scenario) {
+  GaugeSpec gauges;
+  const std::vector<std::string> known{"speed", "force", "depth"};
+  const auto names = scenario.texts("gauges");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(known.begin(), known.end(), names[i]) == known.end())
+      scenario.problem_in("gauges", i, "there is no gauge '" + names[i] + "'", suggestion(names[i], known));
+    gauges.speed |= names[i] == "speed";
+    gauges.force |= names[i] == "force";
+    gauges.depth |= names[i] == "depth";
+  }
+  return gauges;
+}
+
 Scenario read_table(const toml::table& table, const std::string& path, ProblemList& problems) {
   CheckedTable t(table, "the scenario", problems);
   Scenario s;
@@ -221,6 +235,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
   s.force_limit_n = t.number("force_limit_n", 0, 100, 0);
+  s.gauges = read_gauges(t);
   if (const auto* a = t.table("accommodations")) {
     CheckedTable at(*a, "[accommodations]", problems);
     s.accommodations.extra_time_percent = at.number("extra_time_percent", 0, 400, 0);

@@ -146,6 +146,11 @@ struct PauseSpec {
   int button = 2;          ///< 1 or 2: pressed once to begin, once more to go on
 };
 
+/// What the window shows of the work while the exam runs. Practice shows all of it.
+struct GaugeSpec {
+  bool speed = false, force = false, depth = false;
+};
+
 struct Scenario {
   std::string id, title, description;
   std::string path;                 ///< file it was read from
@@ -156,6 +161,7 @@ struct Scenario {
   double force_limit_n = 0.0;  ///< pressing harder than this counts as force over limit; 0 = no limit
   Accommodations accommodations;
   PauseSpec pauses;
+  GaugeSpec gauges;
   std::vector<StepSpec> steps;
   ZoneSpec zones;
   PerforationSpec perforation;

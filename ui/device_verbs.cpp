@@ -1,25 +1,31 @@
-// `cavum devices`: the foot pedals that are plugged in, what is wrong with them, how well they speak, and their calibration.
+// `cavum devices`: the foot pedals and styluses that are plugged in, what is wrong with them, how well they speak, and their calibration.
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/device/hid_pedal.h"
 #include "engine/device/station_pedal.h"
+#include "ui/interrupt.h"
 #include "ui/print_json.h"
+#include "ui/stylus_devices.h"
 #include "ui/verbs.h"
 
 namespace cavum {
 namespace {
 
 struct Options {
-  bool json = false, test = false, calibrate = false;
-  std::string id;
+  bool json = false, test = false, calibrate = false, live = false, place = false, no_push = false;
+  std::string id, stylus;
   double seconds = 3.0;
 };
 
@@ -74,9 +80,7 @@ void list(const Options& o) {
       for (const auto& axis : p.axes) axes.push_back(axis_json(axis));
       all.push_back({{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", p.problem}, {"calibrated", calibrated(p)}});
     }
-    print_json(nlohmann::json{{"pedals", all},
-                              {"calibration_problem", calibration_problem},
-                              {"styluses", {{{"id", "simulated"}, {"name", "simulated Omni in a simulated hand"}}}}});
+    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", calibration_problem}, {"styluses", styluses_json(o.live)}});
     return;
   }
   std::cout << "pedals\n";
@@ -92,7 +96,7 @@ void list(const Options& o) {
   if (station && std::none_of(pedals.begin(), pedals.end(), calibrated))
     std::cout << "  " << usb_id(station->vendor, station->product) << "  is calibrated for this station, and not plugged in\n";
   if (!calibration_problem.empty()) std::cout << "  " << calibration_problem << "\n";
-  std::cout << "styluses\n  simulated  Omni in a simulated hand, for `cavum exam --operator` and `cavum rig`; no other is driven by this version\n";
+  std::cout << styluses_text(o.live) << std::flush;
 }
 
 int test(const Options& o) {
@@ -164,19 +168,49 @@ void calibrate(const Options& o) {
             << (continuous ? "speaks continuously" : "speaks when it moves") << "\nwritten: " << path << "\n";
 }
 
+/// The list anew twice a second, until Ctrl-C.
+void watch(const Options& o) {
+  const Interrupt interrupt;
+  while (!Interrupt::asked()) {
+    if (::isatty(STDOUT_FILENO) == 1) std::cout << "\033[H\033[2J";
+    list(o);
+    if (!o.json) std::cout << "\n";
+    for (int i = 0; i < 25 && !Interrupt::asked(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 }  // namespace
 
 void add_device_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
   auto* devices = app.add_subcommand("devices", "What is plugged in and what is wrong with it");
   devices->add_option("--pedal", o->id, "vendor and product, for example 068e:00f2; needed when there are several");
-  auto* test_flag = devices->add_flag("--test", o->test, "listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent");
+  auto* stylus = devices->add_option("--stylus", o->stylus, "falcon, touch or simulated: for --test and --place");
+  auto* test_flag =
+      devices->add_flag("--test", o->test,
+                        "listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "
+                        "and friction in air");
+  devices->add_flag("--no-push", o->no_push, "with --test --stylus: leave out the friction, which needs gentle pushes")
+      ->needs(test_flag)
+      ->needs(stylus);
+  devices->add_flag("--place", o->place, "touch four marks, so that the stylus stands where the tooth is; kept for this station")
+      ->needs(stylus)
+      ->excludes(test_flag);
+  devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
   devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
   devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(CLI::Range(0.2, 600.0))->capture_default_str();
   devices->add_flag("--json", o->json, "one JSON object on standard output");
   devices->callback([o, &exit_code] {
     exit_code = 0;
-    if (o->calibrate)
+    if (o->place)
+      place_stylus(o->stylus);
+    else if (o->test && !o->stylus.empty())
+      exit_code = test_stylus(o->stylus, o->seconds, !o->no_push, o->json);
+    else if (!o->stylus.empty())
+      throw Error("--stylus " + o->stylus, "says of which, but not what", "add --test or --place");
+    else if (o->live)
+      watch(*o);
+    else if (o->calibrate)
       calibrate(*o);
     else if (o->test)
       exit_code = test(*o);

@@ -2,18 +2,23 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "grading/close_exam.h"
 #include "grading/report.h"
 #include "grading/result_json.h"
-#include "grading/session_input.h"
+#include "scenarios/live_exam.h"
 #include "scenarios/simulated_exam.h"
+#include "ui/interrupt.h"
+#include "ui/live_source.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/seed_check.h"
@@ -23,7 +28,7 @@ namespace cavum {
 namespace {
 
 struct Options {
-  std::string scenario, candidate, motion, operator_name, device, out, tooth, model = "consistent", rubric, report;
+  std::string scenario, candidate, motion, operator_name, device, point, out, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
   bool json = false, quiet = false, resume = false, end = false, model_given = false;
@@ -35,15 +40,15 @@ class ProgressBar {
  public:
   explicit ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
   ~ProgressBar() { clear(); }
-  void show(const Exam& exam, double progress) {
+  void show(const Exam& exam, double progress) { show(exam.state().tick, progress, exam.instruction()); }
+  void show(std::int64_t tick, double progress, const std::string& what) {
     if (!shown_) return;
     constexpr int k_width = 24;
     const int filled = static_cast<int>(progress * k_width);
     std::string bar(static_cast<std::size_t>(filled), '=');
     bar.resize(k_width, ' ');
-    const auto tick = exam.state().tick;
     std::fprintf(stderr, "\r[%s] %3lld:%02lld  %-70.70s", bar.c_str(), static_cast<long long>(tick / 60000), static_cast<long long>(tick / 1000 % 60),
-                 exam.instruction().c_str());
+                 what.c_str());
   }
   void clear() {
     if (shown_) std::fprintf(stderr, "\r%110s\r", "");
@@ -97,7 +102,7 @@ SourceNotes source_notes(const Options& o) {
   return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
 }
 
-std::unique_ptr<ExamSetup> make_setup(const Options& o) {
+std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live = nullptr) {
   ExamOptions options;
   options.candidate = o.candidate;
   options.tooth_file = o.tooth;
@@ -106,20 +111,26 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o) {
   options.device = source_name(o);
   options.notes = source_notes(o);
   if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
+  if (live != nullptr) {
+    options.device = live->name();
+    options.notes = live->notes();
+    options.position_quantum_mm = live->position_quantum_mm();
+    options.peak_n = live->peak_n();
+    options.continuous_n = live->continuous_n();
+  }
   options.grant = o.grant;
   return prepare_exam(o.scenario, options);
 }
 
 /// Grades what was recorded, seals the session with it, prints it.
-void finish(const Options& o, Exam& exam) {
-  exam.recorder().flush();
-  const auto graded = load_for_grading(SessionReader(o.out), exam.tooth_now());
-  const Result result = grade(graded->input(), graded->rubric);
-  exam.close(to_json(result).dump());
-  if (!o.report.empty()) write_text_file(o.report, report_html(result, graded->input(), graded->facts));
+void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
+  const ClosedExam closed = grade_and_close(exam, o.out);
+  const Result& result = closed.result;
+  if (!o.report.empty()) write_text_file(o.report, report_html(result, closed.graded->input(), closed.graded->facts));
   if (o.json) {
     auto j = to_json(result);
     j["session"] = o.out;
+    if (!servo.is_null()) j["servo"] = servo;
     print_json(j);
   } else {
     std::cout << to_text(result) << "recorded: " << o.out << "\n";
@@ -134,10 +145,87 @@ void require_places(const Options& o) {
                      {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}});
 }
 
-void run_new(const Options& o) {
-  if (o.motion.empty() == o.operator_name.empty())
-    throw Error("cavum exam", "needs one source of motion", "give either --motion F.csv or --operator NAME");
+/// How punctual the servo was: kept as an event of the session, and shown.
+nlohmann::json servo_json(const LiveReport& report) {
+  const auto histogram = [](const Lateness& l) {
+    return nlohmann::json{
+        {"edges_us", l.k_edges_us}, {"counts", l.counts}, {"mean_us", l.mean_us()}, {"p99_us", l.quantile_us(0.99)}, {"worst_us", l.worst_us()}};
+  };
+  const RealTimeReport& s = report.servo;
+  return {{"ticks", s.ticks},
+          {"overruns", s.overruns},
+          {"made_up", s.made_up},
+          {"skipped_late", s.skipped_late},
+          {"skipped_full", s.skipped_full},
+          {"guard_cuts", s.guard_cuts},
+          {"lateness", histogram(s.lateness)},
+          {"work", histogram(s.work)},
+          {"fifo", s.fifo},
+          {"memory_locked", s.memory_locked},
+          {"first_disagreement", report.first_disagreement},
+          {"why", s.why},
+          {"error", s.error}};
+}
+
+/// An exam with a hand on it, until it is over, the operator is done, a signal comes or the device fails. Returns 0 when it is over and sealed, 1
+/// when it was only stopped: such a session can be resumed.
+int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::unique_ptr<Exam> begun) {
+  LiveExam live(setup, begun ? std::move(begun) : Exam::start(setup, o.out, source.first_tip_mm()), source.device());
+  live.start();
+  {
+    ProgressBar bar(!o.json && !o.quiet);
+    std::string told;
+    constexpr auto k_look = std::chrono::milliseconds(20);
+    for (; live.running() && !Interrupt::asked(); std::this_thread::sleep_for(k_look)) {
+      if (source.done()) live.ask_to_end();
+      const LiveView view = live.view();
+      const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
+      const auto step = std::min(static_cast<std::size_t>(std::max(0, view.step)), setup.scenario.steps.size() - 1);
+      bar.show(view.ticks, std::min(1.0, share), setup.scenario.steps[step].instruction);
+      if (const std::string problem = source.problem(); problem != told) {
+        if (!problem.empty()) std::fprintf(stderr, "\ncavum: %s\n", one_line(problem).c_str());
+        told = problem;
+      }
+    }
+  }
+  const LiveReport& report = live.finish();
+  const nlohmann::json servo = servo_json(report);
+  Exam& exam = live.exam();
+  exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), "servo_lateness", servo.dump());
+  if (!o.json && !o.quiet)
+    std::fprintf(stderr, "servo: %lld ticks, %lld late, worst %.1f ms%s\n", static_cast<long long>(report.servo.ticks),
+                 static_cast<long long>(report.servo.overruns), report.servo.lateness.worst_us() * 1e-3,
+                 report.servo.fifo ? "" : " (without SCHED_FIFO)");
+  if (exam.over()) {
+    finish(o, exam, servo);
+    return 0;
+  }
+  exam.recorder().flush();
+  const std::string why = report.servo.error.empty() ? "was stopped" : "was stopped: " + report.servo.error;
+  if (o.json) print_json(nlohmann::json{{"session", o.out}, {"stopped", why}, {"servo", servo}});
+  std::fprintf(stderr, "cavum: %s: %s; go on with --resume --device, or close it as it stands with --resume --end\n", o.out.c_str(),
+               one_line(why).c_str());
+  return 1;
+}
+
+std::unique_ptr<LiveSource> open_source(const Options& o) {
+  return open_live_source({.device = o.device, .operator_name = o.operator_name, .seed = o.seed, .point = o.point});
+}
+
+int run_new_live(const Options& o) {
+  require_places(o);
+  const Interrupt interrupt;
+  const auto source = open_source(o);
+  const auto setup = make_setup(o, source.get());
+  source->begin(*setup);
+  return run_live(o, *setup, *source, nullptr);
+}
+
+int run_new(const Options& o) {
   if (!is_plain_text(o.candidate)) throw Error("--candidate", "holds a control character or bytes that are no UTF-8", "use letters and digits");
+  if (!o.device.empty()) return run_new_live(o);
+  if (o.motion.empty() == o.operator_name.empty())
+    throw Error("cavum exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
   require_places(o);
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
@@ -147,6 +235,7 @@ void run_new(const Options& o) {
     run_exam(*exam, *source, [&bar](const Exam& e, double progress) { bar.show(e, progress); });
   }
   finish(o, *exam);
+  return 0;
 }
 
 /// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
@@ -165,14 +254,26 @@ void require_same(const Options& o, const SessionSetup& held) {
 }
 
 /// Takes up a killed exam with new motion, or closes it as it stands.
-void run_resumed(const Options& o) {
-  if (o.motion.empty() && o.operator_name.empty() && !o.end)
-    throw Error("cavum exam --resume", "nothing to go on with", "give --motion or --operator to continue, or --end to close the exam as it stands");
+int run_resumed(const Options& o) {
+  if (o.motion.empty() && o.operator_name.empty() && o.device.empty() && !o.end)
+    throw Error("cavum exam --resume", "nothing to go on with",
+                "give --motion, --operator or --device to continue, or --end to close the exam as it stands");
   require_places(o);
   const SessionReader reader(o.out);
   reader.require_readable();
   if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
   const auto setup = prepare_exam(reader.setup());
+  if (!o.device.empty()) {
+    const Interrupt interrupt;
+    const auto live = open_source(o);
+    if (live->position_quantum_mm() != parse_servo_config(setup->session.servo_toml, o.out).position_quantum_mm)
+      throw Error("--device " + o.device, "has another encoder than the one that " + o.out + " was begun with",
+                  "go on with the same device, or close the exam with --end");
+    live->begin(*setup);
+    SourceNotes notes = live->notes();
+    notes.emplace_back("device", live->name());
+    return run_live(o, *setup, *live, Exam::resume(*setup, o.out, notes));
+  }
   const bool moves = !o.motion.empty() || !o.operator_name.empty();
   // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
   const auto source = moves ? make_source(o, *setup) : nullptr;
@@ -188,6 +289,7 @@ void run_resumed(const Options& o) {
     exam->end();
   }
   finish(o, *exam);
+  return 0;
 }
 
 }  // namespace
@@ -200,35 +302,42 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
   auto* name = exam->add_option("--operator", o->operator_name,
                                 "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
-  auto* device = exam->add_option("--device", o->device, "haptic device by name; this version drives none");
+  auto* device = exam->add_option("--device", o->device, "in real time, without a window: falcon, touch, or simulated with --operator as its hand");
   motion->excludes(name);
-  device->excludes(name)->excludes(motion);
+  device->excludes(motion);
+  exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);
   exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   exam->add_option("--extra-time-percent", o->grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
   exam->add_option("--extra-time-s", o->grant.extra_time_s, "the same in seconds; both add up");
-  exam->add_flag("--left-handed,!--right-handed", o->grant.left_handed, "for this candidate; recorded and shown with the result");
-  exam->add_flag("--high-contrast,!--normal-contrast", o->grant.high_contrast, "for this candidate; recorded and shown with the result");
+  // by callbacks: bound to an optional, a flag that is not given would be set to false, and take away what the scenario grants
+  const char* shown = "for this candidate; recorded and shown with the result";
+  exam->add_flag_callback(
+      "--left-handed", [o] { o->grant.left_handed = true; }, shown);
+  exam->add_flag_callback(
+      "--right-handed", [o] { o->grant.left_handed = false; }, "takes back what the scenario grants");
+  exam->add_flag_callback(
+      "--high-contrast", [o] { o->grant.high_contrast = true; }, shown);
+  exam->add_flag_callback(
+      "--normal-contrast", [o] { o->grant.high_contrast = false; }, "takes back what the scenario grants");
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
   exam->add_option("--report", o->report, "also write the report (HTML)");
-  exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed: with --motion, --operator or --end");
+  exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed or stopped: with --motion, --operator, --device or --end");
   exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
   exam->add_flag("--quiet", o->quiet, "no progress bar");
   exam->callback([o, model, &exit_code] {
     o->model_given = model->count() > 0;
-    if (!o->device.empty()) throw Error("--device " + o->device, "no haptic device is driven by this version", "use --operator or --motion");
     if (o->resume) {
-      run_resumed(*o);
+      exit_code = run_resumed(*o);
     } else {
       if (o->scenario.empty()) throw Error("cavum exam", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
       if (o->candidate.empty()) throw Error("cavum exam", "no candidate given", "add --candidate with a pseudonym");
-      run_new(*o);
+      exit_code = run_new(*o);
     }
-    exit_code = 0;
   });
 }
 

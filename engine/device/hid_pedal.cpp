@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -47,6 +48,20 @@ Bytes descriptor_of(const std::string& path) {
   throw Error(path, "has no report descriptor in /sys", "plug the device in again, so that the kernel reads it");
 }
 
+/// The file that must be opened: the node itself, or, through libusb, the USB device that the interface "1-2:1.0" belongs to. Empty when unknown.
+std::string file_of(const std::string& path) {
+  if (path.starts_with("/dev/")) return path;
+  const std::string device = "/sys/bus/usb/devices/" + path.substr(0, path.find(':')) + "/";
+  try {
+    char file[64];
+    std::snprintf(file, sizeof file, "/dev/bus/usb/%03d/%03d", std::stoi(read_text_file(device + "busnum")),
+                  std::stoi(read_text_file(device + "devnum")));
+    return file;
+  } catch (const std::exception&) {  // no such device, or no number: opening it will say
+    return {};
+  }
+}
+
 std::string name_of(const hid_device_info& d) {
   std::string name;
   for (const wchar_t* text : {d.manufacturer_string, d.product_string}) {
@@ -65,22 +80,14 @@ HidPedalInfo info_of(const hid_device_info& d) {
   } catch (const Error& e) {
     info.problem = e.what();
   }
-  if (info.problem.empty() && info.path.starts_with("/dev/") && ::access(info.path.c_str(), R_OK | W_OK) != 0)
-    info.problem = "may not be opened; " + udev_advice(info.vendor, info.product, true);
+  if (const std::string file = file_of(info.path); info.problem.empty() && !file.empty() && ::access(file.c_str(), R_OK | W_OK) != 0)
+    info.problem = "may not be opened; " + udev_advice(info.vendor, info.product, info.path.starts_with("/dev/"));
   return info;
 }
 
 }  // namespace
 
 std::string HidPedalInfo::id() const { return usb_id(vendor, product); }
-
-std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid) {
-  const std::string id = usb_id(vendor, product), device = id.substr(0, 4), model = id.substr(5);
-  return "put the line  " +
-         (hid ? R"(KERNEL=="hidraw*", ATTRS{idVendor}==")" + device + R"(", ATTRS{idProduct}==")" + model
-              : R"(SUBSYSTEM=="usb", ATTR{idVendor}==")" + device + R"(", ATTR{idProduct}==")" + model) +
-         R"(", MODE="0660", TAG+="uaccess"  into /etc/udev/rules.d/60-cavum.rules, run `udevadm control --reload` as root, and plug the device in again)";
-}
 
 std::vector<HidPedalInfo> list_hid_pedals() {
   const std::lock_guard lock(hidapi_mutex());

@@ -12,6 +12,7 @@
 
 #include "engine/device/hid_descriptor.h"
 #include "engine/device/pedal.h"
+#include "engine/device/udev_rule.h"
 
 namespace cavum {
 
@@ -28,9 +29,6 @@ struct HidPedalInfo {
 
 /// Every HID device that could be a pedal. Keyboards, mice and whatever else has no absolute axis are left out.
 [[nodiscard]] std::vector<HidPedalInfo> list_hid_pedals();
-
-/// The udev rule that lets the user of the seat open a USB device, and what to do with it.
-[[nodiscard]] std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid);
 
 /// What a device said while nobody used it.
 struct PedalHearing {

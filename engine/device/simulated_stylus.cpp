@@ -15,12 +15,24 @@ DeviceReading SimulatedStylus::read(double elapsed_s) {
     intent = intent_(time_s_);
     tip = advance_omni(omni_, hand_, state_, cut_.load(std::memory_order_acquire) ? Vec3{} : force_n_, intent.tip_mm, tick_s_);
   }
+  readings_.fetch_add(steps, std::memory_order_relaxed);
   return {{tip, {}}, intent.pedal, k_stylus_fresh | k_pedal_fresh, 0};
 }
 
 void SimulatedStylus::send_force(Vec3 force_n) {
   force_n_ = force_n;
+  if (length(force_n) > omni_.saturation_n) forces_cut_.fetch_add(1, std::memory_order_relaxed);
   cut_.store(false, std::memory_order_release);
+}
+
+StylusHealth SimulatedStylus::health() const {
+  StylusHealth h;
+  h.ready = true;
+  h.readings = readings_.load(std::memory_order_relaxed);
+  h.plugged_in = 1;
+  h.forces_cut = forces_cut_.load(std::memory_order_relaxed);
+  h.mean_period_s = h.longest_gap_s = tick_s_;
+  return h;
 }
 
 }  // namespace cavum

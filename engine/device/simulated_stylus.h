@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "engine/device/simulated_omni.h"
-#include "engine/servo/servo_device.h"
+#include "engine/device/stylus.h"
 
 namespace cavum {
 
@@ -16,7 +16,7 @@ struct HandIntent {
   double pedal = 0.0;  ///< 0..1
 };
 
-class SimulatedStylus final : public ServoDevice {
+class SimulatedStylus final : public Stylus {
  public:
   /// `intent` is asked in the servo thread with the time since the start; it must not allocate.
   SimulatedStylus(const OmniModel& omni, const HandModel& hand, double tick_s, std::function<HandIntent(double t_s)> intent)
@@ -25,6 +25,9 @@ class SimulatedStylus final : public ServoDevice {
   [[nodiscard]] DeviceReading read(double elapsed_s) override;
   void send_force(Vec3 force_n) override;
   void cut_force() noexcept override { cut_.store(true, std::memory_order_release); }
+  [[nodiscard]] const StylusFacts& facts() const noexcept override { return facts_; }
+  /// Its periods are those of the simulated time.
+  [[nodiscard]] StylusHealth health() const override;
 
  private:
   OmniModel omni_;
@@ -32,9 +35,16 @@ class SimulatedStylus final : public ServoDevice {
   double tick_s_;
   std::function<HandIntent(double)> intent_;
   OmniState state_;
+  StylusFacts facts_{.id = "simulated",
+                     .name = "simulated Omni in a simulated hand",
+                     .position_quantum_mm = omni_.quantum_mm,
+                     .peak_n = omni_.saturation_n,
+                     .continuous_n = 0.88,
+                     .measures_direction = false};
   double time_s_ = 0.0;
   Vec3 force_n_;
   std::atomic<bool> cut_{false};
+  std::atomic<std::int64_t> readings_{0}, forces_cut_{0};
 };
 
 }  // namespace cavum

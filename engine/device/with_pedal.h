@@ -18,6 +18,7 @@ class WithPedal final : public ServoDevice {
     reading.flags = static_cast<std::uint16_t>((reading.flags & ~k_pedal_fresh) | (foot.fresh ? k_pedal_fresh : 0));
     return reading;
   }
+  void show(const TickOutput& output) noexcept override { stylus_.show(output); }
   void send_force(Vec3 force_n) override { stylus_.send_force(force_n); }
   void cut_force() noexcept override { stylus_.cut_force(); }
 

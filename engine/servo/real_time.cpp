@@ -31,7 +31,7 @@ struct RealTimeServo::Loop {
       : model(m), state(s), device(d), stream(t), options(o), period_ns(std::llround(m.config.tick_s * 1e9)), input(first) {}
 
   /// One step, if it can be handed over. Returns false without room.
-  bool take_step(std::int64_t due_ns, Vec3& force_n) noexcept {
+  bool take_step(std::int64_t due_ns, TickOutput& output) noexcept {
     if (!stream.has_room(state.removed.capacity())) {
       ++report.skipped_full;
       ++skipped;
@@ -46,7 +46,7 @@ struct RealTimeServo::Loop {
     row.skipped_periods = skipped;
     stream.push(row, state.removed);
     skipped = 0;
-    force_n = row.output.rendered_force_n;
+    output = row.output;
     ++report.ticks;
     report.lateness.add(row.late_ns);
     if (row.late_ns > period_ns) ++report.overruns;
@@ -58,7 +58,7 @@ struct RealTimeServo::Loop {
     silent_s += model.config.tick_s;
     input.flags = static_cast<std::uint16_t>(input.flags & ~(k_stylus_fresh | k_stylus_fault));
     if (silent_s > model.config.limits.watchdog_s) input.flags = static_cast<std::uint16_t>(input.flags & ~k_pedal_fresh);
-    Vec3 unsent;
+    TickOutput unsent;
     if (take_step(due_ns, unsent)) ++report.made_up;
   }
 
@@ -67,9 +67,9 @@ struct RealTimeServo::Loop {
     constexpr auto k_of_device = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2);
     input = make_tick_input(r.pose, r.pedal, r.flags & k_of_device, r.point, input);
     silent_s = 0.0;
-    Vec3 force_n;
-    if (!take_step(due_ns, force_n)) force_n = {};
-    device.send_force(force_n);
+    TickOutput output;
+    if (take_step(due_ns, output)) device.show(output);
+    device.send_force(output.rendered_force_n);
   }
 
   void run_periods() {

@@ -25,6 +25,9 @@ class ServoDevice {
   [[nodiscard]] virtual DeviceReading read(double elapsed_s) = 0;
   /// Force on the hand, N, tooth frame, until the next. Servo thread only. Throwing as in `read`.
   virtual void send_force(Vec3 force_n) = 0;
+  /// What the step made of the last reading, before its force is sent: for a simulated candidate, who acts on what is seen and felt. Servo thread
+  /// only; must neither wait nor allocate. Not called for ticks that are made up for.
+  virtual void show(const TickOutput& output) noexcept { static_cast<void>(output); }
   /// No force until the next send_force. May be called by another thread while `read` or `send_force` hangs.
   virtual void cut_force() noexcept = 0;
 };

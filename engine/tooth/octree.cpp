@@ -237,7 +237,7 @@ TissueGrid Octree::to_grid() const {
 }
 
 std::size_t Octree::memory_bytes() const noexcept {
-  return nodes_.used() * sizeof(Node) + labels_.used() * sizeof(LabelBrick) + bricks_.used() * sizeof(FullBrick);
+  return nodes_.used() * sizeof(Node) + labels_.used() * sizeof(LabelBrick) + bricks_.used() * sizeof(FullBrick) + marks_.size() * sizeof(marks_[0]);
 }
 
 void Octree::write(ByteWriter& out) const {

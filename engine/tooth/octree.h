@@ -74,6 +74,14 @@ class Octree {
   /// Distance code of a leaf (see `encode_distance`); far outside the grid.
   [[nodiscard]] int distance_code(IVec3 leaf) const noexcept;
 
+  /// Tissues and distance codes of a brick's leaves, x fastest.
+  struct FullBrick {
+    std::array<std::uint8_t, k_brick_leaves> tissue;
+    std::array<std::int8_t, k_brick_leaves> distance;
+  };
+  /// `at` is the brick's lowest leaf over `k_brick_edge`; air outside.
+  [[nodiscard]] FullBrick brick(IVec3 at) const noexcept { return expanded(find(at)); }
+
   /// Remembers where the last bricks were found. One per reader; renew nothing by hand.
   class Cursor {
    public:
@@ -126,6 +134,12 @@ class Octree {
   bool apply(Plan& plan, std::vector<RemovedLeaf>& removed) noexcept;
   /// Changes with every edit, and is equal after equal edits of equal teeth.
   [[nodiscard]] std::uint64_t edit_hash() const noexcept { return edit_hash_; }
+  /// `edit_hash` as it was after the last edit in a block of 16x16x16 leaves (its lowest leaf over 16): whoever keeps these numbers
+  /// knows which blocks changed since.
+  static constexpr int k_mark_edge = 16;
+  [[nodiscard]] std::uint64_t last_edit(IVec3 block) const noexcept {
+    return marks_.empty() ? edit_hash_ : marks_[mark_of({block.x * k_mark_edge, block.y * k_mark_edge, block.z * k_mark_edge})];
+  }
 
   /// Leaves of each tissue (index = id); air is not counted.
   [[nodiscard]] std::array<std::uint64_t, 256> count_leaves() const;
@@ -150,10 +164,6 @@ class Octree {
   };
   struct LabelBrick {
     std::array<std::uint8_t, k_brick_leaves> tissue;
-  };
-  struct FullBrick {
-    std::array<std::uint8_t, k_brick_leaves> tissue;
-    std::array<std::int8_t, k_brick_leaves> distance;
   };
   /// Pool with a free list; `items` never grows past its capacity during edits.
   template <class T>
@@ -285,6 +295,12 @@ class Octree {
   std::uint32_t read_ref(ByteReader& shape, ByteReader& tissue, ByteReader& distance, int level);
   [[nodiscard]] std::uint32_t canonical(const FullBrick& brick);
   [[nodiscard]] IVec3 clamp_to_tree(Vec3 mm) const noexcept;
+  /// Place in `marks_` of the block that holds a leaf; leaves beyond `size_` count with the nearest.
+  [[nodiscard]] std::size_t mark_of(IVec3 leaf) const noexcept {
+    const auto block = [](int at, int size) { return static_cast<std::size_t>(std::clamp(at, 0, size - 1) / k_mark_edge); };
+    const auto blocks = [](int size) { return static_cast<std::size_t>((size + k_mark_edge - 1) / k_mark_edge); };
+    return (block(leaf.z, size_.z) * blocks(size_.y) + block(leaf.y, size_.y)) * blocks(size_.x) + block(leaf.x, size_.x);
+  }
 
   double leaf_mm_ = 0.05, leaves_per_mm_ = 20.0;
   Vec3 origin_mm_;
@@ -296,7 +312,8 @@ class Octree {
   Pool<LabelBrick> labels_;
   Pool<FullBrick> bricks_;
   std::uint64_t edit_hash_ = 0;
-  std::uint64_t version_ = 0;  // of the structure; tells cursors to look again
+  std::vector<std::uint64_t> marks_;  // of last_edit; there once edits are reserved
+  std::uint64_t version_ = 0;         // of the structure; tells cursors to look again
 };
 
 /// A carve worked out in part or in whole, and not yet made.

@@ -94,6 +94,7 @@ void Octree::store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, 
     }
   const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
   edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
+  if (!marks_.empty()) marks_[mark_of(low)] = edit_hash_;
   if ((ref & k_kind) == k_full_brick) {
     const bool empty = std::all_of(brick.distance.begin(), brick.distance.end(), [](int code) { return code == k_distance_far; }) &&
                        std::all_of(brick.tissue.begin(), brick.tissue.end(), [](int tissue) { return tissue == k_air; });
@@ -114,6 +115,7 @@ void Octree::reserve_edits(std::size_t bricks) {
   bricks_.reserve(bricks);
   labels_.reserve(bricks);
   nodes_.reserve(bricks);
+  if (marks_.empty()) marks_.resize(mark_of(size_) + 1, edit_hash_);
 }
 
 }  // namespace cavum

@@ -14,14 +14,14 @@
 #include "engine/session/simulation.h"
 #include "engine/session/verify.h"
 #include "engine/tooth/formula_tooth.h"
-#include "tests/device/emulated_pedal.h"
+#include "tests/device/the_pedal.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
 
 using namespace std::chrono_literals;
-using testing_device::EmulatedPedal;
+using EmulatedPedal = testing_device::ThePedal;
 
 TEST(PedalServo, UnpluggedWhileCuttingTheHandpieceStopsAndTheSessionKnows) {
   if (!EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";

@@ -9,13 +9,13 @@
 #include <thread>
 
 #include "engine/device/hid_pedal.h"
-#include "tests/device/emulated_pedal.h"
+#include "tests/device/the_pedal.h"
 
 namespace cavum {
 namespace {
 
 using namespace std::chrono_literals;
-using testing_device::EmulatedPedal;
+using EmulatedPedal = testing_device::ThePedal;
 
 bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 3000ms) {
   for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
@@ -37,7 +37,8 @@ TEST_F(PedalTest, IsFoundWithItsAxes) {
   EXPECT_EQ(found[0].id(), "068e:00f2");
   EXPECT_EQ(found[0].axes.size(), 3u);
   EXPECT_EQ(found[0].problem, "");
-  EXPECT_EQ(found[0].path, pedal.node());
+  EXPECT_EQ(found[0].path, pedal.path());
+  EXPECT_EQ(found[0].name, "CH Products Pro Pedals");
 }
 
 TEST_F(PedalTest, PresentButSilentIsUnknown) {
@@ -127,7 +128,7 @@ TEST_F(PedalTest, OneThatMayNotBeOpenedNamesTheRule) {
   pedal.forbid();
   const auto found = list_hid_pedals();
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].problem.find("ATTRS{idVendor}==\"068e\""), std::string::npos) << found[0].problem;
+  EXPECT_NE(found[0].problem.find("{idVendor}==\"068e\""), std::string::npos) << found[0].problem;
 }
 
 TEST_F(PedalTest, NoAxisOrNonsenseIsSaidAndNeverCuts) {

@@ -1,0 +1,12 @@
+// What to do when the system does not let us open a USB device: the udev rule that gives it to whoever sits at the screen.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace cavum {
+
+/// The rule, where to put it, and what to run then. `hid`: for its /dev/hidraw node instead of the device itself.
+[[nodiscard]] std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid);
+
+}  // namespace cavum

@@ -1,0 +1,41 @@
+// What stands on the station's desk beside stylus and pedal: the tray with the diamond points, the speed dial, the pause key. What is chosen
+// there becomes part of the reading, so that it is recorded and replayed like the hand's motion.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/servo/servo_device.h"
+
+namespace cavum {
+
+/// Set by the window, read by the servo; never waits.
+struct Desk {
+  std::atomic<int> point{-1};             ///< of the tray; -1 = as the device says
+  std::atomic<double> speed_share{1.0};   ///< of the handpiece's highest speed at a pedal pressed to the floor, 0..1
+  std::atomic<std::uint32_t> buttons{0};  ///< k_button_1, k_button_2: held on the keyboard
+};
+
+class WithDesk final : public ServoDevice {
+ public:
+  /// Both must outlive it.
+  WithDesk(ServoDevice& device, const Desk& desk) : device_(device), desk_(desk) {}
+
+  [[nodiscard]] DeviceReading read(double elapsed_s) override {
+    DeviceReading reading = device_.read(elapsed_s);
+    const int point = desk_.point.load(std::memory_order_relaxed);
+    if (point >= 0) reading.point = static_cast<std::uint8_t>(std::min(point, 255));
+    reading.pedal *= desk_.speed_share.load(std::memory_order_relaxed);
+    reading.flags = static_cast<std::uint16_t>(reading.flags | (desk_.buttons.load(std::memory_order_relaxed) & (k_button_1 | k_button_2)));
+    return reading;
+  }
+  void show(const TickOutput& output) noexcept override { device_.show(output); }
+  void send_force(Vec3 force_n) override { device_.send_force(force_n); }
+  void cut_force() noexcept override { device_.cut_force(); }
+
+ private:
+  ServoDevice& device_;
+  const Desk& desk_;
+};
+
+}  // namespace cavum

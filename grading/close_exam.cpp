@@ -1,0 +1,19 @@
+#include "grading/close_exam.h"
+
+#include <nlohmann/json.hpp>
+
+#include "grading/result_json.h"
+#include "scenarios/exam.h"
+
+namespace cavum {
+
+ClosedExam grade_and_close(Exam& exam, const std::string& path) {
+  exam.recorder().flush();
+  ClosedExam closed;
+  closed.graded = load_for_grading(SessionReader(path), exam.tooth_now());
+  closed.result = grade(closed.graded->input(), closed.graded->rubric);
+  exam.close(to_json(closed.result).dump());
+  return closed;
+}
+
+}  // namespace cavum

@@ -1,0 +1,85 @@
+// `cavum devices` as a user runs it, on an emulated Falcon.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "engine/device/open_stylus.h"
+#include "tests/device/emulated_falcon.h"
+#include "tests/device/emulated_pedal.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+using namespace std::chrono_literals;
+using testing_device::EmulatedFalcon;
+
+struct Ran {
+  int code = -1;
+  std::string out;
+};
+Ran run(const std::string& arguments) {
+  Ran r;
+  FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return r;
+  char text[4096];
+  while (const std::size_t n = std::fread(text, 1, sizeof text, pipe)) r.out.append(text, n);
+  r.code = WEXITSTATUS(::pclose(pipe));
+  return r;
+}
+
+class FalconVerb : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!testing_device::EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+    ::setenv("CAVUM_HOME", folder_.file("").c_str(), 1);
+  }
+  testing_basics::Folder folder_;
+};
+
+TEST_F(FalconVerb, IsListedAndTried) {
+  EmulatedFalcon falcon;
+  const auto listed = nlohmann::json::parse(run("devices --json").out);
+  EXPECT_EQ(listed["styluses"][1]["id"], "falcon");
+  EXPECT_EQ(listed["styluses"][1]["there"], true);
+  EXPECT_EQ(listed["styluses"][1]["problem"], "");
+  const Ran tried = run("devices --test --stylus falcon --seconds 1 --no-push --json");
+  ASSERT_EQ(tried.code, 0) << tried.out;
+  const auto j = nlohmann::json::parse(tried.out);
+  EXPECT_GT(j["rate_hz"], 50.0);
+  EXPECT_LT(j["rate_hz"], 1100.0);
+  const Ran pushed = run("devices --test --stylus falcon --seconds 0.2");
+  EXPECT_EQ(pushed.code, 1) << "this one is never moved by a force";
+  EXPECT_NE(pushed.out.find("did not move"), std::string::npos) << pushed.out;
+}
+
+TEST_F(FalconVerb, IsPlacedByFourMarks) {
+  EmulatedFalcon falcon;
+  std::mt19937_64 random(testing_basics::drawn_seed("FalconVerb"));
+  std::normal_distribution<double> n;
+  Placement truth;  // the device stands anywhere; the marks are where they are
+  truth.rotation = normalized(Quat{1, 0.3 * n(random), 0.3 * n(random), 0.3 * n(random)});
+  truth.offset_mm = -(rotation(truth.rotation) * k_falcon_middle_mm);
+  const auto device_at = [&](Vec3 tooth_mm) { return rotation(truth.rotation).transposed(tooth_mm - truth.offset_mm); };
+  FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " devices --place --stylus falcon > " + folder_.file("said") + " 2>&1").c_str(), "w");
+  ASSERT_NE(pipe, nullptr);
+  for (const Vec3 mark : {Vec3{0, 0, 0}, Vec3{20, 0, 0}, Vec3{0, 20, 0}, Vec3{0, 0, 20}}) {
+    falcon.move_to(device_at(mark));
+    std::this_thread::sleep_for(3000ms);  // it starts, asks, and takes what is there when the line comes
+    std::fputs("\n", pipe);
+    std::fflush(pipe);
+    std::this_thread::sleep_for(1000ms);
+  }
+  ASSERT_EQ(WEXITSTATUS(::pclose(pipe)), 0);
+  const StationStylus kept = load_station_stylus("falcon");
+  for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{10, -5, 8}})
+    EXPECT_LT(length(to_tooth(kept.placement, device_at(p)).tip_mm - p), 0.2) << "two encoder steps and more";
+  EXPECT_NE(run("devices").out.find("(placed)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cavum

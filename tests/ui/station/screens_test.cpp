@@ -1,0 +1,216 @@
+// What stands behind the screens and needs no window: the check of the devices, the coach, the camera, the gauges' words.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include "engine/device/simulated_stylus.h"
+#include "engine/device/with_desk.h"
+#include "tests/engine/support/basics.h"
+#include "ui/station/camera.h"
+#include "ui/station/coach.h"
+#include "ui/station/device_check.h"
+#include "ui/station/theme.h"
+
+namespace cavum {
+namespace {
+
+using namespace std::chrono_literals;
+using State = CheckItem::State;
+
+/// A stylus that does what a test says.
+class Scripted final : public ServoDevice {
+ public:
+  explicit Scripted(std::function<DeviceReading(double t_s)> at) : at_(std::move(at)) {}
+  [[nodiscard]] DeviceReading read(double elapsed_s) override { return at_(t_s_ += elapsed_s); }
+  void send_force(Vec3 force_n) override { most_n = std::max(most_n, length(force_n)); }
+  void cut_force() noexcept override {}
+  double most_n = 0.0;
+
+ private:
+  std::function<DeviceReading(double)> at_;
+  double t_s_ = 0.0;
+};
+
+DeviceReading reading(Vec3 tip, double pedal, int flags = k_stylus_fresh | k_pedal_fresh) {
+  return {{tip, {}}, pedal, static_cast<std::uint16_t>(flags), 0};
+}
+
+/// What the check says of a device once `enough` is true, or after 20 s.
+std::array<CheckItem, 3> checked(ServoDevice& device, const std::function<bool(const std::array<CheckItem, 3>&, const DeviceSight&)>& enough) {
+  DeviceCheck check(device);
+  for (int i = 0; i < 2000; ++i) {
+    const DeviceSight sight = check.sight();
+    if (enough(check_items(sight), sight)) break;
+    std::this_thread::sleep_for(10ms);
+  }
+  return check_items(check.sight());
+}
+
+TEST(DeviceCheck, IsContentWithAHandAtRestAndAPedalThatWentDownAndUp) {
+  Scripted device([](double t) { return reading({0.05 * std::sin(9 * t), 0, 5}, t > 0.3 && t < 0.8 ? 1.0 : 0.0); });
+  const auto items = checked(device, [](const auto& i, const auto&) { return all_good(i); });
+  EXPECT_TRUE(all_good(items)) << items[0].detail << " / " << items[1].detail << " / " << items[2].detail;
+  EXPECT_EQ(device.most_n, 0.0) << "the check must not push the hand";
+}
+
+TEST(DeviceCheck, WaitsForAPedalThatIsOnlyHeldDown) {
+  Scripted device([](double) { return reading({0, 0, 5}, 1.0); });
+  const auto items = checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
+  EXPECT_EQ(items[1].state, State::waiting);
+  EXPECT_NE(items[1].detail.find("take the foot off"), std::string::npos) << items[1].detail;
+}
+
+TEST(DeviceCheck, WaitsForAPedalThatIsUnknown) {
+  Scripted device([](double) { return reading({0, 0, 5}, 0.0, k_stylus_fresh); });
+  const auto items = checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
+  EXPECT_EQ(items[1].state, State::waiting);
+}
+
+TEST(DeviceCheck, SeesAHandThatHasNoRest) {
+  Scripted device([](double t) { return reading({1.5 * std::sin(6 * t), 0, 5}, 0.0); });
+  const auto items = checked(device, [](const auto&, const DeviceSight& s) { return s.wander_mm < 100; });
+  EXPECT_EQ(items[2].state, State::waiting);
+  EXPECT_NE(items[2].detail.find("wanders"), std::string::npos) << items[2].detail;
+}
+
+TEST(DeviceCheck, SaysWhatAFailingDeviceSaid) {
+  Scripted device([](double t) -> DeviceReading {
+    if (t > 0.05) throw std::runtime_error("the cable was pulled");
+    return reading({}, 0.0);
+  });
+  const auto items = checked(device, [](const auto& i, const auto&) { return i[0].state == State::bad; });
+  EXPECT_EQ(items[0].state, State::bad);
+  EXPECT_EQ(items[0].detail, "the cable was pulled");
+}
+
+TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
+  Scripted device([](double) { return reading({1, 2, 3}, 0.8, k_stylus_fresh | k_pedal_fresh | k_button_1); });
+  Desk desk;
+  WithDesk with(device, desk);
+  EXPECT_EQ(with.read(0.001).point, 0);
+  EXPECT_EQ(with.read(0.001).pedal, 0.8);
+  desk.point = 3;
+  desk.speed_share = 0.5;
+  desk.buttons = k_button_2 | 16u;  // a fault cannot be pressed
+  const DeviceReading r = with.read(0.001);
+  EXPECT_EQ(r.point, 3);
+  EXPECT_EQ(r.pedal, 0.4);
+  EXPECT_EQ(r.flags, k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2);
+  EXPECT_EQ(r.pose.tip_mm, (Vec3{1, 2, 3}));
+}
+
+class Coach : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    ExamOptions options;
+    options.candidate = "t";
+    options.device = "none";
+    setup_ = prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
+    setup_->scenario.force_limit_n = 2.0;
+  }
+  static void TearDownTestSuite() { setup_.reset(); }
+  /// Cutting at a place of the block, whose cavity is a cylinder of 1.1 mm, 1.6 mm deep below z = 0.
+  static LiveView cutting(Vec3 at) {
+    LiveView v;
+    v.output.proxy_mm = at;
+    v.output.contact = v.output.cutting = true;
+    v.output.rpm = 200000;
+    v.output.rendered_force_n = {0, 0, 1.0};
+    return v;
+  }
+  static inline std::unique_ptr<ExamSetup> setup_;
+};
+
+TEST_F(Coach, IsSilentWhileTheWorkIsGood) { EXPECT_EQ(coaching_hint(*setup_, cutting({0.3, 0, -0.6})), ""); }
+
+TEST_F(Coach, WarnsOfForceBeforeAnythingElse) {
+  LiveView v = cutting({3, 0, -0.6});
+  v.output.rendered_force_n = {0, 0, 2.6};
+  EXPECT_NE(coaching_hint(*setup_, v).find("2.6 N"), std::string::npos) << coaching_hint(*setup_, v);
+}
+
+TEST_F(Coach, MeasuresHowFarBesideTheTargetTheTipIs) {
+  const std::string hint = coaching_hint(*setup_, cutting({1.1 + 0.7, 0, -0.6}));
+  EXPECT_NE(hint.find("0.7 mm beyond"), std::string::npos) << hint;
+}
+
+TEST_F(Coach, TellsThatTheFloorIsNear) {
+  const std::string hint = coaching_hint(*setup_, cutting({0, 0, -1.4}));
+  EXPECT_NE(hint.find("0.2 mm to the floor"), std::string::npos) << hint;
+}
+
+TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
+  LiveView v = cutting({0, 0, 4});
+  v.output.contact = v.output.cutting = false;
+  EXPECT_NE(coaching_hint(*setup_, v).find("in the air"), std::string::npos);
+}
+
+/// Where a place of the tooth frame is seen, -1..1 to the right and up.
+glm::vec2 seen(const Camera& camera, glm::vec3 at, int eye = 0) {
+  const glm::vec4 p = camera.projection(1.5F) * camera.view(eye) * glm::vec4(at, 1.0F);
+  return {p.x / p.w, p.y / p.w};
+}
+
+TEST(Camera, FromBuccalMesialLiesLeftAndOcclusalUp) {
+  Camera c;
+  c.look_from(0, 0);
+  EXPECT_LT(seen(c, {2, 0, 0}).x, -0.01F);
+  EXPECT_GT(seen(c, {0, 0, 2}).y, 0.01F);
+  EXPECT_GT(c.position_mm().y, 30.0F);
+}
+
+TEST(Camera, AMirrorTurnsLeftAndRightAndNothingElse) {
+  Camera c;
+  c.look_from(30, 40);
+  Camera m = c;
+  m.mirror = true;
+  const glm::vec3 at{1.5F, -2.0F, 0.7F};
+  EXPECT_NEAR(seen(m, at).x, -seen(c, at).x, 1e-5F);
+  EXPECT_NEAR(seen(m, at).y, seen(c, at).y, 1e-5F);
+}
+
+TEST(Camera, BothEyesMeetAtWhatIsLookedAtAndPartBeforeIt) {
+  Camera c;
+  c.look_from(0, 30);
+  c.eyes_apart_mm = 3.0F;
+  EXPECT_NEAR(seen(c, c.target_mm, -1).x, seen(c, c.target_mm, 1).x, 1e-4F);
+  const glm::vec3 nearer = c.position_mm() * 0.25F;  // towards the eyes
+  EXPECT_GT(seen(c, nearer, -1).x, seen(c, nearer, 1).x + 0.002F) << "the left eye sees what is near further right";
+}
+
+TEST(Camera, ItsRightAndUpAreThoseOfThePicture) {
+  Camera c;
+  c.look_from(70, 35);
+  for (const bool mirror : {false, true}) {
+    c.mirror = mirror;
+    const Vec3 r = c.right(), u = c.up();
+    const auto at = [](Vec3 v) { return glm::vec3(v.x, v.y, v.z); };
+    EXPECT_GT(seen(c, at(r)).x, 0.01F);
+    EXPECT_NEAR(seen(c, at(r)).y, 0.0F, 1e-4F);
+    EXPECT_GT(seen(c, at(u)).y, 0.01F);
+  }
+}
+
+TEST(Theme, TellsItsSignsApartByLightnessInBothPalettes) {
+  const auto lightness = [](const ImVec4& c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; };
+  for (const bool high_contrast : {false, true}) {
+    const Theme t = make_theme(high_contrast, 1.0);
+    EXPECT_GT(lightness(t.text) - lightness(t.panel), high_contrast ? 0.9F : 0.7F);
+    for (const ImVec4& sign : {t.good, t.warn, t.bad, t.accent, t.quiet}) EXPECT_GT(lightness(sign) - lightness(t.panel), 0.35F);
+    EXPECT_GT(lightness(t.accent) - lightness(t.on_accent), 0.45F);
+  }
+}
+
+TEST(Theme, AClockRoundsUpSoThatZeroMeansTimeIsUp) {
+  EXPECT_EQ(clock_text(0.0), "0:00");
+  EXPECT_EQ(clock_text(0.2), "0:01");
+  EXPECT_EQ(clock_text(61.0), "1:01");
+  EXPECT_EQ(clock_text(3599.5), "60:00");
+  EXPECT_EQ(clock_text(-3.0), "0:00");
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,288 @@
+// The station as a candidate and a supervisor meet it: the real program with a real window on a virtual screen, its keys pressed by a script. What
+// counts is what it leaves behind: sessions that verify or can be resumed, and ticks that know nothing of the window.
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "engine/base/file.h"
+#include "engine/session/session_reader.h"
+#include "engine/session/verify.h"
+#include "scenarios/candidate_device.h"
+#include "scenarios/live_exam.h"
+#include "tests/engine/support/basics.h"
+#include "tests/ui/station/virtual_screen.h"
+#include "ui/station/picture_file.h"
+
+extern char** environ;
+
+namespace cavum {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string k_scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+
+class StationWindow : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { screen_ = std::make_unique<testing_station::VirtualScreen>(); }
+  static void TearDownTestSuite() { screen_.reset(); }
+  void SetUp() override {
+    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+    ::setenv("CAVUM_HOME", folder_.file("home").c_str(), 1);
+  }
+
+  [[nodiscard]] std::string session() const { return folder_.file("s.cavum"); }
+  [[nodiscard]] std::string said() const { return read_text_file(folder_.file("err")); }
+  [[nodiscard]] std::string printed() const { return read_text_file(folder_.file("out")); }
+
+  /// Starts the station with a script; `wait` gives its exit code, -signal when a signal ended it.
+  [[nodiscard]] pid_t start(const std::string& script, const std::string& more = "") const {
+    write_text_file(folder_.file("script"), script);
+    const std::string command = "exec " CAVUM_BINARY " station " + k_scenario + " --out " + session() + " --script " + folder_.file("script") +
+                                " --pictures " CAVUM_PICTURES " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+    std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
+    pid_t child = -1;
+    EXPECT_EQ(::posix_spawn(&child, "/bin/sh", nullptr, nullptr, arguments.data(), environ), 0);
+    return child;
+  }
+  static int wait(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  int run(const std::string& script, const std::string& more = "") const { return wait(start(script, more)); }
+
+  /// What was recorded is whole, the exam goes on from there, and closed it verifies.
+  void expect_resumable(std::int64_t least_ticks) const {
+    const VerifyReport open = verify_session(session());
+    EXPECT_TRUE(open.intact) << (open.findings.empty() ? "" : open.findings[0]);
+    EXPECT_FALSE(open.closed);
+    EXPECT_GE(open.ticks, least_ticks);
+    const int status =
+        std::system((CAVUM_BINARY " exam --resume --end --quiet --out " + session() + " >" + folder_.file("resumed") + " 2>&1").c_str());
+    EXPECT_EQ(status, 0) << read_text_file(folder_.file("resumed"));
+    EXPECT_TRUE(verify_session(session()).verified);
+  }
+
+  testing_basics::Folder folder_;
+
+ private:
+  static inline std::unique_ptr<testing_station::VirtualScreen> screen_;
+};
+
+constexpr const char* k_to_exam = "type T5\ngo device-check\ngo briefing\nkey enter\nwait exam\n";
+
+TEST_F(StationWindow, LeadsACandidateFromSignInToASealedResult) {
+  const std::string script = R"(type A17
+sleep 0.2
+picture 1-sign-in
+go device-check
+sleep 1
+picture 2-device-check
+go briefing
+sleep 0.3
+picture 3-briefing
+key enter
+wait exam
+until 4
+picture 4-exam
+memory early
+until 12
+key 2
+sleep 0.4
+picture 5-exam-from-the-side
+memory late
+key 1
+wait result
+sleep 0.5
+picture 6-result
+key f2
+sleep 0.5
+key enter
+)";
+  std::filesystem::remove_all(CAVUM_PICTURES);
+  EXPECT_EQ(run(script), 0) << said();
+  const VerifyReport verified = verify_session(session());
+  EXPECT_TRUE(verified.verified) << (verified.findings.empty() ? "" : verified.findings[0]);
+  EXPECT_EQ(verified.first_divergence, std::nullopt);
+  const SessionReader reader(session());
+  EXPECT_EQ(reader.setup().candidate, "A17");
+  const auto result = nlohmann::json::parse(reader.result_json());
+  EXPECT_EQ(result["verdict"], "pass") << result["verdict_reasons"];
+  for (const SessionEvent& e : reader.events()) EXPECT_NE(e.kind, "servo_disagrees");
+  EXPECT_TRUE(read_text_file(folder_.file("s.html")).starts_with("<!"));
+  // every screen has its picture, and no two are alike
+  std::set<std::string> pictures;
+  for (const char* name : {"1-sign-in", "2-device-check", "3-briefing", "4-exam", "5-exam-from-the-side", "6-result"}) {
+    const std::string png = read_text_file(std::string(CAVUM_PICTURES) + "/" + name + ".png");
+    EXPECT_GT(png.size(), 20000u) << name << " is nearly empty";
+    pictures.insert(png);
+  }
+  EXPECT_EQ(pictures.size(), 6u);
+  double early = 0, late = 0;
+  ASSERT_EQ(std::sscanf(printed().c_str(), "early: %lf MB\nlate: %lf MB", &early, &late), 2) << printed();
+  std::printf("memory after 4 s %.1f MB, after 12 s %.1f MB; pictures in %s\n", early, late, CAVUM_PICTURES);
+  EXPECT_LT(late - early, 25.0);
+}
+
+TEST_F(StationWindow, ClosedDuringTheExamLeavesASessionToResume) {
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nclose\n"), 1);
+  EXPECT_NE(said().find("--resume"), std::string::npos) << said();
+  expect_resumable(2000);
+}
+
+TEST_F(StationWindow, AFailureInItsThreadLeavesASessionToResume) {
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nfail\n"), 2);
+  EXPECT_NE(said().find("--resume"), std::string::npos) << said();
+  expect_resumable(2000);
+}
+
+class StationSignal : public StationWindow, public ::testing::WithParamInterface<int> {};
+
+TEST_P(StationSignal, LeavesASessionToResume) {
+  const pid_t child = start(k_to_exam);
+  const auto ticks = [this] {
+    try {
+      return std::filesystem::exists(session()) ? SessionReader(session()).ticks() : 0;
+    } catch (const Error&) {  // just being made
+      return std::int64_t{0};
+    }
+  };
+  for (int i = 0; i < 600 && ticks() < 2000; ++i) std::this_thread::sleep_for(100ms);
+  ASSERT_GE(ticks(), 2000);
+  ::kill(child, GetParam());
+  const int ended = wait(child);
+  EXPECT_EQ(ended, GetParam() == SIGKILL ? -SIGKILL : 1) << said();
+  expect_resumable(2000);
+}
+INSTANTIATE_TEST_SUITE_P(Signals, StationSignal, ::testing::Values(SIGTERM, SIGINT, SIGKILL), [](const auto& chosen) {
+  return std::string(chosen.param == SIGTERM ? "Term" : chosen.param == SIGINT ? "Int" : "Kill");
+});
+
+TEST_F(StationWindow, ClosedAtSignInLeavesNoSession) {
+  EXPECT_EQ(run("sleep 0.2\nclose\n"), 0) << said();
+  EXPECT_FALSE(std::filesystem::exists(session()));
+}
+
+TEST_F(StationWindow, AnExamEndedByTheCandidateIsGradedAsItIs) {
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
+  EXPECT_TRUE(verify_session(session()).verified);
+  EXPECT_EQ(nlohmann::json::parse(SessionReader(session()).result_json())["verdict"], "fail");
+}
+
+TEST_F(StationWindow, PracticeSaysSoInTheSession) {
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 6\npicture 7-practice\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n",
+                "--practice --high-contrast"),
+            0)
+      << said();
+  EXPECT_EQ(SessionReader(session()).fact("note.practice"), "true");
+  EXPECT_TRUE(verify_session(session()).verified);
+}
+
+TEST_F(StationWindow, PointAndSpeedChosenAtTheDeskAreRecordedInput) {
+  // F9 is the second allowed point; each [ takes a tenth of the speed away
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 1\nkey f9\nkey [\nkey [\nkey [\nuntil 4\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"),
+            0)
+      << said();
+  EXPECT_TRUE(verify_session(session()).verified);
+  const auto inputs = SessionReader(session()).inputs();
+  EXPECT_EQ(inputs.front().point, 0);
+  EXPECT_EQ(inputs.back().point, 1);
+  double most = 0;
+  for (std::size_t i = inputs.size() / 2; i < inputs.size(); ++i) most = std::max(most, inputs[i].pedal());
+  EXPECT_NEAR(most, 0.7, 1e-4);
+}
+
+/// The first ticks of a session, up to the first that the servo made up for because the computer was late: from there on the simulated hand, which
+/// acts on what it saw, goes another way in every run, window or not.
+struct Prefix {
+  std::vector<TickInput> inputs;
+  std::vector<TickRecord> records;
+  std::vector<std::uint64_t> hashes;  // after each whole second
+};
+Prefix prefix_of(const std::string& path, std::size_t most) {
+  const SessionReader reader(path);
+  Prefix p{reader.inputs(), reader.records(), {}};
+  std::size_t n = 0;
+  while (n < most && n < p.inputs.size() && (p.inputs[n].flags & k_stylus_fresh) != 0) ++n;
+  p.inputs.resize(n);
+  p.records.resize(n);
+  for (const ChunkRow& c : reader.chunks())
+    if (static_cast<std::size_t>(c.first_tick + c.ticks) <= n) p.hashes.push_back(c.state_hash);
+  return p;
+}
+
+/// The same exam without any window, for `seconds`.
+void run_without_window(const std::string& path, double seconds) {
+  ExamOptions options;
+  options.candidate = "T5";
+  options.device = "simulated Omni, operator expert";
+  options.position_quantum_mm = OmniModel{}.quantum_mm;
+  const auto setup = prepare_exam(k_scenario, options);
+  const auto device = make_candidate_device(*setup, "expert", 1);
+  LiveExam live(*setup, path, *device, device->start_mm());
+  live.start();
+  while (static_cast<double>(live.view().ticks) < 1000.0 * seconds) std::this_thread::sleep_for(20ms);
+  live.ask_to_end();
+  while (live.running()) std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(live.finish().first_disagreement, -1);
+  live.exam().close("{}");
+}
+
+TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
+  constexpr std::size_t k_ticks = 5000, k_enough = 4000;
+  const std::vector<std::pair<std::string, std::string>> ways{{"open", "until 5.2\n"},
+                                                              {"hidden", "until 1\nhide\nuntil 4\nshow\nuntil 5.2\n"},
+                                                              {"stalled", "until 1.5\nstall 2\nuntil 5.2\n"},
+                                                              {"absent", ""}};
+  // a late computer cuts a run short: it is asked again, a few times
+  constexpr int k_tries = 4;
+  std::vector<Prefix> runs;
+  for (const auto& [name, script] : ways) {
+    Prefix longest;
+    for (int i = 0; i < k_tries && longest.inputs.size() < k_enough; ++i) {
+      std::filesystem::remove(session());
+      if (script.empty()) {
+        run_without_window(session(), 5.2);
+      } else {
+        ASSERT_EQ(run(k_to_exam + script + "key escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
+      }
+      EXPECT_TRUE(verify_session(session()).verified) << name;
+      if (Prefix p = prefix_of(session(), k_ticks); p.inputs.size() > longest.inputs.size()) longest = std::move(p);
+    }
+    std::printf("window %s: %zu ticks without a late one\n", name.c_str(), longest.inputs.size());
+    runs.push_back(std::move(longest));
+  }
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    const std::size_t n = std::min(runs[0].inputs.size(), runs[i].inputs.size()), seconds = std::min(runs[0].hashes.size(), runs[i].hashes.size());
+    EXPECT_GT(n, 200u) << "the computer is too busy to say anything";
+    for (std::size_t t = 0; t < n; ++t) {
+      ASSERT_EQ(runs[0].inputs[t], runs[i].inputs[t]) << ways[i].first << ", tick " << t;
+      ASSERT_EQ(runs[0].records[t], runs[i].records[t]) << ways[i].first << ", tick " << t;
+    }
+    for (std::size_t s = 0; s < seconds; ++s) ASSERT_EQ(runs[0].hashes[s], runs[i].hashes[s]) << ways[i].first << ", second " << s;
+  }
+}
+
+TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
+  const auto refused = [this](const std::string& arguments, const std::string& part) {
+    const int status = std::system((CAVUM_BINARY " station " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err")).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << arguments;
+    EXPECT_NE(said().find(part), std::string::npos) << said();
+  };
+  refused("", "no scenario given");
+  refused(k_scenario + " --out " + folder_.file("none/at/all"), "is no folder");
+  write_text_file(folder_.file("bad"), "type A\nwhistle\n");
+  refused(k_scenario + " --out " + folder_.file("") + " --script " + folder_.file("bad"), ":2: 'whistle' is no command");
+}
+
+}  // namespace
+}  // namespace cavum

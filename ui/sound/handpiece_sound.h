@@ -1,0 +1,77 @@
+// The sound of a turbine handpiece, sample by sample: the whine of the rotor, the hiss of its air, and the grinding of enamel or dentin.
+// Whatever its parameters do, it glides, so that nothing clicks. It knows no sound device (see sound_output.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "engine/base/random.h"
+#include "engine/servo/tick.h"
+
+namespace cavum {
+
+/// What is heard. All zero is silence.
+struct SoundParameters {
+  double rpm = 0.0;     ///< of the handpiece, without load
+  double load_n = 0.0;  ///< force on the diamond point, >= 0
+  bool cutting = false;
+  double enamel_share = 0.0, dentin_share = 0.0;  ///< of what is cut, 0..1; what is missing to 1 makes no sound of its own
+  double volume = 1.0;                            ///< 0 = muted .. 1
+  friend bool operator==(const SoundParameters&, const SoundParameters&) = default;
+};
+
+/// Parameters for a tick of the servo. The shares are those of the leaves it removed; a tick that removed none keeps those of `before`. Volume is
+/// kept.
+[[nodiscard]] SoundParameters sound_of_tick(const TickOutput& tick, std::span<const RemovedLeaf> removed, const SoundParameters& before) noexcept;
+
+/// Speed at which a turbine turns under load, rpm: it falls in proportion to the load, as the torque of an air turbine rises linearly from
+/// free running to standstill. Standing still at `k_stall_load_n` is assumed, without a source. Heard only: the servo's speed does not depend on the
+/// load.
+inline constexpr double k_stall_load_n = 6.0;
+[[nodiscard]] double loaded_rpm(double rpm, double load_n) noexcept;
+
+/// Pitch of the whine, Hz: one turn of the rotor, rpm/60. The speed of burs has been read from that line (Poole and others, J Dent
+/// 2008;36:488), and a turbine at 360,000 rpm is to be heard at 6 kHz, where recordings of dental turbines have their prominent line ("Effect of
+/// processing of dental drill noise on subjective impression": approximately 6 kHz).
+[[nodiscard]] double pitch_hz(double rpm, double load_n) noexcept;
+
+/// Blades of the rotor: their passing is heard at 8 times the pitch while that is audible. Assumed.
+inline constexpr int k_rotor_blades = 8;
+
+/// The generator. Same seed and same calls, same samples. No call allocates.
+class HandpieceSound {
+ public:
+  explicit HandpieceSound(double sample_rate_hz = 48000.0, std::uint64_t seed = 1);
+  /// Fills `out`: mono, -1..1. Gliding towards `target`: pitch within 40 ms, loudness within 20 ms (times of 1/e).
+  void render(const SoundParameters& target, std::span<float> out) noexcept;
+
+ private:
+  /// Lets one band of noise through, with the loudness of 1 (rms) for white noise of -1..1.
+  class Band {
+   public:
+    Band() = default;
+    Band(double sample_rate_hz, double middle_hz, double width_hz);
+    [[nodiscard]] double next(double noise) noexcept;
+
+   private:
+    double out_1_ = 0.0, out_2_ = 0.0, gain_ = 0.0;  // coefficients
+    std::array<double, 2> x_{}, y_{};
+  };
+  /// Loudness of each part; what glides.
+  struct Levels {
+    double pitch_hz = 0.0, whine = 0.0, hiss = 0.0, enamel = 0.0, dentin = 0.0, volume = 0.0;
+  };
+  [[nodiscard]] static Levels levels_of(const SoundParameters& target) noexcept;
+  [[nodiscard]] double whine(double pitch) noexcept;
+  [[nodiscard]] double noise() noexcept { return random_.uniform(-1.0, 1.0); }
+
+  double sample_rate_hz_, glide_pitch_, glide_level_;
+  Random random_;
+  Levels now_;
+  double turn_ = 0.0;  // place of the rotor, turns
+  Band air_, rough_;
+  std::array<Band, 2> enamel_, dentin_;
+};
+
+}  // namespace cavum

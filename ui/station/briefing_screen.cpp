@@ -1,0 +1,79 @@
+#include <imgui.h>
+
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+std::string pauses_text(const PauseSpec& pauses) {
+  if (pauses.count == 0) return "none";
+  return std::to_string(pauses.count) + ", each of at most " + clock_text(pauses.longest_s) + ", while the handpiece stands still (P)";
+}
+
+void fact(const Theme& t, const char* name, const std::string& value) {
+  ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
+  ImGui::TextUnformatted(name);
+  ImGui::PopStyleColor();
+  ImGui::SameLine(t.px(150));
+  wrapped_text(value);
+}
+
+}  // namespace
+
+void briefing_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const Scenario& scenario = c.sitting->setup().scenario;
+  const float words = std::min(t.px(600), screen.x * 0.55F);
+  begin_area(t, "briefing words", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
+  heading_text(scenario.title);
+  wrapped_text(scenario.description);
+  ImGui::Dummy({0, t.px(8)});
+  const auto limit = static_cast<double>(exam_limit_ticks(scenario)) * k_tick_s;
+  fact(t, "Candidate", c.sitting->candidate());
+  fact(t, "Time", clock_text(limit) + " minutes");
+  const std::string granted = accommodations_text(scenario.accommodations);
+  if (!granted.empty()) fact(t, "Granted", granted);
+  fact(t, "Pauses", pauses_text(scenario.pauses));
+  if (scenario.force_limit_n > 0) fact(t, "Force", number_text("at most %.1f N", scenario.force_limit_n));
+  std::string points;
+  for (const auto& p : c.sitting->setup().points) points += (points.empty() ? "" : ", ") + p.title;
+  fact(t, "Points", points);
+  ImGui::Dummy({0, t.px(8)});
+  ImGui::Separator();
+  ImGui::Dummy({0, t.px(4)});
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
+    push_font(Font::heading);
+    ImGui::Text("%zu", i + 1);
+    pop_font();
+    ImGui::SameLine(t.px(50));
+    ImGui::BeginGroup();
+    wrapped_text(scenario.steps[i].instruction);
+    if (scenario.steps[i].time_limit_s) quiet_text(t, "within " + clock_text(*scenario.steps[i].time_limit_s) + " minutes");
+    ImGui::EndGroup();
+  }
+  ImGui::Dummy({0, t.px(12)});
+  if (c.practice) {
+    wrapped_text("This is practice: the target is shown, a coach speaks, and the recording says so.");
+    ImGui::Dummy({0, t.px(6)});
+  }
+  if (main_button(t, c.practice ? "Begin to practise  (Enter)" : "Begin the exam  (Enter)", true)) s.wish = Wish::begin;
+  quiet_text(t, "The clock runs from then on.");
+  if (!s.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, t.bad);
+    wrapped_text(s.message);
+    ImGui::PopStyleColor();
+  }
+  end_area();
+
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  begin_area(t, "briefing tooth", {s.left_handed ? 0 : words, 0}, {screen.x - words, screen.y}, false);
+  ImGui::PopStyleVar();
+  s.view.point = -1;
+  tooth_area(c, ImGui::GetContentRegionAvail());
+  end_area();
+}
+
+}  // namespace cavum

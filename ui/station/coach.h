@@ -1,0 +1,13 @@
+// What a coach at the chair would say now. For practice only: an exam is silent.
+#pragma once
+
+#include <string>
+
+#include "scenarios/live_exam.h"
+
+namespace cavum {
+
+/// One short sentence, or empty: pressing too hard, turning in the air for long, beside the target, near its floor, below it.
+[[nodiscard]] std::string coaching_hint(const ExamSetup& setup, const LiveView& view);
+
+}  // namespace cavum

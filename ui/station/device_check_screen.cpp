@@ -1,0 +1,77 @@
+#include <imgui.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+/// A tick, a ring or a cross in front of a line: the sign says it, the colour repeats it.
+void sign(const Theme& t, CheckItem::State state) {
+  const float size = t.px(26);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 middle{at.x + size / 2, at.y + size / 2};
+  const float r = size * 0.5F, w = t.px(3);
+  if (state == CheckItem::State::good) {
+    draw.AddCircleFilled(middle, r, ink(t.good));
+    draw.AddLine({middle.x - r * 0.45F, middle.y}, {middle.x - r * 0.1F, middle.y + r * 0.4F}, ink(t.on_accent), w);
+    draw.AddLine({middle.x - r * 0.1F, middle.y + r * 0.4F}, {middle.x + r * 0.5F, middle.y - r * 0.4F}, ink(t.on_accent), w);
+  } else if (state == CheckItem::State::bad) {
+    draw.AddCircleFilled(middle, r, ink(t.bad));
+    draw.AddLine({middle.x - r * 0.4F, middle.y - r * 0.4F}, {middle.x + r * 0.4F, middle.y + r * 0.4F}, ink(t.on_accent), w);
+    draw.AddLine({middle.x - r * 0.4F, middle.y + r * 0.4F}, {middle.x + r * 0.4F, middle.y - r * 0.4F}, ink(t.on_accent), w);
+  } else {
+    draw.AddCircle(middle, r - 1, ink(t.quiet), 24, w * 0.7F);
+  }
+  ImGui::Dummy({size, size});
+}
+
+}  // namespace
+
+void device_check_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  begin_card(t, "Stylus, pedal, finger rest", 660);
+  const bool prepared = c.sitting->stage() != Stage::preparing;
+  bool good = false;
+  if (!prepared) {
+    wrapped_text("The tooth is being prepared ...");
+    const double phase = ImGui::GetTime() - static_cast<long>(ImGui::GetTime());
+    ImGui::ProgressBar(static_cast<float>(phase), {-1, t.px(6)}, "");
+  } else {
+    if (PointerStylus* pointer = c.sitting->device().pointer()) {
+      PointerIntent still;
+      still.tip_mm = s.wanted_mm;
+      still.rotation = s.wanted_rotation;
+      still.pedal = key_held(GLFW_KEY_SPACE) ? 1.0 : 0.0;
+      pointer->want(still);
+      quiet_text(t, "Mouse and keyboard: the pedal is the space bar or the left button.");
+    }
+    const DeviceSight sight = c.sitting->sight();
+    const auto items = check_items(sight);
+    good = all_good(items);
+    for (const CheckItem& item : items) {
+      ImGui::Dummy({0, t.px(4)});
+      sign(t, item.state);
+      ImGui::SameLine(0, t.px(16));
+      ImGui::BeginGroup();
+      ImGui::TextUnformatted(item.title.c_str());
+      quiet_text(t, item.detail);
+      ImGui::EndGroup();
+    }
+    ImGui::Dummy({0, t.px(6)});
+    ImGui::TextUnformatted("Pedal");
+    ImGui::SameLine(t.px(110));
+    ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)}, "");
+  }
+  ImGui::Dummy({0, t.px(10)});
+  if (main_button(t, "Continue  (Enter)", prepared && good)) s.wish = Wish::to_briefing;
+  if (!s.message.empty()) quiet_text(t, s.message);
+  end_area();
+}
+
+}  // namespace cavum

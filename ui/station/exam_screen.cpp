@@ -1,0 +1,240 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/station/coach.h"
+#include "ui/station/gauges.h"
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+/// Where everything is, pixels.
+struct Layout {
+  ImVec2 top_at, top, side_at, side, tray_at, tray, tooth_at, tooth;
+};
+
+Layout lay_out(const Theme& t, bool left_handed) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float top = t.px(98), tray = t.px(128), side = std::min(t.px(250), screen.x * 0.4F);
+  Layout l;
+  l.top_at = {0, 0};
+  l.top = {screen.x, top};
+  l.tray_at = {0, screen.y - tray};
+  l.tray = {screen.x, tray};
+  l.side = {side, screen.y - top - tray};
+  l.side_at = {left_handed ? 0 : screen.x - side, top};
+  l.tooth = {screen.x - side, l.side.y};
+  l.tooth_at = {left_handed ? side : 0, top};
+  return l;
+}
+
+void top_bar(const ScreenContext& c, const LiveView& view, const Layout& l) {
+  const Theme& t = c.theme;
+  const Scenario& scenario = c.sitting->setup().scenario;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(20), t.px(10)});
+  begin_area(t, "step and clock", l.top_at, l.top, true);
+  ImGui::PopStyleVar();
+  const float clock = t.px(200);
+  ImGui::BeginChild("step", {l.top.x - clock - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
+  const std::size_t steps = scenario.steps.size(), step = std::min(static_cast<std::size_t>(view.step), steps - 1);
+  quiet_text(t, "Step " + std::to_string(step + 1) + " of " + std::to_string(steps) + "    " + c.sitting->candidate() +
+                    (c.practice ? "    practice" : "    examination"));
+  wrapped_text(scenario.steps[step].instruction);
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
+  exam_clock(t, static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s, static_cast<double>(view.limit_ticks) * k_tick_s, view.paused);
+  ImGui::EndChild();
+  end_area();
+}
+
+void gauges(const ScreenContext& c, const LiveView& view) {
+  const Theme& t = c.theme;
+  const ExamSetup& setup = c.sitting->setup();
+  const GaugeSpec& shown = setup.scenario.gauges;
+  const TickOutput& now = view.output;
+  if (shown.speed || c.practice) bar_gauge(t, "Speed", number_text("%.0f 000 /min", std::round(now.rpm / 1000.0)), now.rpm / setup.scenario.max_rpm);
+  if (shown.force || c.practice) {
+    const double most_n = 4.0, force_n = length(now.rendered_force_n);
+    bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);
+  }
+  if (shown.depth || c.practice) {
+    const ZoneMap& zones = setup.zones;
+    const double opening = zones.opening_z_mm(), floor_mm = opening - zones.target_low_mm().z;
+    depth_gauge(t, opening - now.proxy_mm.z, view.depth_mm, std::ceil(floor_mm + 1.0), t.px(120));
+  }
+}
+
+void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  const Scenario& scenario = c.sitting->setup().scenario;
+  begin_area(t, "gauges", l.side_at, l.side, true);
+  gauges(c, view);
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::TextUnformatted("Speed dial  ( [ and ] )");
+  auto dial = static_cast<float>(100.0 * s.handpiece_speed);
+  ImGui::SetNextItemWidth(width);
+  ImGui::SliderFloat("##dial", &dial, 10.0F, 100.0F, "%.0f %%");
+  if (key_pressed(GLFW_KEY_LEFT_BRACKET)) dial -= 10.0F;
+  if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) dial += 10.0F;
+  s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
+  if (scenario.pauses.count > 0) {
+    ImGui::Dummy({0, t.px(4)});
+    const int left = scenario.pauses.count - view.pauses;
+    const std::string label = view.paused ? "Go on  (P)" : "Pause  (P), " + std::to_string(left) + " left";
+    ImGui::BeginDisabled(!view.paused && left <= 0);
+    if (side_button(t, label.c_str(), width) || key_pressed(GLFW_KEY_P)) s.pause_key_s = 0.1;
+    ImGui::EndDisabled();
+  }
+  ImGui::Dummy({0, t.px(4)});
+  if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
+  if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
+  ImGui::Dummy({0, t.px(4)});
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
+  if (c.sitting->device().pointer() != nullptr)
+    quiet_text(t, "Stylus: mouse or arrows, wheel or PgUp PgDn for depth, space bar or left button = pedal");
+  end_area();
+}
+
+void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
+  const Theme& t = c.theme;
+  const auto& allowed = c.sitting->setup().point_names;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(14), t.px(8)});
+  begin_area(t, "tray", l.tray_at, l.tray, true);
+  ImGui::PopStyleVar();
+  const float each = (ImGui::GetContentRegionAvail().x + t.px(6)) / static_cast<float>(std::max<std::size_t>(c.shelf.size(), 1));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 first = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetContentRegionAvail().y;
+  for (std::size_t i = 0; i < c.shelf.size(); ++i) {
+    const auto place = std::find(allowed.begin(), allowed.end(), c.shelf[i].name);
+    const bool may = place != allowed.end();
+    const auto number = static_cast<int>(place - allowed.begin());
+    const ImVec2 at{first.x + static_cast<float>(i) * each, first.y}, size{each - t.px(6), height};
+    const bool mounted = may && view.input.point == number;
+    ImGui::SetCursorScreenPos(at);
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::BeginDisabled(!may);
+    const bool chosen = ImGui::InvisibleButton("point", size) || (may && key_pressed(GLFW_KEY_F1 + static_cast<int>(i)));
+    const bool marked = ImGui::IsItemHovered() || ImGui::IsItemFocused();
+    ImGui::EndDisabled();
+    ImGui::PopID();
+    if (chosen) c.sitting->desk().point.store(number, std::memory_order_relaxed);
+    if (may) draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ink(t.raised), t.px(5));
+    if (mounted || marked)
+      draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
+    const ImU32 steel = ink(may ? t.text : t.line), coated = ink(may ? t.warn : t.quiet);
+    draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(34)}, steel, coated);
+    push_font(Font::small);
+    // the longest names a little smaller, so that all can be read
+    const float room = size.x - t.px(4), wide = ImGui::CalcTextSize(c.shelf[i].name.c_str()).x,
+                font = ImGui::GetFontSize() * std::min(1.0F, room / wide);
+    const float name = std::min(wide, room);
+    draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - name) / 2, at.y + size.y - t.px(22)}, ink(may ? t.text : t.quiet),
+                 c.shelf[i].name.c_str());
+    if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), ("F" + std::to_string(i + 1)).c_str());
+    pop_font();
+  }
+  end_area();
+}
+
+/// Mouse and keyboard say where the hand wants the tip: across the picture along the surface; seen from the side, up and down is depth.
+void move_pointer(const ScreenContext& c, PointerStylus& pointer, bool over, float picture_height) {
+  StationState& s = c.state;
+  const ImGuiIO& io = ImGui::GetIO();
+  const Camera& camera = s.view.camera;
+  const Vec3 axis = c.sitting->setup().zones.approach();
+  const auto across = [&axis](Vec3 v) {
+    const Vec3 flat = v - axis * dot(v, axis);
+    constexpr double k_steep = 0.35;
+    return length(flat) > k_steep ? normalized(flat) : normalized(v);
+  };
+  const Vec3 right = across(camera.right()), up = across(camera.up());
+  const double mm_per_px = 2.0 * camera.distance_mm * std::tan(13.0 * 3.14159265 / 180.0) / picture_height;
+  constexpr double k_key_mm_s = 4.0, k_notch_mm = 0.08;
+  double x = 0, y = 0, deeper = 0;
+  if (over && !ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+    x = io.MouseDelta.x * mm_per_px;
+    y = -io.MouseDelta.y * mm_per_px;
+    if (!io.KeyCtrl) deeper = -k_notch_mm * io.MouseWheel;
+  }
+  const double step = k_key_mm_s * c.frame_s;
+  x += step * (key_held(GLFW_KEY_RIGHT) - key_held(GLFW_KEY_LEFT));
+  y += step * (key_held(GLFW_KEY_UP) - key_held(GLFW_KEY_DOWN));
+  deeper += step * (key_held(GLFW_KEY_PAGE_DOWN) - key_held(GLFW_KEY_PAGE_UP));
+  s.wanted_mm += right * x + up * y - axis * deeper;
+  PointerIntent intent;
+  intent.tip_mm = s.wanted_mm;
+  intent.rotation = s.wanted_rotation;
+  intent.pedal = key_held(GLFW_KEY_SPACE) || (over && ImGui::IsMouseDown(ImGuiMouseButton_Left)) ? 1.0 : 0.0;
+  pointer.want(intent);
+}
+
+void ask_whether_finished(const ScreenContext& c) {
+  StationState& s = c.state;
+  const bool fresh = s.confirm_end && !ImGui::IsPopupOpen("Finished?");
+  if (fresh) ImGui::OpenPopup("Finished?");
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal("Finished?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
+    return;
+  heading_text("Have you finished?");
+  ImGui::TextUnformatted("Your work will be graded as it is now. The clock runs on until then.");
+  ImGui::Dummy({0, c.theme.px(6)});
+  if (main_button(c.theme, "Yes, hand it in  (Enter)", true, !fresh)) {
+    s.wish = Wish::end;
+    s.confirm_end = false;
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Back to work  (Esc)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_end = false;
+  if (!s.confirm_end) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void exam_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  LiveExam& live = c.sitting->live();
+  const LiveView view = live.view();
+  const Layout l = lay_out(t, s.left_handed);
+
+  live.look_at_tooth([&](const Octree& tooth) { c.scene->tooth().take(tooth); });
+  c.scene->tooth().update();
+  s.view.tool = {view.output.proxy_mm, view.input.pose().rotation};
+  s.view.point = view.ticks > 0 ? view.input.point : -1;
+  s.view.cutting = view.output.cutting;
+
+  top_bar(c, view, l);
+  side_panel(c, view, l);
+  tray(c, view, l);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  begin_area(t, "tooth", l.tooth_at, l.tooth, false);
+  ImGui::PopStyleVar();
+  const bool over = tooth_area(c, l.tooth);
+  if (!view.recording_error.empty()) {
+    words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Call the supervisor: " + view.recording_error, t.bad);
+  } else if (view.paused) {
+    words_in_picture(t, l.tooth_at, l.tooth, "PAUSE", "The clock stands still and the handpiece stays off. Press P to go on.", t.warn);
+  } else if (c.practice) {
+    words_in_picture(t, l.tooth_at, l.tooth, "PRACTICE", coaching_hint(c.sitting->setup(), view), t.accent);
+  }
+  end_area();
+  if (PointerStylus* pointer = c.sitting->device().pointer()) move_pointer(c, *pointer, over, l.tooth.y);
+  ask_whether_finished(c);
+
+  s.pause_key_s = std::max(0.0, s.pause_key_s - c.frame_s);
+  const bool pressed = s.pause_key_s > 0;
+  const int button = c.sitting->setup().scenario.pauses.button == 1 ? k_button_1 : k_button_2;
+  c.sitting->desk().buttons.store(pressed ? static_cast<std::uint32_t>(button) : 0u, std::memory_order_relaxed);
+  c.sitting->desk().speed_share.store(s.handpiece_speed, std::memory_order_relaxed);
+}
+
+}  // namespace cavum

@@ -1,0 +1,79 @@
+#include "ui/station/gauges.h"
+
+#include <algorithm>
+
+#include "ui/station/window.h"
+
+namespace cavum {
+
+void bar_gauge(const Theme& t, const char* name, const std::string& value, double share, double mark) {
+  const float width = ImGui::GetContentRegionAvail().x, height = t.px(18);
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
+  ImGui::TextUnformatted(value.c_str());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float full = width * static_cast<float>(std::clamp(share, 0.0, 1.0));
+  const float limit = mark > 0 ? width * static_cast<float>(std::min(mark, 1.0)) : width;
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, ink(t.raised), t.px(3));
+  draw.AddRectFilled(at, {at.x + std::min(full, limit), at.y + height}, ink(t.accent), t.px(3));
+  if (full > limit) {
+    draw.AddRectFilled({at.x + limit, at.y}, {at.x + full, at.y + height}, ink(t.bad));
+    draw.PushClipRect({at.x + limit, at.y}, {at.x + full, at.y + height}, true);
+    for (float x = at.x + limit - height; x < at.x + full; x += t.px(7)) draw.AddLine({x, at.y + height}, {x + height, at.y}, ink(t.panel), t.px(2));
+    draw.PopClipRect();
+  }
+  if (mark > 0) draw.AddLine({at.x + limit, at.y - t.px(3)}, {at.x + limit, at.y + height + t.px(3)}, ink(t.text), t.px(2));
+  ImGui::Dummy({width, height + t.px(6)});
+}
+
+void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_mm, float height) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const std::string value = number_text("%.1f mm", std::max(0.0, tip_mm));
+  ImGui::TextUnformatted("Depth");
+  ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
+  ImGui::TextUnformatted(value.c_str());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float left = at.x + t.px(42), right = left + t.px(26);
+  const auto y_of = [&](double mm) { return at.y + height * static_cast<float>(std::clamp(mm / most_mm, 0.0, 1.0)); };
+  draw.AddRectFilled({left, at.y}, {right, at.y + height}, ink(t.raised), t.px(3));
+  draw.AddRectFilled({left, at.y}, {right, y_of(deepest_mm)}, ink(t.line));
+  draw.AddRectFilled({left, at.y}, {right, y_of(tip_mm)}, ink(t.accent));
+  push_font(Font::small);
+  const int every = most_mm > 6.5 ? 2 : 1;
+  for (int mm = 0; mm <= static_cast<int>(most_mm); mm += every) {
+    const float y = y_of(mm);
+    draw.AddLine({left - t.px(7), y}, {left, y}, ink(t.quiet), 1.0F);
+    const std::string text = std::to_string(mm);
+    draw.AddText({left - t.px(12) - ImGui::CalcTextSize(text.c_str()).x, y - t.px(8)}, ink(t.quiet), text.c_str());
+  }
+  const std::string deepest = number_text("deepest %.1f", deepest_mm);
+  draw.AddLine({right, y_of(deepest_mm)}, {right + t.px(10), y_of(deepest_mm)}, ink(t.text), t.px(2));
+  draw.AddText({right + t.px(14), std::min(y_of(deepest_mm) - t.px(8), at.y + height - t.px(14))}, ink(t.quiet), deepest.c_str());
+  pop_font();
+  ImGui::Dummy({width, height + t.px(12)});
+}
+
+void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) {
+  const double shown_s = limit_s > 0 ? limit_s - passed_s : passed_s;
+  constexpr double k_soon_s = 60.0;
+  const bool soon = limit_s > 0 && shown_s < k_soon_s;
+  const std::string text = clock_text(shown_s);
+  std::string label = limit_s > 0 ? "time left" : "time";
+  if (soon) label = "LAST MINUTE";
+  if (standing) label = "CLOCK STANDS";
+  push_font(Font::clock);
+  ImGui::PushStyleColor(ImGuiCol_Text, soon || standing ? t.warn : t.text);
+  const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
+  ImGui::SetCursorPosX(x + width - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::TextUnformatted(text.c_str());
+  pop_font();
+  push_font(Font::small);
+  ImGui::SetCursorPos({x + width - ImGui::CalcTextSize(label.c_str()).x, ImGui::GetCursorPosY() - t.px(10)});
+  ImGui::TextUnformatted(label.c_str());
+  pop_font();
+  ImGui::PopStyleColor();
+}
+
+}  // namespace cavum

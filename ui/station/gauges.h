@@ -1,0 +1,19 @@
+// What the window shows of the work in numbers: clock, speed, force, depth. Each is a bar with its value in words beside it.
+#pragma once
+
+#include <string>
+
+#include "ui/station/theme.h"
+
+namespace cavum {
+
+/// A bar `share` full (0..1), over the whole width. `mark` > 0: a line there, and from there on the bar is hatched as too much.
+void bar_gauge(const Theme& theme, const char* name, const std::string& value, double share, double mark = 0.0);
+
+/// Depth below the opening as a scale that grows downwards: where the tip is, and how deep it has been. `most_mm`: the scale's end.
+void depth_gauge(const Theme& theme, double tip_mm, double deepest_mm, double most_mm, float height);
+
+/// The exam's clock: what is left of the limit, or what has passed when there is none.
+void exam_clock(const Theme& theme, double passed_s, double limit_s, bool standing);
+
+}  // namespace cavum

@@ -1,0 +1,100 @@
+#include <imgui.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+void criteria(const Theme& t, const Result& r) {
+  if (!ImGui::BeginTable("criteria", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX)) return;
+  ImGui::TableSetupColumn("Criterion", ImGuiTableColumnFlags_WidthFixed, t.px(190));
+  ImGui::TableSetupColumn("Points", ImGuiTableColumnFlags_WidthFixed, t.px(110));
+  ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableHeadersRow();
+  for (const CriterionResult& c : r.criteria) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    wrapped_text(c.title);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted((number_text("%.1f", c.points) + number_text(" of %.0f", c.max)).c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = t.px(96), share = c.max > 0 ? static_cast<float>(std::clamp(c.points / c.max, 0.0, 1.0)) : 0.0F;
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + t.px(5)}, ink(t.line));
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width * share, at.y + t.px(5)}, ink(c.critical_failed ? t.bad : t.accent));
+    ImGui::Dummy({width, t.px(6)});
+    ImGui::TableNextColumn();
+    quiet_text(t, (c.critical_failed ? "Fails the exam. " : "") + c.reason);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void grading_screen(const ScreenContext& c) {
+  begin_card(c.theme, "The exam is over", 560);
+  wrapped_text("Your work is being graded and sealed. You may put the handpiece down.");
+  const double phase = ImGui::GetTime() - static_cast<long>(ImGui::GetTime());
+  ImGui::ProgressBar(static_cast<float>(phase), {-1, c.theme.px(6)}, "");
+  end_area();
+}
+
+void trouble_screen(const ScreenContext& c) {
+  begin_card(c.theme, "The exam was interrupted", 640);
+  wrapped_text(c.state.message);
+  ImGui::Dummy({0, c.theme.px(8)});
+  if (c.sitting != nullptr && !c.sitting->path().empty()) {
+    wrapped_text("Everything up to this moment is recorded. Call the supervisor; the exam can be taken up again:");
+    quiet_text(c.theme, "cavum exam --resume --out " + c.sitting->path());
+  }
+  ImGui::Dummy({0, c.theme.px(8)});
+  if (main_button(c.theme, "Close  (Enter)", true)) c.state.wish = Wish::quit;
+  end_area();
+}
+
+void result_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const Result& r = c.sitting->closed().result;
+  const float words = std::min(t.px(820), screen.x * 0.66F);
+  begin_area(t, "result", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
+  const ImVec4 colour = r.verdict == Verdict::pass ? t.good : r.verdict == Verdict::fail ? t.bad : t.warn;
+  push_font(Font::clock);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(r.verdict == Verdict::pass ? "Passed" : r.verdict == Verdict::fail ? "Not passed" : "To be reviewed");
+  ImGui::PopStyleColor();
+  pop_font();
+  heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
+  quiet_text(t, r.scenario_title + ",  candidate " + c.sitting->candidate() + ",  " + clock_text(r.motion.time_s) + " minutes" +
+                    (c.practice ? ",  practice" : ""));
+  for (const auto& reason : r.verdict_reasons) wrapped_text(reason);
+  ImGui::Dummy({0, t.px(4)});
+  const float below = t.px(s.message.empty() ? 96 : 126);
+  ImGui::BeginChild("table", {0, ImGui::GetContentRegionAvail().y - below}, false);
+  criteria(t, r);
+  if (c.sitting->report().first_disagreement >= 0)
+    wrapped_text("The servo and its recording disagree: this result is doubtful. Tell the supervisor.");
+  ImGui::EndChild();
+  quiet_text(t, "Recorded and sealed: " + c.sitting->path());
+  if (!s.message.empty()) quiet_text(t, s.message);
+  if (main_button(t, "Done  (Enter)", true)) s.wish = Wish::next_candidate;
+  ImGui::SameLine();
+  if (ImGui::Button("Write the report  (F2)", {0, t.px(44)}) || key_pressed(GLFW_KEY_F2)) s.wish = Wish::report;
+  end_area();
+
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  begin_area(t, "result tooth", {s.left_handed ? 0 : words, 0}, {screen.x - words, screen.y}, false);
+  ImGui::PopStyleVar();
+  s.view.point = -1;
+  tooth_area(c, ImGui::GetContentRegionAvail());
+  end_area();
+}
+
+}  // namespace cavum

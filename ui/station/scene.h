@@ -1,0 +1,60 @@
+// The picture of the work: tooth, diamond point and handpiece, lit by a lamp beside the eye and one from the upper left. In practice the tooth is
+// as clear as water, with the pulp and what is to be removed in colour within; an exam shows none of that.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/base/pose.h"
+#include "engine/instrument/diamond_point.h"
+#include "scenarios/zone_map.h"
+#include "ui/station/camera.h"
+#include "ui/station/gpu.h"
+#include "ui/station/tooth_drawing.h"
+
+namespace cavum {
+
+/// What is to be seen.
+struct SceneView {
+  Camera camera;
+  Pose tool;              ///< tip as the tooth allows it
+  int point = -1;         ///< of the tray; -1 = no instrument
+  bool cutting = false;   ///< for now drawn like a point at rest
+  bool handpiece = true;  ///< its head, half transparent
+  bool clear = false;     ///< practice: look through the tooth
+  bool stereo = false;    ///< one picture for each eye, side by side
+  bool high_contrast = false;
+};
+
+class Scene {
+ public:
+  /// `target`: of practice; null = none is shown.
+  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target);
+
+  [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
+  /// A texture of this size with the picture; drawn again only when something differs. `samples` a pixel.
+  [[nodiscard]] unsigned picture(const SceneView& view, int width, int height, int samples);
+  /// Pictures drawn so far.
+  [[nodiscard]] std::uint64_t drawn() const noexcept { return drawn_; }
+
+ private:
+  void draw_eye(const SceneView& view, int eye, int x, int width, int height);
+  void light(const ShaderProgram& program, const SceneView& view, const glm::mat4& look, const glm::mat4& projection) const;
+  [[nodiscard]] std::vector<glm::vec3> colours(bool high_contrast) const;
+
+  ToothDrawing tooth_;
+  std::vector<Tissue> tissues_;
+  std::vector<GpuMesh> points_;
+  GpuMesh handpiece_, target_;
+  ShaderProgram tissue_program_, plain_program_;
+  RenderTarget target_picture_;
+  SceneView shown_;
+  std::uint64_t shown_version_ = 0;
+  int shown_samples_ = 0;
+  std::uint64_t drawn_ = 0;
+};
+
+/// The surface of what is to be removed, as a mesh in the colour of targets.
+[[nodiscard]] struct MeshData target_mesh(const ZoneMap& zones);
+
+}  // namespace cavum

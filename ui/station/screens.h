@@ -1,0 +1,42 @@
+// The screens of a sitting, one function each: it shows what there is and leaves its wish in the state. None of them waits for anything.
+#pragma once
+
+#include <vector>
+
+#include "ui/station/sitting.h"
+#include "ui/station/state.h"
+#include "ui/station/theme.h"
+
+namespace cavum {
+
+struct ScreenContext {
+  Theme theme;
+  StationState& state;
+  const Scenario& scenario;                ///< as its file says
+  const std::vector<DiamondPoint>& shelf;  ///< all diamond points there are
+  Sitting* sitting = nullptr;              ///< null before sign-in
+  Scene* scene = nullptr;                  ///< null before there is a tooth
+  double frame_s = 0.0;                    ///< since the frame before
+  int samples = 1;                         ///< of a pixel of the tooth's picture
+  bool practice = false;
+};
+
+void sign_in_screen(const ScreenContext& c);
+void device_check_screen(const ScreenContext& c);
+void briefing_screen(const ScreenContext& c);
+void exam_screen(const ScreenContext& c);
+void grading_screen(const ScreenContext& c);
+void result_screen(const ScreenContext& c);
+void trouble_screen(const ScreenContext& c);
+
+/// The picture of the tooth, in the rest of the running window; turned with the mouse and by keys: A D W S round the tooth, + and - nearer and
+/// farther, 1 to 5 from occlusal, buccal, lingual, mesial, distal, M mirror, T both eyes, H handpiece, R rolls the picture. Returns whether the
+/// mouse is over it.
+bool tooth_area(const ScreenContext& c, ImVec2 size);
+/// Its lower left corner on the screen and its size, of the last tooth_area: for words written into it.
+void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& lower, const ImVec4& colour);
+
+/// The silhouette of a diamond point in a box of the screen, pixels.
+void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated);
+
+}  // namespace cavum

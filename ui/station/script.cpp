@@ -1,0 +1,133 @@
+#include "ui/station/script.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::array<const char*, 13> k_words{"wait", "go",   "until",   "type",   "key",  "sleep", "stall",
+                                              "hide", "show", "picture", "memory", "fail", "close"};
+
+int key_of(const std::string& name) {
+  if (name == "enter") return GLFW_KEY_ENTER;
+  if (name == "escape") return GLFW_KEY_ESCAPE;
+  if (name == "space") return GLFW_KEY_SPACE;
+  if (name == "tab") return GLFW_KEY_TAB;
+  if (name == "left") return GLFW_KEY_LEFT;
+  if (name == "right") return GLFW_KEY_RIGHT;
+  if (name == "up") return GLFW_KEY_UP;
+  if (name == "down") return GLFW_KEY_DOWN;
+  if (name == "pagedown") return GLFW_KEY_PAGE_DOWN;
+  if (name == "pageup") return GLFW_KEY_PAGE_UP;
+  if (name == "home") return GLFW_KEY_HOME;
+  if (name == "end") return GLFW_KEY_END;
+  if (name == "+") return GLFW_KEY_EQUAL;
+  if (name.size() == 1) {
+    const char c = name[0];
+    if (c >= 'a' && c <= 'z') return GLFW_KEY_A + (c - 'a');
+    if ((c >= '0' && c <= '9') || c == '[' || c == ']' || c == '-') return c;
+  }
+  if (name.size() >= 2 && name[0] == 'f' && name.find_first_not_of("0123456789", 1) == std::string::npos) {
+    const int n = std::stoi(name.substr(1, 2));
+    if (n >= 1 && n <= 12) return GLFW_KEY_F1 + n - 1;
+  }
+  return 0;
+}
+
+double memory_mb() {
+  std::ifstream statm("/proc/self/statm");
+  long all = 0, resident = 0;
+  statm >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+}  // namespace
+
+Script::Script(const std::string& text, const std::string& path, std::string pictures) : path_(path), pictures_(std::move(pictures)) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::istringstream words(line);
+    Command c;
+    c.line = number;
+    if (!(words >> c.word) || c.word[0] == '#') continue;
+    const std::string where = path + ":" + std::to_string(number);
+    if (std::find(k_words.begin(), k_words.end(), c.word) == k_words.end())
+      throw Error(where, "'" + c.word + "' is no command of a script", "see the head of ui/station/script.h");
+    words >> c.text;
+    if (c.word == "until" || c.word == "sleep" || c.word == "stall") {
+      std::istringstream value(c.text);
+      if (!(value >> c.number) || c.number < 0) throw Error(where, "'" + c.word + "' needs seconds", "write a number of 0 or more");
+    }
+    if (c.word == "key") {
+      c.key = key_of(c.text);
+      if (c.key == 0) throw Error(where, "'" + c.text + "' is no key", "see the head of ui/station/script.h");
+      words >> c.number;
+    }
+    commands_.push_back(c);
+  }
+}
+
+bool Script::run(const Command& c, Window& window, Screen screen, double exam_s, double now_s) {
+  const std::string where = path_ + ":" + std::to_string(c.line);
+  if (c.word == "wait" || c.word == "go") {
+    constexpr double k_again_s = 0.5;
+    const bool there = c.text == screen_name(screen);
+    if (c.word == "go" && !there && now_s - pressed_s_ > k_again_s) {
+      window.press(GLFW_KEY_ENTER);
+      pressed_s_ = now_s;
+    }
+    constexpr double k_patience_s = 300;
+    if (now_s - since_s_ > k_patience_s)
+      throw Error(where, "the screen '" + c.text + "' did not come, '" + screen_name(screen) + "' shows", "correct the script");
+    return there;
+  }
+  if (c.word == "until") return exam_s >= c.number;
+  if (c.word == "type") {
+    if (!window.wants_text()) return false;
+    window.type(c.text);
+  }
+  if (c.word == "key") {
+    window.press(c.key, now_s - since_s_ < c.number);
+    return now_s - since_s_ >= c.number;
+  }
+  if (c.word == "sleep") return now_s - since_s_ >= c.number;
+  if (c.word == "stall") std::this_thread::sleep_for(std::chrono::duration<double>(c.number));
+  if (c.word == "hide") window.set_visible(false);
+  if (c.word == "show") window.set_visible(true);
+  if (c.word == "picture" && !pictures_.empty()) {
+    std::filesystem::create_directories(pictures_);
+    window.keep_picture((std::filesystem::path(pictures_) / (c.text + ".png")).string());
+  }
+  if (c.word == "memory") std::printf("%s: %.1f MB\n", c.text.c_str(), memory_mb());
+  if (c.word == "fail") throw Error(where, "the script let the window fail", "leave 'fail' out");
+  if (c.word == "close") window.ask_to_close();
+  return true;
+}
+
+void Script::step(Window& window, Screen screen, double exam_s, double now_s) {
+  if (done()) return;
+  if (since_s_ < 0) since_s_ = now_s;
+  if (std::exchange(let_go_, false)) return;  // a frame without the key, so that the same one can be pressed again
+  if (!run(commands_[next_], window, screen, exam_s, now_s)) return;
+  let_go_ = commands_[next_].word == "key";
+  ++next_;
+  since_s_ = -1.0;
+}
+
+}  // namespace cavum

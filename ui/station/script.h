@@ -1,0 +1,53 @@
+// Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. One command a
+// line, # begins a comment:
+//   wait SCREEN      until that screen shows (sign-in, device-check, briefing, exam, grading, result, trouble), 300 s at most
+//   go SCREEN        presses enter now and then until that screen shows
+//   until SECONDS    until the exam's clock has come so far
+//   type TEXT        letters
+//   key NAME         enter, escape, space, tab, f1 to f12, a letter, a digit, [ ] + -; a second word holds it so many seconds
+//   sleep SECONDS    the window goes on meanwhile
+//   stall SECONDS    the window stands still, as with a graphics card that hangs
+//   hide, show       the window
+//   picture NAME     of the screen, NAME.png in the folder of pictures
+//   memory NAME      prints NAME and what the program holds in memory, MB
+//   fail             throws in the window's thread
+//   close            the window, as its cross does
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ui/station/state.h"
+
+namespace cavum {
+
+class Window;
+
+class Script {
+ public:
+  Script() = default;
+  /// Throws Error(path:line, ...) for a command that is none.
+  Script(const std::string& text, const std::string& path, std::string pictures);
+  /// Before each frame: does what is due. `exam_s`: the exam's clock. Throws Error when a wait is in vain, or for `fail`.
+  void step(Window& window, Screen screen, double exam_s, double now_s);
+  [[nodiscard]] bool done() const noexcept { return next_ >= commands_.size(); }
+
+ private:
+  struct Command {
+    std::string word, text;
+    double number = 0.0;
+    int key = 0, line = 0;
+  };
+  /// False: not yet done, look again in the next frame.
+  bool run(const Command& command, Window& window, Screen screen, double exam_s, double now_s);
+
+  std::string path_, pictures_;
+  std::vector<Command> commands_;
+  std::size_t next_ = 0;
+  bool let_go_ = false;
+  double since_s_ = -1.0;    // when the running command began
+  double pressed_s_ = -1.0;  // when `go` last pressed enter
+};
+
+}  // namespace cavum

@@ -1,0 +1,46 @@
+#include <imgui.h>
+
+#include "engine/base/text.h"
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+
+void sign_in_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  begin_card(t, c.practice ? "Practice" : "Examination", 620);
+  wrapped_text(c.scenario.title);
+  if (!c.scenario.description.empty()) quiet_text(t, c.scenario.description);
+  ImGui::Dummy({0, t.px(10)});
+  ImGui::TextUnformatted("Your candidate code");
+  ImGui::SetNextItemWidth(-1);
+  push_font(Font::heading);
+  if (s.focus_code) ImGui::SetKeyboardFocusHere();
+  s.focus_code = false;
+  const bool entered = ImGui::InputText("##code", s.code.data(), s.code.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  pop_font();
+  quiet_text(t, "The code on your card, never your name. It is kept with the recording.");
+  ImGui::Dummy({0, t.px(8)});
+  ImGui::Checkbox("Left-handed layout", &s.left_handed);
+  ImGui::SameLine(0, t.px(24));
+  ImGui::Checkbox("High contrast", &s.high_contrast);
+  ImGui::TextUnformatted("Size of text");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(t.px(220));
+  auto scale = static_cast<float>(s.text_scale);
+  ImGui::SliderFloat("##scale", &scale, 0.8F, 1.8F, "%.1f");
+  s.text_scale = static_cast<double>(static_cast<int>(scale * 10.0F + 0.5F)) / 10.0;
+  ImGui::Dummy({0, t.px(8)});
+  const std::string code = s.code.data();
+  const bool usable = !code.empty() && is_plain_text(code);
+  if (main_button(t, "Continue  (Enter)", usable, false) || (entered && usable)) s.wish = Wish::sign_in;
+  if (!s.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, t.bad);
+    wrapped_text(s.message);
+    ImGui::PopStyleColor();
+  }
+  end_area();
+}
+
+}  // namespace cavum

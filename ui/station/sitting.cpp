@@ -1,0 +1,114 @@
+#include "ui/station/sitting.h"
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+template <class T>
+bool is_ready(const std::future<T>& f) {
+  return f.valid() && f.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+/// Letters and digits of a code, for the name of a file.
+std::string file_part(const std::string& candidate) {
+  std::string part;
+  for (const char c : candidate) part += (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ? c : '_';
+  return part;
+}
+
+}  // namespace
+
+Sitting::Sitting(SittingOptions options, std::string candidate)
+    : options_(std::move(options)), candidate_(std::move(candidate)), device_(make_station_device(options_.device)) {
+  ExamOptions exam;
+  exam.candidate = candidate_;
+  exam.tooth_file = options_.tooth;
+  exam.force_model = options_.model;
+  exam.rubric_file = options_.rubric;
+  exam.device = device_->name();
+  exam.position_quantum_mm = device_->position_quantum_mm();
+  exam.grant = options_.grant;
+  exam.notes = device_->notes();
+  if (options_.practice) exam.notes.emplace_back("practice", "true");
+  preparing_ = std::async(std::launch::async, [this, exam] {
+    auto setup = prepare_exam(options_.scenario, exam);
+    device_->prepare(*setup);
+    return setup;
+  });
+}
+
+Sitting::~Sitting() {
+  if (preparing_.valid()) preparing_.wait();
+  if (grading_.valid()) grading_.wait();
+  check_.reset();
+  live_.reset();  // before the device that its servo reads
+}
+
+void Sitting::advance() {
+  if (stage_ == Stage::preparing && is_ready(preparing_)) {
+    setup_ = preparing_.get();
+    check_ = std::make_unique<DeviceCheck>(device_->for_check());
+    stage_ = Stage::checking;
+  }
+  if (stage_ == Stage::running) {
+    if (device_->done()) live_->ask_to_end();
+    if (!live_->running()) end_running();
+  }
+  if (stage_ == Stage::grading && is_ready(grading_)) {
+    closed_ = grading_.get();
+    stage_ = Stage::done;
+  }
+}
+
+DeviceSight Sitting::sight() const { return check_ ? check_->sight() : last_sight_; }
+
+std::string Sitting::new_path() const {
+  if (options_.out.ends_with(".cavum")) return options_.out;
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  std::string when(32, '\0');
+  when.resize(std::strftime(when.data(), when.size(), "%Y%m%d-%H%M%S", &local));
+  const std::string name = setup_->scenario.id + "-" + file_part(candidate_) + "-" + when + ".cavum";
+  return (std::filesystem::path(options_.out) / name).string();
+}
+
+void Sitting::begin() {
+  last_sight_ = sight();
+  check_.reset();  // from now on the servo alone reads the device
+  try {
+    const Vec3 tip = device_->tip_mm();
+    path_ = new_path();
+    with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
+    live_ = std::make_unique<LiveExam>(*setup_, path_, *with_desk_, tip);
+    live_->start();
+  } catch (...) {
+    live_.reset();
+    check_ = std::make_unique<DeviceCheck>(device_->for_check());
+    throw;
+  }
+  stage_ = Stage::running;
+}
+
+void Sitting::ask_to_end() {
+  if (live_) live_->ask_to_end();
+}
+
+void Sitting::end_running() {
+  report_ = live_->finish();
+  if (!live_->exam().over()) {
+    trouble_ = report_.servo.error.empty() ? "the servo was stopped" : report_.servo.error;
+    stage_ = Stage::interrupted;
+    return;
+  }
+  grading_ = std::async(std::launch::async, [this] { return grade_and_close(live_->exam(), path_); });
+  stage_ = Stage::grading;
+}
+
+}  // namespace cavum

@@ -1,0 +1,91 @@
+// One candidate's sitting, from the code that was typed to the sealed session: what is prepared, checked, run, graded, and in which order. Knows no
+// window: the screens show it and press its buttons, and whatever becomes of them, the session is closed or can be resumed.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/device/with_desk.h"
+#include "grading/close_exam.h"
+#include "scenarios/live_exam.h"
+#include "ui/station/device_check.h"
+#include "ui/station/station_device.h"
+
+namespace cavum {
+
+struct SittingOptions {
+  std::string scenario, tooth, model = "consistent", rubric;  ///< files as for an exam
+  std::string out;                                            ///< a session file (.cavum), or the folder for one
+  Grant grant;
+  bool practice = false;
+  DeviceChoice device;
+};
+
+enum class Stage {
+  preparing,    ///< files are read, zones laid into the tooth
+  checking,     ///< the device is watched
+  running,      ///< the exam
+  grading,      ///< it is over, and being marked
+  done,         ///< sealed, with its result
+  interrupted,  ///< the device failed: the session is open and can be resumed
+};
+
+class Sitting {
+ public:
+  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none.
+  Sitting(SittingOptions options, std::string candidate);
+  /// Stops what runs. A session that is not closed by then can be resumed.
+  ~Sitting();
+  Sitting(const Sitting&) = delete;
+  Sitting& operator=(const Sitting&) = delete;
+
+  /// Goes on to the next stage when it is time. Often; never waits for long. Throws Error when preparing or grading failed.
+  void advance();
+  [[nodiscard]] Stage stage() const noexcept { return stage_; }
+  [[nodiscard]] const std::string& candidate() const noexcept { return candidate_; }
+  [[nodiscard]] bool practice() const noexcept { return options_.practice; }
+
+  /// From `checking` on.
+  [[nodiscard]] const ExamSetup& setup() const { return *setup_; }
+  [[nodiscard]] StationDevice& device() { return *device_; }
+  [[nodiscard]] DeviceSight sight() const;
+  /// From `checking` to `running`: begins to record. Throws Error when that is impossible; the stage stays.
+  void begin();
+
+  /// While `running`.
+  [[nodiscard]] LiveExam& live() { return *live_; }
+  [[nodiscard]] Desk& desk() noexcept { return desk_; }
+  void ask_to_end();
+
+  /// When `done`.
+  [[nodiscard]] const ClosedExam& closed() const { return *closed_; }
+  [[nodiscard]] const LiveReport& report() const { return report_; }
+  /// Of the session, from `running` on.
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// When `interrupted`: why.
+  [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
+
+ private:
+  void end_running();
+  [[nodiscard]] std::string new_path() const;
+
+  SittingOptions options_;
+  std::string candidate_;
+  Stage stage_ = Stage::preparing;
+  std::unique_ptr<StationDevice> device_;
+  std::future<std::unique_ptr<ExamSetup>> preparing_;
+  std::unique_ptr<ExamSetup> setup_;
+  std::unique_ptr<DeviceCheck> check_;
+  DeviceSight last_sight_;
+  Desk desk_;
+  std::unique_ptr<WithDesk> with_desk_;
+  std::unique_ptr<LiveExam> live_;
+  std::future<ClosedExam> grading_;
+  std::optional<ClosedExam> closed_;
+  LiveReport report_;
+  std::string path_, trouble_;
+};
+
+}  // namespace cavum

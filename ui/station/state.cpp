@@ -1,0 +1,27 @@
+#include "ui/station/state.h"
+
+namespace cavum {
+
+const char* screen_name(Screen screen) noexcept {
+  switch (screen) {
+    case Screen::sign_in:
+      return "sign-in";
+    case Screen::device_check:
+      return "device-check";
+    case Screen::briefing:
+      return "briefing";
+    case Screen::exam:
+      return "exam";
+    case Screen::grading:
+      return "grading";
+    case Screen::result:
+      return "result";
+    case Screen::replay:
+      return "replay";
+    case Screen::trouble:
+      return "trouble";
+  }
+  return "";
+}
+
+}  // namespace cavum

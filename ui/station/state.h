@@ -1,0 +1,35 @@
+// Everything that the screens show and change, apart from the sitting itself: plain values of the window's thread.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "ui/station/scene.h"
+
+namespace cavum {
+
+enum class Screen { sign_in, device_check, briefing, exam, grading, result, replay, trouble };
+[[nodiscard]] const char* screen_name(Screen screen) noexcept;
+
+/// What a button or a key asked for; the station does it after the frame.
+enum class Wish { none, sign_in, to_briefing, to_check, begin, end, report, next_candidate, quit };
+
+struct StationState {
+  Screen screen = Screen::sign_in;
+  Wish wish = Wish::none;
+  std::array<char, 48> code{};  ///< typed at sign-in
+  std::string message;          ///< shown with the screen: what went wrong, what was written
+  SceneView view;
+  bool left_handed = false;
+  bool high_contrast = false;
+  double text_scale = 1.0;
+  bool muted = false;
+  bool confirm_end = false;
+  double pause_key_s = 0.0;      ///< for so long the pause button stays pressed
+  double handpiece_speed = 1.0;  ///< of the dial, 0.1..1
+  Vec3 wanted_mm;                ///< where mouse and keyboard want the tip, tooth frame
+  Quat wanted_rotation;          ///< of the handpiece then
+  bool focus_code = true;
+};
+
+}  // namespace cavum

@@ -1,0 +1,305 @@
+#include "ui/station/station.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "ui/sound/sound_output.h"
+#include "ui/station/screens.h"
+#include "ui/station/script.h"
+#include "ui/station/termination.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+std::vector<DiamondPoint> read_shelf(const std::string& scenario_path) {
+  std::vector<DiamondPoint> shelf;
+  for (const auto& name : data_names("points", scenario_path)) {
+    const std::string path = find_data_file("points", name + ".toml", scenario_path);
+    shelf.push_back(parse_diamond_point(read_text_file(path), path));
+  }
+  return shelf;
+}
+
+class Station {
+ public:
+  explicit Station(const StationOptions& options)
+      : options_(options),
+        scenario_(parse_scenario(read_text_file(options.sitting.scenario), options.sitting.scenario)),
+        shelf_(read_shelf(options.sitting.scenario)),
+        window_("Cavum", options.width, options.height) {
+    if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
+    state_.left_handed = options_.left_handed || scenario_.accommodations.left_handed;
+    state_.high_contrast = options_.high_contrast || scenario_.accommodations.high_contrast;
+    state_.text_scale = options_.text_scale;
+    options_.candidate.copy(state_.code.data(), state_.code.size() - 1);
+  }
+
+  int run() {
+    try {
+      while (!window_.closing() && !Termination::asked()) frame();
+    } catch (const std::exception& e) {
+      if (!open_session().empty())
+        throw Error("station", std::string("failed during the exam (") + without_advice(e.what()) + ")",
+                    "what was done is recorded: cavum exam --resume --out " + open_session());
+      throw;
+    }
+    const std::string open = open_session();
+    if (open.empty()) return 0;
+    sitting_.reset();
+    std::fprintf(stderr, "cavum: station: was closed during the exam; what was done is recorded: cavum exam --resume --out %s\n", open.c_str());
+    return 1;
+  }
+
+ private:
+  /// Path of the session that would stay open if the window closed now.
+  [[nodiscard]] std::string open_session() const {
+    const bool open = sitting_ && (sitting_->stage() == Stage::running || sitting_->stage() == Stage::interrupted);
+    return open ? sitting_->path() : std::string();
+  }
+
+  void frame() {
+    const auto began = Clock::now();
+    const double frame_s = std::min(0.1, seconds_since(last_frame_));
+    last_frame_ = began;
+    dress();
+    script_.step(window_, state_.screen, exam_s(), seconds_since(start_));
+    window_.begin_frame();
+    show(frame_s);
+    window_.end_frame();
+    sound();
+    grant(std::exchange(state_.wish, Wish::none));
+    go_on();
+    // no more pictures than eyes need, fewer when the processor draws: the servo shares it
+    const double least_s = window_.software() ? 1.0 / 25.0 : 1.0 / 120.0;
+    if (const double left_s = least_s - seconds_since(began); left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+  }
+
+  /// Colours and sizes as they were chosen.
+  void dress() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
+    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
+    const bool scale_differs = state_.text_scale != dressed_scale_;
+    if (scale_differs && ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // while the slider moves
+    if (!scale_differs && state_.high_contrast == dressed_contrast_) return;
+    theme_ = make_theme(state_.high_contrast, state_.text_scale);
+    apply_theme(theme_);
+    if (scale_differs) window_.set_text_scale(state_.text_scale);
+    dressed_scale_ = state_.text_scale;
+    dressed_contrast_ = state_.high_contrast;
+  }
+
+  [[nodiscard]] double exam_s() {
+    if (!sitting_ || sitting_->stage() != Stage::running) return 0.0;
+    const LiveView view = sitting_->live().view();
+    return static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s;
+  }
+
+  void show(double frame_s) {
+    const ScreenContext context{
+        theme_, state_, scenario_, shelf_, sitting_.get(), scene_.get(), frame_s, window_.software() ? 1 : 4, options_.sitting.practice};
+    switch (state_.screen) {
+      case Screen::sign_in:
+        return sign_in_screen(context);
+      case Screen::device_check:
+        return device_check_screen(context);
+      case Screen::briefing:
+        return briefing_screen(context);
+      case Screen::exam:
+        return exam_screen(context);
+      case Screen::grading:
+        return grading_screen(context);
+      case Screen::result:
+        return result_screen(context);
+      case Screen::trouble:
+        return trouble_screen(context);
+      case Screen::replay:
+        return;
+    }
+  }
+
+  /// What the handpiece does is heard.
+  void sound() {
+    SoundParameters heard;
+    if (state_.screen == Screen::exam && sitting_->stage() == Stage::running) {
+      const LiveView view = sitting_->live().view();
+      heard.rpm = view.output.rpm;
+      heard.load_n = length(view.output.rendered_force_n);
+      heard.cutting = view.output.cutting;
+      heard.enamel_share = view.enamel_share;
+      heard.dentin_share = view.dentin_share;
+    }
+    sound_.set(heard);
+    sound_.set_muted(state_.muted);
+  }
+
+  void grant(Wish wish) {
+    try {
+      switch (wish) {
+        case Wish::sign_in:
+          sign_in();
+          break;
+        case Wish::to_briefing:
+          go_to(Screen::briefing);
+          break;
+        case Wish::begin:
+          sitting_->begin();
+          go_to(Screen::exam);
+          break;
+        case Wish::end:
+          sitting_->ask_to_end();
+          break;
+        case Wish::report:
+          write_report();
+          break;
+        case Wish::next_candidate:
+          next_candidate();
+          break;
+        case Wish::quit:
+          window_.ask_to_close();
+          break;
+        default:
+          break;
+      }
+    } catch (const Error& e) {
+      state_.message = e.what();
+    }
+  }
+
+  void sign_in() {
+    SittingOptions o = options_.sitting;
+    if (state_.left_handed != scenario_.accommodations.left_handed) o.grant.left_handed = state_.left_handed;
+    if (state_.high_contrast != scenario_.accommodations.high_contrast) o.grant.high_contrast = state_.high_contrast;
+    sitting_ = std::make_unique<Sitting>(o, state_.code.data());
+    go_to(Screen::device_check);
+  }
+
+  void write_report() {
+    const ClosedExam& closed = sitting_->closed();
+    const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
+    write_text_file(path, report_html(closed.result, closed.graded->input(), closed.graded->facts));
+    state_.message = "Report: " + path;
+  }
+
+  void next_candidate() {
+    if (options_.sitting.out.ends_with(".cavum")) return window_.ask_to_close();  // one session was asked for
+    scene_.reset();
+    sitting_.reset();
+    state_.code = {};
+    state_.focus_code = true;
+    go_to(Screen::sign_in);
+  }
+
+  /// What happens by itself.
+  void go_on() {
+    if (!sitting_) return;
+    const Stage before = sitting_->stage();
+    try {
+      sitting_->advance();
+    } catch (const Error& e) {
+      const bool was_preparing = before == Stage::preparing;
+      if (was_preparing) sitting_.reset();
+      go_to(was_preparing ? Screen::sign_in : Screen::trouble);
+      state_.message = e.what();
+      return;
+    }
+    const Stage now = sitting_->stage();
+    if (now == before) return;
+    if (now == Stage::checking) make_scene();
+    if (now == Stage::grading || now == Stage::interrupted) {
+      sitting_->live().look_at_tooth([this](const Octree& tooth) { scene_->tooth().take(tooth); });
+      scene_->tooth().update();
+    }
+    if (now == Stage::grading) go_to(Screen::grading);
+    if (now == Stage::done) go_to(Screen::result);
+    if (now == Stage::interrupted) {
+      go_to(Screen::trouble);
+      state_.message = sitting_->trouble();
+    }
+  }
+
+  void make_scene() {
+    const ExamSetup& setup = sitting_->setup();
+    const bool practice = options_.sitting.practice;
+    scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.points, practice ? &setup.zones : nullptr);
+    const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
+    state_.view = {};
+    state_.view.camera.distance_mm = 36.0F;
+    state_.view.clear = practice;
+    constexpr double k_below_mm = 1.5;  // of the opening: the whole crown is in the picture
+    state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
+                                    static_cast<float>(setup.zones.opening_z_mm() - k_below_mm)};
+    const Pose start = sitting_->device().start();
+    state_.wanted_mm = start.tip_mm;
+    state_.wanted_rotation = start.rotation;
+  }
+
+  void go_to(Screen screen) {
+    state_.screen = screen;
+    state_.message.clear();
+    state_.confirm_end = false;
+  }
+
+  StationOptions options_;
+  Scenario scenario_;
+  std::vector<DiamondPoint> shelf_;
+  Termination termination_;
+  SoundOutput sound_;
+  Window window_;
+  Script script_;
+  StationState state_;
+  Theme theme_;
+  double dressed_scale_ = 0.0;
+  bool dressed_contrast_ = false;
+  std::unique_ptr<Sitting> sitting_;
+  std::unique_ptr<Scene> scene_;
+  Clock::time_point start_ = Clock::now(), last_frame_ = start_;
+};
+
+}  // namespace
+
+int run_station(const StationOptions& options) { return Station(options).run(); }
+
+void print_frame_times(const StationOptions& options, int frames) {
+  ExamOptions exam;
+  exam.candidate = "bench";
+  exam.tooth_file = options.sitting.tooth;
+  const auto setup = prepare_exam(options.sitting.scenario, exam);
+  const Window window("Cavum", options.width, options.height);
+  const auto began = Clock::now();
+  Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->points, nullptr);
+  const double made_s = seconds_since(began);
+  SceneView view;
+  view.point = 0;
+  view.tool.tip_mm = {0, 0, 3};
+  std::vector<double> times_ms;
+  for (int i = 0; i < frames; ++i) {
+    view.camera.orbit(3.0F, 0.0F);
+    const auto start = Clock::now();
+    static_cast<void>(scene.picture(view, options.width, options.height, window.software() ? 1 : 4));
+    glFinish();
+    times_ms.push_back(1e3 * seconds_since(start));
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  const auto at = [&](double share) { return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))]; };
+  std::printf("%s, %d x %d, %zu triangles: first mesh %.2f s; a picture takes %.1f ms (median of %d), 95 %% within %.1f ms\n",
+              window.renderer().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
+}
+
+}  // namespace cavum

@@ -1,0 +1,27 @@
+// The station: one window, in which candidates sign in, are checked, briefed, examined and told their result, one after the other. The window's
+// thread shows and asks; the exam itself runs in the servo's and the recorder's threads, whatever becomes of the window.
+#pragma once
+
+#include <string>
+
+#include "ui/station/sitting.h"
+
+namespace cavum {
+
+struct StationOptions {
+  SittingOptions sitting;
+  std::string candidate;         ///< code that stands in the field at sign-in; may be empty
+  std::string script, pictures;  ///< a file of keys, and where its pictures go; may be empty
+  int width = 1280, height = 800;
+  double text_scale = 1.0;
+  bool left_handed = false, high_contrast = false;
+};
+
+/// Opens the window and returns when it is closed: 0, or 1 when an exam is left open, which a line on standard error names. Throws Error when there
+/// is no display, the scenario is wrong, or the window fails; a running session can be resumed then.
+[[nodiscard]] int run_station(const StationOptions& options);
+
+/// For a bench: draws the tooth of a scenario so many times, each from another side, and prints how long a picture takes.
+void print_frame_times(const StationOptions& options, int frames);
+
+}  // namespace cavum

@@ -1,0 +1,82 @@
+#include "ui/station/station_device.h"
+
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/device/simulated_stylus.h"
+
+namespace cavum {
+namespace {
+
+/// Before the exam its hand rests on the finger rest, and its foot tries the pedal once.
+HandIntent resting(Vec3 at, double t_s) {
+  const double tremor_mm = 0.25;
+  at += Vec3{tremor_mm * std::sin(9.0 * t_s), tremor_mm * std::sin(7.0 * t_s + 1.0), 0};
+  const double pressed = t_s > 0.4 && t_s < 0.9 ? 1.0 : 0.0;
+  return {at, pressed};
+}
+
+class SimulatedHand final : public StationDevice {
+ public:
+  explicit SimulatedHand(DeviceChoice choice) : choice_(std::move(choice)) { static_cast<void>(make_skill(choice_.operator_name, choice_.seed)); }
+  [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + choice_.operator_name; }
+  [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
+    return {{"operator", choice_.operator_name}, {"operator_seed", std::to_string(choice_.seed)}};
+  }
+  void prepare(const ExamSetup& setup) override {
+    candidate_ = make_candidate_device(setup, choice_.operator_name, choice_.seed);
+    const Vec3 at = candidate_->start_mm();
+    resting_ = std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s, [at](double t_s) { return resting(at, t_s); });
+  }
+  [[nodiscard]] ServoDevice& for_check() override { return *resting_; }
+  [[nodiscard]] ServoDevice& for_exam() override { return *candidate_; }
+  [[nodiscard]] Pose start() const override { return {candidate_->start_mm(), {}}; }
+  [[nodiscard]] Vec3 tip_mm() override { return candidate_->start_mm(); }
+  [[nodiscard]] bool done() const override { return candidate_->done(); }
+
+ private:
+  DeviceChoice choice_;
+  std::unique_ptr<CandidateDevice> candidate_;
+  std::unique_ptr<SimulatedStylus> resting_;
+};
+
+class Mouse final : public StationDevice {
+ public:
+  [[nodiscard]] std::string name() const override { return "mouse and keyboard, simulated Omni"; }
+  [[nodiscard]] double position_quantum_mm() const override { return omni().quantum_mm; }
+  void prepare(const ExamSetup& setup) override {
+    constexpr double k_above_mm = 4.0;
+    const ZoneMap& zones = setup.zones;
+    const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
+    first_.tip_mm = Vec3{middle.x, middle.y, zones.opening_z_mm()} + zones.approach() * k_above_mm;
+    first_.rotation = rotation_between({0, 0, 1}, zones.approach());
+    stylus_ = std::make_unique<PointerStylus>(omni(), HandModel{}, k_tick_s, first_);
+  }
+  [[nodiscard]] ServoDevice& for_check() override { return *stylus_; }
+  [[nodiscard]] ServoDevice& for_exam() override { return *stylus_; }
+  [[nodiscard]] Pose start() const override { return {first_.tip_mm, first_.rotation}; }
+  [[nodiscard]] Vec3 tip_mm() override { return stylus_->read(0.0).pose.tip_mm; }
+  [[nodiscard]] PointerStylus* pointer() override { return stylus_.get(); }
+
+ private:
+  /// The mouse has no joints that rub, but a grid of its own would be felt.
+  [[nodiscard]] static OmniModel omni() {
+    OmniModel model;
+    model.coulomb_n = 0.05;
+    model.quantum_mm = 0.01;
+    return model;
+  }
+  PointerIntent first_;
+  std::unique_ptr<PointerStylus> stylus_;
+};
+
+}  // namespace
+
+std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice) {
+  if (choice.name == "simulated") return std::make_unique<SimulatedHand>(choice);
+  if (choice.name == "mouse") return std::make_unique<Mouse>();
+  throw Error("--device " + choice.name, "is no device of the station", "name one of simulated, mouse");
+}
+
+}  // namespace cavum

@@ -1,0 +1,45 @@
+// What sits in the candidate's hand at this station: the built-in operator with a simulated Omni, or mouse and keyboard. One for the check before
+// the exam, one for the exam; with most devices they are the same.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/device/pointer_stylus.h"
+#include "scenarios/candidate_device.h"
+
+namespace cavum {
+
+struct DeviceChoice {
+  std::string name = "simulated";        ///< or `mouse`
+  std::string operator_name = "expert";  ///< of the simulated candidate, see make_skill
+  std::uint64_t seed = 1;
+};
+
+class StationDevice {
+ public:
+  virtual ~StationDevice() = default;
+  /// As it is recorded with the session.
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual double position_quantum_mm() const = 0;
+  [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> notes() const { return {}; }
+  /// Once what the exam asks for is known; may take seconds. Before it only the above may be called. Throws Error.
+  virtual void prepare(const ExamSetup& setup) = 0;
+  [[nodiscard]] virtual ServoDevice& for_check() = 0;
+  [[nodiscard]] virtual ServoDevice& for_exam() = 0;
+  /// Where the handpiece waits before the exam, tooth frame.
+  [[nodiscard]] virtual Pose start() const = 0;
+  /// Where the tip is, tooth frame, while nobody reads the device.
+  [[nodiscard]] virtual Vec3 tip_mm() = 0;
+  /// The candidate has nothing left to do: only simulated ones say so.
+  [[nodiscard]] virtual bool done() const { return false; }
+  /// Null unless mouse and keyboard are the stylus.
+  [[nodiscard]] virtual PointerStylus* pointer() { return nullptr; }
+};
+
+/// Throws Error for a name that is none.
+[[nodiscard]] std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice);
+
+}  // namespace cavum

@@ -1,0 +1,44 @@
+// Colours and sizes of the station's screens. Every colour that means something differs in lightness from its neighbours and comes with a word or a
+// sign, so that nobody needs to tell red from green; high contrast is black, white and yellow.
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+
+namespace cavum {
+
+struct Theme {
+  ImVec4 back, panel, raised, line, text, quiet, accent, on_accent, good, warn, bad;
+  float scale = 1.0F;  ///< of text and everything measured in it
+  [[nodiscard]] float px(float at_scale_1) const noexcept { return at_scale_1 * scale; }
+};
+[[nodiscard]] Theme make_theme(bool high_contrast, double scale);
+/// To Dear ImGui's own widgets.
+void apply_theme(const Theme& theme);
+
+[[nodiscard]] inline ImU32 ink(const ImVec4& colour) { return ImGui::ColorConvertFloat4ToU32(colour); }
+
+// Widgets beyond Dear ImGui's own.
+
+/// A window without frame at a place of the screen, pixels. Always pair with end_area.
+void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool panel);
+void end_area();
+/// The same in the middle of the screen, with a heading, as high as what it holds.
+void begin_card(const Theme& theme, const char* heading, float width);
+void quiet_text(const Theme& theme, const std::string& text);
+void heading_text(const std::string& text);
+void wrapped_text(const std::string& text);
+/// What goes on; also by Enter, unless `by_enter` is false.
+bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter = true);
+/// One that stays quiet.
+bool side_button(const Theme& theme, const char* label, float width = 0.0F);
+/// Pressed in this frame, with nothing held beside it; a key of GLFW.
+[[nodiscard]] bool key_pressed(int key);
+[[nodiscard]] bool key_held(int key);
+/// Minutes and seconds, "12:05".
+[[nodiscard]] std::string clock_text(double seconds);
+/// printf for one number.
+[[nodiscard]] std::string number_text(const char* format, double value);
+
+}  // namespace cavum

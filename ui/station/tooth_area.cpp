@@ -1,0 +1,71 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <cmath>
+
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+void keys(StationState& s, double frame_s, bool arrows_turn) {
+  Camera& camera = s.view.camera;
+  const auto step = static_cast<float>(70.0 * frame_s);
+  const auto held = [arrows_turn](int letter, int arrow) { return key_held(letter) || (arrows_turn && key_held(arrow)); };
+  if (held(GLFW_KEY_A, GLFW_KEY_LEFT)) camera.orbit(-step, 0);
+  if (held(GLFW_KEY_D, GLFW_KEY_RIGHT)) camera.orbit(step, 0);
+  if (held(GLFW_KEY_W, GLFW_KEY_UP)) camera.orbit(0, step);
+  if (held(GLFW_KEY_S, GLFW_KEY_DOWN)) camera.orbit(0, -step);
+  const auto zoom = static_cast<float>(std::exp(1.2 * frame_s));
+  if (!ImGui::GetIO().KeyCtrl && (key_held(GLFW_KEY_EQUAL) || key_held(GLFW_KEY_KP_ADD))) camera.approach(1.0F / zoom);
+  if (!ImGui::GetIO().KeyCtrl && (key_held(GLFW_KEY_MINUS) || key_held(GLFW_KEY_KP_SUBTRACT))) camera.approach(zoom);
+  if (key_pressed(GLFW_KEY_1)) camera.look_from_occlusal();
+  if (key_pressed(GLFW_KEY_2)) camera.look_from(0, 25);
+  if (key_pressed(GLFW_KEY_3)) camera.look_from(180, 25);
+  if (key_pressed(GLFW_KEY_4)) camera.look_from(-90, 25);
+  if (key_pressed(GLFW_KEY_5)) camera.look_from(90, 25);
+  if (key_pressed(GLFW_KEY_M)) camera.mirror = !camera.mirror;
+  if (key_pressed(GLFW_KEY_R)) camera.roll_deg = std::fmod(camera.roll_deg + 15.0F, 360.0F);
+  if (key_pressed(GLFW_KEY_T)) s.view.stereo = !s.view.stereo;
+  if (key_pressed(GLFW_KEY_H)) s.view.handpiece = !s.view.handpiece;
+  camera.eyes_apart_mm = s.view.stereo ? 0.06F * camera.distance_mm : 0.0F;
+}
+
+}  // namespace
+
+bool tooth_area(const ScreenContext& c, ImVec2 size) {
+  StationState& s = c.state;
+  const bool mouse_is_stylus = c.sitting != nullptr && s.screen == Screen::exam && c.sitting->device().pointer() != nullptr;
+  if (!ImGui::GetIO().WantTextInput) keys(s, c.frame_s, !mouse_is_stylus);
+  s.view.high_contrast = s.high_contrast;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const unsigned picture = c.scene->picture(s.view, static_cast<int>(size.x), static_cast<int>(size.y), c.samples);
+  ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture)), size, {0, 1}, {1, 0});
+  const bool over = ImGui::IsItemHovered();
+  const ImGuiIO& io = ImGui::GetIO();
+  if (over && ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0)) s.view.camera.orbit(-0.3F * io.MouseDelta.x, 0.3F * io.MouseDelta.y);
+  if (over && io.MouseWheel != 0 && (!mouse_is_stylus || io.KeyCtrl)) s.view.camera.approach(std::pow(0.92F, io.MouseWheel));
+  if (s.view.camera.mirror) {
+    const char* word = "MIRROR";
+    ImGui::GetWindowDrawList()->AddText({at.x + size.x - c.theme.px(110), at.y + c.theme.px(14)}, ink(c.theme.warn), word);
+  }
+  return over;
+}
+
+void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& lower, const ImVec4& colour) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddText({at.x + theme.px(16), at.y + theme.px(14)}, ink(colour), upper);
+  if (lower.empty()) return;
+  const float width = std::min(size.x - theme.px(40), theme.px(680)), pad = theme.px(12);
+  const ImVec2 text = ImGui::CalcTextSize(lower.c_str(), nullptr, false, width - 2 * pad);
+  const ImVec2 corner{at.x + (size.x - text.x) / 2 - pad, at.y + size.y - text.y - 2 * pad - theme.px(16)};
+  ImVec4 ground = theme.panel;
+  ground.w = 0.9F;
+  draw.AddRectFilled(corner, {corner.x + text.x + 2 * pad, corner.y + text.y + 2 * pad}, ink(ground), theme.px(6));
+  draw.AddRect(corner, {corner.x + text.x + 2 * pad, corner.y + text.y + 2 * pad}, ink(colour), theme.px(6));
+  draw.AddText(nullptr, 0.0F, {corner.x + pad, corner.y + pad}, ink(theme.text), lower.c_str(), nullptr, width - 2 * pad);
+}
+
+}  // namespace cavum

@@ -1,0 +1,69 @@
+// `station`: the exam window.
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "ui/own_places.h"
+#include "ui/seed_check.h"
+#include "ui/station/station.h"
+#include "ui/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct Options {
+  StationOptions station;
+  int frame_times = 0;
+};
+
+void require_sound(const StationOptions& o) {
+  if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+  if (o.sitting.out.ends_with(".cavum")) {
+    require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
+    if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
+  } else if (!std::filesystem::is_directory(o.sitting.out)) {
+    throw Error("--out " + o.sitting.out, "is no folder", "make it, or name a file ending in .cavum");
+  }
+}
+
+}  // namespace
+
+void add_station_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  StationOptions& s = o->station;
+  s.sitting.out = ".";
+  auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
+  station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
+  station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
+  station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse")->capture_default_str();
+  station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
+      ->capture_default_str();
+  station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
+  station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
+  station->add_option("--candidate", s.candidate, "code that stands in the field already");
+  station->add_option("--tooth", s.sitting.tooth, "another tooth than the scenario's");
+  station->add_option("--model", s.sitting.model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  station->add_option("--rubric", s.sitting.rubric, "mark by this rubric (TOML) instead of the scenario's own");
+  station->add_option("--extra-time-percent", s.sitting.grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
+  station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
+  station->add_flag("--left-handed", s.left_handed, "layout for the left hand; can be chosen at sign-in, too");
+  station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
+  station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(CLI::Range(0.8, 1.8))->capture_default_str();
+  station->add_option("--width", s.width, "of the window, pixels")->check(CLI::Range(640, 7680))->capture_default_str();
+  station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
+  station->add_option("--script", s.script, "press the keys that this file lists (for demonstrations and tests)");
+  station->add_option("--pictures", s.pictures, "folder for the pictures that the script takes");
+  station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")
+      ->check(CLI::Range(1, 100000));
+  station->callback([o, &exit_code] {
+    require_sound(o->station);
+    if (o->frame_times > 0) {
+      print_frame_times(o->station, o->frame_times);
+      exit_code = 0;
+    } else {
+      exit_code = run_station(o->station);
+    }
+  });
+}
+
+}  // namespace cavum
