@@ -8,17 +8,10 @@
 namespace cavum {
 
 LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
-<<<<<<< HEAD
-    : exam_(Exam::start(setup, path, first_tip_mm)),
-      servo_state_(exam_->state()),
-      device_(device),
-      target_shares_(static_cast<double>(setup.zones.target_shares())) {
-=======
     : LiveExam(setup, Exam::start(setup, path, first_tip_mm), device, options) {}
 
 LiveExam::LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options)
     : exam_(std::move(exam)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
->>>>>>> styluses
   view_.limit_ticks = exam_->limit_ticks();
   servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
   writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
