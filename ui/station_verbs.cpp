@@ -35,7 +35,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
-  station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse")->capture_default_str();
+  station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse, falcon, touch")->capture_default_str();
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();

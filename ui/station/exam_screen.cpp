@@ -221,6 +221,8 @@ void exam_screen(const ScreenContext& c) {
   const bool over = tooth_area(c, l.tooth);
   if (!view.recording_error.empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Call the supervisor: " + view.recording_error, t.bad);
+  } else if (const std::string problem = c.sitting->device().problem(); !problem.empty()) {
+    words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + problem, t.bad);
   } else if (view.paused) {
     words_in_picture(t, l.tooth_at, l.tooth, "PAUSE", "The clock stands still and the handpiece stays off. Press P to go on.", t.warn);
   } else if (c.practice) {

@@ -33,6 +33,8 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.rubric_file = options_.rubric;
   exam.device = device_->name();
   exam.position_quantum_mm = device_->position_quantum_mm();
+  exam.peak_n = device_->peak_n();
+  exam.continuous_n = device_->continuous_n();
   exam.grant = options_.grant;
   exam.notes = device_->notes();
   if (options_.practice) exam.notes.emplace_back("practice", "true");

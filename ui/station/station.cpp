@@ -7,17 +7,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "ui/interrupt.h"
 #include "ui/sound/sound_output.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
-#include "ui/station/termination.h"
 #include "ui/station/window.h"
 
 namespace cavum {
@@ -52,7 +51,7 @@ class Station {
 
   int run() {
     try {
-      while (!window_.closing() && !Termination::asked()) frame();
+      while (!window_.closing() && !Interrupt::asked()) frame();
     } catch (const std::exception& e) {
       if (!open_session().empty())
         throw Error("station", std::string("failed during the exam (") + without_advice(e.what()) + ")",
@@ -259,7 +258,7 @@ class Station {
   StationOptions options_;
   Scenario scenario_;
   std::vector<DiamondPoint> shelf_;
-  Termination termination_;
+  Interrupt interrupt_;
   SoundOutput sound_;
   Window window_;
   Script script_;

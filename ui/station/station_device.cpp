@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/device/simulated_stylus.h"
+#include "ui/live_source.h"
 
 namespace cavum {
 namespace {
@@ -71,12 +72,36 @@ class Mouse final : public StationDevice {
   std::unique_ptr<PointerStylus> stylus_;
 };
 
+/// A stylus that is plugged in, with the station's pedal.
+class PluggedIn final : public StationDevice {
+ public:
+  explicit PluggedIn(const DeviceChoice& choice) : source_(open_live_source({choice.name, "", 1, ""})) {}
+  [[nodiscard]] std::string name() const override { return source_->name(); }
+  [[nodiscard]] double position_quantum_mm() const override { return source_->position_quantum_mm(); }
+  [[nodiscard]] double peak_n() const override { return source_->peak_n(); }
+  [[nodiscard]] double continuous_n() const override { return source_->continuous_n(); }
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override { return source_->notes(); }
+  void prepare(const ExamSetup& setup) override { source_->begin(setup); }
+  [[nodiscard]] ServoDevice& for_check() override { return source_->device(); }
+  [[nodiscard]] ServoDevice& for_exam() override { return source_->device(); }
+  [[nodiscard]] Pose start() const override { return {source_->first_tip_mm(), {}}; }
+  [[nodiscard]] Vec3 tip_mm() override {
+    const DeviceReading now = source_->device().read(k_tick_s);
+    return is_finite(now.pose.tip_mm) ? now.pose.tip_mm : source_->first_tip_mm();
+  }
+  [[nodiscard]] std::string problem() const override { return source_->problem(); }
+
+ private:
+  std::unique_ptr<LiveSource> source_;
+};
+
 }  // namespace
 
 std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice) {
   if (choice.name == "simulated") return std::make_unique<SimulatedHand>(choice);
   if (choice.name == "mouse") return std::make_unique<Mouse>();
-  throw Error("--device " + choice.name, "is no device of the station", "name one of simulated, mouse");
+  if (choice.name == "falcon" || choice.name == "touch") return std::make_unique<PluggedIn>(choice);
+  throw Error("--device " + choice.name, "is no device of the station", "name one of simulated, mouse, falcon, touch");
 }
 
 }  // namespace cavum

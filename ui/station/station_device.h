@@ -1,5 +1,5 @@
-// What sits in the candidate's hand at this station: the built-in operator with a simulated Omni, or mouse and keyboard. One for the check before
-// the exam, one for the exam; with most devices they are the same.
+// What sits in the candidate's hand at this station: a stylus that is plugged in, with the foot pedal; the built-in operator with a simulated Omni;
+// or mouse and keyboard. One for the check before the exam, one for the exam; with most devices they are the same.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 namespace cavum {
 
 struct DeviceChoice {
-  std::string name = "simulated";        ///< or `mouse`
+  std::string name = "simulated";        ///< or `mouse`, `falcon`, `touch`
   std::string operator_name = "expert";  ///< of the simulated candidate, see make_skill
   std::uint64_t seed = 1;
 };
@@ -24,6 +24,8 @@ class StationDevice {
   /// As it is recorded with the session.
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;
+  [[nodiscard]] virtual double peak_n() const { return 0.0; }        ///< that it bears; 0 = as usual
+  [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same
   [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> notes() const { return {}; }
   /// Once what the exam asks for is known; may take seconds. Before it only the above may be called. Throws Error.
   virtual void prepare(const ExamSetup& setup) = 0;
@@ -35,11 +37,13 @@ class StationDevice {
   [[nodiscard]] virtual Vec3 tip_mm() = 0;
   /// The candidate has nothing left to do: only simulated ones say so.
   [[nodiscard]] virtual bool done() const { return false; }
+  /// What is wrong with it at the moment; empty when nothing is.
+  [[nodiscard]] virtual std::string problem() const { return {}; }
   /// Null unless mouse and keyboard are the stylus.
   [[nodiscard]] virtual PointerStylus* pointer() { return nullptr; }
 };
 
-/// Throws Error for a name that is none.
+/// Throws Error for a name that is none, and when what a stylus needs is missing.
 [[nodiscard]] std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice);
 
 }  // namespace cavum
