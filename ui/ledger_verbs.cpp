@@ -15,6 +15,7 @@
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/exam.h"
+#include "ui/grant_options.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/session_files.h"
@@ -333,10 +334,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--tooth", o->tooth, "another tooth than the scenario's");
   v->add_option("--model", o->model, "force model")->capture_default_str();
   v->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
-  v->add_option("--extra-time-percent", o->grant.extra_time_percent, "extra time, instead of the scenario's");
-  v->add_option("--extra-time-s", o->grant.extra_time_s, "the same in seconds; both add up");
-  v->add_flag("--left-handed,!--right-handed", o->grant.left_handed, "layout of the station");
-  v->add_flag("--high-contrast,!--normal-contrast", o->grant.high_contrast, "colours of the station");
+  add_grant_options(v, o->grant);
   v->add_option("--out", o->out, "ticket to write")->required();
   json_flag(v);
 
