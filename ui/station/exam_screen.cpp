@@ -53,29 +53,13 @@ void top_bar(const ScreenContext& c, const LiveView& view, const Layout& l) {
   end_area();
 }
 
-void gauges(const ScreenContext& c, const LiveView& view) {
-  const Theme& t = c.theme;
-  const ExamSetup& setup = c.sitting->setup();
-  const GaugeSpec& shown = setup.scenario.gauges;
-  const TickOutput& now = view.output;
-  if (shown.speed || c.practice) bar_gauge(t, "Speed", number_text("%.0f 000 /min", std::round(now.rpm / 1000.0)), now.rpm / setup.scenario.max_rpm);
-  if (shown.force || c.practice) {
-    const double most_n = 4.0, force_n = length(now.rendered_force_n);
-    bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);
-  }
-  if (shown.depth || c.practice) {
-    const ZoneMap& zones = setup.zones;
-    const double opening = zones.opening_z_mm(), floor_mm = opening - zones.target_low_mm().z;
-    depth_gauge(t, opening - now.proxy_mm.z, view.depth_mm, std::ceil(floor_mm + 1.0), t.px(120));
-  }
-}
-
 void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
   StationState& s = c.state;
   const Scenario& scenario = c.sitting->setup().scenario;
   begin_area(t, "gauges", l.side_at, l.side, true);
-  gauges(c, view);
+  const GaugeSpec all{true, true, true};
+  show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::TextUnformatted("Speed dial  ( [ and ] )");
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
@@ -129,7 +113,7 @@ void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
     if (may) draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ink(t.raised), t.px(5));
     if (mounted || marked)
       draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
-    const ImU32 steel = ink(may ? t.text : t.line), coated = ink(may ? t.warn : t.quiet);
+    const ImU32 steel = ink(may ? t.text : t.faint), coated = ink(may ? t.warn : t.faint);
     draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(34)}, steel, coated);
     push_font(Font::small);
     // the longest names a little smaller, so that all can be read

@@ -40,7 +40,7 @@ int key_of(const std::string& name) {
   if (name.size() == 1) {
     const char c = name[0];
     if (c >= 'a' && c <= 'z') return GLFW_KEY_A + (c - 'a');
-    if ((c >= '0' && c <= '9') || c == '[' || c == ']' || c == '-') return c;
+    if ((c >= '0' && c <= '9') || c == '[' || c == ']' || c == '-' || c == ',' || c == '.') return c;
   }
   if (name.size() >= 2 && name[0] == 'f' && name.find_first_not_of("0123456789", 1) == std::string::npos) {
     const int n = std::stoi(name.substr(1, 2));

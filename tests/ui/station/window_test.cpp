@@ -272,6 +272,18 @@ TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
   }
 }
 
+TEST_F(StationWindow, AReplayShowsTheExamAgainAndLeavesItAsItIs) {
+  ASSERT_EQ(run(std::string(k_to_exam) + "until 6\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
+  const std::string before = read_text_file(session());
+  write_text_file(folder_.file("again"), "wait replay\nkey space\nsleep 1\nkey end\nsleep 2\npicture 8-replay\nkey c\nsleep 0.5\nkey escape\n");
+  const int status = std::system((CAVUM_BINARY " station --replay " + session() + " --script " + folder_.file("again") +
+                                  " --pictures " CAVUM_PICTURES " >" + folder_.file("out") + " 2>" + folder_.file("err"))
+                                     .c_str());
+  EXPECT_EQ(status, 0) << said();
+  EXPECT_EQ(read_text_file(session()), before);
+  EXPECT_GT(std::filesystem::file_size(CAVUM_PICTURES "/8-replay.png"), 20000u);
+}
+
 TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
   const auto refused = [this](const std::string& arguments, const std::string& part) {
     const int status = std::system((CAVUM_BINARY " station " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err")).c_str());
