@@ -49,6 +49,9 @@ void ReplayPlayer::take_tick() {
   now_->output = step(simulation_.model, now_->servo, now_->input);
   runner_.advance(now_->runner, now_->input, now_->output, now_->servo.removed);
   const std::int64_t tick = now_->servo.tick;
+  // what the candidate or the supervisor ended is no input of a tick
+  const auto ended = [](const SessionEvent& e) { return e.kind == event_name(ExamEventKind::finished); };
+  if (tick == ticks() && std::any_of(events_.begin(), events_.end(), ended)) runner_.end(now_->runner);
   auto& snapshot = snapshots_[static_cast<std::size_t>(tick / between_)];
   if (tick % between_ == 0 && !snapshot) snapshot = std::make_unique<Moment>(*now_);
 }

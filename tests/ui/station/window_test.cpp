@@ -272,6 +272,37 @@ TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
   }
 }
 
+TEST_F(StationWindow, MouseAndKeyboardCutByTheSamePhysics) {
+  const std::string script = R"(type M7
+go device-check
+sleep 1
+key space 0.6
+go briefing
+key enter
+wait exam
+hold space
+hold pagedown
+until 2.5
+picture 9-mouse-left-handed
+release pagedown
+release space
+sleep 0.3
+key escape
+sleep 0.3
+key enter
+wait result
+key enter
+)";
+  EXPECT_EQ(run(script, "--device mouse --practice --left-handed --text-scale 1.3"), 0) << said();
+  EXPECT_TRUE(verify_session(session()).verified);
+  const SessionReader reader(session());
+  EXPECT_EQ(reader.setup().device, "mouse and keyboard, simulated Omni");
+  EXPECT_GT(reader.removed().size(), 50u) << "4 mm/s downwards from 4 mm above reaches the block after a second";
+  double most_n = 0;  // the hand went on, and the tooth pushed back
+  for (const TickRecord& r : reader.records()) most_n = std::max(most_n, 1e-6 * r.model_un);
+  EXPECT_GT(most_n, 0.3);
+}
+
 TEST_F(StationWindow, AReplayShowsTheExamAgainAndLeavesItAsItIs) {
   ASSERT_EQ(run(std::string(k_to_exam) + "until 6\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
   const std::string before = read_text_file(session());
