@@ -57,32 +57,34 @@ void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
   StationState& s = c.state;
   const Scenario& scenario = c.sitting->setup().scenario;
-  begin_area(t, "gauges", l.side_at, l.side, true);
+  begin_area(t, "side", l.side_at, l.side, true);
+  // the buttons always have their place; gauges and hints can be scrolled when the text is large
+  const float row = t.px(36) + ImGui::GetStyle().ItemSpacing.y, rows = scenario.pauses.count > 0 ? 3.0F : 2.0F;
+  ImGui::BeginChild("gauges", {0, std::max(t.px(60), ImGui::GetContentRegionAvail().y - rows * row)}, false);
   const GaugeSpec all{true, true, true};
   show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
-  const float width = ImGui::GetContentRegionAvail().x;
   ImGui::TextUnformatted("Speed dial  ( [ and ] )");
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
-  ImGui::SetNextItemWidth(width);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::SliderFloat("##dial", &dial, 10.0F, 100.0F, "%.0f %%");
   if (key_pressed(GLFW_KEY_LEFT_BRACKET)) dial -= 10.0F;
   if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) dial += 10.0F;
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
+  ImGui::Dummy({0, t.px(4)});
+  if (c.sitting->device().pointer() != nullptr)
+    quiet_text(t, "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal");
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
+  ImGui::EndChild();
+  const float width = ImGui::GetContentRegionAvail().x;
   if (scenario.pauses.count > 0) {
-    ImGui::Dummy({0, t.px(4)});
     const int left = scenario.pauses.count - view.pauses;
     const std::string label = view.paused ? "Go on  (P)" : "Pause  (P), " + std::to_string(left) + " left";
     ImGui::BeginDisabled(!view.paused && left <= 0);
     if (side_button(t, label.c_str(), width) || key_pressed(GLFW_KEY_P)) s.pause_key_s = 0.1;
     ImGui::EndDisabled();
   }
-  ImGui::Dummy({0, t.px(4)});
-  if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
   if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
-  ImGui::Dummy({0, t.px(4)});
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
-  if (c.sitting->device().pointer() != nullptr)
-    quiet_text(t, "Stylus: mouse or arrows, wheel or PgUp PgDn for depth, space bar or left button = pedal");
+  if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
   end_area();
 }
 
