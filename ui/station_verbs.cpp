@@ -21,6 +21,9 @@ void require_sound(const StationOptions& o) {
     throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
   if (!o.replay.empty()) return;
   if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+  // a name that is none is refused now; what is plugged in is opened for each candidate
+  if (const std::string& device = o.sitting.device.name; device != "falcon" && device != "touch")
+    static_cast<void>(make_station_device(o.sitting.device));
   if (o.sitting.out.ends_with(".cavum")) {
     require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
     if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");

@@ -323,6 +323,8 @@ TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
   };
   refused("", "no scenario given");
   refused(k_scenario + " --out " + folder_.file("none/at/all"), "is no folder");
+  refused(k_scenario + " --device whistle --out " + folder_.file(""), "name one of simulated, mouse");
+  refused(k_scenario + " --operator nobody --out " + folder_.file(""), "nobody");
   write_text_file(folder_.file("bad"), "type A\nwhistle\n");
   refused(k_scenario + " --out " + folder_.file("") + " --script " + folder_.file("bad"), ":2: 'whistle' is no command");
 }
