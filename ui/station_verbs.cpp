@@ -17,7 +17,13 @@ struct Options {
 };
 
 void require_sound(const StationOptions& o) {
+  if (!o.replay.empty() && !o.sitting.scenario.empty())
+    throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
+  if (!o.replay.empty()) return;
   if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+  // a name that is none is refused now; what is plugged in is opened for each candidate
+  if (const std::string& device = o.sitting.device.name; device != "falcon" && device != "touch")
+    static_cast<void>(make_station_device(o.sitting.device));
   if (o.sitting.out.ends_with(".cavum")) {
     require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
     if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
@@ -35,6 +41,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
+  station->add_option("--replay", s.replay, "look at a recorded exam instead");
   station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse, falcon, touch")->capture_default_str();
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();

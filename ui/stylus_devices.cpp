@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -21,6 +23,17 @@ namespace {
 bool placed(const std::string& id) { return ::access(station_stylus_path(id).c_str(), F_OK) == 0; }
 
 constexpr double k_patience_s = 10.0;
+
+/// Where the tip is, in the mean of a fifth of a second: hands tremble.
+Vec3 held_at(Stylus& stylus) {
+  constexpr int k_looks = 100;
+  Vec3 sum;
+  for (int i = 0; i < k_looks; ++i) {
+    sum += first_pose(stylus, k_patience_s).tip_mm;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return sum / k_looks;
+}
 
 }  // namespace
 
@@ -100,7 +113,7 @@ void place_stylus(const std::string& id) {
     std::cerr << "hold the tip " << where << ", then press Enter\n";
     std::string line;
     if (!std::getline(std::cin, line)) throw Error("--place", "was interrupted", "begin it again");
-    device.push_back(first_pose(*stylus, k_patience_s).tip_mm);
+    device.push_back(held_at(*stylus));
     tooth.push_back(at);
   }
   const PlacementFit fit = fit_placement(device, tooth);

@@ -53,7 +53,7 @@ std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptio
     return std::make_unique<FalconStylus>(options.station);
   }
   if (wanted == "touch") return std::make_unique<OpenHapticsStylus>(options.station);
-  throw Error("stylus '" + wanted + "'", "is not known (" + found_words(list_styluses()) + ")",
+  throw Error("stylus '" + wanted + "'", "is not known (" + found_words(list_styluses(false)) + ")",
               "name one of simulated, falcon, touch; `cavum devices` lists what is there");
 }
 

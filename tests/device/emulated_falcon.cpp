@@ -23,8 +23,8 @@ constexpr auto k_latency = std::chrono::milliseconds(1);  // the chip answers wi
 
 }  // namespace
 
-EmulatedFalcon::EmulatedFalcon(bool running, bool homed)
-    : EmulatedUsb(2, usb_descriptors()), running_(running), homed_(static_cast<std::uint8_t>(homed ? 7 : 0)) {
+EmulatedFalcon::EmulatedFalcon(bool running, bool homed, UMockdevTestbed* bed)
+    : EmulatedUsb(2, usb_descriptors(), bed), running_(running), homed_(static_cast<std::uint8_t>(homed ? 7 : 0)) {
   move_to(k_falcon_middle_mm);
   plug_in();
 }

@@ -15,7 +15,7 @@ namespace cavum::testing_device {
 class EmulatedFalcon final : public EmulatedUsb {
  public:
   /// Plugs it in, without firmware and not homed unless told otherwise.
-  explicit EmulatedFalcon(bool running = true, bool homed = true);
+  explicit EmulatedFalcon(bool running = true, bool homed = true, UMockdevTestbed* bed = nullptr);
   ~EmulatedFalcon() override { leave(); }
 
   void move_to(Vec3 device_mm);  ///< encoders follow, rounded to their steps

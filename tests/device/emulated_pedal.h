@@ -32,6 +32,8 @@ class EmulatedPedal {
   void report_axes(std::uint8_t left, std::uint8_t right, std::uint8_t rudder) { report({left, right, rudder}); }
   /// Takes away the right to open the node.
   void forbid();
+  /// Where other devices may be plugged in, too.
+  [[nodiscard]] UMockdevTestbed* bed() const { return bed_.get(); }
   /// As hidapi names it.
   [[nodiscard]] std::string path() const { return node(); }
   [[nodiscard]] std::string node() const { return "/dev/hidraw" + std::to_string(number_); }

@@ -25,7 +25,8 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-EmulatedUsb::EmulatedUsb(int port, Bytes facts) : bed_(umockdev_testbed_new()), port_(port), facts_(std::move(facts)) {}
+EmulatedUsb::EmulatedUsb(int port, Bytes facts, UMockdevTestbed* bed)
+    : bed_(bed != nullptr ? UMOCKDEV_TESTBED(g_object_ref(bed)) : umockdev_testbed_new()), port_(port), facts_(std::move(facts)) {}
 
 EmulatedUsb::~EmulatedUsb() { leave(); }
 

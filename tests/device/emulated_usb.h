@@ -19,7 +19,8 @@ class EmulatedUsb {
  public:
   using Bytes = std::vector<std::uint8_t>;
   /// `port` 2 is /sys/bus/usb/devices/3-2. `facts`: its device and configuration descriptors, as on the wire.
-  EmulatedUsb(int port, Bytes facts);
+  /// `bed`: where another device is plugged in already; one of its own when null.
+  EmulatedUsb(int port, Bytes facts, UMockdevTestbed* bed = nullptr);
   virtual ~EmulatedUsb();
   EmulatedUsb(const EmulatedUsb&) = delete;
   EmulatedUsb& operator=(const EmulatedUsb&) = delete;

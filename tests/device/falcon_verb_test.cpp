@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -65,14 +66,28 @@ TEST_F(FalconVerb, IsPlacedByFourMarks) {
   truth.rotation = normalized(Quat{1, 0.3 * n(random), 0.3 * n(random), 0.3 * n(random)});
   truth.offset_mm = -(rotation(truth.rotation) * k_falcon_middle_mm);
   const auto device_at = [&](Vec3 tooth_mm) { return rotation(truth.rotation).transposed(tooth_mm - truth.offset_mm); };
-  FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " devices --place --stylus falcon > " + folder_.file("said") + " 2>&1").c_str(), "w");
+  const std::string said = folder_.file("said");
+  const auto questions = [&said] {
+    int count = 0;
+    std::ifstream in(said);
+    for (std::string line; std::getline(in, line);) count += line.starts_with("hold the tip") ? 1 : 0;
+    return count;
+  };
+  const auto comes_true = [](const auto& condition) {
+    for (int i = 0; i < 20000 && !condition(); ++i) std::this_thread::sleep_for(1ms);
+    return condition();
+  };
+  int asked = 0;
+  FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " devices --place --stylus falcon > " + said + " 2>&1").c_str(), "w");
   ASSERT_NE(pipe, nullptr);
   for (const Vec3 mark : {Vec3{0, 0, 0}, Vec3{20, 0, 0}, Vec3{0, 20, 0}, Vec3{0, 0, 20}}) {
+    ++asked;
+    ASSERT_TRUE(comes_true([&] { return questions() == asked; })) << "it asks for each mark";
     falcon.move_to(device_at(mark));
-    std::this_thread::sleep_for(3000ms);  // it starts, asks, and takes what is there when the line comes
+    const auto frames = falcon.frames();
+    ASSERT_TRUE(comes_true([&] { return falcon.frames() > frames + 5; }));
     std::fputs("\n", pipe);
     std::fflush(pipe);
-    std::this_thread::sleep_for(1000ms);
   }
   ASSERT_EQ(WEXITSTATUS(::pclose(pipe)), 0);
   const StationStylus kept = load_station_stylus("falcon");

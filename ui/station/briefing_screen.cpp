@@ -39,7 +39,7 @@ void briefing_screen(const ScreenContext& c) {
   fact(t, "Pauses", pauses_text(scenario.pauses));
   if (scenario.force_limit_n > 0) fact(t, "Force", number_text("at most %.1f N", scenario.force_limit_n));
   std::string points;
-  for (const auto& p : c.sitting->setup().points) points += (points.empty() ? "" : ", ") + p.title;
+  for (const auto& p : c.sitting->setup().points) points += (points.empty() ? "" : "; ") + p.title;
   fact(t, "Points", points);
   ImGui::Dummy({0, t.px(8)});
   ImGui::Separator();

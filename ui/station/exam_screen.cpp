@@ -53,52 +53,38 @@ void top_bar(const ScreenContext& c, const LiveView& view, const Layout& l) {
   end_area();
 }
 
-void gauges(const ScreenContext& c, const LiveView& view) {
-  const Theme& t = c.theme;
-  const ExamSetup& setup = c.sitting->setup();
-  const GaugeSpec& shown = setup.scenario.gauges;
-  const TickOutput& now = view.output;
-  if (shown.speed || c.practice) bar_gauge(t, "Speed", number_text("%.0f 000 /min", std::round(now.rpm / 1000.0)), now.rpm / setup.scenario.max_rpm);
-  if (shown.force || c.practice) {
-    const double most_n = 4.0, force_n = length(now.rendered_force_n);
-    bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);
-  }
-  if (shown.depth || c.practice) {
-    const ZoneMap& zones = setup.zones;
-    const double opening = zones.opening_z_mm(), floor_mm = opening - zones.target_low_mm().z;
-    depth_gauge(t, opening - now.proxy_mm.z, view.depth_mm, std::ceil(floor_mm + 1.0), t.px(120));
-  }
-}
-
 void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
   StationState& s = c.state;
   const Scenario& scenario = c.sitting->setup().scenario;
-  begin_area(t, "gauges", l.side_at, l.side, true);
-  gauges(c, view);
-  const float width = ImGui::GetContentRegionAvail().x;
+  begin_area(t, "side", l.side_at, l.side, true);
+  // the buttons always have their place; gauges and hints can be scrolled when the text is large
+  const float row = t.px(36) + ImGui::GetStyle().ItemSpacing.y, rows = scenario.pauses.count > 0 ? 3.0F : 2.0F;
+  ImGui::BeginChild("gauges", {0, std::max(t.px(60), ImGui::GetContentRegionAvail().y - rows * row)}, false);
+  const GaugeSpec all{true, true, true};
+  show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
   ImGui::TextUnformatted("Speed dial  ( [ and ] )");
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
-  ImGui::SetNextItemWidth(width);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::SliderFloat("##dial", &dial, 10.0F, 100.0F, "%.0f %%");
   if (key_pressed(GLFW_KEY_LEFT_BRACKET)) dial -= 10.0F;
   if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) dial += 10.0F;
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
+  ImGui::Dummy({0, t.px(4)});
+  if (c.sitting->device().pointer() != nullptr)
+    quiet_text(t, "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal");
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
+  ImGui::EndChild();
+  const float width = ImGui::GetContentRegionAvail().x;
   if (scenario.pauses.count > 0) {
-    ImGui::Dummy({0, t.px(4)});
     const int left = scenario.pauses.count - view.pauses;
     const std::string label = view.paused ? "Go on  (P)" : "Pause  (P), " + std::to_string(left) + " left";
     ImGui::BeginDisabled(!view.paused && left <= 0);
     if (side_button(t, label.c_str(), width) || key_pressed(GLFW_KEY_P)) s.pause_key_s = 0.1;
     ImGui::EndDisabled();
   }
-  ImGui::Dummy({0, t.px(4)});
-  if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
   if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
-  ImGui::Dummy({0, t.px(4)});
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
-  if (c.sitting->device().pointer() != nullptr)
-    quiet_text(t, "Stylus: mouse or arrows, wheel or PgUp PgDn for depth, space bar or left button = pedal");
+  if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
   end_area();
 }
 
@@ -129,7 +115,7 @@ void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
     if (may) draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ink(t.raised), t.px(5));
     if (mounted || marked)
       draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
-    const ImU32 steel = ink(may ? t.text : t.line), coated = ink(may ? t.warn : t.quiet);
+    const ImU32 steel = ink(may ? t.text : t.faint), coated = ink(may ? t.warn : t.faint);
     draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(34)}, steel, coated);
     push_font(Font::small);
     // the longest names a little smaller, so that all can be read

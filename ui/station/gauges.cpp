@@ -1,6 +1,7 @@
 #include "ui/station/gauges.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/station/window.h"
 
@@ -53,6 +54,18 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
   draw.AddText({right + t.px(14), std::min(y_of(deepest_mm) - t.px(8), at.y + height - t.px(14))}, ink(t.quiet), deepest.c_str());
   pop_font();
   ImGui::Dummy({width, height + t.px(12)});
+}
+
+void show_gauges(const Theme& t, const ExamSetup& setup, const TickOutput& now, double deepest_mm, const GaugeSpec& shown) {
+  if (shown.speed) bar_gauge(t, "Speed", number_text("%.0f 000 /min", std::round(now.rpm / 1000.0)), now.rpm / setup.scenario.max_rpm);
+  if (shown.force) {
+    const double most_n = 4.0, force_n = length(now.rendered_force_n);
+    bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);
+  }
+  if (shown.depth) {
+    const double opening_mm = setup.zones.opening_z_mm(), floor_mm = opening_mm - setup.zones.target_low_mm().z;
+    depth_gauge(t, opening_mm - now.proxy_mm.z, deepest_mm, std::ceil(floor_mm + 1.0), t.px(120));
+  }
 }
 
 void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "scenarios/exam.h"
 #include "ui/station/theme.h"
 
 namespace cavum {
@@ -12,6 +13,9 @@ void bar_gauge(const Theme& theme, const char* name, const std::string& value, d
 
 /// Depth below the opening as a scale that grows downwards: where the tip is, and how deep it has been. `most_mm`: the scale's end.
 void depth_gauge(const Theme& theme, double tip_mm, double deepest_mm, double most_mm, float height);
+
+/// Those of speed, force and depth that are `shown`. `deepest_mm` so far below the opening.
+void show_gauges(const Theme& theme, const ExamSetup& setup, const TickOutput& now, double deepest_mm, const GaugeSpec& shown);
 
 /// The exam's clock: what is left of the limit, or what has passed when there is none.
 void exam_clock(const Theme& theme, double passed_s, double limit_s, bool standing);

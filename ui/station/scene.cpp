@@ -78,7 +78,7 @@ void main() {
   vec3 c = colour.rgb * lit + vec3(shine) + rim * vec3(0.72, 0.82, 0.95);
   float depth = clamp((-eye_at.z - near_mm) / (far_mm - near_mm), 0.0, 1.0);
   float edge = 1.0 - head;  // glass is seen at its edges
-  float opacity = mix(colour.a, colour.a * (0.42 + 1.9 * edge * edge), glass);
+  float opacity = mix(colour.a, colour.a * (0.30 + 1.5 * edge), glass);
   pixel = vec4(mix(c, background, 0.62 * depth), min(opacity, 1.0));
 })";
 
@@ -218,7 +218,7 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     tooth_.draw_hard_tissue(sight);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
-    tissue_program_.set("opacity", 0.45F);
+    tissue_program_.set("opacity", 0.55F);
     tissue_program_.set("glass", 1.0F);
     tissue_program_.set("flat_light", 0.6F);
     tooth_.draw_hard_tissue(sight);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ui/station/replay_player.h"
 #include "ui/station/sitting.h"
 #include "ui/station/state.h"
 #include "ui/station/theme.h"
@@ -16,6 +17,7 @@ struct ScreenContext {
   const std::vector<DiamondPoint>& shelf;  ///< all diamond points there are
   Sitting* sitting = nullptr;              ///< null before sign-in
   Scene* scene = nullptr;                  ///< null before there is a tooth
+  ReplayPlayer* replay = nullptr;          ///< only on the replay's screen
   double frame_s = 0.0;                    ///< since the frame before
   int samples = 1;                         ///< of a pixel of the tooth's picture
   bool practice = false;
@@ -28,6 +30,7 @@ void exam_screen(const ScreenContext& c);
 void grading_screen(const ScreenContext& c);
 void result_screen(const ScreenContext& c);
 void trouble_screen(const ScreenContext& c);
+void replay_screen(const ScreenContext& c);
 
 /// The picture of the tooth, in the rest of the running window; turned with the mouse and by keys: A D W S round the tooth, + and - nearer and
 /// farther, 1 to 5 from occlusal, buccal, lingual, mesial, distal, M mirror, T both eyes, H handpiece, R rolls the picture. Returns whether the

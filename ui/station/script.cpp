@@ -20,8 +20,8 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<const char*, 13> k_words{"wait", "go",   "until",   "type",   "key",  "sleep", "stall",
-                                              "hide", "show", "picture", "memory", "fail", "close"};
+constexpr std::array<const char*, 15> k_words{"wait",  "go",   "until", "type",    "key",    "hold", "release", "sleep",
+                                              "stall", "hide", "show",  "picture", "memory", "fail", "close"};
 
 int key_of(const std::string& name) {
   if (name == "enter") return GLFW_KEY_ENTER;
@@ -40,7 +40,7 @@ int key_of(const std::string& name) {
   if (name.size() == 1) {
     const char c = name[0];
     if (c >= 'a' && c <= 'z') return GLFW_KEY_A + (c - 'a');
-    if ((c >= '0' && c <= '9') || c == '[' || c == ']' || c == '-') return c;
+    if ((c >= '0' && c <= '9') || c == '[' || c == ']' || c == '-' || c == ',' || c == '.') return c;
   }
   if (name.size() >= 2 && name[0] == 'f' && name.find_first_not_of("0123456789", 1) == std::string::npos) {
     const int n = std::stoi(name.substr(1, 2));
@@ -74,7 +74,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
       std::istringstream value(c.text);
       if (!(value >> c.number) || c.number < 0) throw Error(where, "'" + c.word + "' needs seconds", "write a number of 0 or more");
     }
-    if (c.word == "key") {
+    if (c.word == "key" || c.word == "hold" || c.word == "release") {
       c.key = key_of(c.text);
       if (c.key == 0) throw Error(where, "'" + c.text + "' is no key", "see the head of ui/station/script.h");
       words >> c.number;
@@ -106,6 +106,8 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
     window.press(c.key, now_s - since_s_ < c.number);
     return now_s - since_s_ >= c.number;
   }
+  if (c.word == "hold") window.press(c.key, true);
+  if (c.word == "release") window.release(c.key);
   if (c.word == "sleep") return now_s - since_s_ >= c.number;
   if (c.word == "stall") std::this_thread::sleep_for(std::chrono::duration<double>(c.number));
   if (c.word == "hide") window.set_visible(false);

@@ -4,8 +4,8 @@
 //   go SCREEN        presses enter now and then until that screen shows
 //   until SECONDS    until the exam's clock has come so far
 //   type TEXT        letters
-//   key NAME         enter, escape, space, tab, f1 to f12, a letter, a digit, [ ] + -; a second word holds it so many seconds
-//   sleep SECONDS    the window goes on meanwhile
+//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, a letter, a digit, [ ] + - , . ; a
+//   second word holds it so many seconds hold NAME, release NAME: a key, while other commands go on sleep SECONDS    the window goes on meanwhile
 //   stall SECONDS    the window stands still, as with a graphics card that hangs
 //   hide, show       the window
 //   picture NAME     of the screen, NAME.png in the folder of pictures

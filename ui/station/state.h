@@ -25,6 +25,9 @@ struct StationState {
   double text_scale = 1.0;
   bool muted = false;
   bool confirm_end = false;
+  double replay_at = 0.0;        ///< ticks
+  double replay_speed = 1.0;     ///< times real time
+  bool playing = false;          ///< the replay
   double pause_key_s = 0.0;      ///< for so long the pause button stays pressed
   double handpiece_speed = 1.0;  ///< of the dial, 0.1..1
   Vec3 wanted_mm;                ///< where mouse and keyboard want the tip, tooth frame

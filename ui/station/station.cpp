@@ -39,13 +39,19 @@ class Station {
  public:
   explicit Station(const StationOptions& options)
       : options_(options),
-        scenario_(parse_scenario(read_text_file(options.sitting.scenario), options.sitting.scenario)),
+        replay_(options.replay.empty() ? nullptr : std::make_unique<ReplayPlayer>(options.replay)),
+        scenario_(replay_ ? replay_->setup().scenario : parse_scenario(read_text_file(options.sitting.scenario), options.sitting.scenario)),
         shelf_(read_shelf(options.sitting.scenario)),
         window_("Cavum", options.width, options.height) {
     if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
     state_.left_handed = options_.left_handed || scenario_.accommodations.left_handed;
     state_.high_contrast = options_.high_contrast || scenario_.accommodations.high_contrast;
     state_.text_scale = options_.text_scale;
+    if (replay_) {
+      make_scene(replay_->setup(), true);
+      state_.view.clear = false;
+      state_.screen = Screen::replay;
+    }
     options_.candidate.copy(state_.code.data(), state_.code.size() - 1);
   }
 
@@ -111,8 +117,16 @@ class Station {
   }
 
   void show(double frame_s) {
-    const ScreenContext context{
-        theme_, state_, scenario_, shelf_, sitting_.get(), scene_.get(), frame_s, window_.software() ? 1 : 4, options_.sitting.practice};
+    const ScreenContext context{theme_,
+                                state_,
+                                scenario_,
+                                shelf_,
+                                sitting_.get(),
+                                scene_.get(),
+                                replay_.get(),
+                                frame_s,
+                                window_.software() ? 1 : 4,
+                                options_.sitting.practice};
     switch (state_.screen) {
       case Screen::sign_in:
         return sign_in_screen(context);
@@ -129,7 +143,7 @@ class Station {
       case Screen::trouble:
         return trouble_screen(context);
       case Screen::replay:
-        return;
+        return replay_screen(context);
     }
   }
 
@@ -220,7 +234,12 @@ class Station {
     }
     const Stage now = sitting_->stage();
     if (now == before) return;
-    if (now == Stage::checking) make_scene();
+    if (now == Stage::checking) {
+      make_scene(sitting_->setup(), options_.sitting.practice);
+      const Pose start = sitting_->device().start();
+      state_.wanted_mm = start.tip_mm;
+      state_.wanted_rotation = start.rotation;
+    }
     if (now == Stage::grading || now == Stage::interrupted) {
       sitting_->live().look_at_tooth([this](const Octree& tooth) { scene_->tooth().take(tooth); });
       scene_->tooth().update();
@@ -233,9 +252,7 @@ class Station {
     }
   }
 
-  void make_scene() {
-    const ExamSetup& setup = sitting_->setup();
-    const bool practice = options_.sitting.practice;
+  void make_scene(const ExamSetup& setup, bool practice) {
     scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.points, practice ? &setup.zones : nullptr);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
@@ -244,9 +261,6 @@ class Station {
     constexpr double k_below_mm = 1.5;  // of the opening: the whole crown is in the picture
     state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
                                     static_cast<float>(setup.zones.opening_z_mm() - k_below_mm)};
-    const Pose start = sitting_->device().start();
-    state_.wanted_mm = start.tip_mm;
-    state_.wanted_rotation = start.rotation;
   }
 
   void go_to(Screen screen) {
@@ -256,6 +270,7 @@ class Station {
   }
 
   StationOptions options_;
+  std::unique_ptr<ReplayPlayer> replay_;
   Scenario scenario_;
   std::vector<DiamondPoint> shelf_;
   Interrupt interrupt_;

@@ -11,6 +11,7 @@ namespace cavum {
 struct StationOptions {
   SittingOptions sitting;
   std::string candidate;         ///< code that stands in the field at sign-in; may be empty
+  std::string replay;            ///< a session to look at, instead of sitting an exam
   std::string script, pictures;  ///< a file of keys, and where its pictures go; may be empty
   int width = 1280, height = 800;
   double text_scale = 1.0;

@@ -34,6 +34,7 @@ Theme make_theme(bool high_contrast, double scale) {
     t.line = rgb(0xffffff);
     t.text = rgb(0xffffff);
     t.quiet = rgb(0xe0e0e0);
+    t.faint = rgb(0x5a5a5a);
     t.accent = rgb(0xffe14d);
     t.on_accent = rgb(0x000000);
     t.good = rgb(0x7fe0ff);
@@ -47,6 +48,7 @@ Theme make_theme(bool high_contrast, double scale) {
   t.line = rgb(0x35424f);
   t.text = rgb(0xe9eef2);
   t.quiet = rgb(0xa3b1bd);
+  t.faint = rgb(0x465462);
   t.accent = rgb(0x56b4e9);
   t.on_accent = rgb(0x07121a);
   t.good = rgb(0x4cc9a4);

@@ -9,7 +9,7 @@
 namespace cavum {
 
 struct Theme {
-  ImVec4 back, panel, raised, line, text, quiet, accent, on_accent, good, warn, bad;
+  ImVec4 back, panel, raised, line, text, quiet, faint, accent, on_accent, good, warn, bad;
   float scale = 1.0F;  ///< of text and everything measured in it
   [[nodiscard]] float px(float at_scale_1) const noexcept { return at_scale_1 * scale; }
 };

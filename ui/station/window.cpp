@@ -150,6 +150,8 @@ void Window::press(int key, bool held) {
   pressed_ = held ? 0 : key;
 }
 
+void Window::release(int key) { ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_RELEASE, 0); }
+
 bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
 
 void Window::type(const std::string& text) {

@@ -33,8 +33,10 @@ class Window {
   /// The computer's processor draws: slow, and every core it takes is one less for the servo.
   [[nodiscard]] bool software() const noexcept { return software_; }
 
-  /// As if a hand did it; `key` of GLFW. It is released after this frame, unless it is `held`: then by the next press that does not hold it.
+  /// As if a hand did it; `key` of GLFW. It is released after this frame, unless it is `held`: then by `release`, or the next press that does not
+  /// hold it.
   void press(int key, bool held = false);
+  void release(int key);
   void type(const std::string& text);
   /// A field waits for letters.
   [[nodiscard]] bool wants_text() const;

@@ -8,10 +8,12 @@
 
 #include "engine/device/simulated_stylus.h"
 #include "engine/device/with_desk.h"
+#include "scenarios/simulated_exam.h"
 #include "tests/engine/support/basics.h"
 #include "ui/station/camera.h"
 #include "ui/station/coach.h"
 #include "ui/station/device_check.h"
+#include "ui/station/replay_player.h"
 #include "ui/station/theme.h"
 
 namespace cavum {
@@ -146,6 +148,47 @@ TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
   LiveView v = cutting({0, 0, 4});
   v.output.contact = v.output.cutting = false;
   EXPECT_NE(coaching_hint(*setup_, v).find("in the air"), std::string::npos);
+}
+
+TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
+  const testing_basics::Folder folder;
+  ::setenv("CAVUM_HOME", folder.file("home").c_str(), 1);
+  ExamOptions options;
+  options.candidate = "t";
+  options.device = "simulated Omni";
+  const auto setup = prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
+  {
+    auto candidate = make_simulated_candidate(*setup, "novice", 3, OmniModel{});
+    const auto exam = Exam::start(*setup, folder.file("s.cavum"), candidate.start_mm());
+    run_exam(*exam, candidate);
+    exam->close("{}");
+  }
+  ReplayPlayer player(folder.file("s.cavum"));
+  const auto& chunks = player.session().chunks();
+  ASSERT_GT(chunks.size(), 8u);
+  const auto go = [&player](std::int64_t tick) {
+    player.seek(tick);
+    while (!player.work(0.01)) continue;
+    ASSERT_EQ(player.tick(), tick);
+  };
+  // every second once, in an order that jumps forth and back; the recording's own hashes are what to find there
+  const std::uint64_t seed = testing_basics::drawn_seed("ReplayPlayer");
+  Random random(seed);
+  for (int i = 0; i < 12; ++i) {
+    const ChunkRow& chunk = chunks[random.below(static_cast<std::uint32_t>(chunks.size()))];
+    if (chunk.ticks == 0) continue;
+    go(chunk.first_tick + chunk.ticks);
+    EXPECT_EQ(player.hash(), chunk.state_hash) << "after tick " << chunk.first_tick + chunk.ticks << ", seed " << seed;
+  }
+  go(player.ticks());
+  EXPECT_NE(player.runner().finish, Finish::running);
+  EXPECT_EQ(player.instruction(), "");
+  go(0);
+  EXPECT_EQ(player.runner().ticks, 0);
+  EXPECT_EQ(player.tooth().count_leaves(), setup->tooth.octree.count_leaves());
+  player.seek(player.ticks() + 1000);  // beyond the end is the end
+  while (!player.work(0.05)) continue;
+  EXPECT_EQ(player.tick(), player.ticks());
 }
 
 /// Where a place of the tooth frame is seen, -1..1 to the right and up.

@@ -272,6 +272,49 @@ TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
   }
 }
 
+TEST_F(StationWindow, MouseAndKeyboardCutByTheSamePhysics) {
+  const std::string script = R"(type M7
+go device-check
+sleep 1
+key space 0.6
+go briefing
+key enter
+wait exam
+hold space
+hold pagedown
+until 2.5
+picture 9-mouse-left-handed
+release pagedown
+release space
+sleep 0.3
+key escape
+sleep 0.3
+key enter
+wait result
+key enter
+)";
+  EXPECT_EQ(run(script, "--device mouse --practice --left-handed --text-scale 1.3"), 0) << said();
+  EXPECT_TRUE(verify_session(session()).verified);
+  const SessionReader reader(session());
+  EXPECT_EQ(reader.setup().device, "mouse and keyboard, simulated Omni");
+  EXPECT_GT(reader.removed().size(), 50u) << "4 mm/s downwards from 4 mm above reaches the block after a second";
+  double most_n = 0;  // the hand went on, and the tooth pushed back
+  for (const TickRecord& r : reader.records()) most_n = std::max(most_n, 1e-6 * r.model_un);
+  EXPECT_GT(most_n, 0.3);
+}
+
+TEST_F(StationWindow, AReplayShowsTheExamAgainAndLeavesItAsItIs) {
+  ASSERT_EQ(run(std::string(k_to_exam) + "until 6\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
+  const std::string before = read_text_file(session());
+  write_text_file(folder_.file("again"), "wait replay\nkey space\nsleep 1\nkey end\nsleep 2\npicture 8-replay\nkey c\nsleep 0.5\nkey escape\n");
+  const int status = std::system((CAVUM_BINARY " station --replay " + session() + " --script " + folder_.file("again") +
+                                  " --pictures " CAVUM_PICTURES " >" + folder_.file("out") + " 2>" + folder_.file("err"))
+                                     .c_str());
+  EXPECT_EQ(status, 0) << said();
+  EXPECT_EQ(read_text_file(session()), before);
+  EXPECT_GT(std::filesystem::file_size(CAVUM_PICTURES "/8-replay.png"), 20000u);
+}
+
 TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
   const auto refused = [this](const std::string& arguments, const std::string& part) {
     const int status = std::system((CAVUM_BINARY " station " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err")).c_str());
@@ -280,6 +323,8 @@ TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
   };
   refused("", "no scenario given");
   refused(k_scenario + " --out " + folder_.file("none/at/all"), "is no folder");
+  refused(k_scenario + " --device whistle --out " + folder_.file(""), "name one of simulated, mouse");
+  refused(k_scenario + " --operator nobody --out " + folder_.file(""), "nobody");
   write_text_file(folder_.file("bad"), "type A\nwhistle\n");
   refused(k_scenario + " --out " + folder_.file("") + " --script " + folder_.file("bad"), ":2: 'whistle' is no command");
 }

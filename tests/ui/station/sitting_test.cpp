@@ -1,0 +1,121 @@
+// A sitting without any window: the stages follow one another, and whoever looks at it from another thread finds whole values.
+#include "ui/station/sitting.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "engine/session/session_reader.h"
+#include "engine/session/verify.h"
+#include "engine/tooth/surface_patches.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+using namespace std::chrono_literals;
+
+class SittingTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ::setenv("CAVUM_HOME", folder_.file("home").c_str(), 1);
+    options_.scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+    options_.out = folder_.file("s.cavum");
+  }
+  /// Goes on as a window does, until `enough` or for two minutes.
+  static bool goes_on(Sitting& sitting, const std::function<bool()>& enough) {
+    for (int i = 0; i < 24000; ++i) {
+      sitting.advance();
+      if (enough()) return true;
+      std::this_thread::sleep_for(5ms);
+    }
+    return false;
+  }
+  testing_basics::Folder folder_;
+  SittingOptions options_;
+};
+
+TEST_F(SittingTest, LeadsFromTheCodeToASealedResult) {
+  Sitting sitting(options_, "K1");
+  EXPECT_EQ(sitting.stage(), Stage::preparing);
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+  ASSERT_TRUE(goes_on(sitting, [&] { return all_good(check_items(sitting.sight())); }));
+  sitting.begin();
+  ASSERT_EQ(sitting.stage(), Stage::running);
+  // what a window does in each frame: look, mesh what changed, set the desk
+  std::optional<LeafBlocks> leaves;
+  sitting.live().look_at_tooth([&](const Octree& tooth) { leaves.emplace(tooth); });
+  SurfacePatches surface(*leaves);
+  std::vector<LeafBox> changed;
+  std::vector<std::uint32_t> touched;
+  std::int64_t last = -1;
+  std::size_t patches = 0;
+  ASSERT_TRUE(goes_on(sitting, [&] {
+    if (sitting.stage() != Stage::running) return true;
+    const LiveView view = sitting.live().view();
+    EXPECT_GE(view.ticks, last);
+    last = view.ticks;
+    changed.clear();
+    sitting.live().look_at_tooth([&](const Octree& tooth) { leaves->take(tooth, changed); });
+    surface.update(*leaves, changed, touched);
+    patches += touched.size();
+    touched.clear();
+    sitting.desk().speed_share = 0.9;
+    if (view.ticks > 5000) sitting.ask_to_end();
+    return false;
+  }));
+  EXPECT_GT(patches, 0u);
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done; }));
+  EXPECT_EQ(sitting.report().first_disagreement, -1);
+  EXPECT_GT(sitting.closed().result.volumes.removed.mm3, 0.1);
+  EXPECT_TRUE(verify_session(sitting.path()).verified);
+}
+
+TEST_F(SittingTest, LeftInTheMiddleItCanBeResumed) {
+  {
+    Sitting sitting(options_, "K2");
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+    sitting.begin();
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 1500; }));
+  }
+  const VerifyReport open = verify_session(options_.out);
+  EXPECT_TRUE(open.intact);
+  EXPECT_FALSE(open.closed);
+  EXPECT_GT(open.ticks, 1500);
+}
+
+TEST_F(SittingTest, LeftWhileItIsPreparedItLeavesNothing) {
+  { const Sitting sitting(options_, "K3"); }
+  EXPECT_FALSE(std::filesystem::exists(options_.out));
+}
+
+TEST_F(SittingTest, SaysWhatIsWrongWithItsFiles) {
+  options_.scenario = folder_.file("none.toml");
+  Sitting sitting(options_, "K4");
+  EXPECT_THROW(goes_on(sitting, [] { return false; }), Error);
+}
+
+TEST_F(SittingTest, WhereNothingCanBeRecordedNothingBegins) {
+  options_.out = folder_.file("no/such/folder/s.cavum");
+  Sitting sitting(options_, "K5");
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+  EXPECT_THROW(sitting.begin(), Error);
+  EXPECT_EQ(sitting.stage(), Stage::checking);
+  EXPECT_TRUE(goes_on(sitting, [&] { return sitting.sight().read_once; })) << "the device is watched on";
+}
+
+TEST_F(SittingTest, GivesEachCandidateAFileOfHisOwnInAFolder) {
+  options_.out = folder_.file("");
+  Sitting sitting(options_, "A/../7");
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+  sitting.begin();
+  EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(folder_.file("")).parent_path());
+  EXPECT_NE(sitting.path().find("block_cavity-A____7-"), std::string::npos) << sitting.path();
+  EXPECT_TRUE(std::filesystem::exists(sitting.path()));
+}
+
+}  // namespace
+}  // namespace cavum

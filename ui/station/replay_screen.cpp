@@ -1,0 +1,153 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/station/gauges.h"
+#include "ui/station/screens.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+/// What of the recording's events is worth a mark.
+const char* mark_of(const std::string& kind) {
+  if (kind == "perforation") return "perforation";
+  if (kind == "aim_reached") return "aim reached";
+  if (kind == "step_completed") return "step completed";
+  if (kind == "step_failed" || kind == "step_time_limit") return "step failed";
+  if (kind == "pause_started") return "pause";
+  if (kind == "gap") return "recording interrupted";
+  if (kind == "time_limit") return "time is up";
+  if (kind == "finished") return "finished";
+  return nullptr;
+}
+
+void top_bar(const ScreenContext& c, ImVec2 size) {
+  const Theme& t = c.theme;
+  const ReplayPlayer& player = *c.replay;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(20), t.px(10)});
+  begin_area(t, "replay top", {0, 0}, size, true);
+  ImGui::PopStyleVar();
+  ImGui::BeginChild("replay step", {size.x - t.px(260), 0}, false, ImGuiWindowFlags_NoScrollbar);
+  quiet_text(t, "Replay of " + player.session().path() + "    candidate " + player.session().setup().candidate);
+  wrapped_text(player.instruction().empty() ? "The exam is over." : player.instruction());
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("replay clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
+  const RunnerState& runner = player.runner();
+  exam_clock(t, static_cast<double>(runner.ticks - runner.paused_ticks) * k_tick_s, 0.0, Runner::paused(runner));
+  ImGui::EndChild();
+  end_area();
+}
+
+/// The time line: played up to here, marks for what happened; a click or a pull goes there.
+void time_line(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  ReplayPlayer& player = *c.replay;
+  const float width = ImGui::GetContentRegionAvail().x, height = t.px(22);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, player.ticks()));
+  ImGui::InvisibleButton("time line", {width, height});
+  if (ImGui::IsItemActive()) {
+    s.replay_at = std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - at.x) / width), 0.0, 1.0) * all;
+    s.playing = false;
+  }
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto x_of = [&](double tick) { return at.x + width * static_cast<float>(tick / all); };
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, ink(t.raised), t.px(4));
+  draw.AddRectFilled(at, {x_of(static_cast<double>(player.tick())), at.y + height}, ink(t.accent), t.px(4));
+  draw.AddRectFilled({x_of(s.replay_at) - t.px(2), at.y - t.px(4)}, {x_of(s.replay_at) + t.px(2), at.y + height + t.px(4)}, ink(t.text));
+  for (const SessionEvent& e : player.events()) {
+    const char* word = mark_of(e.kind);
+    if (word == nullptr) continue;
+    const float x = x_of(static_cast<double>(e.tick));
+    const bool bad = e.kind == "perforation" || e.kind == "step_failed" || e.kind == "step_time_limit" || e.kind == "gap";
+    draw.AddTriangleFilled({x - t.px(6), at.y + height + t.px(14)}, {x + t.px(6), at.y + height + t.px(14)}, {x, at.y + height + t.px(3)},
+                           ink(bad ? t.bad : t.good));
+    if (ImGui::IsMouseHoveringRect({x - t.px(7), at.y}, {x + t.px(7), at.y + height + t.px(15)}))
+      ImGui::SetTooltip("%s, %s", word, clock_text(static_cast<double>(e.tick) * k_tick_s).c_str());
+  }
+  ImGui::Dummy({width, t.px(14)});
+}
+
+void controls(const ScreenContext& c, ImVec2 at, ImVec2 size) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  const auto all = static_cast<double>(c.replay->ticks());
+  begin_area(t, "replay controls", at, size, true);
+  time_line(c);
+  const double back_s = ImGui::GetIO().KeyShift ? 10.0 : 1.0;
+  if (side_button(t, s.playing ? "Stop  (Space)" : "Play  (Space)", t.px(130)) || key_pressed(GLFW_KEY_SPACE)) {
+    s.playing = !s.playing;
+    if (s.playing && s.replay_at >= all) s.replay_at = 0.0;
+  }
+  ImGui::SameLine();
+  if (side_button(t, "-1 s  (,)") || ImGui::IsKeyPressed(GLFW_KEY_COMMA)) s.replay_at -= 1000.0 * back_s;
+  ImGui::SameLine();
+  if (side_button(t, "+1 s  (.)") || ImGui::IsKeyPressed(GLFW_KEY_PERIOD)) s.replay_at += 1000.0 * back_s;
+  ImGui::SameLine();
+  if (side_button(t, "Begin  (Home)") || key_pressed(GLFW_KEY_HOME)) s.replay_at = 0.0;
+  ImGui::SameLine();
+  if (side_button(t, "End  (End)") || key_pressed(GLFW_KEY_END)) s.replay_at = all;
+  ImGui::SameLine();
+  for (const double speed : {0.25, 1.0, 4.0, 16.0}) {
+    const bool chosen = s.replay_speed == speed;
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, t.accent);
+    if (side_button(t, (number_text("%g", speed) + " x").c_str())) s.replay_speed = speed;
+    if (chosen) ImGui::PopStyleColor();
+    ImGui::SameLine();
+  }
+  if (key_pressed(GLFW_KEY_LEFT_BRACKET)) s.replay_speed = std::max(0.25, s.replay_speed / 4.0);
+  if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) s.replay_speed = std::min(16.0, s.replay_speed * 4.0);
+  if (side_button(t, s.view.clear ? "Opaque  (C)" : "Clear  (C)") || key_pressed(GLFW_KEY_C)) s.view.clear = !s.view.clear;
+  if (key_pressed(GLFW_KEY_ESCAPE)) s.wish = Wish::quit;
+  s.replay_at = std::clamp(s.replay_at, 0.0, all);
+  end_area();
+}
+
+}  // namespace
+
+void replay_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  ReplayPlayer& player = *c.replay;
+  if (s.playing) {
+    s.replay_at = std::min(s.replay_at + 1000.0 * c.frame_s * s.replay_speed, static_cast<double>(player.ticks()));
+    if (s.replay_at >= static_cast<double>(player.ticks())) s.playing = false;
+  }
+  player.seek(static_cast<std::int64_t>(s.replay_at));
+  // on the way to a far place the window stays awake, but draws no tooth that is passed by
+  const bool there = player.work(s.playing ? 0.03 : 0.12);
+  if (there || s.playing) {
+    c.scene->tooth().take(player.tooth());
+    c.scene->tooth().update();
+    s.view.tool = {player.output().proxy_mm, player.input().pose().rotation};
+    s.view.point = player.input().point;
+  }
+
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float top = t.px(98), bottom = t.px(118), side = std::min(t.px(250), screen.x * 0.4F), middle = screen.y - top - bottom;
+  top_bar(c, {screen.x, top});
+  begin_area(t, "replay gauges", {s.left_handed ? 0 : screen.x - side, top}, {side, middle}, true);
+  const ExamSetup& setup = player.setup();
+  const TickOutput& now = player.output();
+  show_gauges(t, setup, now, player.runner().depth_mm, {true, true, true});
+  quiet_text(t, "Target removed " + number_text("%.1f %%", 100.0 * static_cast<double>(player.runner().target_shares) /
+                                                               static_cast<double>(setup.zones.target_shares())));
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
+  end_area();
+  controls(c, {0, screen.y - bottom}, {screen.x, bottom});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  const ImVec2 at{s.left_handed ? side : 0, top}, size{screen.x - side, middle};
+  begin_area(t, "replay tooth", at, size, false);
+  ImGui::PopStyleVar();
+  tooth_area(c, size);
+  words_in_picture(t, at, size, there ? "REPLAY" : "REPLAY, on the way ...", {}, t.accent);
+  end_area();
+}
+
+}  // namespace cavum
