@@ -79,8 +79,9 @@ void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   if (scenario.pauses.count > 0) {
     const int left = scenario.pauses.count - view.pauses;
     const std::string label = view.paused ? "Go on  (P)" : "Pause  (P), " + std::to_string(left) + " left";
-    ImGui::BeginDisabled(!view.paused && left <= 0);
-    if (side_button(t, label.c_str(), width) || key_pressed(GLFW_KEY_P)) s.pause_key_s = 0.1;
+    const bool may = view.paused || left > 0;
+    ImGui::BeginDisabled(!may);
+    if (side_button(t, label.c_str(), width) || (may && key_pressed(GLFW_KEY_P))) s.pause_key_s = 0.1;
     ImGui::EndDisabled();
   }
   if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
@@ -218,8 +219,8 @@ void exam_screen(const ScreenContext& c) {
   if (PointerStylus* pointer = c.sitting->device().pointer()) move_pointer(c, *pointer, over, l.tooth.y);
   ask_whether_finished(c);
 
+  const bool pressed = s.pause_key_s > 0;  // for a frame at least, however long it takes
   s.pause_key_s = std::max(0.0, s.pause_key_s - c.frame_s);
-  const bool pressed = s.pause_key_s > 0;
   const int button = c.sitting->setup().scenario.pauses.button == 1 ? k_button_1 : k_button_2;
   c.sitting->desk().buttons.store(pressed ? static_cast<std::uint32_t>(button) : 0u, std::memory_order_relaxed);
   c.sitting->desk().speed_share.store(s.handpiece_speed, std::memory_order_relaxed);

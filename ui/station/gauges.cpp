@@ -57,7 +57,10 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
 }
 
 void show_gauges(const Theme& t, const ExamSetup& setup, const TickOutput& now, double deepest_mm, const GaugeSpec& shown) {
-  if (shown.speed) bar_gauge(t, "Speed", number_text("%.0f 000 /min", std::round(now.rpm / 1000.0)), now.rpm / setup.scenario.max_rpm);
+  if (shown.speed) {
+    const double thousands = std::round(now.rpm / 1000.0);
+    bar_gauge(t, "Speed", thousands > 0 ? number_text("%.0f 000 /min", thousands) : "0 /min", now.rpm / setup.scenario.max_rpm);
+  }
   if (shown.force) {
     const double most_n = 4.0, force_n = length(now.rendered_force_n);
     bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);

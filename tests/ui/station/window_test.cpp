@@ -44,9 +44,9 @@ class StationWindow : public ::testing::Test {
   [[nodiscard]] std::string printed() const { return read_text_file(folder_.file("out")); }
 
   /// Starts the station with a script; `wait` gives its exit code, -signal when a signal ended it.
-  [[nodiscard]] pid_t start(const std::string& script, const std::string& more = "") const {
+  [[nodiscard]] pid_t start(const std::string& script, const std::string& more = "", const std::string& scenario = k_scenario) const {
     write_text_file(folder_.file("script"), script);
-    const std::string command = "exec " CAVUM_BINARY " station " + k_scenario + " --out " + session() + " --script " + folder_.file("script") +
+    const std::string command = "exec " CAVUM_BINARY " station " + scenario + " --out " + session() + " --script " + folder_.file("script") +
                                 " --pictures " CAVUM_PICTURES " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
     std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
     pid_t child = -1;
@@ -58,7 +58,9 @@ class StationWindow : public ::testing::Test {
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
-  int run(const std::string& script, const std::string& more = "") const { return wait(start(script, more)); }
+  int run(const std::string& script, const std::string& more = "", const std::string& scenario = k_scenario) const {
+    return wait(start(script, more, scenario));
+  }
 
   /// What was recorded is whole, the exam goes on from there, and closed it verifies.
   void expect_resumable(std::int64_t least_ticks) const {
@@ -301,6 +303,44 @@ key enter
   double most_n = 0;  // the hand went on, and the tooth pushed back
   for (const TickRecord& r : reader.records()) most_n = std::max(most_n, 1e-6 * r.model_un);
   EXPECT_GT(most_n, 0.3);
+}
+
+TEST_F(StationWindow, PausesAsOftenAsTheScenarioPermits) {
+  std::string scenario = read_text_file(k_scenario);
+  scenario.insert(scenario.find("time_limit_s"), "gauges = [\"speed\", \"depth\"]\npauses = { count = 1, longest_s = 60, button = 1 }\n");
+  write_text_file(folder_.file("paused.toml"), scenario);
+  const std::string script = R"(type P1
+go device-check
+sleep 1
+key space 0.6
+go briefing
+key enter
+wait exam
+until 1
+key p
+sleep 1.5
+picture 10-pause
+key p
+sleep 0.5
+key p
+sleep 0.5
+key escape
+sleep 0.3
+key enter
+wait result
+key enter
+)";
+  EXPECT_EQ(run(script, "--device mouse --tooth " CAVUM_SOURCE_DIR "/tests/replay/block.cvt", folder_.file("paused.toml")), 0) << said();
+  EXPECT_TRUE(verify_session(session()).verified);
+  std::vector<std::string> kinds;
+  std::int64_t began = 0, ended = 0;
+  for (const SessionEvent& e : SessionReader(session()).events()) {
+    if (e.kind.starts_with("pause_")) kinds.push_back(e.kind);
+    if (e.kind == "pause_started") began = e.tick;
+    if (e.kind == "pause_ended") ended = e.tick;
+  }
+  EXPECT_EQ(kinds, (std::vector<std::string>{"pause_started", "pause_ended"})) << "the second is not offered";
+  EXPECT_GT(ended - began, 1400);
 }
 
 TEST_F(StationWindow, AReplayShowsTheExamAgainAndLeavesItAsItIs) {
