@@ -12,6 +12,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/servo/real_time_json.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/station_ticket.h"
 #include "grading/report.h"
@@ -154,24 +155,9 @@ void require_places(const Options& o) {
 
 /// How punctual the servo was: kept as an event of the session, and shown.
 nlohmann::json servo_json(const LiveReport& report) {
-  const auto histogram = [](const Lateness& l) {
-    return nlohmann::json{
-        {"edges_us", l.k_edges_us}, {"counts", l.counts}, {"mean_us", l.mean_us()}, {"p99_us", l.quantile_us(0.99)}, {"worst_us", l.worst_us()}};
-  };
-  const RealTimeReport& s = report.servo;
-  return {{"ticks", s.ticks},
-          {"overruns", s.overruns},
-          {"made_up", s.made_up},
-          {"skipped_late", s.skipped_late},
-          {"skipped_full", s.skipped_full},
-          {"guard_cuts", s.guard_cuts},
-          {"lateness", histogram(s.lateness)},
-          {"work", histogram(s.work)},
-          {"fifo", s.fifo},
-          {"memory_locked", s.memory_locked},
-          {"first_disagreement", report.first_disagreement},
-          {"why", s.why},
-          {"error", s.error}};
+  nlohmann::json j = to_json(report.servo);
+  j["first_disagreement"] = report.first_disagreement;
+  return j;
 }
 
 /// An exam with a hand on it, until it is over, the operator is done, a signal comes or the device fails. Returns 0 when it is over and sealed, 1

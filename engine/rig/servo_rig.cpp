@@ -6,21 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/det_math.h"
+#include "engine/servo/real_time_json.h"
 #include "engine/session/simulation.h"
 #include "engine/tooth/make_block.h"
 
 namespace cavum {
 namespace {
-
-nlohmann::json histogram(const Lateness& l) {
-  nlohmann::json bins = nlohmann::json::array();
-  for (std::size_t i = 0; i < l.counts.size(); ++i) {
-    const bool last = i == Lateness::k_edges_us.size();
-    bins.push_back({{"up_to_us", last ? nlohmann::json(nullptr) : nlohmann::json(Lateness::k_edges_us[i])}, {"ticks", l.counts[i]}});
-  }
-  return {{"mean_us", l.mean_us()},          {"p50_us", l.quantile_us(0.5)}, {"p99_us", l.quantile_us(0.99)},
-          {"p999_us", l.quantile_us(0.999)}, {"worst_us", l.worst_us()},     {"histogram", bins}};
-}
 
 template <class... Args>
 void line(std::string& out, const char* format, Args... args) {
@@ -93,28 +84,16 @@ ServoRigResult run_servo_rig(const SessionSetup& setup, const std::string& path,
 }
 
 nlohmann::json to_json(const ServoRigResult& r) {
-  const RealTimeReport& s = r.servo;
-  return {{"on_time", r.on_time()},
-          {"tick_s", r.tick_s},
-          {"seconds", r.seconds},
-          {"ticks", s.ticks},
-          {"overruns", s.overruns},
-          {"made_up", s.made_up},
-          {"skipped_late", s.skipped_late},
-          {"skipped_full", s.skipped_full},
-          {"guard_cuts", s.guard_cuts},
-          {"lateness", histogram(s.lateness)},
-          {"work", histogram(s.work)},
-          {"sched_fifo", s.fifo},
-          {"sched_fifo_refused", s.fifo_refused},
-          {"memory_locked", s.memory_locked},
-          {"memory_refused", s.memory_refused},
-          {"ended", s.why},
-          {"error", s.error},
-          {"force", {{"mean_n", r.mean_force_n}, {"peak_n", r.peak_force_n}, {"contact_ticks", r.contact_ticks}}},
-          {"removed_leaves", r.removed_leaves},
-          {"recording",
-           {{"ticks", r.writer.ticks}, {"most_waiting", r.writer.most_waiting}, {"slowest_write_s", r.slowest_write_s}, {"error", r.writer.error}}}};
+  nlohmann::json j = to_json(r.servo);
+  j.update(
+      {{"on_time", r.on_time()},
+       {"tick_s", r.tick_s},
+       {"seconds", r.seconds},
+       {"force", {{"mean_n", r.mean_force_n}, {"peak_n", r.peak_force_n}, {"contact_ticks", r.contact_ticks}}},
+       {"removed_leaves", r.removed_leaves},
+       {"recording",
+        {{"ticks", r.writer.ticks}, {"most_waiting", r.writer.most_waiting}, {"slowest_write_s", r.slowest_write_s}, {"error", r.writer.error}}}});
+  return j;
 }
 
 std::string to_text(const ServoRigResult& r) {

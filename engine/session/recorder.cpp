@@ -25,24 +25,6 @@ namespace {
 constexpr char k_insert_chunk[] = "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 constexpr char k_insert_event[] = "INSERT INTO event VALUES (?, ?, ?, ?, ?)";
 
-/// Leaves the transaction again unless it was committed.
-class Transaction {
- public:
-  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
-  ~Transaction() {
-    try {
-      if (database_.in_transaction()) database_.run("ROLLBACK");
-    } catch (const Error&) {  // SQLite has rolled back by itself
-    }
-  }
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-  void commit() { database_.run("COMMIT"); }
-
- private:
-  Database& database_;
-};
-
 std::map<std::string, std::string> meta_of(const SessionSetup& setup) {
   const Clocks now = read_clocks();
   char tick[32];

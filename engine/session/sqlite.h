@@ -90,4 +90,22 @@ class Database {
   std::string where_;
 };
 
+/// Begins a transaction, and leaves it again unless it was committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+  ~Transaction() {
+    try {
+      if (database_.in_transaction()) database_.run("ROLLBACK");
+    } catch (const Error&) {  // SQLite has rolled back by itself
+    }
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit() { database_.run("COMMIT"); }
+
+ private:
+  Database& database_;
+};
+
 }  // namespace cavum

@@ -218,25 +218,6 @@ std::vector<Sha256> leaves_of(const LedgerContent& c) {
   return leaves;
 }
 
-/// A transaction that is taken back unless it was committed.
-class Transaction {
- public:
-  explicit Transaction(Database& db) : db_(db) { db_.run("BEGIN IMMEDIATE"); }
-  ~Transaction() {
-    try {
-      if (db_.in_transaction()) db_.run("ROLLBACK");
-    } catch (const std::exception&) {
-      // the connection is beyond use; what was committed stands
-    }
-  }
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-  void commit() { db_.run("COMMIT"); }
-
- private:
-  Database& db_;
-};
-
 }  // namespace
 
 Bytes checkpoint_message(const std::string& ledger_id, const Checkpoint& p) {

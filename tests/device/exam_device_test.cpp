@@ -90,7 +90,7 @@ TEST_F(ExamDevice, InRealTimeItIsTheSameExamUntilATickWasLate) {
     ++events;
     const auto j = nlohmann::json::parse(e.detail_json);
     std::int64_t counted = 0;
-    for (const auto& c : j["lateness"]["counts"]) counted += c.get<std::int64_t>();
+    for (const auto& bin : j["lateness"]["histogram"]) counted += bin["ticks"].get<std::int64_t>();
     EXPECT_EQ(counted, j["ticks"].get<std::int64_t>());
   }
   EXPECT_EQ(events, 1);
