@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "engine/base/error.h"
 
@@ -18,6 +19,34 @@ constexpr double k_friction_n = 0.26;         // of the device's joints: a pract
 constexpr double k_intention_s = 0.025;
 constexpr double k_gentle_bend = 0.7;  // cosine between two pieces of the way
 constexpr double k_give_up_s = 1.5;    // without getting nearer
+
+/// 0..100 of "student-LEVEL", else -1.
+int level_in(const std::string& name) {
+  constexpr std::string_view k_begin = "student-";
+  const std::string digits = name.starts_with(k_begin) ? name.substr(k_begin.size()) : "";
+  if (digits.empty() || digits.size() > 3 || digits.find_first_not_of("0123456789") != std::string::npos) return -1;
+  const int level = std::stoi(digits);
+  return level <= 100 ? level : -1;
+}
+
+/// Between a beginner worse than the novice (0) and an expert (1); what is wrong with the hand varies from student to student, and its size shrinks
+/// with skill.
+Skill student(double level, std::uint64_t seed) {
+  Random random(seed);
+  const double lack = 1.0 - level;
+  const auto between = [&](double beginner, double expert) { return expert + lack * (beginner - expert); };
+  Skill s;
+  s.name = "student";
+  s.press_mm = between(random.uniform(0.9, 1.5), s.press_mm);
+  s.careful_press_mm = between(random.uniform(0.7, 1.1), s.careful_press_mm);
+  s.reaction_s = between(0.18, s.reaction_s);
+  s.tremor_mm = between(random.uniform(0.05, 0.1), s.tremor_mm);
+  s.offset_mm = Vec3{random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), 0} * lack;
+  s.stops_short = lack * random.uniform(0.0, 0.2);
+  s.hand.stiffness_n_per_mm = between(random.uniform(0.8, 1.4), s.hand.stiffness_n_per_mm);
+  s.perforates = random.uniform() < 0.2 * lack * lack;
+  return s;
+}
 
 }  // namespace
 
@@ -44,7 +73,8 @@ Skill make_skill(const std::string& name, std::uint64_t seed) {
     s.hand.stiffness_n_per_mm = 1.2;
     return s;
   }
-  throw Error("operator '" + name + "'", "is not known", "use expert, novice, perforator or careless");
+  if (const int level = level_in(name); level >= 0) return student(level * 0.01, seed);
+  throw Error("operator '" + name + "'", "is not known", "use expert, novice, perforator, careless, or student-0 to student-100");
 }
 
 Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::uint64_t seed)

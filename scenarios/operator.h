@@ -28,8 +28,8 @@ struct Skill {
   HandModel hand;
 };
 
-/// `expert`, `novice`, `perforator`, or `careless`, who has an expert's hand and makes the mistake that the scenario names; the seed draws the
-/// novice's habits. Throws Error on another name.
+/// `expert`, `novice`, `perforator`, or `careless`, who has an expert's hand and makes the mistake that the scenario names; or `student-0` (a
+/// beginner) to `student-100` (an expert), for classes. The seed draws the novice's and the students' habits. Throws Error on another name.
 [[nodiscard]] Skill make_skill(const std::string& name, std::uint64_t seed);
 
 /// What the candidate wants in one tick.

@@ -13,10 +13,12 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "grading/close_exam.h"
+#include "grading/ledger/station_ticket.h"
 #include "grading/report.h"
 #include "grading/result_json.h"
 #include "scenarios/live_exam.h"
 #include "scenarios/simulated_exam.h"
+#include "ui/grant_options.h"
 #include "ui/interrupt.h"
 #include "ui/live_source.h"
 #include "ui/own_places.h"
@@ -28,7 +30,7 @@ namespace cavum {
 namespace {
 
 struct Options {
-  std::string scenario, candidate, motion, operator_name, device, point, out, tooth, model = "consistent", rubric, report;
+  std::string scenario, candidate, motion, operator_name, device, point, out, ticket, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
   bool json = false, quiet = false, resume = false, end = false, model_given = false;
@@ -119,7 +121,12 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
     options.continuous_n = live->continuous_n();
   }
   options.grant = o.grant;
-  return prepare_exam(o.scenario, options);
+  if (o.ticket.empty()) return prepare_exam(o.scenario, options);
+  const HeldTicket held = read_ticket(o.ticket);
+  use_ticket(held, options);
+  auto setup = prepare_exam(o.scenario, options);
+  require_promised(held, setup->session);
+  return setup;
 }
 
 /// Grades what was recorded, seals the session with it, prints it.
@@ -142,7 +149,7 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
 void require_places(const Options& o) {
   const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
   require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}},
-                     {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}});
+                     {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
 }
 
 /// How punctual the servo was: kept as an event of the session, and shown.
@@ -299,6 +306,8 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   auto* exam = app.add_subcommand("exam", "Run a timed exam, record it, grade it and seal the recording");
   exam->add_option("scenario", o->scenario, "scenario file (.toml)");
   exam->add_option("--candidate", o->candidate, "candidate's pseudonym");
+  exam->add_option("--ticket", o->ticket,
+                   "the school's promise of this exam (see `cavum ledger ticket`): says who sits it, and is kept in the session");
   auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
   auto* name = exam->add_option("--operator", o->operator_name,
                                 "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
@@ -310,18 +319,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
-  exam->add_option("--extra-time-percent", o->grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
-  exam->add_option("--extra-time-s", o->grant.extra_time_s, "the same in seconds; both add up");
-  // by callbacks: bound to an optional, a flag that is not given would be set to false, and take away what the scenario grants
-  const char* shown = "for this candidate; recorded and shown with the result";
-  exam->add_flag_callback(
-      "--left-handed", [o] { o->grant.left_handed = true; }, shown);
-  exam->add_flag_callback(
-      "--right-handed", [o] { o->grant.left_handed = false; }, "takes back what the scenario grants");
-  exam->add_flag_callback(
-      "--high-contrast", [o] { o->grant.high_contrast = true; }, shown);
-  exam->add_flag_callback(
-      "--normal-contrast", [o] { o->grant.high_contrast = false; }, "takes back what the scenario grants");
+  add_grant_options(exam, o->grant);
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
@@ -335,7 +333,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
       exit_code = run_resumed(*o);
     } else {
       if (o->scenario.empty()) throw Error("cavum exam", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
-      if (o->candidate.empty()) throw Error("cavum exam", "no candidate given", "add --candidate with a pseudonym");
+      if (o->candidate.empty() && o->ticket.empty()) throw Error("cavum exam", "no candidate given", "add --candidate with a pseudonym, or --ticket");
       exit_code = run_new(*o);
     }
   });

@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
   cavum::add_grade_verbs(app, exit_code);
   cavum::add_rig_verbs(app, exit_code);
   cavum::add_explain_verbs(app, exit_code);
+  cavum::add_ledger_verbs(app, exit_code);
+  cavum::add_cohort_verbs(app, exit_code);
   cavum::add_device_verbs(app, exit_code);
   cavum::add_station_verbs(app, exit_code);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });

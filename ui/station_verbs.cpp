@@ -46,7 +46,10 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
-  station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
+  auto* practice = station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
+  station->add_option("--tickets", s.sitting.tickets, "folder of tickets: only who has one sits, and as it promises (see `cavum ledger ticket`)")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(practice);
   station->add_option("--candidate", s.candidate, "code that stands in the field already");
   station->add_option("--tooth", s.sitting.tooth, "another tooth than the scenario's");
   station->add_option("--model", s.sitting.model, "force model: paper, consistent, or a TOML file")->capture_default_str();

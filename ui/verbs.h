@@ -14,6 +14,8 @@ void add_grade_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
 void add_device_verbs(CLI::App& app, int& exit_code);
 void add_explain_verbs(CLI::App& app, int& exit_code);
+void add_ledger_verbs(CLI::App& app, int& exit_code);
+void add_cohort_verbs(CLI::App& app, int& exit_code);
 void add_station_verbs(CLI::App& app, int& exit_code);
 
 }  // namespace cavum

@@ -86,7 +86,8 @@ position together, 200 times a second or faster; write the measured speed down t
 <li>Switch on, wait ten minutes, and zero the load cell in air with the handpiece level.</li>
 <li>Sessions 1 and 4 with the handpiece level, 2 and 5 tilted by 30 degrees, 3 and 6 by 60 degrees: <code>posture_deg</code>.</li>
 <li>In each session the motion does it all: strokes in air at four speeds with reversals; four presses at four speeds, spindle off and on, each with a hold
-(one of 10 s), a reversal in contact at another speed, and a way back into air.</li>
+(one of 10 s), a reversal in contact at another speed, and a way back into air. When the measured speed is not written down, begin each session 0.013 mm deeper than the
+last: a coarse encoder rounds a hold at one depth by the same error every time, which looks like a bend in the material.</li>
 <li>A new site for each session, and the site of the first session again in the last: <code>site</code>. Approach at 0, 45, 90 and 135 degrees in turn: <code>approach_deg</code>.</li>
 <li>Sessions 2, 4 and 6 with water: <code>wet</code> 1. A new diamond point for session 4: <code>bur_id</code>. Count the removed volume: <code>removed_mm3</code>.</li>
 <li>Press once sideways in air in each session, if lateral forces are measured: <code>fy_n</code>, <code>fz_n</code>.</li>

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/random.h"
+#include "engine/explain/holds.h"
 
 namespace cavum::explain {
 namespace {
@@ -39,12 +40,14 @@ Recording make_twin(const View& v, std::uint64_t seed) {
   Random random(seed);
   Motion true_motion = m;
   const double q = m.quantum_mm > 1e-5 ? m.quantum_mm : 0.0;
+  const Holds holds = q > 0.0 ? find_holds(r, q) : Holds{};
+  if (holds.repeat()) true_motion.x_mm = replaced_holds(r, m.x_mm, holds, q, random);
   for (const auto& s : r.sessions) {
     const Wander wander(random);
     const double amplitude = q / std::sqrt(12.0);
     double way = 0.0, off = amplitude * wander.at(0.0);
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
-      if (q <= 0.0) break;
+      if (q <= 0.0 || holds.repeat()) break;
       if (const double step = i > s.begin ? std::fabs(m.x_mm[i] - m.x_mm[i - 1]) : 0.0; step > 1e-7) off = amplitude * wander.at(way += step);
       true_motion.x_mm[i] = m.x_mm[i] + off;
     }

@@ -9,7 +9,8 @@
 namespace cavum::explain {
 
 /// A recording of the same rows. The true path of a twin is the estimated one, shifted by up to half a quantum along the way,
-/// so that a hold does not stand at the same place in its cell. Noise: innovations drawn from the residual's.
+/// so that a hold does not stand at the same place in its cell; where the sessions follow one programme, all stop at the same
+/// places (see holds.h). Noise: innovations drawn from the residual's.
 [[nodiscard]] Recording make_twin(const View& view, std::uint64_t seed);
 
 }  // namespace cavum::explain

@@ -140,7 +140,7 @@ void make_single_file(Database& database) {
   database.run("PRAGMA journal_mode = DELETE");
 }
 
-Recorder::Recorder(std::string path, StationKey key) : path_(std::move(path)), key_(key), pending_(1) {}
+Recorder::Recorder(std::string path, SigningKey key) : path_(std::move(path)), key_(key), pending_(1) {}
 
 Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   const auto need = [&](bool there, const std::string& what) {

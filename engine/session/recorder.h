@@ -58,7 +58,7 @@ class Recorder {
     std::uint64_t state_hash = 0;
     std::optional<Clocks> complete;  ///< when its last tick came
   };
-  Recorder(std::string path, StationKey key);
+  Recorder(std::string path, SigningKey key);
   void open_for_recording();
   void require_open() const;
   void write_pending();
@@ -66,7 +66,7 @@ class Recorder {
   void write_seal(std::span<const std::uint8_t> final_tooth, const std::string& result_json);
 
   std::string path_;
-  StationKey key_;
+  SigningKey key_;
   std::optional<Database> database_;
   std::optional<Statement> insert_chunk_, insert_event_;
   std::deque<Pending> pending_;  ///< the last one is being filled

@@ -16,14 +16,14 @@
 namespace cavum {
 namespace {
 
-constexpr char k_heading[] = "cavum station key 1 (Ed25519 seed; keep secret): ";
+std::string heading_of(const std::string& owner) { return "cavum " + owner + " key 1 (Ed25519 seed; keep secret): "; }
 
 void start_sodium() {
   if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");
 }
 
 // link() makes the complete file appear in one step and never replaces a key that another process just made.
-void make_key(const std::string& path) {
+void make_key(const std::string& path, const std::string& owner) {
   const auto fail = [&](const std::string& what) {
     throw Error(path, what + " (" + std::strerror(errno) + ")", "make its folder writable, or set CAVUM_HOME to a folder that is");
   };
@@ -31,22 +31,22 @@ void make_key(const std::string& path) {
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
   randombytes_buf(seed.data(), seed.size());
-  const std::string text = k_heading + to_hex(seed) + "\n";
+  const std::string text = heading_of(owner) + to_hex(seed) + "\n";
   const std::string temporary = path + "." + std::to_string(::getpid());
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (fd < 0) fail("the station's key cannot be made");
+  if (fd < 0) fail("the " + owner + "'s key cannot be made");
   const bool written = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
   ::close(fd);
   const bool placed = written && (::link(temporary.c_str(), path.c_str()) == 0 || errno == EEXIST);
   const int why = errno;
   ::unlink(temporary.c_str());
   errno = why;
-  if (!placed) fail("the station's key cannot be written");
+  if (!placed) fail("the " + owner + "'s key cannot be written");
 }
 
 }  // namespace
 
-std::array<std::uint8_t, 64> StationKey::sign(std::span<const std::uint8_t> message) const {
+std::array<std::uint8_t, 64> SigningKey::sign(std::span<const std::uint8_t> message) const {
   std::array<std::uint8_t, 64> signature{};
   crypto_sign_detached(signature.data(), nullptr, message.data(), message.size(), secret_key.data());
   return signature;
@@ -54,21 +54,21 @@ std::array<std::uint8_t, 64> StationKey::sign(std::span<const std::uint8_t> mess
 
 std::string station_key_path() { return station_path("station.key"); }
 
-StationKey load_station_key(const std::string& path) {
+SigningKey load_signing_key(const std::string& path, const std::string& owner) {
   start_sodium();
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) make_key(path);
+  if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) make_key(path, owner);
   if (::stat(path.c_str(), &info) == 0 && (info.st_mode & 077) != 0)
-    throw Error(path, "the station's key may be read by others", "chmod 600 it, and replace it if someone may have copied it");
+    throw Error(path, "the " + owner + "'s key may be read by others", "chmod 600 it, and replace it if someone may have copied it");
   const std::string text = read_text_file(path);
-  const std::string heading = k_heading;
+  const std::string heading = heading_of(owner);
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
   std::size_t read = 0;
   const bool whole = text.size() == heading.size() + 2 * seed.size() + 1 && text.starts_with(heading) && text.back() == '\n' &&
                      sodium_hex2bin(seed.data(), seed.size(), text.data() + heading.size(), 2 * seed.size(), nullptr, &read, nullptr) == 0 &&
                      read == seed.size();
-  if (!whole) throw Error(path, "the station's key is damaged", "restore it from a backup, or remove it and let the station make a new one");
-  StationKey key;
+  if (!whole) throw Error(path, "the " + owner + "'s key is damaged", "restore it from a backup, or remove it and let a new one be made");
+  SigningKey key;
   crypto_sign_seed_keypair(key.public_key.data(), key.secret_key.data(), seed.data());
   return key;
 }

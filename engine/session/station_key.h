@@ -1,5 +1,5 @@
-// The station's signing key: one Ed25519 key pair per exam station, made on first use and kept in a file
-// that only its user may read. It says which station closed a session, not who sat at it.
+// Signing keys, Ed25519, made on first use and kept in a file that only its user may read. A station's key says which exam station closed a
+// session, not who sat at it; a school's key signs tickets and the ledger.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace cavum {
 
 /// Ed25519 key pair (libsodium).
-struct StationKey {
+struct SigningKey {
   std::array<std::uint8_t, 32> public_key{};
   std::array<std::uint8_t, 64> secret_key{};
 
@@ -20,9 +20,10 @@ struct StationKey {
 /// $CAVUM_HOME/station.key, or ~/.config/cavum/station.key. Throws Error when neither variable is set.
 [[nodiscard]] std::string station_key_path();
 
-/// Reads the key at `path`, or makes one there (mode 0600) when there is none. Throws Error when the file
-/// cannot be read or made, is damaged, or may be read by others.
-[[nodiscard]] StationKey load_station_key(const std::string& path);
+/// Reads the key at `path`, or makes one there (mode 0600) when there is none; `owner` ("station", "school") is written into it, and a
+/// key of another owner is refused. Throws Error when the file cannot be read or made, is damaged, or may be read by others.
+[[nodiscard]] SigningKey load_signing_key(const std::string& path, const std::string& owner);
+[[nodiscard]] inline SigningKey load_station_key(const std::string& path) { return load_signing_key(path, "station"); }
 
 /// A station's public key as people write it: 64 hexadecimal digits, returned in lower case. Throws Error(`where`, ...)
 /// for anything else.

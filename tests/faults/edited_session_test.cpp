@@ -154,7 +154,7 @@ TEST_F(EditedSession, AnotherTableOrTriggerIsNamed) {
 TEST_F(EditedSession, ForgedWithAllHashesAndAnotherKeyDivergesAtItsTick) {
   {
     const SessionReader session(path_);
-    const StationKey forger = load_station_key(folder_.file("forger/station.key"));
+    const SigningKey forger = load_station_key(folder_.file("forger/station.key"));
     Seal seal = *session.seal();
     std::string sql;
     Sha256 before = session.chunks()[0].prev_sha256;

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/ledger/station_ticket.h"
 
 namespace cavum {
 namespace {
@@ -20,6 +21,15 @@ std::string file_part(const std::string& candidate) {
   std::string part;
   for (const char c : candidate) part += (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ? c : '_';
   return part;
+}
+
+/// The ticket of a candidate who typed this code, in capitals or not.
+HeldTicket ticket_of(const std::string& folder, const std::string& code) {
+  std::string name = file_part(code);
+  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::string path = folder + "/" + name + ".ticket";
+  if (!std::filesystem::exists(path)) throw Error("candidate '" + one_line(code) + "'", "has no ticket here", "check the code, or ask the school");
+  return read_ticket(path);
 }
 
 }  // namespace
@@ -38,8 +48,15 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.grant = options_.grant;
   exam.notes = device_->notes();
   if (options_.practice) exam.notes.emplace_back("practice", "true");
-  preparing_ = std::async(std::launch::async, [this, exam] {
+  std::optional<HeldTicket> held;
+  if (!options_.tickets.empty()) {
+    held = ticket_of(options_.tickets, candidate_);
+    candidate_ = exam.candidate = held->ticket.candidate;
+    use_ticket(*held, exam);
+  }
+  preparing_ = std::async(std::launch::async, [this, exam, held] {
     auto setup = prepare_exam(options_.scenario, exam);
+    if (held) require_promised(*held, setup->session);
     device_->prepare(*setup);
     return setup;
   });

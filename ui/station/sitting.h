@@ -18,6 +18,7 @@ namespace cavum {
 struct SittingOptions {
   std::string scenario, tooth, model = "consistent", rubric;  ///< files as for an exam
   std::string out;                                            ///< a session file (.cavum), or the folder for one
+  std::string tickets;                                        ///< folder with CODE.ticket for each candidate; empty: nobody needs one
   Grant grant;
   bool practice = false;
   DeviceChoice device;
@@ -34,7 +35,7 @@ enum class Stage {
 
 class Sitting {
  public:
-  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none.
+  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none, or a code without a ticket where tickets are asked for.
   Sitting(SittingOptions options, std::string candidate);
   /// Stops what runs. A session that is not closed by then can be resumed.
   ~Sitting();

@@ -20,7 +20,8 @@ struct Row {
 
 struct Options {
   double dt_s = 0.02, noise_n = 0.02, rho = 0.5, quantum_mm = 0.0;
-  bool one_way = false;  ///< approach and press at one constant speed, nothing else
+  bool one_way = false;        ///< approach and press at one constant speed, nothing else
+  bool one_programme = false;  ///< every session moves like the first, to the last digit
   std::uint64_t seed = 1;
 };
 
@@ -29,14 +30,17 @@ inline Recording recording(const Options& o, const std::function<double(const Ro
   Random random(o.seed);
   std::vector<double> t, x, f, rpm;
   Recording r;
+  struct Leg {
+    double to, speed, hold;
+  };
+  std::vector<Leg> legs, programme;
   for (int session = 0; session < 6; ++session) {
     const auto begin = static_cast<Eigen::Index>(t.size());
-    struct Leg {
-      double to, speed, hold;
-    };
-    std::vector<Leg> legs;
+    legs.clear();
     if (o.one_way) {
       legs = {{2.0, 0.25, 0}};
+    } else if (o.one_programme && session > 0) {
+      legs = programme;
     } else {
       const double speeds[] = {0.1, 0.25, 0.5, 1.0};
       for (int i = 0; i < 2; ++i) legs.insert(legs.end(), {{-0.3, speeds[(session + i) % 4], 0}, {-0.8, speeds[(session + i + 1) % 4], 0}});
@@ -46,6 +50,7 @@ inline Recording recording(const Options& o, const std::function<double(const Ro
                     {{-0.1, 0.8, 0}, {depth, v, i == 0 ? 8.0 : 1.5}, {depth + 0.2, u, 1.0}, {depth, v, 0.5}, {-0.4, std::max(0.25, u), 0.4}});
       }
     }
+    programme = legs;
     double at = -0.8, speed = 0.0, noise = o.noise_n * random.normal(), now = 0.0;
     const auto row = [&](bool on) {
       Row q{now, at, speed, 0, on ? 20000.0 : 0.0, static_cast<Eigen::Index>(t.size()) == begin};

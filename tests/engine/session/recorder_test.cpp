@@ -221,7 +221,7 @@ TEST(Session, FilesThatAreNoSessionAreErrorsNotReports) {
 TEST(StationKey, IsMadeOnceForItsUserAlone) {
   const Folder folder;
   const std::string path = folder.file("home/station.key");
-  const StationKey first = load_station_key(path), again = load_station_key(path);
+  const SigningKey first = load_station_key(path), again = load_station_key(path);
   EXPECT_EQ(first.public_key, again.public_key);
   EXPECT_NE(first.public_key, load_station_key(folder.file("other/station.key")).public_key);
   EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);

@@ -12,6 +12,7 @@
 #include "engine/session/verify.h"
 #include "engine/tooth/surface_patches.h"
 #include "tests/engine/support/basics.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum {
 namespace {
@@ -115,6 +116,29 @@ TEST_F(SittingTest, GivesEachCandidateAFileOfHisOwnInAFolder) {
   EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(folder_.file("")).parent_path());
   EXPECT_NE(sitting.path().find("block_cavity-A____7-"), std::string::npos) << sitting.path();
   EXPECT_TRUE(std::filesystem::exists(sitting.path()));
+}
+
+TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
+  const testing_ledger::School school;
+  const std::string ticket = school.ticket("4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "50"}}; });
+  const std::string candidate = parse_ticket(ticket, "", "ticket").candidate;
+  options_.tickets = school.file("tickets");
+  std::filesystem::create_directories(options_.tickets);
+  write_text_file(options_.tickets + "/" + candidate + ".ticket", ticket + "\n");
+  EXPECT_THROW(Sitting(options_, "4711"), Error) << "the code is the pseudonym, and nothing that others know";
+  EXPECT_THROW(Sitting(options_, "../tickets/" + candidate), Error);
+  std::string typed = candidate;
+  for (char& c : typed) c = static_cast<char>(std::tolower(c));
+  {
+    Sitting sitting(options_, typed);
+    EXPECT_EQ(sitting.candidate(), candidate);
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+    EXPECT_EQ(sitting.setup().scenario.accommodations.extra_time_percent, 50.0);
+    EXPECT_EQ(sitting.setup().session.candidate, candidate);
+  }
+  options_.model = "paper";
+  Sitting other(options_, candidate);
+  EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error) << "another force model than promised";
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "engine/session/clock_check.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace cavum {
+namespace {
+
+constexpr double k_suspend_s = 0.5, k_set_s = 2.0, k_slow_s = 0.5, k_slow = 1.25, k_fast = 0.9;
+
+std::string seconds(double s) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", s);
+  return text;
+}
+
+}  // namespace
+
+std::vector<ClockRemark> check_clocks(const SessionReader& session) {
+  std::vector<ClockRemark> out;
+  const double tick_s = std::strtod(session.fact("tick_s").c_str(), nullptr);
+  if (session.chunks().empty() || !(tick_s > 0.0)) return out;
+  std::vector<std::int64_t> gaps;  // first ticks after an acknowledged gap
+  for (const auto& e : session.events())
+    if (e.kind == "gap") gaps.push_back(e.tick);
+  Clocks before = session.created();
+  double real_s = 0.0, told_s = 0.0;
+  for (const auto& c : session.chunks()) {
+    const double monotonic_s = static_cast<double>(c.clocks.monotonic_ns - before.monotonic_ns) * 1e-9;
+    const double boot_s = static_cast<double>(c.clocks.boot_ns - before.boot_ns) * 1e-9,
+                 utc_s = static_cast<double>(c.clocks.utc_ns - before.utc_ns) * 1e-9;
+    const double ticks_s = static_cast<double>(c.ticks) * tick_s;
+    before = c.clocks;
+    bool gap = false;
+    for (const auto g : gaps) gap = gap || (g >= c.first_tick && g <= c.first_tick + c.ticks);
+    if (gap) continue;  // another boot, or a break that is recorded itself
+    real_s += monotonic_s;
+    told_s += ticks_s;
+    const auto say = [&](const std::string& what) { out.push_back({c.first_tick, c.ticks, what}); };
+    if (boot_s - monotonic_s > k_suspend_s) say("the computer slept for " + seconds(boot_s - monotonic_s));
+    if (std::fabs(utc_s - boot_s) > k_set_s)
+      say("the wall clock was set " + std::string(utc_s > boot_s ? "forward" : "back") + " by " + seconds(std::fabs(utc_s - boot_s)));
+    if (monotonic_s > k_slow * ticks_s + k_slow_s)
+      say(seconds(ticks_s) + " of the exam took " + seconds(monotonic_s) + ": the candidate had more time than the exam's clock shows");
+  }
+  if (told_s > 1.0 && real_s < k_fast * told_s)
+    out.push_back({0, session.ticks(), seconds(told_s) + " of the exam were recorded in " + seconds(real_s) + ": simulated, no hand moved it"});
+  return out;
+}
+
+}  // namespace cavum

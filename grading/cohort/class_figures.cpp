@@ -1,0 +1,226 @@
+#include "grading/cohort/class_figures.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+
+namespace cavum::cohort {
+namespace {
+
+using nlohmann::json;
+
+constexpr double k_far = 2.5;  // standard deviations from the class, or from the judges
+constexpr int k_shuffles = 9999;
+
+double points_in(const json& result) { return result.at("score").at("points").get<double>(); }
+
+/// 0 fail, 1 borderline, 2 pass.
+std::size_t band_of(double points, double pass_points, double band) { return points < pass_points - band ? 0 : points > pass_points + band ? 2 : 1; }
+
+void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<HumanMark>& marks, double band,
+           double borderline) {
+  std::map<std::string, std::map<std::string, double>> by_candidate;
+  std::set<std::string> judges;
+  std::vector<double> ratings, rated;
+  for (const auto& m : marks) {
+    const auto s = sat.find(m.candidate);
+    if (s == sat.end()) continue;
+    by_candidate[m.candidate][m.judge] = m.points;
+    judges.insert(m.judge);
+    if (m.rating) {
+      ratings.push_back(*m.rating);
+      rated.push_back(points_in(s->second->result));
+    }
+  }
+  Agreement& a = f.agreement;
+  a.n = by_candidate.size();
+  a.judges = judges.size() + 1;
+  Matrix table, bands(3, std::vector<double>(3));
+  std::vector<double> program, people;
+  for (const auto& [candidate, given] : by_candidate) {
+    const double own = points_in(sat.at(candidate)->result);
+    double sum = 0;
+    for (const auto& [judge, points] : given) sum += points;
+    program.push_back(own);
+    people.push_back(sum / static_cast<double>(given.size()));
+    bands[band_of(own, f.pass_points, band)][band_of(people.back(), f.pass_points, band)] += 1;
+    if (given.size() < judges.size()) continue;
+    std::vector<double> row = {own};
+    for (const auto& [judge, points] : given) row.push_back(points);
+    table.push_back(std::move(row));
+  }
+  const auto when_possible = [](auto& out, const auto& make) {
+    try {
+      out = make();
+    } catch (const Error&) {
+      out.reset();  // too few, or all alike
+    }
+  };
+  when_possible(a.icc, [&] { return intraclass_correlation(table); });
+  when_possible(a.limits, [&] { return limits_of_agreement(program, people); });
+  when_possible(a.kappa, [&] { return weighted_kappa(bands, quadratic_weights(3)); });
+  when_possible(a.cut, [&] { return borderline_cut(ratings, rated, borderline); });
+  if (!a.limits || a.limits->sd <= 0) return;
+  std::size_t i = 0;
+  for (const auto& [candidate, given] : by_candidate) {
+    const double off = program[i] - people[i];
+    ++i;
+    if (std::fabs(off - a.limits->bias) > k_far * a.limits->sd)
+      f.to_look_at.push_back(
+          {sat.at(candidate)->seq, candidate, "people gave " + fixed(program[i - 1] - off, 1) + " points, the program " + fixed(program[i - 1], 1)});
+  }
+}
+
+json optional(const std::optional<double>& v) { return v ? json(*v) : json(); }
+
+}  // namespace
+
+std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where) {
+  std::vector<HumanMark> out;
+  std::istringstream lines(text);
+  std::vector<std::string> heading;
+  int number = 0;
+  const auto number_in = [&](const std::string& field, const char* what) {
+    double v = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
+      throw Error(where + ":" + std::to_string(number), "'" + one_line(field) + "' is no number of " + what, "write it with a decimal point");
+    return v;
+  };
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+      if (c == ',')
+        fields.emplace_back();
+      else
+        fields.back() += c;
+    }
+    if (heading.empty()) {
+      heading = fields;
+      const bool known = heading.size() >= 3 && heading.size() <= 4 && heading[0] == "candidate" && heading[1] == "judge" && heading[2] == "points" &&
+                         (heading.size() == 3 || heading[3] == "rating");
+      if (!known)
+        throw Error(where + ":" + std::to_string(number), "is no heading of marks",
+                    "begin with candidate,judge,points or candidate,judge,points,rating");
+      continue;
+    }
+    if (fields.size() != heading.size())
+      throw Error(where + ":" + std::to_string(number),
+                  "has " + std::to_string(fields.size()) + " fields, the heading " + std::to_string(heading.size()), "give each row all of them");
+    HumanMark m{fields[0], fields[1], number_in(fields[2], "points"), {}};
+    if (const auto known = identities.of_id(m.candidate)) m.candidate = known->pseudonym;
+    if (fields.size() == 4 && !fields[3].empty()) m.rating = number_in(fields[3], "a rating");
+    out.push_back(std::move(m));
+  }
+  if (out.empty()) throw Error(where, "holds no mark", "write a row for each candidate and judge");
+  return out;
+}
+
+ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
+  ClassFigures f;
+  f.exam = exam;
+  std::map<std::string, const FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
+  for (const auto& s : registry.sessions)
+    if (s.scenario_id == exam && s.findings.empty() && s.result.is_object()) sat[s.candidate] = &s;
+  if (sat.empty()) throw Error("exam '" + one_line(exam) + "'", "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
+  const json& any = sat.begin()->second->result;
+  const auto ids = [](const json& result) {
+    std::vector<std::string> out;
+    for (const auto& c : result.at("criteria")) out.push_back(c.at("id"));
+    return out;
+  };
+  f.max_points = any.at("score").at("max");
+  f.pass_points = f.max_points * any.at("score").value("pass_percent", 0.0) / 100;
+  const double band = f.max_points * any.at("score").value("borderline_percent", 0.0) / 100;
+  Matrix table;
+  std::map<std::string, std::vector<double>> by_station;
+  std::vector<double> in_order;
+  for (const auto& [candidate, s] : sat) {
+    const double points = points_in(s->result);
+    in_order.push_back(points);
+    const std::string verdict = s->result.value("verdict", "");
+    (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
+    by_station[s->station_key].push_back(points);
+    if (verdict == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
+    if (ids(s->result) != ids(any)) continue;  // regraded by another rubric
+    std::vector<double> row;
+    for (const auto& c : s->result.at("criteria")) row.push_back(c.at("points").get<double>());
+    table.push_back(std::move(row));
+  }
+  f.n = in_order.size();
+  f.mean = cohort::mean(in_order);
+  if (f.n >= 2) f.sd = std::sqrt(variance(in_order));
+  std::size_t i = 0;
+  for (const auto& [candidate, s] : sat) {
+    if (f.sd > 0 && std::fabs(in_order[i] - f.mean) > k_far * f.sd)
+      f.to_look_at.push_back({s->seq, candidate, fixed(in_order[i], 1) + " points lie far from the class"});
+    ++i;
+  }
+  f.points = in_order;
+  std::sort(f.points.begin(), f.points.end());
+
+  const bool enough = table.size() >= 2 && table[0].size() >= 2;
+  const auto telling = enough ? discrimination(table) : std::vector<double>();
+  for (std::size_t c = 0; c < any.at("criteria").size(); ++c) {
+    const json& criterion = any["criteria"][c];
+    double sum = 0;
+    for (const auto& row : table) sum += row[c];
+    CriterionFigures one{
+        criterion.value("id", ""), criterion.value("metric", ""), sum / static_cast<double>(table.size()) / criterion.at("max").get<double>(), {}};
+    if (enough) one.discrimination = telling[c];
+    f.criteria.push_back(std::move(one));
+  }
+  if (enough && f.sd > 0) {
+    f.alpha = cronbach_alpha(table);
+    f.sem = standard_error(f.sd, *f.alpha);
+  }
+  std::vector<std::vector<double>> groups;
+  for (const auto& [key, points] : by_station) {
+    f.stations.push_back({key, points.size(), cohort::mean(points)});
+    groups.push_back(points);
+  }
+  if (groups.size() >= 2 && f.n > groups.size()) f.station_effect = group_effect(groups, k_shuffles, 1);
+  agree(f, sat, marks, band, borderline);
+  std::sort(f.to_look_at.begin(), f.to_look_at.end(),
+            [](const ToLookAt& a, const ToLookAt& b) { return a.session != b.session ? a.session < b.session : a.why < b.why; });
+  return f;
+}
+
+json to_json(const ClassFigures& f) {
+  json criteria = json::array(), stations = json::array(), look = json::array();
+  for (const auto& c : f.criteria)
+    criteria.push_back({{"id", c.id}, {"metric", c.metric}, {"difficulty", c.difficulty}, {"discrimination", optional(c.discrimination)}});
+  for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"n", s.n}, {"mean_points", s.mean}});
+  for (const auto& t : f.to_look_at) look.push_back({{"session", t.session}, {"candidate", t.candidate}, {"why", t.why}});
+  const Agreement& a = f.agreement;
+  json agreement = {{"n", a.n}, {"judges", a.judges}, {"weighted_kappa", optional(a.kappa)}, {"borderline_cut_points", optional(a.cut)}};
+  agreement["icc"] = a.icc ? json{{"single_random", a.icc->single_random},
+                                  {"single_fixed", a.icc->single_fixed},
+                                  {"average_random", a.icc->average_random},
+                                  {"average_fixed", a.icc->average_fixed}}
+                           : json();
+  agreement["limits"] = a.limits ? json{{"bias", a.limits->bias}, {"sd", a.limits->sd}, {"low", a.limits->low}, {"high", a.limits->high}} : json();
+  return {{"exam", f.exam},
+          {"n", f.n},
+          {"verdicts", {{"pass", f.pass}, {"fail", f.fail}, {"review", f.review}}},
+          {"points", {{"mean", f.mean}, {"sd", f.sd}, {"max", f.max_points}, {"pass", f.pass_points}}},
+          {"criteria", criteria},
+          {"alpha", optional(f.alpha)},
+          {"standard_error_points", optional(f.sem)},
+          {"stations", stations},
+          {"station_effect",
+           f.station_effect ? json{{"f", f.station_effect->f}, {"chance", f.station_effect->chance}, {"share", f.station_effect->share}} : json()},
+          {"agreement", agreement},
+          {"to_look_at", look}};
+}
+
+}  // namespace cavum::cohort

@@ -1,0 +1,66 @@
+// One exam as a class sat it: the figures of statistics.h on the results that the ledger holds, with people's marks beside them where there are any.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/cohort/statistics.h"
+#include "grading/ledger/filing.h"
+#include "grading/ledger/identities.h"
+
+namespace cavum::cohort {
+
+/// One mark that a person gave: points on the exam's scale, and a global rating where one was asked for.
+struct HumanMark {
+  std::string candidate;  ///< pseudonym
+  std::string judge;
+  double points = 0;
+  std::optional<double> rating;
+};
+/// CSV `candidate,judge,points[,rating]`, candidates by pseudonym or the school's own number. Throws Error(where:line, ...).
+[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where);
+
+struct CriterionFigures {
+  std::string id, metric;
+  double difficulty = 0;                 ///< mean share of its points, 0 hard .. 1 easy
+  std::optional<double> discrimination;  ///< correlation with the sum of the others
+};
+struct StationFigures {
+  std::string key;  ///< public
+  std::size_t n = 0;
+  double mean = 0;
+};
+struct Agreement {
+  std::size_t n = 0;                        ///< candidates that people marked
+  std::optional<Icc> icc;                   ///< program and judges as judges, candidates that all of them marked
+  std::size_t judges = 0;                   ///< with the program
+  std::optional<LimitsOfAgreement> limits;  ///< program less the mean of the judges, points
+  std::optional<double> kappa;              ///< fail, borderline, pass: quadratic weights
+  std::optional<double> cut;                ///< borderline regression, points
+};
+struct ToLookAt {
+  std::uint64_t session = 0;  ///< entry
+  std::string candidate, why;
+};
+
+struct ClassFigures {
+  std::string exam;
+  std::size_t n = 0, pass = 0, fail = 0, review = 0;
+  double max_points = 0, mean = 0, sd = 0, pass_points = 0;
+  std::vector<double> points;  ///< ascending
+  std::vector<CriterionFigures> criteria;
+  std::optional<double> alpha, sem;
+  std::vector<StationFigures> stations;
+  std::optional<GroupEffect> station_effect;
+  Agreement agreement;
+  std::vector<ToLookAt> to_look_at;
+};
+
+/// Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody sat the exam. `borderline`: the
+/// rating that means so.
+[[nodiscard]] ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline);
+[[nodiscard]] nlohmann::json to_json(const ClassFigures& figures);
+
+}  // namespace cavum::cohort

@@ -1,0 +1,104 @@
+#include "grading/cohort/simulated_class.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "engine/base/file.h"
+#include "engine/base/random.h"
+#include "grading/close_exam.h"
+#include "grading/ledger/filing.h"
+#include "grading/ledger/ticket.h"
+#include "scenarios/simulated_exam.h"
+
+namespace cavum::cohort {
+namespace {
+
+constexpr std::int64_t k_day_ns = 86'400'000'000'000;
+
+struct Student {
+  std::string ticket, candidate, skill, path;
+  std::uint64_t seed = 0;
+};
+
+void sit(const Student& student, const std::string& scenario) {
+  ExamOptions options;
+  options.candidate = student.candidate;
+  options.device = "simulated Omni, operator " + student.skill;
+  options.position_quantum_mm = OmniModel{}.quantum_mm;
+  options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {k_ticket_note, student.ticket}};
+  const auto setup = prepare_exam(scenario, options);
+  auto hands = make_simulated_candidate(*setup, student.skill, student.seed, OmniModel{});
+  const auto exam = Exam::start(*setup, student.path, hands.start_mm());
+  run_exam(*exam, hands);
+  static_cast<void>(grade_and_close(*exam, student.path));
+}
+
+}  // namespace
+
+ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities& identities, const std::function<void(int)>& done) {
+  std::filesystem::create_directories(wanted.sessions);
+  const auto setup = prepare_exam(wanted.scenario, {});
+  Ticket t;
+  t.ledger = ledger.content().id;
+  t.public_key = ledger.content().public_key;
+  t.exam = setup->scenario.id;
+  t.artifacts = examined_artifacts(setup->session);
+  t.not_before_utc_ns = read_clocks().utc_ns - k_day_ns;
+  t.not_after_utc_ns = read_clocks().utc_ns + k_day_ns;
+
+  Random random(wanted.seed);
+  std::vector<int> level(static_cast<std::size_t>(wanted.n));
+  for (std::size_t i = 0; i < level.size(); ++i) level[i] = static_cast<int>((2 * i + 1) * 50 / level.size());
+  for (std::size_t i = level.size(); i-- > 1;) std::swap(level[i], level[random.below(i + 1)]);
+  std::vector<Student> students;
+  for (int i = 0; i < wanted.n; ++i) {
+    Student s;
+    s.seed = random.next() >> 1;
+    s.skill = "student-" + std::to_string(level[static_cast<std::size_t>(i)]);
+    t.candidate = s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ledger.key());
+    t.nonce = random_hex(16);
+    s.ticket = sign_ticket(t, ledger.key());
+    s.path = wanted.sessions + "/" + s.candidate + ".cavum";
+    if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
+    ledger.append("ticket", [&](const LedgerContent&) { return nlohmann::json::parse(s.ticket); });
+    students.push_back(std::move(s));
+  }
+
+  ClassSat out;
+  std::mutex mutex;  // of everything below
+  std::size_t next = 0;
+  std::exception_ptr failed;
+  const auto work = [&] {
+    while (true) {
+      std::size_t mine = 0;
+      {
+        const std::lock_guard lock(mutex);
+        if (failed || next == students.size()) return;
+        mine = next++;
+      }
+      try {
+        sit(students[mine], wanted.scenario);
+        const std::lock_guard lock(mutex);
+        ++out.sat;
+        out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[mine].path));
+        if (file_session(ledger, students[mine].path).seq) ++out.filed;
+        done(out.sat);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failed) failed = std::current_exception();
+        return;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < std::clamp(wanted.at_once, 1, 16); ++i) threads.emplace_back(work);
+  for (auto& thread : threads) thread.join();
+  if (failed) std::rethrow_exception(failed);
+  return out;
+}
+
+}  // namespace cavum::cohort

@@ -1,0 +1,72 @@
+#include "grading/ledger/explain_session.h"
+
+#include "engine/base/text.h"
+#include "engine/session/clock_check.h"
+#include "engine/session/session_reader.h"
+#include "engine/session/verify.h"
+#include "grading/ledger/ticket.h"
+
+namespace cavum {
+
+SessionExplanation explain_session(const std::string& path, const std::string& school_key) {
+  SessionExplanation e;
+  e.file = path;
+  const VerifyReport report = verify_session(path);
+  const SessionReader session(path);
+  e.findings = report.findings;
+  if (report.intact) {
+    e.proved.push_back("nothing in the file was changed since it was recorded: " + std::to_string(session.chunks().size()) +
+                       " seconds linked by SHA-256, each with its motion, forces, events and clocks");
+    e.proved.push_back("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: " + std::to_string(report.ticks_replayed) +
+                       " ticks simulated");
+  }
+  if (report.closed && report.intact)
+    e.proved.push_back("closed on " + utc_text(session.seal()->clocks.utc_ns) + " by station " + report.station_key);
+
+  std::string ticket_text;
+  SessionSetup setup;
+  try {
+    setup = session.setup();
+    for (const auto& [key, value] : setup.notes)
+      if (key == k_ticket_note) ticket_text = value;
+  } catch (const Error& damage) {
+    e.findings.emplace_back(damage.what());
+  }
+  if (!ticket_text.empty()) {
+    try {
+      const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
+      const auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
+      e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
+      if (wrong.empty())
+        e.proved.push_back("the school with key " + ticket.public_key + " promised this exam to candidate " + ticket.candidate +
+                           ": scenario, tooth, rubric and accommodations are those of the ticket, and it began within its time");
+    } catch (const Error& damage) {
+      e.findings.emplace_back(damage.what());
+    }
+  } else if (!school_key.empty()) {
+    e.findings.emplace_back("the session holds no ticket: nobody promised this exam");
+  } else {
+    e.remarks.emplace_back("there is no ticket: that this exam was asked for, and of whom, is not shown");
+  }
+  for (const auto& r : check_clocks(session))
+    e.remarks.push_back("from tick " + std::to_string(r.first_tick) + " (" + fixed(static_cast<double>(r.first_tick) * 1e-3, 1) + " s): " + r.what);
+  e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");
+  e.remarks.emplace_back("that no other exam was sat with the same ticket is known to the ledger only");
+  e.holds = report.verified && e.findings.empty();
+  return e;
+}
+
+std::string to_text(const SessionExplanation& e) {
+  std::string out = e.file + ": " + (e.holds ? "holds" : "DOES NOT HOLD") + "\n";
+  const auto list = [&](const char* title, const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    out += std::string(title) + "\n";
+    for (const auto& l : lines) out += "  - " + l + "\n";
+  };
+  list("what does not hold", e.findings);
+  list("what is proved", e.proved);
+  list("to be known", e.remarks);
+  return out;
+}
+
+}  // namespace cavum

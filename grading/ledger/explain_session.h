@@ -1,0 +1,22 @@
+// What is proved of one recorded exam, and what is not, in words for an appeal: whether the file is whole and signed, whether the motion gives the
+// forces and the tooth again, whether a ticket promised it, and what the clocks say of how it was sat.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cavum {
+
+struct SessionExplanation {
+  std::string file;
+  bool holds = false;                 ///< closed, true, and as its ticket promised when it has one
+  std::vector<std::string> proved;    ///< what holds, each with how it is known
+  std::vector<std::string> findings;  ///< what does not hold
+  std::vector<std::string> remarks;   ///< what nobody can know from the file, and what the clocks show
+};
+
+/// `school_key`: public key (hexadecimal) that must have signed the ticket; empty = whichever did. Throws Error when the file is no session at all.
+[[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key);
+[[nodiscard]] std::string to_text(const SessionExplanation& explanation);
+
+}  // namespace cavum

@@ -1,0 +1,175 @@
+#include "grading/ledger/exports.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "engine/base/text.h"
+#include "engine/session/session.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+/// A number in full, or nothing.
+std::string number_in(const json& j) { return j.is_number() ? j.dump() : ""; }
+
+double points_of(const json& result) { return result.at("score").at("points").get<double>(); }
+
+/// "Verdict: pass. floor_depth 8 of 10: deepest place 0.2 mm over ..."
+std::string feedback_of(const json& result) {
+  std::string out = "Verdict: " + result.value("verdict", "") + ".";
+  for (const auto& c : result.at("criteria"))
+    if (c.at("points").get<double>() < c.at("max").get<double>())
+      out += " " + c.value("id", "") + " " + plain_number(c.at("points")) + " of " + plain_number(c.at("max")) + ": " + c.value("reason", "") + ".";
+  return one_line(out);
+}
+
+/// Milliseconds, as LTI wants: a platform keeps the score with the later time.
+std::string utc_ms(std::int64_t utc_ns) {
+  std::string seconds = utc_text(utc_ns);
+  seconds.pop_back();
+  const auto ms = utc_ns / 1'000'000 % 1000;
+  return seconds + "." + std::string(ms < 10 ? "00" : ms < 100 ? "0" : "") + std::to_string(ms) + "Z";
+}
+
+Bytes results_message(const json& facts) {
+  const std::string text = "CVRESULT" + facts.dump();
+  return {text.begin(), text.end()};
+}
+
+}  // namespace
+
+std::string csv_field(const std::string& text) {
+  std::string out = text;
+  // a minus sign before a number is a number
+  const bool formula = !out.empty() && (out[0] == '=' || out[0] == '+' || out[0] == '@' || out[0] == '\t' || out[0] == '\r' ||
+                                        (out[0] == '-' && out.find_first_not_of("-0123456789.eE+") != std::string::npos));
+  if (formula) out.insert(out.begin(), '\'');
+  if (out.find_first_of(",\"\r\n;") == std::string::npos) return out;
+  std::string quoted = "\"";
+  for (const char c : out) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out) {
+  struct Exam {
+    std::vector<std::string> criteria;
+    std::map<std::string, const FiledSession*> by_candidate;
+  };
+  std::map<std::string, Exam> exams;
+  for (const auto& s : registry.sessions) {
+    if (!s.released) continue;
+    Exam& exam = exams[s.scenario_id];
+    exam.by_candidate[s.candidate] = &s;
+    for (const auto& c : s.result.at("criteria"))
+      if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
+        exam.criteria.push_back(id);
+  }
+  std::string out = "ID number";
+  for (const auto& [id, exam] : exams) {
+    out += "," + csv_field(id);
+    for (const auto& c : exam.criteria) out += "," + csv_field(id + " " + c);
+    out += "," + csv_field(id + " feedback");
+  }
+  out += "\n";
+  std::map<std::string, std::string> rows;  // by the school's own number
+  left_out = 0;
+  std::vector<std::string> candidates;
+  for (const auto& [id, exam] : exams)
+    for (const auto& [candidate, session] : exam.by_candidate) candidates.push_back(candidate);
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  for (const auto& candidate : candidates) {
+    const auto identity = identities.of_pseudonym(candidate);
+    if (!identity) {
+      ++left_out;
+      continue;
+    }
+    std::string& row = rows[identity->id];
+    row = csv_field(identity->id);
+    for (const auto& [id, exam] : exams) {
+      const auto found = exam.by_candidate.find(candidate);
+      if (found == exam.by_candidate.end()) {
+        row += std::string(exam.criteria.size() + 2, ',');
+        continue;
+      }
+      const json& result = found->second->result;
+      row += "," + number_in(result.at("score").at("points"));
+      for (const auto& wanted : exam.criteria) {
+        row += ",";
+        for (const auto& c : result.at("criteria"))
+          if (c.at("id") == wanted) row += number_in(c.at("points"));
+      }
+      row += "," + csv_field(feedback_of(result));
+    }
+  }
+  for (const auto& [id, row] : rows) out += row + "\n";
+  return out;
+}
+
+json lti_scores(const Registry& registry, Identities& identities) {
+  json out = json::array();
+  for (const auto& s : registry.sessions) {
+    const auto identity = identities.of_pseudonym(s.candidate);
+    const bool shown = s.released && s.result.is_object();
+    json one = {{"userId", identity && s.released ? identity->id : s.candidate},
+                {"timestamp", utc_ms(s.received_utc_ns)},
+                {"activityProgress", "Completed"},
+                {"gradingProgress", shown                                                               ? "FullyGraded"
+                                    : s.result.is_object() && s.result.value("verdict", "") == "review" ? "PendingManual"
+                                                                                                        : "Pending"}};
+    if (shown) {
+      one["scoreGiven"] = points_of(s.result);
+      one["scoreMaximum"] = s.result.at("score").at("max");
+      one["comment"] = feedback_of(s.result);
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+std::string signed_results(const Registry& registry, const Ledger& ledger) {
+  json results = json::array();
+  for (const auto& s : registry.sessions)
+    results.push_back(
+        {{"session", s.seq}, {"candidate", s.candidate}, {"file_sha256", s.file_sha256}, {"released", s.released}, {"result", s.result}});
+  const Checkpoint& p = ledger.content().checkpoints.back();
+  json facts = {{"results", results},
+                {"ledger", ledger.content().id},
+                {"public_key", ledger.content().public_key},
+                {"checkpoint", {{"size", p.size}, {"root", to_hex(p.root)}}}};
+  const std::string signature = to_hex(ledger.key().sign(results_message(facts)));
+  facts["signature"] = signature;
+  return facts.dump();
+}
+
+bool results_hold(const std::string& text) {
+  try {
+    json facts = json::parse(text);
+    const auto signature = fixed_from_hex<64>(facts.at("signature"), "signature");
+    const auto key = fixed_from_hex<32>(facts.at("public_key"), "public_key");
+    facts.erase("signature");
+    return is_signed_by(key, results_message(facts), signature);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+std::string tidy_csv(const Registry& registry) {
+  std::string out = "session,candidate,scenario,verdict,released,criterion,metric,value,unit,points,max\n";
+  for (const auto& s : registry.sessions) {
+    if (!s.result.is_object()) continue;
+    for (const auto& c : s.result.at("criteria"))
+      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + s.result.value("verdict", "") + "," +
+             (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
+             "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
+  }
+  return out;
+}
+
+}  // namespace cavum

@@ -1,0 +1,35 @@
+// Results for other systems: a gradebook that Moodle reads, scores for a learning platform over LTI Advantage, signed results for the file, and one
+// row for each criterion for research. Names leave the school's identities only for results that were released.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "grading/ledger/filing.h"
+#include "grading/ledger/identities.h"
+
+namespace cavum {
+
+/// Moodle's grade import (CSV, first row names): "ID number", for each exam its points, one column for each criterion, and feedback. One row for each
+/// candidate with a released result; of several attempts at one exam the last counts. `left_out` receives how many results had no known candidate.
+[[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out);
+
+/// Scores as the LTI Advantage Assignment and Grade Services 2.0 take them, one object for each session: userId, timestamp, activityProgress,
+/// gradingProgress, and scoreGiven, scoreMaximum, comment once released. Before that gradingProgress is `Pending`, and `PendingManual` while the
+/// verdict is `review`.
+[[nodiscard]] nlohmann::json lti_scores(const Registry& registry, Identities& identities);
+
+/// {"results":[{session, candidate, file_sha256, released, result}], "ledger", "checkpoint", "public_key", "signature"}: keys in order, no spaces,
+/// signed by the school over "CVRESULT" and the text of the object without "signature". Pseudonyms only.
+[[nodiscard]] std::string signed_results(const Registry& registry, const Ledger& ledger);
+/// True when `text` is what signed_results wrote, unchanged.
+[[nodiscard]] bool results_hold(const std::string& text);
+
+/// CSV, one row for each session and criterion: session, candidate, scenario, verdict, released, criterion, metric, value, unit, points, max.
+/// Pseudonyms only.
+[[nodiscard]] std::string tidy_csv(const Registry& registry);
+
+/// A field of a CSV file: quoted where it must be, and never a formula to a spreadsheet that opens it.
+[[nodiscard]] std::string csv_field(const std::string& text);
+
+}  // namespace cavum

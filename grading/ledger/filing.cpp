@@ -1,0 +1,203 @@
+#include "grading/ledger/filing.h"
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "engine/base/file.h"
+#include "engine/session/session_reader.h"
+#include "engine/session/verify.h"
+#include "scenarios/parse.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+std::string ticket_text_in(const SessionSetup& setup) {
+  for (const auto& [key, value] : setup.notes)
+    if (key == k_ticket_note) return value;
+  return {};
+}
+
+/// Ticket and claims of a session against the entries so far.
+std::vector<std::string> check_claims(const LedgerContent& content, const SessionSetup& setup, std::int64_t begun_utc_ns,
+                                      const std::string& chain_sha256, const std::string& nonce, bool without_ticket) {
+  std::vector<std::string> findings;
+  const Registry registry = read_registry(content);
+  for (const auto& s : registry.sessions)
+    if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));
+  const std::string text = ticket_text_in(setup);
+  if (text.empty()) {
+    if (!without_ticket) findings.emplace_back("the session holds no ticket: nobody promised this exam");
+    return findings;
+  }
+  try {
+    const Ticket ticket = parse_ticket(text, content.public_key, "the session's ticket");
+    for (auto& f : check_ticket(ticket, setup, begun_utc_ns)) findings.push_back(std::move(f));
+    if (ticket.ledger != content.id) findings.emplace_back("the ticket was issued by another ledger");
+    bool issued = false;
+    for (const auto& t : registry.tickets) {
+      if (t.ticket.nonce != nonce) continue;
+      issued = true;
+      if (t.used_by) findings.push_back("the ticket was used before: entry " + std::to_string(*t.used_by));
+    }
+    if (!issued) findings.emplace_back("the ledger has not issued this ticket");
+  } catch (const Error& e) {
+    findings.emplace_back(e.what());
+  }
+  return findings;
+}
+
+std::string nonce_in(const SessionSetup& setup) {
+  const std::string text = ticket_text_in(setup);
+  if (text.empty()) return {};
+  const json j = json::parse(text, nullptr, false);
+  return j.is_object() && j.contains("ticket") && j["ticket"].is_object() ? j["ticket"].value("nonce", "") : "";
+}
+
+}  // namespace
+
+Registry read_registry(const LedgerContent& content) {
+  Registry r;
+  std::map<std::uint64_t, std::size_t> by_seq;  // sessions
+  std::map<std::string, std::size_t> by_nonce;
+  std::set<std::string> chains;
+  for (const auto& e : content.entries) {
+    const auto say = [&](const std::string& what) { r.findings.push_back("entry " + std::to_string(e.seq) + ": " + what); };
+    try {
+      if (e.kind == "ticket") {
+        IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content.public_key, "ticket"), {}};
+        if (!by_nonce.emplace(t.ticket.nonce, r.tickets.size()).second) say("a ticket with a number that another one has");
+        r.tickets.push_back(std::move(t));
+      } else if (e.kind == "session") {
+        FiledSession s;
+        s.seq = s.result_seq = e.seq;
+        s.received_utc_ns = e.utc_ns;
+        s.file_sha256 = e.body.at("file_sha256");
+        s.chain_sha256 = e.body.at("chain_sha256");
+        s.candidate = e.body.at("candidate");
+        s.scenario_id = e.body.at("scenario_id");
+        s.station_key = e.body.at("station_key");
+        s.nonce = e.body.at("nonce");
+        s.result = e.body.at("result");
+        s.findings = e.body.at("findings").get<std::vector<std::string>>();
+        if (!chains.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
+        if (!s.nonce.empty() && s.findings.empty()) {
+          const auto t = by_nonce.find(s.nonce);
+          if (t == by_nonce.end())
+            say("a session with a ticket that was not issued");
+          else if (r.tickets[t->second].used_by)
+            say("a ticket that was used before");
+          else
+            r.tickets[t->second].used_by = e.seq;
+        }
+        by_seq[e.seq] = r.sessions.size();
+        r.sessions.push_back(std::move(s));
+      } else if (e.kind == "regrade") {
+        FiledSession& s = r.sessions.at(by_seq.at(e.body.at("session").get<std::uint64_t>()));
+        s.result = e.body.at("result");
+        s.result_seq = e.seq;
+        s.released = false;  // a new result waits for its own release
+      } else if (e.kind == "release") {
+        for (const auto& seq : e.body.at("results")) {
+          bool found = false;
+          for (auto& s : r.sessions)
+            if (s.result_seq == seq.get<std::uint64_t>()) s.released = found = true;
+          if (!found) say("releases a result that does not count");
+        }
+      } else if (e.kind != "init" && e.kind != "forget") {
+        say("is of a kind that this version does not know: '" + e.kind + "'");
+      }
+    } catch (const std::out_of_range&) {
+      say("speaks of a session that is not there");
+    } catch (const std::exception& error) {
+      say(error.what());
+    }
+  }
+  return r;
+}
+
+Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options) {
+  Filing out;
+  ledger.refresh();
+  const VerifyReport report = verify_session(path);
+  const SessionReader session(path);
+  if (!report.closed)
+    throw Error(path, "was never closed", "resume the exam, or close it as it stands: `cavum exam --resume --end --out " + path + "`");
+  out.findings = report.findings;
+  const Bytes bytes = read_file(path);
+  const SessionSetup setup = session.setup();
+  const std::string file_sha256 = to_hex(sha256(bytes)), chain = to_hex(session.seal()->chain_sha256), nonce = nonce_in(setup);
+  const std::int64_t begun = session.created().utc_ns;
+
+  const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
+  const auto claims = [&](const LedgerContent& c) { return check_claims(c, setup, begun, chain, nonce, options.without_ticket); };
+  for (auto& f : claims(ledger.content())) out.findings.push_back(std::move(f));
+  if (refused()) return out;
+
+  std::filesystem::create_directories(ledger.places().folder + "/sessions");
+  write_file(ledger.places().session(file_sha256), bytes);
+  std::string scenario_id;
+  try {
+    scenario_id = parse_scenario(setup.scenario_toml, "scenario.toml").id;
+  } catch (const std::exception&) {
+    scenario_id = "";  // a damaged session filed for an appeal
+  }
+  struct Refused {};
+  try {
+    out.seq = ledger
+                  .append("session",
+                          [&](const LedgerContent& now) -> json {
+                            // again under the lock: somebody may have used the ticket meanwhile
+                            auto late = claims(now);
+                            if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
+                            if (refused()) throw Refused();
+                            json result = json::parse(session.result_json(), nullptr, false);
+                            return {{"candidate", setup.candidate},
+                                    {"chain_sha256", chain},
+                                    {"file_sha256", file_sha256},
+                                    {"findings", out.findings},
+                                    {"begun_utc_ns", begun},
+                                    {"closed_utc_ns", session.seal()->clocks.utc_ns},
+                                    {"nonce", nonce},
+                                    {"result", result.is_discarded() ? json(nullptr) : result},
+                                    {"scenario_id", scenario_id},
+                                    {"station_key", report.station_key},
+                                    {"ticks", report.ticks}};
+                          })
+                  .seq;
+  } catch (const Refused&) {
+    return out;
+  }
+  return out;
+}
+
+std::vector<std::string> check_ledger(const LedgerPlaces& places, bool replay) {
+  const LedgerContent content = read_ledger(places);
+  std::vector<std::string> findings = content.findings;
+  const Registry registry = read_registry(content);
+  findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
+  std::int64_t before = 0;
+  for (const auto& e : content.entries) {
+    if (e.utc_ns < before)
+      findings.push_back("entry " + std::to_string(e.seq) + ": was entered before the one that it follows, by the computer's clock");
+    before = e.utc_ns;
+  }
+  for (const auto& s : registry.sessions) {
+    const std::string name = "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")", path = places.session(s.file_sha256);
+    if (!std::filesystem::exists(path)) {
+      findings.push_back(name + ": its file is gone: " + path);
+      continue;
+    }
+    if (to_hex(sha256(read_file(path))) != s.file_sha256) {
+      findings.push_back(name + ": its file was changed: " + path);
+      continue;
+    }
+    if (replay && s.findings.empty())
+      for (const auto& f : verify_session(path).findings) findings.push_back(name + ": " + f);
+  }
+  return findings;
+}
+
+}  // namespace cavum

@@ -1,0 +1,77 @@
+#include "grading/ledger/identities.h"
+
+#include <sys/stat.h>
+
+#include <filesystem>
+
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::int64_t k_application_id = 0x43617649;  // "CavI"
+
+Identity read(const Statement& s) { return {s.text(0), s.text(1), s.text(2)}; }
+
+std::optional<Identity> first(Statement s) { return s.step() ? std::optional(read(s)) : std::nullopt; }
+
+}  // namespace
+
+Identities::Identities(const std::string& path)
+    : database_([&] {
+        const ::mode_t before = ::umask(0077);  // the file and its log are the school's alone
+        const bool make = !std::filesystem::exists(path);
+        Database db = Database::open(path, make);
+        if (make) {
+          db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
+          db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
+        }
+        ::umask(before);
+        return db;
+      }()) {
+  if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
+  database_.run("PRAGMA synchronous = FULL");
+  database_.run("PRAGMA secure_delete = ON");
+}
+
+std::string Identities::enrol(const std::string& id, const std::string& name, const SigningKey& school) {
+  if (id.empty() || !is_plain_text(id) || !is_plain_text(name))
+    throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
+  if (const auto known = of_id(id)) return known->pseudonym;
+  const Bytes salt = from_hex(random_hex(16), 16, "salt");
+  const std::string pseudonym = pseudonym_of(school, salt, id);
+  database_.prepare("INSERT INTO identity (pseudonym, id, name, salt) VALUES (?, ?, ?, ?)")
+      .bind(1, pseudonym)
+      .bind(2, id)
+      .bind(3, name)
+      .bind(4, salt)
+      .run();
+  return pseudonym;
+}
+
+std::optional<Identity> Identities::of_pseudonym(const std::string& pseudonym) {
+  auto s = database_.prepare("SELECT pseudonym, id, name FROM identity WHERE pseudonym = ?");
+  s.bind(1, pseudonym);
+  return first(std::move(s));
+}
+
+std::optional<Identity> Identities::of_id(const std::string& id) {
+  auto s = database_.prepare("SELECT pseudonym, id, name FROM identity WHERE id = ?");
+  s.bind(1, id);
+  return first(std::move(s));
+}
+
+std::vector<Identity> Identities::all() {
+  std::vector<Identity> out;
+  auto s = database_.prepare("SELECT pseudonym, id, name FROM identity ORDER BY pseudonym");
+  while (s.step()) out.push_back(read(s));
+  return out;
+}
+
+bool Identities::forget(const std::string& pseudonym) {
+  if (!of_pseudonym(pseudonym)) return false;
+  database_.prepare("DELETE FROM identity WHERE pseudonym = ?").bind(1, pseudonym).run();
+  return true;
+}
+
+}  // namespace cavum

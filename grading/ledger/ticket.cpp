@@ -1,0 +1,129 @@
+#include "grading/ledger/ticket.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/base/error.h"
+#include "grading/ledger/ledger_key.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+constexpr char k_format[] = "cavum ticket 1";
+
+Bytes message_of(const json& facts) {
+  const std::string text = "CVTICKET" + facts.dump();
+  return {text.begin(), text.end()};
+}
+
+std::vector<std::pair<std::string, std::string>> accommodations_in(const SessionSetup& setup) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const auto& note : setup.notes)
+    if (note.first.starts_with("accommodation.")) out.push_back(note);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Days from 1970-01-01, proleptic Gregorian; `month` 1..12.
+std::int64_t days_since_1970(std::int64_t year, int month, int day) {
+  year -= month <= 2 ? 1 : 0;
+  const std::int64_t era = year / 400, of_era = year - era * 400;
+  const std::int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> examined_artifacts(const SessionSetup& setup) {
+  std::map<std::string, std::string> out;
+  for (const auto& a : artifacts_of(setup))
+    if (a.name != "servo.toml" && a.name != k_final_tooth) out[a.name] = to_hex(sha256(a.bytes));
+  return out;
+}
+
+json to_json(const Ticket& t) {
+  json grant = json::object();
+  for (const auto& [key, value] : t.grant) grant[key] = value;
+  return {{"format", k_format},
+          {"ledger", t.ledger},
+          {"exam", t.exam},
+          {"candidate", t.candidate},
+          {"nonce", t.nonce},
+          {"not_before", utc_text(t.not_before_utc_ns)},
+          {"not_after", utc_text(t.not_after_utc_ns)},
+          {"artifacts", t.artifacts},
+          {"grant", grant},
+          {"public_key", t.public_key}};
+}
+
+std::string sign_ticket(const Ticket& ticket, const SigningKey& school) {
+  const json facts = to_json(ticket);
+  return json{{"signature", to_hex(school.sign(message_of(facts)))}, {"ticket", facts}}.dump();
+}
+
+Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where) {
+  Ticket t;
+  json facts;
+  std::string signature;
+  try {
+    const json j = json::parse(text);
+    facts = j.at("ticket");
+    signature = j.at("signature");
+    if (facts.at("format") != k_format) throw Error(where, "is a ticket of another format", "use the version of Cavum that issued it");
+    t.ledger = facts.at("ledger");
+    t.exam = facts.at("exam");
+    t.candidate = facts.at("candidate");
+    t.nonce = facts.at("nonce");
+    t.not_before_utc_ns = parse_utc(facts.at("not_before"), where + ": not_before");
+    t.not_after_utc_ns = parse_utc(facts.at("not_after"), where + ": not_after");
+    t.artifacts = facts.at("artifacts").get<std::map<std::string, std::string>>();
+    t.public_key = facts.at("public_key");
+    for (const auto& [key, value] : facts.at("grant").items()) t.grant.emplace_back(key, value.get<std::string>());
+    std::sort(t.grant.begin(), t.grant.end());
+  } catch (const json::exception&) {
+    throw Error(where, "is no ticket", "name a file that `cavum ledger ticket` wrote");
+  }
+  if (!public_key.empty() && t.public_key != public_key) throw Error(where, "is the ticket of another school", "ask for one of this school");
+  if (!is_signed_by(fixed_from_hex<32>(t.public_key, where + ": public_key"), message_of(facts),
+                    fixed_from_hex<64>(signature, where + ": signature")))
+    throw Error(where, "was changed after the school signed it", "ask for a new ticket");
+  return t;
+}
+
+std::vector<std::string> check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
+  std::vector<std::string> findings;
+  if (setup.candidate != t.candidate) findings.push_back("the ticket is candidate " + t.candidate + "'s, the exam was sat by " + setup.candidate);
+  const auto examined = examined_artifacts(setup);
+  for (const auto& [name, hash] : t.artifacts) {
+    const auto found = examined.find(name);
+    if (found == examined.end())
+      findings.push_back("the ticket promises " + name + ", which the exam does not have");
+    else if (found->second != hash)
+      findings.push_back(name + " is not the one that the ticket promises");
+  }
+  for (const auto& [name, hash] : examined)
+    if (!t.artifacts.contains(name)) findings.push_back("the exam has " + name + ", of which the ticket says nothing");
+  if (accommodations_in(setup) != t.grant) findings.emplace_back("the accommodations are not those that the ticket grants");
+  if (begun_utc_ns < t.not_before_utc_ns || begun_utc_ns > t.not_after_utc_ns)
+    findings.push_back("the exam began on " + utc_text(begun_utc_ns) + ", and the ticket is good from " + utc_text(t.not_before_utc_ns) + " to " +
+                       utc_text(t.not_after_utc_ns));
+  return findings;
+}
+
+std::int64_t parse_utc(const std::string& text, const std::string& where) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, used = 0;
+  const char* c = text.c_str();
+  const auto whole = [&] { return used == static_cast<int>(text.size()); };
+  const bool read = (std::sscanf(c, "%4d-%2d-%2dT%2d:%2d:%2dZ%n", &year, &month, &day, &hour, &minute, &second, &used) == 6 && whole()) ||
+                    (second = 0, std::sscanf(c, "%4d-%2d-%2dT%2d:%2dZ%n", &year, &month, &day, &hour, &minute, &used) == 5 && whole());
+  static constexpr int k_days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  if (!read || year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > k_days[month - 1] + (month == 2 && leap ? 1 : 0) ||
+      hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 59)
+    throw Error(where, "'" + text + "' is no time", "write it in UTC as 2026-11-21T09:00Z");
+  return (((days_since_1970(year, month, day) * 24 + hour) * 60 + minute) * 60 + second) * 1'000'000'000;
+}
+
+}  // namespace cavum

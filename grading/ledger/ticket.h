@@ -1,0 +1,49 @@
+// A ticket is the school's promise of one exam to one candidate: this scenario, tooth and rubric, these accommodations, within this time, once. The
+// station reads it before the exam and keeps it in the session; the ledger checks it again and takes each ticket only once.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/session/session.h"
+#include "engine/session/station_key.h"
+
+namespace cavum {
+
+/// Note of a session that holds its ticket's text.
+inline constexpr char k_ticket_note[] = "ticket";
+
+struct Ticket {
+  std::string ledger;     ///< id of the ledger that issued it
+  std::string exam;       ///< id of the scenario
+  std::string candidate;  ///< pseudonym
+  std::string nonce;      ///< 32 hexadecimal digits, of this ticket alone
+  std::int64_t not_before_utc_ns = 0, not_after_utc_ns = 0;
+  std::map<std::string, std::string>
+      artifacts;  ///< SHA-256 (hexadecimal) by name of all that is examined: scenario, tooth, rubric, points, force model
+  std::vector<std::pair<std::string, std::string>> grant;  ///< accommodations as notes of the session (scenarios/accommodations.h)
+  std::string public_key;                                  ///< of the school, hexadecimal
+};
+
+/// What a ticket fixes of a session: all its artifacts but the servo's settings, which are the device's.
+[[nodiscard]] std::map<std::string, std::string> examined_artifacts(const SessionSetup& setup);
+
+/// The ticket's facts in JSON, keys in order, as they are signed after "CVTICKET".
+[[nodiscard]] nlohmann::json to_json(const Ticket& ticket);
+/// One line of JSON {"signature", "ticket"}: the ticket's file.
+[[nodiscard]] std::string sign_ticket(const Ticket& ticket, const SigningKey& school);
+/// Throws Error(`where`, ...) when the text is no ticket or its signature does not hold. `public_key` (hexadecimal): the school's; empty = whoever
+/// signed.
+[[nodiscard]] Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where);
+
+/// What about the exam is not as promised, in words: another candidate, another scenario, tooth or rubric, other accommodations, or begun outside its
+/// time.
+[[nodiscard]] std::vector<std::string> check_ticket(const Ticket& ticket, const SessionSetup& setup, std::int64_t begun_utc_ns);
+
+/// "2026-11-21T09:00Z" or "2026-11-21T09:00:00Z" in ns since 1970; throws Error(`where`, ...).
+[[nodiscard]] std::int64_t parse_utc(const std::string& text, const std::string& where);
+
+}  // namespace cavum

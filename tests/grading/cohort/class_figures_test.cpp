@@ -1,0 +1,141 @@
+#include "grading/cohort/class_figures.h"
+
+#include <gtest/gtest.h>
+
+#include "grading/cohort/simulated_class.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum::cohort {
+namespace {
+
+using nlohmann::json;
+using testing_ledger::School;
+
+FiledSession session(std::uint64_t seq, const std::string& candidate, double first, double second, const std::string& verdict = "pass",
+                     const std::string& station = "aa") {
+  FiledSession s;
+  s.seq = s.result_seq = seq;
+  s.candidate = candidate;
+  s.scenario_id = "exam";
+  s.station_key = station;
+  s.result = {{"verdict", verdict},
+              {"score", {{"points", first + second}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 2.0}}},
+              {"criteria", json::array({{{"id", "a"}, {"metric", "dice"}, {"points", first}, {"max", 60.0}},
+                                        {{"id", "b"}, {"metric", "time_s"}, {"points", second}, {"max", 40.0}}})}};
+  return s;
+}
+
+Registry four() {
+  Registry r;
+  r.sessions = {session(1, "C-1", 60, 40), session(2, "C-2", 30, 20, "fail"), session(3, "C-3", 45, 30), session(4, "C-4", 15, 10, "review")};
+  return r;
+}
+
+TEST(ClassFigures, AreThoseDoneByHand) {
+  const ClassFigures f = class_figures(four(), "exam", {}, 3);
+  EXPECT_EQ(f.n, 4u);
+  EXPECT_EQ(f.pass, 2u);
+  EXPECT_EQ(f.review, 1u);
+  EXPECT_EQ(f.fail, 1u);
+  EXPECT_NEAR(f.mean, 62.5, 1e-12);
+  EXPECT_NEAR(f.sd, 32.2749, 1e-4) << "100, 50, 75, 25";
+  EXPECT_EQ(f.pass_points, 60.0);
+  ASSERT_EQ(f.criteria.size(), 2u);
+  EXPECT_NEAR(f.criteria[0].difficulty, 150.0 / 240, 1e-12);
+  EXPECT_NEAR(*f.criteria[0].discrimination, 1.0, 1e-12);
+  // variances 375 and 166.667, of the sum 1041.667
+  EXPECT_NEAR(*f.alpha, 2 * (1 - (375 + 166.6667) / 1041.6667), 1e-5);
+  EXPECT_NEAR(*f.sem, 32.2749 * std::sqrt(1 - *f.alpha), 1e-3);
+  ASSERT_EQ(f.to_look_at.size(), 1u);
+  EXPECT_EQ(f.to_look_at[0].session, 4u);
+  EXPECT_FALSE(f.station_effect);
+}
+
+TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
+  Registry r = four();
+  r.sessions.push_back(session(5, "C-4", 60, 40));
+  r.sessions.push_back(session(6, "C-5", 0, 0, "fail"));
+  r.sessions.back().findings = {"changed"};
+  r.sessions.push_back(session(7, "C-6", 60, 40));
+  r.sessions.back().scenario_id = "another";
+  const ClassFigures f = class_figures(r, "exam", {}, 3);
+  EXPECT_EQ(f.n, 4u);
+  EXPECT_EQ(f.points, (std::vector<double>{50, 75, 100, 100}));
+  EXPECT_THROW(static_cast<void>(class_figures(r, "nobody's", {}, 3)), Error);
+}
+
+TEST(ClassFigures, AHarderStationIsFound) {
+  Registry r;
+  for (int i = 0; i < 40; ++i)
+    r.sessions.push_back(
+        session(static_cast<std::uint64_t>(i), "C-" + std::to_string(i), 30 + i % 7 - (i % 2 ? 12 : 0), 20, "pass", i % 2 ? "bb" : "aa"));
+  const ClassFigures f = class_figures(r, "exam", {}, 3);
+  ASSERT_EQ(f.stations.size(), 2u);
+  EXPECT_LT(f.station_effect->chance, 0.001);
+  EXPECT_GT(f.stations[0].mean, f.stations[1].mean + 8);
+}
+
+TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
+  const School school;
+  Identities identities(school.places().identities());
+  const std::string by_number = identities.enrol("4711", "", School::key());
+  Registry r = four();
+  r.sessions[0].candidate = by_number;
+  const auto marks = parse_marks(
+      "candidate,judge,points,rating\n4711,x,98,5\nC-2,x,48,3\nC-3,x,73,4\nC-4,x,23,1\n4711,y,102,\nC-2,y,52,\nC-3,y,77,\nC-4,y,27,\nunknown,x,5,\n",
+      identities, "marks.csv");
+  ASSERT_EQ(marks.size(), 9u);
+  EXPECT_EQ(marks[0].candidate, by_number);
+  const ClassFigures f = class_figures(r, "exam", marks, 3);
+  EXPECT_EQ(f.agreement.n, 4u);
+  EXPECT_EQ(f.agreement.judges, 3u);
+  EXPECT_NEAR(f.agreement.limits->bias, 0.0, 1e-12);
+  EXPECT_GT(f.agreement.icc->single_random, 0.99);
+  EXPECT_NEAR(*f.agreement.kappa, 1.0, 1e-12);
+  // ratings 5 3 4 1, points 100 50 75 25: slope 148.75/8.75·... by hand 18.571, through 3.25 and 62.5
+  EXPECT_NEAR(*f.agreement.cut, 62.5 - 0.25 * 162.5 / 8.75, 1e-9);
+}
+
+TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
+  const School school;
+  Identities identities(school.places().identities());
+  const auto says = [&](const std::string& text, const std::string& what) {
+    try {
+      static_cast<void>(parse_marks(text, identities, "m.csv"));
+      ADD_FAILURE() << text;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();
+    }
+  };
+  says("name,points\n", "m.csv:1: is no heading");
+  says("candidate,judge,points\nC-1,x,12,5\n", "m.csv:2: has 4 fields");
+  says("candidate,judge,points\nC-1,x,\"12,5\"\n", "m.csv:2: has 4 fields");
+  says("candidate,judge,points\nC-1,x,nan\n", "m.csv:2: 'nan' is no number");
+  says("candidate,judge,points\n", "holds no mark");
+}
+
+TEST(SimulatedClass, SitsIsFiledAndIsTheSameAgain) {
+  const auto sit = [](const School& school, int at_once) {
+    Ledger ledger = school.ledger();
+    Identities identities(school.places().identities());
+    SimulatedClass wanted;
+    wanted.scenario = testing_ledger::k_scenario;
+    wanted.sessions = school.file("class");
+    wanted.n = 4;
+    wanted.seed = 11;
+    wanted.at_once = at_once;
+    const ClassSat sat = simulate_class(wanted, ledger, identities, [](int) {});
+    EXPECT_EQ(sat.sat, 4);
+    EXPECT_EQ(sat.filed, 4);
+    EXPECT_TRUE(check_ledger(school.places(), true).empty());
+    return class_figures(read_registry(ledger.content()), "block_cavity", {}, 3);
+  };
+  const School one;
+  const ClassFigures first = sit(one, 2);
+  const School two;
+  EXPECT_EQ(sit(two, 1).points, first.points);
+  EXPECT_GT(first.points.back(), first.points.front() + 10) << "skills differ";
+}
+
+}  // namespace
+}  // namespace cavum::cohort

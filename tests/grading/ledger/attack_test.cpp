@@ -1,0 +1,243 @@
+// What somebody might try, one test each: every attempt is found, and the finding names it.
+#include <nlohmann/json.hpp>
+
+#include "engine/session/chain.h"
+#include "engine/session/chunk_codec.h"
+#include "grading/ledger/exports.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+
+std::string blob(std::span<const std::uint8_t> bytes) { return "x'" + to_hex(bytes) + "'"; }
+
+/// One school, one sound session; each test works on a copy of both.
+class Attack : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    shared_ticket_ = new std::string(shared_->ticket("4711"));
+    shared_session_ = new std::string(std::filesystem::path(shared_->sit(*shared_ticket_)).filename().string());
+  }
+  static void TearDownTestSuite() {
+    delete shared_;
+    delete shared_ticket_;
+    delete shared_session_;
+  }
+  Filing file(const std::string& path) {
+    Ledger ledger = school_.ledger();
+    return file_session(ledger, path);
+  }
+  void expect_refused(const std::string& path, const std::vector<std::string>& words) {
+    const Filing f = file(path);
+    EXPECT_FALSE(f.seq);
+    expect_finding(f.findings, words);
+    EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
+    EXPECT_TRUE(check_ledger(school_.places(), false).empty());
+  }
+  void expect_edit_refused(const std::string& sql, const std::vector<std::string>& words) {
+    test::tamper(session_, sql);
+    expect_refused(session_, words);
+  }
+  /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him.
+  void edit_ledger(const std::string& sql) {
+    test::tamper(school_.places().database(),
+                 "DROP TRIGGER entry_stays; DROP TRIGGER entry_is_kept; DROP TRIGGER checkpoint_stays; DROP TRIGGER checkpoint_is_kept; " + sql);
+  }
+  void expect_ledger_finding(const std::vector<std::string>& words) {
+    expect_finding(check_ledger(school_.places(), false), words);
+    EXPECT_THROW(school_.ledger(), Error) << "nothing is added to a ledger that does not hold";
+  }
+
+  School school_{*shared_};
+  std::string ticket_ = *shared_ticket_, session_ = school_.file(*shared_session_);
+
+ private:
+  static inline School* shared_ = nullptr;
+  static inline std::string *shared_ticket_ = nullptr, *shared_session_ = nullptr;
+};
+
+TEST_F(Attack, NoneIsFiledAndHolds) {
+  const Filing f = file(session_);
+  ASSERT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
+  EXPECT_TRUE(f.findings.empty());
+  EXPECT_TRUE(check_ledger(school_.places(), true).empty());
+  const auto registry = read_registry(read_ledger(school_.places()));
+  ASSERT_EQ(registry.sessions.size(), 1u);
+  EXPECT_EQ(registry.tickets.at(0).used_by, f.seq);
+  EXPECT_FALSE(registry.sessions[0].released);
+}
+
+TEST_F(Attack, AChangedPose) {
+  auto inputs = SessionReader(session_).motion(3).inputs;
+  inputs[10].tip_nm[2] += 20'000;
+  expect_edit_refused("UPDATE chunk SET inputs = " + blob(pack_inputs(inputs)) + " WHERE seq = 3", {"chunk 3", "motion (inputs)"});
+}
+TEST_F(Attack, AChangedEvent) { expect_edit_refused("UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0", {"chunk", "events"}); }
+TEST_F(Attack, AChangedClock) { expect_edit_refused("UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2", {"chunk 2", "clocks"}); }
+TEST_F(Attack, AChangedScenario) {
+  expect_edit_refused(
+      "UPDATE artifact SET bytes = CAST(replace(CAST(bytes AS TEXT), 'pass_percent', 'pass_percent ') AS BLOB) WHERE name = 'scenario.toml'",
+      {"scenario.toml"});
+}
+TEST_F(Attack, AChangedResult) {
+  expect_edit_refused("UPDATE result SET json = replace(json, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", {"result was changed"});
+}
+TEST_F(Attack, AChangedTooth) { expect_edit_refused("UPDATE artifact SET bytes = zeroblob(100) WHERE name = 'final_tooth.cvt'", {"tooth"}); }
+TEST_F(Attack, ADroppedChunk) { expect_edit_refused("DELETE FROM chunk WHERE seq = 4", {"chunk"}); }
+TEST_F(Attack, SwappedChunks) {
+  expect_edit_refused("UPDATE chunk SET seq = 1000 WHERE seq = 4; UPDATE chunk SET seq = 4 WHERE seq = 5; UPDATE chunk SET seq = 5 WHERE seq = 1000",
+                      {"chunk"});
+}
+TEST_F(Attack, ARepeatedChunk) {
+  expect_edit_refused(
+      "CREATE TEMP TABLE again AS SELECT * FROM chunk WHERE seq = 4; UPDATE again SET seq = (SELECT max(seq) + 1 FROM chunk); "
+      "INSERT INTO chunk SELECT * FROM again",
+      {"chunk"});
+}
+TEST_F(Attack, AnEndCutOff) { expect_edit_refused("DELETE FROM chunk WHERE seq > 5", {"chunk"}); }
+
+TEST_F(Attack, ASessionSubmittedTwice) {
+  ASSERT_TRUE(file(session_).seq);
+  const Filing again = file(session_);
+  EXPECT_FALSE(again.seq);
+  expect_finding(again.findings, {"submitted before", "entry 2"});
+}
+TEST_F(Attack, ATicketUsedForASecondAttempt) {
+  ASSERT_TRUE(file(session_).seq);
+  const Filing second = file(school_.sit(ticket_, "novice"));
+  EXPECT_FALSE(second.seq);
+  expect_finding(second.findings, {"ticket was used before", "entry 2"});
+}
+TEST_F(Attack, AnOldTicket) {
+  const std::string old = school_.ticket("4712", [](Ticket& t) {
+    t.not_before_utc_ns -= 48 * k_hour_ns;
+    t.not_after_utc_ns -= 48 * k_hour_ns;
+  });
+  expect_refused(school_.sit(old), {"the exam began on", "ticket is good from"});
+}
+TEST_F(Attack, AnotherCandidatesSession) {
+  expect_refused(school_.sit(ticket_, "expert", [](ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }), {"the exam was sat by C-AAAA-BBBB-CCCC"});
+}
+TEST_F(Attack, MoreTimeThanWasGranted) {
+  expect_refused(school_.sit(ticket_, "expert", [](ExamOptions& o) { o.grant.extra_time_percent = 50; }), {"accommodations"});
+}
+TEST_F(Attack, AnotherForceModel) {
+  expect_refused(school_.sit(ticket_, "expert", [](ExamOptions& o) { o.force_model = "paper"; }), {"force_model.toml is not the one"});
+}
+TEST_F(Attack, ATicketMadeByAnotherKey) {
+  const Ticket t = parse_ticket(ticket_, "", "ticket");
+  Ticket forged = t;
+  const SigningKey forger = load_signing_key(school_.file("forger.key"), "school");
+  forged.public_key = to_hex(forger.public_key);
+  expect_refused(school_.sit(sign_ticket(forged, forger)), {"ticket of another school"});
+}
+TEST_F(Attack, ATicketChangedAfterSigning) {
+  auto j = nlohmann::json::parse(ticket_);
+  j["ticket"]["not_after"] = "2100-01-01T00:00:00Z";
+  const std::string changed = j.dump();
+  EXPECT_THROW(static_cast<void>(parse_ticket(changed, "", "ticket")), Error);
+}
+TEST_F(Attack, ATicketThatWasNeverIssued) {
+  Ticket own = parse_ticket(ticket_, "", "ticket");
+  own.nonce = random_hex(16);
+  expect_refused(school_.sit(sign_ticket(own, School::key())), {"has not issued this ticket"});
+}
+TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {"holds no ticket"}); }
+
+TEST_F(Attack, AnEntryEditedInTheLedger) {
+  ASSERT_TRUE(file(session_).seq);
+  edit_ledger("UPDATE entry SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"') WHERE seq = 2");
+  expect_ledger_finding({"entry 2", "changed after it was entered"});
+}
+TEST_F(Attack, AnEntryEditedWithItsHash) {
+  ASSERT_TRUE(file(session_).seq);
+  std::string text = read_ledger(school_.places()).entries.at(2).text;
+  text.replace(text.find("\"pass\""), 6, "\"fail\"");
+  const Sha256 leaf = leaf_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  edit_ledger("UPDATE entry SET text = CAST(" + blob({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}) +
+              " AS TEXT), leaf_sha256 = " + blob(leaf) + " WHERE seq = 2");
+  expect_ledger_finding({"checkpoint 3", "not what the school signed"});
+}
+TEST_F(Attack, AnEntryTakenOutOfTheLedger) {
+  ASSERT_TRUE(file(session_).seq);
+  edit_ledger("DELETE FROM entry WHERE seq = 2");
+  expect_ledger_finding({"entries were taken out"});
+}
+TEST_F(Attack, AnEntryTakenOutWithItsSignature) {
+  ASSERT_TRUE(file(session_).seq);
+  edit_ledger("DELETE FROM entry WHERE seq = 2; DELETE FROM checkpoint WHERE size = 3");
+  expect_ledger_finding({"older copy", "has 2 entries, and had 3"});
+}
+TEST_F(Attack, AnEntrySlippedIn) {
+  edit_ledger("INSERT INTO entry VALUES (2, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":2,\"utc_ns\":1}', zeroblob(32))");
+  expect_ledger_finding({"entry 2", "signed nothing"});
+}
+TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
+  const Bytes old = read_file(school_.places().database());
+  ASSERT_TRUE(file(session_).seq);
+  write_file(school_.places().database(), old);
+  expect_ledger_finding({"put back to an older copy", "has 2 entries, and had 3"});
+}
+TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
+  const std::string witness = witness_path(read_ledger(school_.places()).id);
+  const Bytes old = read_file(school_.places().database()), old_witness = read_file(witness);
+  const Filing filed = file(session_);
+  ASSERT_TRUE(filed.seq);
+  const auto receipt = school_.ledger().receipt(*filed.seq);
+  const Bytes full_witness = read_file(witness);
+  write_file(school_.places().database(), old);
+  write_file(witness, old_witness);  // he thought of that, too
+  school_.ticket("4713");
+  EXPECT_TRUE(check_ledger(school_.places(), false).empty()) << "nothing on this computer remembers";
+  const LedgerContent now = read_ledger(school_.places());
+  expect_finding(check_receipt(receipt, now.public_key, &now), {"history was rewritten"});
+  write_file(witness, full_witness);
+  expect_ledger_finding({"history was rewritten"});
+}
+TEST_F(Attack, AFiledSessionChangedInItsFolder) {
+  ASSERT_TRUE(file(session_).seq);
+  const auto filed = read_registry(read_ledger(school_.places())).sessions.at(0);
+  std::filesystem::copy_file(school_.sit(ticket_, "novice"), school_.places().session(filed.file_sha256),
+                             std::filesystem::copy_options::overwrite_existing);
+  expect_finding(check_ledger(school_.places(), false), {"entry 2", "its file was changed"});
+  std::filesystem::remove(school_.places().session(filed.file_sha256));
+  expect_finding(check_ledger(school_.places(), false), {"entry 2", "its file is gone"});
+}
+TEST_F(Attack, AReceiptThatWasImproved) {
+  const Filing filed = file(session_);
+  ASSERT_TRUE(filed.seq);
+  const auto receipt = school_.ledger().receipt(*filed.seq);
+  EXPECT_TRUE(check_receipt(receipt, "", nullptr).empty());
+  auto better = receipt;
+  std::string entry = better["entry"];
+  entry.replace(entry.find("\"pass\""), 6, "\"fail\"");
+  better["entry"] = entry;
+  expect_finding(check_receipt(better, "", nullptr), {"not the one that the school signed"});
+  auto other = receipt;
+  other["checkpoint"]["root"] = std::string(64, 'a');
+  expect_finding(check_receipt(other, "", nullptr), {"signature"});
+  expect_finding(check_receipt(nlohmann::json::array(), "", nullptr), {"no receipt"});
+}
+TEST_F(Attack, ExportedResultsThatWereImproved) {
+  ASSERT_TRUE(file(session_).seq);
+  const Ledger ledger = school_.ledger();
+  std::string text = signed_results(read_registry(ledger.content()), ledger);
+  EXPECT_TRUE(results_hold(text));
+  text.replace(text.find("\"pass\""), 6, "\"fail\"");
+  EXPECT_FALSE(results_hold(text));
+}
+TEST_F(Attack, AnAppealFilesWhatDoesNotHoldAndNeverReleasesItUnseen) {
+  test::tamper(session_, "UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2");
+  Ledger ledger = school_.ledger();
+  const Filing f = file_session(ledger, session_, {false, true});
+  ASSERT_TRUE(f.seq);
+  expect_finding(f.findings, {"chunk 2", "clocks"});
+  EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).findings, f.findings);
+  EXPECT_TRUE(check_ledger(school_.places(), true).empty());
+}
+
+}  // namespace
+}  // namespace cavum

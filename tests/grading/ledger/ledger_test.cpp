@@ -1,0 +1,205 @@
+#include "grading/ledger/ledger.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <random>
+
+#include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_schema.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+TEST(Ledger, EveryReceiptHoldsForEveryLaterLedger) {
+  const School school;
+  Ledger ledger = school.ledger();
+  std::vector<json> receipts;
+  for (int i = 0; i < 20; ++i) {
+    const auto seq = ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", "C-" + std::to_string(i)}}; }).seq;
+    receipts.push_back(ledger.receipt(seq));
+  }
+  const LedgerContent content = read_ledger(school.places());
+  ASSERT_TRUE(content.findings.empty()) << content.findings[0];
+  EXPECT_EQ(content.entries.size(), 21u);
+  for (const auto& r : receipts) {
+    const auto findings = check_receipt(r, content.public_key, &content);
+    EXPECT_TRUE(findings.empty()) << findings[0];
+  }
+  EXPECT_FALSE(check_receipt(receipts[3], std::string(64, '0'), nullptr).empty()) << "another school's key";
+}
+
+TEST(Ledger, TwoProgramsAddToOneLedger) {
+  const School school;
+  Ledger first = school.ledger(), second = school.ledger();
+  for (int i = 0; i < 5; ++i) {
+    first.append("forget", [](const LedgerContent&) { return json{{"candidate", "a"}}; });
+    second.append("forget", [](const LedgerContent&) { return json{{"candidate", "b"}}; });
+  }
+  const LedgerContent content = read_ledger(school.places());
+  EXPECT_TRUE(content.findings.empty());
+  EXPECT_EQ(content.entries.size(), 11u);
+}
+
+TEST(Ledger, WhatThrowsWhileEnteringLeavesNothing) {
+  const School school;
+  Ledger ledger = school.ledger();
+  EXPECT_THROW(ledger.append("session", [](const LedgerContent&) -> json { throw Error("a", "b", "c"); }), Error);
+  ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "a"}}; });
+  EXPECT_EQ(read_ledger(school.places()).entries.size(), 2u);
+  EXPECT_TRUE(check_ledger(school.places(), false).empty());
+}
+
+TEST(Ledger, AnotherSchoolsKeyIsRefused) {
+  const School school;
+  EXPECT_THROW(Ledger(school.ledger_folder(), load_signing_key(school.file("other.key"), "school")), Error);
+  EXPECT_THROW(static_cast<void>(load_signing_key(school_key_path(), "station")), Error) << "a school's key is no station's";
+}
+
+TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
+  const School school;
+  {
+    Database old = Database::open(school.places().database(), false);
+    old.run("DROP VIEW session; DROP VIEW ticket; PRAGMA user_version = 1");
+  }
+  school.ticket("1");
+  EXPECT_TRUE(check_ledger(school.places(), false).empty());
+  Database db = Database::open(school.places().database(), false);
+  EXPECT_EQ(db.integer("PRAGMA user_version"), k_ledger_format);
+  EXPECT_EQ(db.integer("SELECT count(*) FROM sqlite_schema WHERE type = 'view'"), 2);
+  db.close();
+  db = Database::open(school.places().database(), false);
+  db.run("PRAGMA user_version = 99");
+  db.close();
+  EXPECT_THROW(school.ledger(), Error);
+}
+
+TEST(Ledger, TheTablesRefuseChanges) {
+  const School school;
+  Database db = Database::open(school.places().database(), false);
+  for (const char* sql : {"UPDATE entry SET text = 'x'", "DELETE FROM entry", "UPDATE checkpoint SET size = 7", "DELETE FROM checkpoint"})
+    EXPECT_THROW(db.run(sql), DatabaseError) << sql;
+}
+
+TEST(Identities, AreForgottenWithoutATraceAndProofsStay) {
+  const School school;
+  const std::string session = school.sit(school.ticket("ann.lee@school.example"));
+  Ledger ledger = school.ledger();
+  ASSERT_TRUE(file_session(ledger, session).seq);
+  const std::string pseudonym = read_registry(ledger.content()).sessions.at(0).candidate;
+  {
+    Identities identities(school.places().identities());
+    EXPECT_EQ(identities.of_pseudonym(pseudonym)->id, "ann.lee@school.example");
+    EXPECT_TRUE(identities.forget(pseudonym));
+    EXPECT_FALSE(identities.forget(pseudonym));
+  }
+  EXPECT_TRUE(check_ledger(school.places(), true).empty());
+  // no byte of the name in any file of the school
+  for (const auto& f : std::filesystem::recursive_directory_iterator(std::filesystem::path(school.ledger_folder()).parent_path())) {
+    if (!f.is_regular_file()) continue;
+    const Bytes bytes = read_file(f.path().string());
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()).find("ann.lee"), std::string::npos) << f.path();
+  }
+  EXPECT_NE(Identities(school.places().identities()).enrol("ann.lee@school.example", "", School::key()), pseudonym)
+      << "who comes back is somebody new";
+}
+
+TEST(Identities, PseudonymsTellNothingAndDiffer) {
+  const School school;
+  Identities identities(school.places().identities());
+  std::set<std::string> seen;
+  for (int i = 0; i < 300; ++i) {
+    const std::string p = identities.enrol("student " + std::to_string(i), "", School::key());
+    EXPECT_EQ(p.size(), 16u);
+    EXPECT_TRUE(seen.insert(p).second);
+    EXPECT_EQ(identities.enrol("student " + std::to_string(i), "", School::key()), p) << "the same as before";
+  }
+  EXPECT_THROW(identities.enrol("", "", School::key()), Error);
+  EXPECT_THROW(identities.enrol("a\nb", "", School::key()), Error);
+}
+
+class Released : public testing::Test {
+ protected:
+  void SetUp() override {
+    Ledger ledger = school_.ledger();
+    for (const char* who : {"4711", "4712"})
+      ASSERT_TRUE(file_session(ledger, school_.sit(school_.ticket(who), who[3] == '1' ? "expert" : "novice")).seq);
+    ASSERT_EQ(read_registry(ledger.content()).sessions.at(0).seq, 2u);
+    ledger.append("release", [](const LedgerContent&) { return json{{"results", {2}}}; });
+    content_ = ledger.content();
+    registry_ = read_registry(content_);
+  }
+  School school_;
+  LedgerContent content_;
+  Registry registry_;
+};
+
+TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
+  Identities identities(school_.places().identities());
+  int left_out = -1;
+  const std::string csv = moodle_csv(registry_, identities, left_out);
+  EXPECT_EQ(left_out, 0);
+  EXPECT_NE(csv.find("\n4711,"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find("4712"), std::string::npos);
+  EXPECT_EQ(csv.find("C-"), std::string::npos) << "no pseudonym beside a name";
+  const auto& released = registry_.sessions.at(0);
+  EXPECT_NE(csv.find("4711," + released.result["score"]["points"].dump() + ","), std::string::npos) << csv;
+
+  const json scores = lti_scores(registry_, identities);
+  ASSERT_EQ(scores.size(), 2u);
+  EXPECT_EQ(scores[0]["userId"], "4711");
+  EXPECT_EQ(scores[0]["gradingProgress"], "FullyGraded");
+  EXPECT_EQ(scores[0]["scoreGiven"], released.result["score"]["points"]);
+  EXPECT_FALSE(scores[1].contains("scoreGiven"));
+  EXPECT_TRUE(scores[1]["gradingProgress"] == "Pending" || scores[1]["gradingProgress"] == "PendingManual");
+  EXPECT_NE(scores[1]["userId"], "4712");
+}
+
+TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
+  Ledger ledger = school_.ledger();
+  json better = registry_.sessions.at(0).result;
+  better["score"]["points"] = 12.5;
+  ledger.append("regrade", [&](const LedgerContent&) {
+    return json{{"session", 2}, {"result", better}, {"by", json::object()}, {"reason", "appeal"}};
+  });
+  auto registry = read_registry(ledger.content());
+  EXPECT_FALSE(registry.sessions.at(0).released);
+  EXPECT_EQ(registry.sessions.at(0).result["score"]["points"], 12.5);
+  EXPECT_EQ(ledger.content().entries.at(2).body["result"], registry_.sessions.at(0).result) << "the sealed result stays";
+  ledger.append("release", [&](const LedgerContent&) { return json{{"results", {registry.sessions.at(0).result_seq}}}; });
+  EXPECT_TRUE(read_registry(ledger.content()).sessions.at(0).released);
+  ledger.append("release", [&](const LedgerContent&) { return json{{"results", {99}}}; });
+  expect_finding(check_ledger(school_.places(), false), {"releases a result that does not count"});
+}
+
+TEST(CsvField, IsQuotedAndNeverAFormula) {
+  EXPECT_EQ(csv_field("plain"), "plain");
+  EXPECT_EQ(csv_field("-0.25"), "-0.25");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("say \"so\""), "\"say \"\"so\"\"\"");
+  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_field("-1+cmd"), "'-1+cmd");
+  EXPECT_EQ(csv_field("@x"), "'@x");
+}
+
+TEST(ParseUtc, AgreesWithTheCalendar) {
+  EXPECT_EQ(parse_utc("1970-01-01T00:00:00Z", "t"), 0);
+  EXPECT_EQ(parse_utc("2000-02-29T12:00Z", "t"), 951825600'000'000'000);
+  EXPECT_EQ(parse_utc("2026-11-21T18:30:05Z", "t"), 1795285805'000'000'000);
+  for (const char* bad :
+       {"2026-11-21", "2026-11-21T18:30", "2026-02-29T00:00Z", "2026-13-01T00:00Z", "2026-11-21T24:00Z", "21.11.2026", "2026-11-21T18:30Zx"})
+    EXPECT_THROW(static_cast<void>(parse_utc(bad, "t")), Error) << bad;
+  std::mt19937_64 random(std::random_device{}());
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t t = static_cast<std::int64_t>(random() % 4'000'000'000ULL) * 1'000'000'000;
+    EXPECT_EQ(parse_utc(utc_text(t), "t"), t) << utc_text(t);
+  }
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,92 @@
+// A school for the ledger's tests: a folder with its own keys, a ledger, tickets, and a short exam on a block that simulated candidates sit.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/base/file.h"
+#include "grading/ledger/filing.h"
+#include "grading/ledger/identities.h"
+#include "grading/result_json.h"
+#include "grading/session_input.h"
+#include "scenarios/simulated_exam.h"
+#include "tests/engine/session/fixture.h"
+
+namespace cavum::testing_ledger {
+
+inline const std::string k_scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+inline constexpr std::int64_t k_hour_ns = 3'600'000'000'000;
+
+class School {
+ public:
+  School() { Ledger::create(ledger_folder(), "School of Dentistry", key()); }
+  /// The same school with all its files, in a folder of its own; CAVUM_HOME points there.
+  School(const School& other) : folder_() {
+    for (const auto& entry : std::filesystem::directory_iterator(other.folder_.file("")))
+      std::filesystem::copy(entry.path(), folder_.file(entry.path().filename().string()), std::filesystem::copy_options::recursive);
+  }
+  School& operator=(const School&) = delete;
+  [[nodiscard]] std::string ledger_folder() const { return folder_.file("ledger"); }
+  [[nodiscard]] LedgerPlaces places() const { return {ledger_folder()}; }
+  [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
+  [[nodiscard]] static SigningKey key() { return load_school_key(school_key_path()); }
+  [[nodiscard]] Ledger ledger() const { return Ledger(ledger_folder(), key()); }
+
+  /// A ticket for an hour around now, issued in the ledger; `change` may spoil it before it is signed.
+  std::string ticket(const std::string& candidate, const std::function<void(Ticket&)>& change = {}) const {
+    Ledger ledger = this->ledger();
+    const auto setup = prepare_exam(k_scenario, {});
+    Ticket t;
+    t.ledger = ledger.content().id;
+    t.public_key = ledger.content().public_key;
+    t.exam = setup->scenario.id;
+    t.candidate = Identities(places().identities()).enrol(candidate, "", ledger.key());
+    t.nonce = random_hex(16);
+    t.not_before_utc_ns = read_clocks().utc_ns - k_hour_ns;
+    t.not_after_utc_ns = read_clocks().utc_ns + k_hour_ns;
+    t.artifacts = examined_artifacts(setup->session);
+    if (change) change(t);
+    const std::string text = sign_ticket(t, ledger.key());
+    ledger.append("ticket", [&](const LedgerContent&) { return nlohmann::json::parse(text); });
+    return text;
+  }
+  /// The exam, sat by a simulated candidate of this skill; `change` may alter what the station runs.
+  std::string sit(const std::string& ticket, const std::string& skill = "expert", const std::function<void(ExamOptions&)>& change = {}) const {
+    static int number = 0;
+    const std::string path = folder_.file("exam-" + std::to_string(++number) + ".cavum");
+    ExamOptions options;
+    options.candidate = ticket.empty() ? "nobody" : parse_ticket(ticket, "", "ticket").candidate;
+    options.device = "simulated";
+    options.position_quantum_mm = OmniModel{}.quantum_mm;
+    if (!ticket.empty()) options.notes.emplace_back(k_ticket_note, ticket);
+    if (change) change(options);
+    const auto setup = prepare_exam(k_scenario, options);
+    auto candidate = make_simulated_candidate(*setup, skill, 7, OmniModel{});
+    const auto exam = Exam::start(*setup, path, candidate.start_mm());
+    run_exam(*exam, candidate);
+    exam->recorder().flush();
+    const auto graded = load_for_grading(SessionReader(path), exam->tooth_now());
+    exam->close(to_json(grade(graded->input(), graded->rubric)).dump());
+    return path;
+  }
+
+ private:
+  test::Folder folder_;
+};
+
+/// Expects one of `findings` to hold all of `words`.
+inline void expect_finding(const std::vector<std::string>& findings, const std::vector<std::string>& words) {
+  std::string all;
+  for (const auto& f : findings) {
+    all += "  " + f + "\n";
+    if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return f.find(w) != std::string::npos; })) return;
+  }
+  ADD_FAILURE() << "no finding with '" << words.front() << "' among\n" << all;
+}
+
+}  // namespace cavum::testing_ledger

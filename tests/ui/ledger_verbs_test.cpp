@@ -1,0 +1,117 @@
+// A class sits an exam by the commands of the README: tickets, exams, filing, release, exports, an appeal, and somebody who is forgotten.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/ui/program.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class LedgerVerbs : public testing_ui::Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    ASSERT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 0);
+    write_text_file(path("class.csv"), "id,name\n4711,Ann Lee\n4712,Bob Ray\n");
+  }
+  std::string scenario() const { return std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml"; }
+  json tickets(const std::string& more = "") {
+    const auto r = run("ledger ticket " + path("L") + " " + scenario() + " --candidates " + path("class.csv") +
+                       " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("tickets") + " --json" + more);
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return json::parse(r.out)["tickets"];
+  }
+  testing_ui::Ran sit(const std::string& ticket, const std::string& out, const std::string& more = "") {
+    return run("exam " + scenario() + " --ticket " + ticket + " --operator expert --quiet --out " + path(out) + more);
+  }
+};
+
+TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
+  const json issued = tickets(" --extra-time-percent 25");
+  ASSERT_EQ(issued.size(), 2u);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(sit(issued[static_cast<std::size_t>(i)]["file"], "e" + std::to_string(i) + ".cavum").exit_code, 0);
+  const auto graded = json::parse(run("grade " + path("e0.cavum") + " --json").out);
+  EXPECT_EQ(graded["accommodations"]["extra_time_percent"], 25.0) << graded["accommodations"];
+
+  ASSERT_EQ(run("ledger add " + path("L") + " " + path("e0.cavum") + " " + path("e1.cavum") + " --receipts " + path("receipts")).exit_code, 0);
+  const auto again = run("ledger add " + path("L") + " " + path("e0.cavum"));
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_NE(again.out.find("submitted before"), std::string::npos) << again.out;
+  EXPECT_EQ(run("ledger verify " + path("L") + " --replay --receipt " + path("receipts/receipt-3.json")).exit_code, 0);
+
+  ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("none.csv")).exit_code, 0);
+  EXPECT_EQ(read_text_file(path("none.csv")), "ID number\n") << "nothing is released yet";
+  ASSERT_EQ(run("ledger release " + path("L") + " --candidate 4711").exit_code, 0);
+  ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("m.csv")).exit_code, 0);
+  const std::string gradebook = read_text_file(path("m.csv"));
+  EXPECT_NE(gradebook.find("\n4711," + graded["score"]["points"].dump() + ","), std::string::npos) << gradebook;
+  EXPECT_EQ(gradebook.find("4712"), std::string::npos);
+
+  write_text_file(
+      path("kind.toml"),
+      "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = \"target_removed_percent\"\nfull = 50\nzero = 0\npoints = 10\n");
+  const auto regraded = run("ledger regrade " + path("L") + " --session 3 --rubric " + path("kind.toml") + " --reason appeal --json");
+  ASSERT_EQ(regraded.exit_code, 0) << regraded.err;
+  EXPECT_EQ(json::parse(regraded.out)["after"]["points"], 10.0);
+  const auto shown = json::parse(run("ledger show " + path("L") + " --json").out);
+  EXPECT_EQ(shown["sessions"][0]["regraded"], true);
+  EXPECT_EQ(shown["sessions"][0]["released"], false) << "the new result waits for its release";
+
+  ASSERT_EQ(run("ledger forget " + path("L") + " --candidate 4712").exit_code, 0);
+  EXPECT_EQ(run("ledger verify " + path("L") + " --replay --receipt " + path("receipts/receipt-4.json")).exit_code, 0);
+}
+
+TEST_F(LedgerVerbs, WhatATicketDoesNotPromiseDoesNotBegin) {
+  const std::string ticket = tickets()[0]["file"];
+  const auto refused = [&](const std::string& command, const std::string& because) {
+    expect_refused(command, {because});
+    EXPECT_FALSE(fs::exists(path("x.cavum"))) << command;
+  };
+  const std::string sit_it = "exam " + scenario() + " --operator expert --out " + path("x.cavum") + " --ticket ";
+  refused(sit_it + ticket + " --candidate somebody", "the ticket");
+  refused(sit_it + ticket + " --extra-time-percent 50", "says itself what is granted");
+  refused(sit_it + ticket + " --model paper", "force_model.toml is not the one");
+  refused(sit_it + path("class.csv"), "is no ticket");
+  auto changed = json::parse(read_text_file(ticket));
+  changed["ticket"]["candidate"] = "C-AAAA-AAAA-AAAA";
+  write_text_file(path("changed.ticket"), changed.dump());
+  refused(sit_it + path("changed.ticket"), "changed after the school signed it");
+  const auto late = run("ledger ticket " + path("L") + " " + scenario() +
+                        " --candidate 4713 --from 2020-01-01T00:00Z --until 2020-01-02T00:00Z --out " + path("old.ticket"));
+  ASSERT_EQ(late.exit_code, 0) << late.err;
+  refused(sit_it + path("old.ticket"), "the ticket is good from 2020-01-01T00:00:00Z to 2020-01-02T00:00:00Z");
+  write_text_file(path("home/school.pub"), std::string(64, 'a') + "\n");
+  refused(sit_it + ticket, "ticket of another school");
+}
+
+TEST_F(LedgerVerbs, SayWhatIsWrongAndWhatToDo) {
+  expect_refused("ledger init " + path("L"), {"holds a ledger already"});
+  expect_refused("ledger add " + path("none") + " " + path("x.cavum"), {"there is no ledger", "cavum ledger init"});
+  expect_refused("ledger ticket " + path("L") + " " + scenario() + " --candidate 1 --from yesterday --until 2030-01-01T00:00Z --out " + path("t"),
+                 {"'yesterday' is no time"});
+  expect_refused("ledger ticket " + path("L") + " " + scenario() + " --from 2020-01-01T00:00Z --until 2030-01-01T00:00Z --out " + path("t"),
+                 {"for whom"});
+  expect_refused("ledger release " + path("L") + " --candidate nobody", {"has no session in this ledger"});
+  expect_refused("ledger regrade " + path("L") + " --session 0 --rubric x.toml --reason r", {"is no session's entry"});
+  expect_refused("ledger forget " + path("L") + " --candidate nobody", {"not among the identities"});
+  expect_refused("ledger export " + path("L") + " --format moodle --out " + path("L/ledger.db"), {"also what is read"});
+}
+
+TEST_F(LedgerVerbs, VerifySaysWhatIsProvedAndWhatIsNot) {
+  ASSERT_EQ(sit(tickets()[0]["file"], "e.cavum").exit_code, 0);
+  const auto r = run("verify " + path("e.cavum") + " --json");
+  ASSERT_EQ(r.exit_code, 0) << r.out;
+  const auto j = json::parse(r.out);
+  EXPECT_EQ(j["verified"], true);
+  EXPECT_EQ(j["proved"].size(), 4u);
+  EXPECT_TRUE(j["findings"].empty());
+  const auto other = run("verify " + path("e.cavum") + " --school-key " + std::string(64, 'a'));
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.out.find("ticket of another school"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cavum
