@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cmath>
+
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -40,7 +42,7 @@ void device_check_screen(const ScreenContext& c) {
   bool good = false;
   if (!prepared) {
     wrapped_text("The tooth is being prepared ...");
-    const double phase = ImGui::GetTime() - static_cast<long>(ImGui::GetTime());
+    const double phase = std::fmod(ImGui::GetTime(), 1.0);
     ImGui::ProgressBar(static_cast<float>(phase), {-1, t.px(6)}, "");
   } else {
     if (PointerStylus* pointer = c.sitting->device().pointer()) {

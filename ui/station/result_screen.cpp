@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "ui/station/screens.h"
@@ -40,7 +41,7 @@ void criteria(const Theme& t, const Result& r) {
 void grading_screen(const ScreenContext& c) {
   begin_card(c.theme, "The exam is over", 560);
   wrapped_text("Your work is being graded and sealed. You may put the handpiece down.");
-  const double phase = ImGui::GetTime() - static_cast<long>(ImGui::GetTime());
+  const double phase = std::fmod(ImGui::GetTime(), 1.0);
   ImGui::ProgressBar(static_cast<float>(phase), {-1, c.theme.px(6)}, "");
   end_area();
 }
