@@ -16,6 +16,7 @@
 #include "engine/device/hid_pedal.h"
 #include "engine/device/station_pedal.h"
 #include "ui/interrupt.h"
+#include "ui/number_check.h"
 #include "ui/print_json.h"
 #include "ui/stylus_devices.h"
 #include "ui/verbs.h"
@@ -64,6 +65,10 @@ nlohmann::json axis_json(const HidField& axis) {
 }
 
 void list(const Options& o) {
+  if (!o.id.empty()) {
+    std::uint16_t vendor = 0, product = 0;
+    parse_usb_id(o.id, "--pedal", vendor, product);
+  }
   const auto pedals = list_hid_pedals();
   std::string calibration_problem;
   std::optional<StationPedal> station;
@@ -198,7 +203,7 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
       ->excludes(test_flag);
   devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
   devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
-  devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(CLI::Range(0.2, 600.0))->capture_default_str();
+  devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(between(0.2, 600.0))->capture_default_str();
   devices->add_flag("--json", o->json, "one JSON object on standard output");
   devices->callback([o, &exit_code] {
     exit_code = 0;

@@ -18,11 +18,13 @@ Interrupt::Interrupt() {
   action.sa_handler = note;
   sigaction(SIGINT, &action, &old_int_);
   sigaction(SIGTERM, &action, &old_term_);
+  sigaction(SIGHUP, &action, &old_hup_);
 }
 
 Interrupt::~Interrupt() {
   sigaction(SIGINT, &old_int_, nullptr);
   sigaction(SIGTERM, &old_term_, nullptr);
+  sigaction(SIGHUP, &old_hup_, nullptr);
 }
 
 bool Interrupt::asked() noexcept { return signalled.load(std::memory_order_relaxed); }

@@ -1,11 +1,12 @@
-// Ctrl-C and SIGTERM as a question that a loop may ask, so that an exam ends in order: force off, everything recorded, nothing half written.
+// Ctrl-C, SIGTERM and a terminal that closes as a question that a loop may ask, so that an exam ends in order: force off, everything recorded,
+// nothing half written.
 #pragma once
 
 #include <csignal>
 
 namespace cavum {
 
-/// While one lives, the two signals only set it. One at a time.
+/// While one lives, the signals only set it. One at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -16,7 +17,7 @@ class Interrupt {
 
  private:
   struct sigaction old_int_ {
-  }, old_term_{};
+  }, old_term_{}, old_hup_{};
 };
 
 }  // namespace cavum

@@ -66,7 +66,7 @@ class StylusSource final : public LiveSource {
     std::string told;
     for (const auto until = Clock::now() + k_patience; !stylus_->health().ready && Clock::now() < until;
          std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-      if (Interrupt::asked()) throw Error("cavum exam", "was interrupted before it began", "begin it again");
+      if (Interrupt::asked()) throw Error("exam", "was interrupted before it began", "begin it again");
       if (const std::string now = stylus_->health().problem; now != told) std::fprintf(stderr, "cavum: %s\n", one_line(told = now).c_str());
     }
     first_mm_ = first_pose(*stylus_, 1.0).tip_mm;
@@ -83,8 +83,8 @@ class StylusSource final : public LiveSource {
   static StationPedal require_pedal() {
     auto pedal = load_station_pedal(station_pedal_path());
     if (!pedal)
-      throw Error("cavum exam", "this station has no foot pedal, and without one the handpiece stands still",
-                  "run `cavum devices --calibrate-pedal`");
+      throw Error("foot pedal", "this station knows none, and without one the handpiece stands still",
+                  "plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal");
     return *pedal;
   }
 

@@ -1,6 +1,7 @@
 // The one binary: `cavum VERB ...`. Exit 0 done, 1 done and the answer is no, 2 usage or unreadable input.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -10,6 +11,7 @@
 #include "ui/verbs.h"
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, not the end of an exam
   CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
   app.set_version_flag("--version", std::string("cavum ") + CAVUM_VERSION + ", physics " + std::to_string(cavum::k_physics_version));
   app.require_subcommand(1);

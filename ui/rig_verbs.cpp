@@ -14,6 +14,7 @@
 #include "engine/rig/servo_rig.h"
 #include "engine/rig/tooth_rig.h"
 #include "scenarios/exam.h"
+#include "ui/number_check.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/rig_pictures.h"
@@ -24,22 +25,6 @@ namespace cavum {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A number in low..high. CLI::Range lets NaN through.
-CLI::Validator between(double low, double high) {
-  const auto plain = [](double v) {
-    std::ostringstream text;
-    text << v;
-    return text.str();
-  };
-  const std::string range = plain(low) + " to " + plain(high);
-  return CLI::Validator(
-      [low, high, range](const std::string& text) {
-        double value = 0.0;
-        return CLI::detail::lexical_cast(text, value) && value >= low && value <= high ? std::string{} : "'" + text + "' is no number from " + range;
-      },
-      range);
-}
 
 struct Common {
   std::string out, point = "round-1.0";

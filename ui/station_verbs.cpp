@@ -3,6 +3,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/session/session_reader.h"
+#include "ui/number_check.h"
 #include "ui/own_places.h"
 #include "ui/seed_check.h"
 #include "ui/station/station.h"
@@ -10,6 +12,8 @@
 
 namespace cavum {
 namespace {
+
+constexpr std::size_t k_longest_code = 47;
 
 struct Options {
   StationOptions station;
@@ -19,7 +23,14 @@ struct Options {
 void require_sound(const StationOptions& o) {
   if (!o.replay.empty() && !o.sitting.scenario.empty())
     throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
+  if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, "has no script that takes any", "add --script");
   if (!o.replay.empty()) return;
+  if (!o.sitting.resume.empty()) {
+    if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
+      throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");
+    SessionReader(o.sitting.resume).require_readable();
+    return;
+  }
   if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
   // a name that is none is refused now; what is plugged in is opened for each candidate
   if (const std::string& device = o.sitting.device.name; device != "falcon" && device != "touch")
@@ -29,7 +40,19 @@ void require_sound(const StationOptions& o) {
     if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
   } else if (!std::filesystem::is_directory(o.sitting.out)) {
     throw Error("--out " + o.sitting.out, "is no folder", "make it, or name a file ending in .cavum");
+  } else {
+    require_writable(o.sitting.out + "/session.cavum");
   }
+  if (o.candidate.size() > k_longest_code)
+    throw Error("--candidate", "is longer than a code", "use " + std::to_string(k_longest_code) + " characters at most");
+  // what would spoil the exam is said before a candidate sits down
+  ExamOptions trial;
+  trial.candidate = "trial";
+  trial.tooth_file = o.sitting.tooth;
+  trial.force_model = o.sitting.model;
+  trial.rubric_file = o.sitting.rubric;
+  trial.grant = o.sitting.grant;
+  static_cast<void>(prepare_exam(o.sitting.scenario, trial));
 }
 
 }  // namespace
@@ -42,6 +65,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
   station->add_option("--replay", s.replay, "look at a recorded exam instead");
+  station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
   station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse, falcon, touch")->capture_default_str();
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
@@ -58,7 +82,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
   station->add_flag("--left-handed", s.left_handed, "layout for the left hand; can be chosen at sign-in, too");
   station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
-  station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(CLI::Range(0.8, 1.8))->capture_default_str();
+  station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(between(0.8, 1.8))->capture_default_str();
   station->add_option("--width", s.width, "of the window, pixels")->check(CLI::Range(640, 7680))->capture_default_str();
   station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
   station->add_option("--script", s.script, "press the keys that this file lists (for demonstrations and tests)");

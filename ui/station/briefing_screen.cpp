@@ -28,6 +28,8 @@ void briefing_screen(const ScreenContext& c) {
   const Scenario& scenario = c.sitting->setup().scenario;
   const float words = std::min(t.px(600), screen.x * 0.55F);
   begin_area(t, "briefing words", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
+  ImGui::BeginChild("task", {0, ImGui::GetContentRegionAvail().y - t.px(s.message.empty() ? 96 : 140)},
+                    false);  // the button below is always in sight
   heading_text(scenario.title);
   wrapped_text(scenario.description);
   ImGui::Dummy({0, t.px(8)});
@@ -54,11 +56,11 @@ void briefing_screen(const ScreenContext& c) {
     if (scenario.steps[i].time_limit_s) quiet_text(t, "within " + clock_text(*scenario.steps[i].time_limit_s) + " minutes");
     ImGui::EndGroup();
   }
-  ImGui::Dummy({0, t.px(12)});
   if (c.practice) {
+    ImGui::Dummy({0, t.px(12)});
     wrapped_text("This is practice: the target is shown, a coach speaks, and the recording says so.");
-    ImGui::Dummy({0, t.px(6)});
   }
+  ImGui::EndChild();
   if (main_button(t, c.practice ? "Begin to practise  (Enter)" : "Begin the exam  (Enter)", true)) s.wish = Wish::begin;
   quiet_text(t, "The clock runs from then on.");
   if (!s.message.empty()) {

@@ -20,7 +20,7 @@ struct Layout {
 
 Layout lay_out(const Theme& t, bool left_handed) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float top = t.px(98), tray = t.px(128), side = std::min(t.px(250), screen.x * 0.4F);
+  const float top = t.px(98), tray = t.px(140), side = std::min(t.px(250), screen.x * 0.4F);
   Layout l;
   l.top_at = {0, 0};
   l.top = {screen.x, top};
@@ -117,14 +117,20 @@ void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
     if (mounted || marked)
       draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
     const ImU32 steel = ink(may ? t.text : t.faint), coated = ink(may ? t.warn : t.faint);
-    draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(34)}, steel, coated);
+    draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(50)}, steel, coated);
     push_font(Font::small);
-    // the longest names a little smaller, so that all can be read
-    const float room = size.x - t.px(4), wide = ImGui::CalcTextSize(c.shelf[i].name.c_str()).x,
-                font = ImGui::GetFontSize() * std::min(1.0F, room / wide);
-    const float name = std::min(wide, room);
-    draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - name) / 2, at.y + size.y - t.px(22)}, ink(may ? t.text : t.quiet),
-                 c.shelf[i].name.c_str());
+    // shape and size on a line each; the longest shapes a little smaller, so that all can be read
+    const auto size_from = c.shelf[i].name.rfind('-');
+    const std::string shape = c.shelf[i].name.substr(0, size_from),
+                      size_mm = size_from == std::string::npos ? "" : c.shelf[i].name.substr(size_from + 1);
+    const float room = size.x - t.px(4);
+    float below = t.px(40);
+    for (const std::string& line : {shape, size_mm}) {
+      const float wide = ImGui::CalcTextSize(line.c_str()).x, font = ImGui::GetFontSize() * std::min(1.0F, room / std::max(1.0F, wide));
+      draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - std::min(wide, room)) / 2, at.y + size.y - below}, ink(may ? t.text : t.quiet),
+                   line.c_str());
+      below -= t.px(18);
+    }
     if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), ("F" + std::to_string(i + 1)).c_str());
     pop_font();
   }

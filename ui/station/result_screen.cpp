@@ -52,7 +52,7 @@ void trouble_screen(const ScreenContext& c) {
   ImGui::Dummy({0, c.theme.px(8)});
   if (c.sitting != nullptr && !c.sitting->path().empty()) {
     wrapped_text("Everything up to this moment is recorded. Call the supervisor; the exam can be taken up again:");
-    quiet_text(c.theme, "cavum exam --resume --out " + c.sitting->path());
+    quiet_text(c.theme, "cavum station --resume " + c.sitting->path());
   }
   ImGui::Dummy({0, c.theme.px(8)});
   if (main_button(c.theme, "Close  (Enter)", true)) c.state.wish = Wish::quit;
@@ -66,6 +66,7 @@ void result_screen(const ScreenContext& c) {
   const Result& r = c.sitting->closed().result;
   const float words = std::min(t.px(820), screen.x * 0.66F);
   begin_area(t, "result", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
+  ImGui::BeginChild("words", {0, ImGui::GetContentRegionAvail().y - t.px(s.message.empty() ? 96 : 126)}, false);
   const ImVec4 colour = r.verdict == Verdict::pass ? t.good : r.verdict == Verdict::fail ? t.bad : t.warn;
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
@@ -77,8 +78,6 @@ void result_screen(const ScreenContext& c) {
                     (c.practice ? ",  practice" : ""));
   for (const auto& reason : r.verdict_reasons) wrapped_text(reason);
   ImGui::Dummy({0, t.px(4)});
-  const float below = t.px(s.message.empty() ? 96 : 126);
-  ImGui::BeginChild("table", {0, ImGui::GetContentRegionAvail().y - below}, false);
   criteria(t, r);
   if (c.sitting->report().first_disagreement >= 0)
     wrapped_text("The servo and its recording disagree: this result is doubtful. Tell the supervisor.");

@@ -35,6 +35,10 @@ void sign_in_screen(const ScreenContext& c) {
   const std::string code = s.code.data();
   const bool usable = !code.empty() && is_plain_text(code);
   if (main_button(t, "Continue  (Enter)", usable, false) || (entered && usable)) s.wish = Wish::sign_in;
+  if (entered && !usable) {
+    s.focus_code = true;  // Enter would take it away
+    s.message = "Type your candidate code first.";
+  }
   if (!s.message.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, t.bad);
     wrapped_text(s.message);

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/session/session_reader.h"
 #include "grading/ledger/station_ticket.h"
 
 namespace cavum {
@@ -32,6 +33,17 @@ HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   return read_ticket(path);
 }
 
+void require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
+  const SessionReader session(path);
+  session.require_readable();
+  if (session.closed()) throw Error(path, "is closed: there is nothing to go on with", "look at it with `cavum station --replay " + path + "`");
+  const SessionSetup setup = session.setup();
+  if (setup.candidate != candidate)
+    throw Error("candidate '" + one_line(candidate) + "'", "did not begin this exam", "type the code that it was begun with");
+  if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
+    throw Error(device.name(), "has another encoder than the stylus that this exam was begun with", "go on with that one");
+}
+
 }  // namespace
 
 Sitting::Sitting(SittingOptions options, std::string candidate)
@@ -54,8 +66,12 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     candidate_ = exam.candidate = held->ticket.candidate;
     use_ticket(*held, exam);
   }
+  if (!options_.resume.empty()) {
+    require_resumable(options_.resume, candidate_, *device_);
+    options_.practice = SessionReader(options_.resume).fact("note.practice") == "true";
+  }
   preparing_ = std::async(std::launch::async, [this, exam, held] {
-    auto setup = prepare_exam(options_.scenario, exam);
+    auto setup = options_.resume.empty() ? prepare_exam(options_.scenario, exam) : prepare_exam(SessionReader(options_.resume).setup());
     if (held) require_promised(*held, setup->session);
     device_->prepare(*setup);
     return setup;
@@ -103,9 +119,15 @@ void Sitting::begin() {
   check_.reset();  // from now on the servo alone reads the device
   try {
     const Vec3 tip = device_->tip_mm();
-    path_ = new_path();
+    path_ = options_.resume.empty() ? new_path() : options_.resume;
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
-    live_ = std::make_unique<LiveExam>(*setup_, path_, *with_desk_, tip);
+    if (options_.resume.empty()) {
+      live_ = std::make_unique<LiveExam>(*setup_, path_, *with_desk_, tip);
+    } else {
+      SourceNotes notes = device_->notes();
+      notes.emplace_back("device", device_->name());
+      live_ = std::make_unique<LiveExam>(*setup_, Exam::resume(*setup_, path_, notes), *with_desk_);
+    }
     live_->start();
   } catch (...) {
     live_.reset();

@@ -19,6 +19,7 @@ struct SittingOptions {
   std::string scenario, tooth, model = "consistent", rubric;  ///< files as for an exam
   std::string out;                                            ///< a session file (.cavum), or the folder for one
   std::string tickets;                                        ///< folder with CODE.ticket for each candidate; empty: nobody needs one
+  std::string resume;  ///< a session to go on with, by the candidate who began it; scenario and all else are its own
   Grant grant;
   bool practice = false;
   DeviceChoice device;
@@ -35,7 +36,8 @@ enum class Stage {
 
 class Sitting {
  public:
-  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none, or a code without a ticket where tickets are asked for.
+  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none, a code without a ticket where tickets are asked for,
+  /// or a session to go on with that is another candidate's, closed, or of a stylus with another encoder.
   Sitting(SittingOptions options, std::string candidate);
   /// Stops what runs. A session that is not closed by then can be resumed.
   ~Sitting();

@@ -13,6 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/session/session_reader.h"
 #include "ui/interrupt.h"
 #include "ui/sound/sound_output.h"
 #include "ui/station/screens.h"
@@ -23,6 +24,9 @@ namespace cavum {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// what the screens need at scale 1, pixels: a window that has less shows smaller text, whatever was asked for
+constexpr double k_least_width = 720.0, k_least_height = 450.0, k_least_scale = 0.6;
 
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
@@ -35,18 +39,20 @@ std::vector<DiamondPoint> read_shelf(const std::string& scenario_path) {
   return shelf;
 }
 
+Scenario scenario_of(const SittingOptions& o) {
+  return o.resume.empty() ? parse_scenario(read_text_file(o.scenario), o.scenario) : prepare_exam(SessionReader(o.resume).setup())->scenario;
+}
+
 class Station {
  public:
   explicit Station(const StationOptions& options)
       : options_(options),
         replay_(options.replay.empty() ? nullptr : std::make_unique<ReplayPlayer>(options.replay)),
-        scenario_(replay_ ? replay_->setup().scenario : parse_scenario(read_text_file(options.sitting.scenario), options.sitting.scenario)),
+        scenario_(replay_ ? replay_->setup().scenario : scenario_of(options.sitting)),
         shelf_(read_shelf(options.sitting.scenario)),
         window_("Cavum", options.width, options.height) {
     if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
-    state_.left_handed = options_.left_handed || scenario_.accommodations.left_handed;
-    state_.high_contrast = options_.high_contrast || scenario_.accommodations.high_contrast;
-    state_.text_scale = options_.text_scale;
+    usual_look();
     if (replay_) {
       make_scene(replay_->setup(), true);
       state_.view.clear = false;
@@ -61,13 +67,17 @@ class Station {
     } catch (const std::exception& e) {
       if (!open_session().empty())
         throw Error("station", std::string("failed during the exam (") + without_advice(e.what()) + ")",
-                    "what was done is recorded: cavum exam --resume --out " + open_session());
+                    "what was done is recorded; go on with: cavum station --resume " + open_session());
       throw;
     }
     const std::string open = open_session();
     if (open.empty()) return 0;
     sitting_.reset();
-    std::fprintf(stderr, "cavum: station: was closed during the exam; what was done is recorded: cavum exam --resume --out %s\n", open.c_str());
+    std::fprintf(stderr,
+                 "cavum: station: was closed during the exam; what was done is recorded; go on with: cavum station --resume %s (or close it as it "
+                 "stands: cavum exam --resume --end --out "
+                 "%s)\n",
+                 open.c_str(), open.c_str());
     return 1;
   }
 
@@ -100,13 +110,15 @@ class Station {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
-    const bool scale_differs = state_.text_scale != dressed_scale_;
+    const double scale =
+        std::min(state_.text_scale, std::max(k_least_scale, std::min(io.DisplaySize.x / k_least_width, io.DisplaySize.y / k_least_height)));
+    const bool scale_differs = scale != dressed_scale_;
     if (scale_differs && ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // while the slider moves
     if (!scale_differs && state_.high_contrast == dressed_contrast_) return;
-    theme_ = make_theme(state_.high_contrast, state_.text_scale);
+    theme_ = make_theme(state_.high_contrast, scale);
     apply_theme(theme_);
-    if (scale_differs) window_.set_text_scale(state_.text_scale);
-    dressed_scale_ = state_.text_scale;
+    if (scale_differs) window_.set_text_scale(scale);
+    dressed_scale_ = scale;
     dressed_contrast_ = state_.high_contrast;
   }
 
@@ -197,10 +209,21 @@ class Station {
 
   void sign_in() {
     SittingOptions o = options_.sitting;
+    const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
+    if (fixed) {
+      sitting_ = std::make_unique<Sitting>(o, state_.code.data());
+      return go_to(Screen::device_check);
+    }
     if (state_.left_handed != scenario_.accommodations.left_handed) o.grant.left_handed = state_.left_handed;
     if (state_.high_contrast != scenario_.accommodations.high_contrast) o.grant.high_contrast = state_.high_contrast;
     sitting_ = std::make_unique<Sitting>(o, state_.code.data());
     go_to(Screen::device_check);
+  }
+
+  void usual_look() {
+    state_.left_handed = options_.left_handed || scenario_.accommodations.left_handed;
+    state_.high_contrast = options_.high_contrast || scenario_.accommodations.high_contrast;
+    state_.text_scale = options_.text_scale;
   }
 
   void write_report() {
@@ -211,11 +234,12 @@ class Station {
   }
 
   void next_candidate() {
-    if (options_.sitting.out.ends_with(".cavum")) return window_.ask_to_close();  // one session was asked for
+    if (options_.sitting.out.ends_with(".cavum") || !options_.sitting.resume.empty()) return window_.ask_to_close();  // one session was asked for
     scene_.reset();
     sitting_.reset();
     state_.code = {};
     state_.focus_code = true;
+    usual_look();  // nobody inherits what another chose
     go_to(Screen::sign_in);
   }
 
@@ -235,6 +259,9 @@ class Station {
     const Stage now = sitting_->stage();
     if (now == before) return;
     if (now == Stage::checking) {
+      const Accommodations& granted = sitting_->setup().scenario.accommodations;
+      state_.left_handed = state_.left_handed || granted.left_handed;
+      state_.high_contrast = state_.high_contrast || granted.high_contrast;
       make_scene(sitting_->setup(), options_.sitting.practice);
       const Pose start = sitting_->device().start();
       state_.wanted_mm = start.tip_mm;

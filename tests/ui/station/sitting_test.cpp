@@ -141,5 +141,35 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
   EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error) << "another force model than promised";
 }
 
+TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
+  std::int64_t before = 0;
+  {
+    Sitting sitting(options_, "K7");
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+    sitting.begin();
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 2000; }));
+  }
+  before = SessionReader(options_.out).ticks();
+  EXPECT_GE(before, 2000);
+  SittingOptions again;
+  again.resume = options_.out;
+  EXPECT_THROW(Sitting(again, "K8"), Error) << "another candidate";
+  SittingOptions mouse = again;
+  mouse.device.name = "mouse";
+  EXPECT_THROW(Sitting(mouse, "K7"), Error) << "another encoder";
+  {
+    Sitting sitting(again, "K7");
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+    sitting.begin();
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done || sitting.live().view().ticks > before + 1500; }));
+    sitting.ask_to_end();
+    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done; }));
+    EXPECT_EQ(sitting.path(), options_.out);
+    EXPECT_GT(sitting.closed().result.motion.time_s, 0.001 * static_cast<double>(before));
+  }
+  EXPECT_TRUE(verify_session(options_.out).verified);
+  EXPECT_THROW(Sitting(again, "K7"), Error) << "it is closed now";
+}
+
 }  // namespace
 }  // namespace cavum
