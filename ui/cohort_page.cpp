@@ -105,8 +105,8 @@ std::string class_html(const ClassFigures& f) {
       ".bar{display:inline-block;height:.7em;background:#0072b2}.key{display:flex;gap:2.5em;flex-wrap:wrap;margin:1em 0}.key "
       "b{font-size:1.7em;display:block}svg{max-width:100%;height:auto}"
       "small{color:#555}</style></head><body>\n<h1>" +
-      xml_text(f.exam) + "</h1>\n<p>" + std::to_string(f.n) +
-      " candidates; the last attempt of each counts, sessions filed with findings do not.</p>\n<div class=key>";
+      xml_text(f.exam) + "</h1>\n<p>" + std::to_string(f.n) + " candidates; the last attempt of each counts, sessions filed with findings do not." +
+      (f.simulated > 0 ? " <b>" + std::to_string(f.simulated) + " were sat by simulated operators.</b>" : "") + "</p>\n<div class=key>";
   const auto key = [&](const std::string& value, const std::string& what) { out += "<span><b>" + value + "</b>" + what + "</span>"; };
   key(fixed(f.mean, 1), "mean of " + plain_number(f.max_points) + " points");
   key(fixed(f.sd, 1), "standard deviation");

@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "grading/cohort/simulated_class.h"
 #include "ui/cohort_page.h"
+#include "ui/number_check.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/verbs.h"
@@ -94,7 +95,7 @@ void add_cohort_verbs(CLI::App& app, int& exit_code) {
   v->add_option("ledger", o->folder, "the ledger's folder")->required();
   v->add_option("--exam", o->exam, "id of the scenario")->required();
   v->add_option("--marks", o->marks, "people's marks, CSV `candidate,judge,points[,rating]`");
-  v->add_option("--borderline", o->borderline, "the rating that means borderline")->capture_default_str();
+  v->add_option("--borderline", o->borderline, "the rating that means borderline")->check(between(-1000, 1000))->capture_default_str();
   v->add_option("--out", o->out, "also a page (.html)");
   v->add_flag("--json", o->as_json, "one JSON object on stdout");
   v->callback([o, &exit_code] {

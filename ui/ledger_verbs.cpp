@@ -4,10 +4,11 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <set>
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "grading/ledger/csv.h"
 #include "grading/ledger/explain_session.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/filing.h"
@@ -32,15 +33,19 @@ struct Options {
   std::vector<std::string> sessions, chosen;
   Grant grant;
   std::int64_t session_seq = -1;
-  bool as_json = false, without_ticket = false, with_findings = false, all = false, replay = false;
+  bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
+       another_task = false;
 };
 
 SigningKey key_of(const Options& o) { return load_school_key(o.key.empty() ? school_key_path() : o.key); }
 
 void init(const Options& o) {
-  const SigningKey key = key_of(o);
+  if (o.folder.empty()) throw Error("cavum ledger init", "names no folder", "name one for the ledger");
+  const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
   Ledger::create(o.folder, o.school, key);
-  Identities(LedgerPlaces{o.folder}.identities());
+  Identities(LedgerPlaces{o.folder}.identities(), true);
+  const std::string known = school_public_key_path();
+  if (!std::filesystem::exists(known)) write_text_file(known, to_hex(key.public_key) + "\n");
   const LedgerContent content = read_ledger({o.folder});
   if (o.as_json) {
     print_json(json{{"ledger", content.id}, {"public_key", content.public_key}, {"folder", o.folder}});
@@ -48,30 +53,47 @@ void init(const Options& o) {
   }
   std::cout << "ledger " << content.id << " in " << o.folder << "\nthe school's public key: " << content.public_key
             << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? school_key_path() : o.key) << " (signs), " << witness_path(content.id)
-            << " (shows when an older copy is put back)\n";
+            << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known << "\n";
 }
 
 struct Person {
   std::string id, name;
 };
 
-/// `id` or `id,name`, one a line; a first line "id,name" is a heading.
+/// Table with columns `id` and, if wanted, `name`; others are passed over.
 std::vector<Person> read_candidates(const std::string& path) {
+  const auto rows = parse_csv(read_text_file(path), path);
+  const auto column = [&](const char* name) {
+    if (rows.empty()) return std::size_t{0};
+    return static_cast<std::size_t>(std::find(rows[0].fields.begin(), rows[0].fields.end(), name) - rows[0].fields.begin());
+  };
+  const std::size_t id = column("id"), name = column("name");
+  if (rows.empty() || id == rows[0].fields.size()) throw Error(path + ":1", "is no heading of candidates", "begin with id,name");
   std::vector<Person> people;
-  std::istringstream lines(read_text_file(path));
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty() || line[0] == '#' || (number == 1 && line.starts_with("id"))) continue;
-    const auto comma = line.find(',');
-    const Person p{line.substr(0, comma), comma == std::string::npos ? "" : line.substr(comma + 1)};
-    if (p.id.empty() || line.find('"') != std::string::npos || p.name.find(',') != std::string::npos)
-      throw Error(path + ":" + std::to_string(number), "is not one candidate", "write `id` or `id,name`, without quotes");
-    people.push_back(p);
+  std::set<std::string> seen;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto& f = rows[i].fields;
+    const std::string where = path + ":" + std::to_string(rows[i].line);
+    if (f[id].empty()) throw Error(where, "has no id", "give each candidate the school's own number or address");
+    if (!seen.insert(f[id]).second) throw Error(where, "'" + f[id] + "' stands there a second time", "leave one of them");
+    people.push_back({f[id], name < f.size() ? f[name] : ""});
   }
-  if (people.empty()) throw Error(path, "names no candidate", "write one `id,name` on each line");
+  if (people.empty()) throw Error(path, "names no candidate", "write one on each line below the heading");
   return people;
+}
+
+/// A file that is not there yet, unless --overwrite allows it.
+void require_new(const Options& o, const std::string& path) {
+  require_writable(path);
+  if (!o.overwrite && std::filesystem::exists(path)) throw Error("--out " + path, "is there already", "name another file, or add --overwrite");
+}
+
+/// The ledger's identities, none of them changed by hand.
+Identities sound_identities(const Ledger& ledger) {
+  Identities identities(ledger.places().identities());
+  if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
+    throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
+  return identities;
 }
 
 void ticket(const Options& o) {
@@ -95,33 +117,39 @@ void ticket(const Options& o) {
   std::sort(t.grant.begin(), t.grant.end());
 
   Ledger ledger(o.folder, key_of(o));
-  Identities identities(ledger.places().identities());
+  Identities identities = sound_identities(ledger);
   t.ledger = ledger.content().id;
   t.public_key = ledger.content().public_key;
   const bool folder = !o.candidates.empty();
+  if (t.not_after_utc_ns < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
   if (folder) std::filesystem::create_directories(o.out);
   json printed = json::array();
   for (const auto& p : people) {
     t.candidate = identities.enrol(p.id, p.name, ledger.key());
     t.nonce = random_hex(16);
     const std::string file = folder ? o.out + "/" + t.candidate + ".ticket" : o.out, text = sign_ticket(t, ledger.key());
-    require_writable(file);
+    require_new(o, file);
     ledger.append("ticket", [&](const LedgerContent&) { return json::parse(text); });
     write_text_file(file, text + "\n");
-    printed.push_back({{"candidate", t.candidate}, {"file", file}});
-    if (!o.as_json) std::cout << t.candidate << "  " << file << "\n";
+    printed.push_back({{"candidate", t.candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
+    if (!o.as_json) std::cout << t.candidate << "  " << file << "  " << p.id << (p.name.empty() ? "" : ", " + p.name) << "\n";
   }
   if (o.as_json) print_json(json{{"tickets", printed}});
 }
 
 int add(const Options& o) {
   Ledger ledger(o.folder, key_of(o));
+  if (!o.out.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
+    std::error_code none;
+    std::filesystem::create_directories(o.out, none);
+    require_writable(o.out + "/receipt.json");
+  }
   json printed = json::array();
   bool all = true;
   for (const auto& path : session_files(o.sessions)) {
     Filing filing;
     try {
-      filing = file_session(ledger, path, {o.without_ticket, o.with_findings});
+      filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings});
     } catch (const DatabaseError&) {
       throw;  // the disk: what was acknowledged stands, and nothing more can be
     } catch (const Error& e) {
@@ -133,7 +161,6 @@ int add(const Options& o) {
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
       if (!o.out.empty()) {
-        std::filesystem::create_directories(o.out);
         write_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
       }
     }
@@ -147,9 +174,30 @@ int add(const Options& o) {
   return all ? 0 : 1;
 }
 
+void write_receipt(const Options& o) {
+  const Ledger ledger(o.folder, key_of(o));
+  if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
+    throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
+  require_new(o, o.out);
+  write_text_file(o.out, ledger.receipt(static_cast<std::uint64_t>(o.session_seq)).dump(2) + "\n");
+  std::cout << "written: " << o.out << "\n";
+}
+
+void candidates(const Options& o) {
+  const Ledger ledger(o.folder, key_of(o));
+  Identities identities = sound_identities(ledger);
+  json all = json::array();
+  for (const auto& i : identities.all()) {
+    all.push_back({{"candidate", i.pseudonym}, {"id", i.id}, {"name", i.name}});
+    if (!o.as_json) std::cout << i.pseudonym << "  " << i.id << (i.name.empty() ? "" : ", " + i.name) << "\n";
+  }
+  if (o.as_json) print_json(json{{"candidates", all}});
+}
+
 void release(const Options& o) {
+  if (!o.all && o.chosen.empty()) throw Error("cavum ledger release", "needs to know whose results", "give --all, or --candidate for each");
   Ledger ledger(o.folder, key_of(o));
-  Identities identities(ledger.places().identities());
+  Identities identities = sound_identities(ledger);
   std::vector<std::string> wanted = o.chosen;
   for (auto& w : wanted)
     if (const auto known = identities.of_id(w)) w = known->pseudonym;
@@ -161,7 +209,7 @@ void release(const Options& o) {
     const bool chosen = o.all || std::find(wanted.begin(), wanted.end(), s.candidate) != wanted.end();
     unknown.erase(std::remove(unknown.begin(), unknown.end(), s.candidate), unknown.end());
     if (!chosen || s.released) continue;
-    if (!s.findings.empty()) {
+    if (!s.findings.empty() && !(o.with_findings && !o.all)) {
       ++kept_back;
       continue;
     }
@@ -173,7 +221,10 @@ void release(const Options& o) {
   if (o.as_json)
     print_json(json{{"released", released}, {"kept_back", kept_back}});
   else
-    std::cout << released << " results released" << (kept_back > 0 ? ", " + std::to_string(kept_back) + " kept back: filed with findings" : "")
+    std::cout << released << " results released"
+              << (kept_back > 0 ? ", " + std::to_string(kept_back) +
+                                      " kept back: filed with findings (--candidate with --with-findings releases them after an appeal)"
+                                : "")
               << "\n";
 }
 
@@ -190,7 +241,7 @@ void regrade(const Options& o) {
   json by = json::object();
   if (!o.scenario.empty()) {
     const std::string text = read_text_file(o.scenario);
-    use_scenario(*graded, load_scenario(o.scenario));
+    use_scenario(*graded, load_scenario(o.scenario), o.another_task);
     use_rubric(*graded, graded->scenario.rubric);
     by["scenario_sha256"] = to_hex(sha256(text));
   }
@@ -208,30 +259,48 @@ void regrade(const Options& o) {
         json{{"seq", entry.seq}, {"before", found->result.value("score", json())}, {"after", result.at("score")}, {"verdict", result.at("verdict")}});
   else
     std::cout << "entry " << entry.seq << ": " << found->result.at("score").at("points") << " points before, " << result.at("score").at("points")
-              << " now; the old result stays, the new one waits for its release\n";
+              << " now; the old result stands until the new one is released\n";
 }
 
 int verify_all(const Options& o) {
-  std::vector<std::string> findings;
   const LedgerPlaces places{o.folder};
-  findings = check_ledger(places, o.replay);
+  LedgerCheck check = check_ledger(places, o.replay);
   const LedgerContent content = read_ledger(places);
+  // whose ledger is it? the key at hand says so, if there is one
+  if (const std::string path = o.key.empty() ? school_key_path() : o.key; !o.key.empty() || std::filesystem::exists(path)) {
+    const SigningKey key = load_school_key(path);
+    if (to_hex(key.public_key) != content.public_key)
+      check.findings.push_back("the ledger is of another school than the key at hand (" + path + ", " + to_hex(key.public_key) + ")");
+    else
+      for (auto& f : Identities(places.identities()).check(key)) check.findings.push_back(std::move(f));
+  } else {
+    check.remarks.push_back("the school's key is not at hand: that the ledger is this school's, and its identities unchanged, is not checked");
+  }
+  if (!content.witnessed) check.remarks.push_back("no witness on this computer: an older copy put back would not be seen here");
   if (!o.receipt.empty()) {
     const json receipt = json::parse(read_text_file(o.receipt), nullptr, false);
-    for (auto& f : check_receipt(receipt, content.public_key, &content)) findings.push_back(o.receipt + ": " + f);
+    for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(o.receipt + ": " + f);
   }
   if (o.as_json) {
-    print_json(json{{"verified", findings.empty()}, {"ledger", content.id}, {"entries", content.entries.size()}, {"findings", findings}});
+    print_json(json{{"verified", check.findings.empty()},
+                    {"ledger", content.id},
+                    {"school", content.school},
+                    {"public_key", content.public_key},
+                    {"entries", content.entries.size()},
+                    {"findings", check.findings},
+                    {"remarks", check.remarks}});
   } else {
-    std::cout << o.folder << ": " << (findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size() << " entries\n";
-    for (const auto& f : findings) std::cout << "  - " << f << "\n";
+    std::cout << o.folder << ": " << (check.findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size() << " entries of "
+              << one_line(content.school) << ", key " << content.public_key << "\n";
+    for (const auto& f : check.findings) std::cout << "  - " << f << "\n";
+    for (const auto& r : check.remarks) std::cout << "  (" << r << ")\n";
   }
-  return findings.empty() ? 0 : 1;
+  return check.findings.empty() ? 0 : 1;
 }
 
 void export_results(const Options& o) {
   Ledger ledger(o.folder, key_of(o));
-  Identities identities(ledger.places().identities());
+  Identities identities = sound_identities(ledger);
   const Registry registry = read_registry(ledger.content());
   int left_out = 0;
   std::string text;
@@ -240,6 +309,7 @@ void export_results(const Options& o) {
   if (o.format == "json") text = signed_results(registry, ledger) + "\n";
   if (o.format == "csv") text = tidy_csv(registry);
   require_own_places({{"--out " + o.out, o.out}}, {{"", ledger.places().database()}, {"", ledger.places().identities()}});
+  require_new(o, o.out);
   write_text_file(o.out, text);
   std::cout << "written: " << o.out << "\n";
   if (left_out > 0) std::cout << left_out << " released results have no candidate that is known by name and are left out\n";
@@ -269,6 +339,7 @@ void show(const Options& o) {
                           {"verdict", s.result.is_object() ? s.result.value("verdict", "") : ""},
                           {"points", s.result.is_object() ? s.result["score"]["points"] : json()},
                           {"released", s.released},
+                          {"simulated", s.simulated},
                           {"regraded", s.result_seq != s.seq},
                           {"findings", s.findings}});
     print_json(json{{"ledger", content.id}, {"entries", content.entries.size()}, {"tickets", registry.tickets.size()}, {"sessions", sessions}});
@@ -281,11 +352,12 @@ void show(const Options& o) {
     std::printf("%6llu  %-16s %-28s %-7s %6.1f  %s%s%s\n", static_cast<unsigned long long>(s.seq), s.candidate.c_str(), s.scenario_id.c_str(),
                 s.result.is_object() ? s.result.value("verdict", "").c_str() : "?",
                 s.result.is_object() ? s.result["score"]["points"].get<double>() : 0.0, s.released ? "released" : "pending",
-                s.result_seq != s.seq ? ", regraded" : "", s.findings.empty() ? "" : ", with findings");
+                (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
+                s.findings.empty() ? "" : ", with findings");
 }
 
 int verify_one(const Options& o) {
-  const SessionExplanation e = explain_session(o.sessions.at(0), o.key);
+  const SessionExplanation e = explain_session(o.sessions.at(0), o.key.empty() ? "" : parse_public_key(o.key, "--school-key"));
   if (o.as_json)
     print_json(json{{"verified", e.holds}, {"proved", e.proved}, {"findings", e.findings}, {"remarks", e.remarks}});
   else
@@ -335,12 +407,14 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--model", o->model, "force model")->capture_default_str();
   v->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   add_grant_options(v, o->grant);
-  v->add_option("--out", o->out, "ticket to write")->required();
+  v->add_option("--out", o->out, "ticket to write, or the folder for a class")->required();
+  v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
   json_flag(v);
 
   v = verb("add", "File finished exams: verified tick by tick, checked against their tickets, counter-signed", add);
   v->add_option("sessions", o->sessions, ".cavum files, or folders of them")->required();
   v->add_flag("--without-ticket", o->without_ticket, "also exams that nobody promised");
+  v->add_flag("--simulated", o->simulated, "also what a simulated operator sat; it stays marked as that");
   v->add_flag("--with-findings", o->with_findings, "also what does not hold, with what was found: for an appeal");
   v->add_option("--receipts", o->out, "folder for receipts: what a candidate can show without the ledger");
   json_flag(v);
@@ -348,6 +422,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v = verb("release", "Let results go to candidates and exports", done(release));
   v->add_flag("--all", o->all, "all that are filed without findings");
   v->add_option("--candidate", o->chosen, "pseudonym or the school's own number; may be repeated");
+  v->add_flag("--with-findings", o->with_findings, "with --candidate: also one that was filed with findings, after an appeal");
   json_flag(v);
 
   v = verb("regrade", "Mark a filed exam by another rubric or a corrected scenario: a new result beside the old", done(regrade));
@@ -355,6 +430,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--rubric", o->rubric, "rubric (TOML)");
   v->add_option("--scenario", o->scenario, "corrected scenario (TOML)");
   v->add_option("--reason", o->reason, "why, in words; entered with it")->required();
+  v->add_flag("--another-task", o->another_task, "let --scenario be that of another task than the session's");
   json_flag(v);
 
   v = verb("verify", "Check every entry, signature, ticket and filed session", verify_all);
@@ -368,6 +444,15 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
       ->required()
       ->check(CLI::IsMember({"moodle", "lti", "json", "csv"}));
   v->add_option("--out", o->out, "file to write")->required();
+  v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+
+  v = verb("receipt", "Write an entry's receipt again", done(write_receipt));
+  v->add_option("--entry", o->session_seq, "its number")->required();
+  v->add_option("--out", o->out, "file to write")->required();
+  v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+
+  v = verb("candidates", "List who is behind which pseudonym", done(candidates));
+  json_flag(v);
 
   v = verb("forget", "Remove a candidate's identity; all proofs stay valid", done(forget));
   v->add_option("--candidate", o->candidate, "pseudonym or the school's own number")->required();

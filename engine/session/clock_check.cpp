@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 namespace cavum {
 namespace {
@@ -22,8 +23,17 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
   const double tick_s = std::strtod(session.fact("tick_s").c_str(), nullptr);
   if (session.chunks().empty() || !(tick_s > 0.0)) return out;
   std::vector<std::int64_t> gaps;  // first ticks after an acknowledged gap
-  for (const auto& e : session.events())
-    if (e.kind == "gap") gaps.push_back(e.tick);
+  for (const auto& e : session.events()) {
+    if (e.kind != "gap") continue;
+    gaps.push_back(e.tick);
+    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
+    const bool told = detail.is_object() && detail.contains("gap_utc_s") && detail["gap_utc_s"].is_number();
+    std::string source;
+    if (told && detail.contains("source") && detail["source"].is_object()) source = detail["source"].value("device", "");
+    out.push_back({e.tick, 0,
+                   "interrupted" + (told ? " for " + seconds(detail["gap_utc_s"].get<double>()) : std::string()) + " and taken up again" +
+                       (source.empty() ? "" : " with " + source)});
+  }
   Clocks before = session.created();
   double real_s = 0.0, told_s = 0.0;
   for (const auto& c : session.chunks()) {

@@ -17,7 +17,8 @@ struct ClockRemark {
 };
 
 /// Suspends (boot ran on, monotonic stood), ticks that took more than 1.25 times as long as they say and half a second besides, wall clocks set by
-/// more than 2 s, and a recording that is faster than real time as a whole. A stretch with an acknowledged gap or pause is not remarked on.
+/// more than 2 s, and a recording that is faster than real time as a whole. Each interruption that was
+/// recorded is named with its length and what the exam was taken up with.
 [[nodiscard]] std::vector<ClockRemark> check_clocks(const SessionReader& session);
 
 }  // namespace cavum

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/ledger/csv.h"
 
 namespace cavum::cohort {
 namespace {
@@ -30,7 +30,11 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
   std::vector<double> ratings, rated;
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
-    if (s == sat.end()) continue;
+    if (s == sat.end()) {
+      f.to_look_at.push_back({0, m.candidate, "was marked by " + m.judge + ", and has no session of this exam"});
+      continue;
+    }
+    if (m.points > f.max_points) f.to_look_at.push_back({s->second->seq, m.candidate, m.judge + " gave more points than the exam has"});
     by_candidate[m.candidate][m.judge] = m.points;
     judges.insert(m.judge);
     if (m.rating) {
@@ -40,7 +44,7 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
   }
   Agreement& a = f.agreement;
   a.n = by_candidate.size();
-  a.judges = judges.size() + 1;
+  a.judges = judges.size();
   Matrix table, bands(3, std::vector<double>(3));
   std::vector<double> program, people;
   for (const auto& [candidate, given] : by_candidate) {
@@ -50,7 +54,10 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
     program.push_back(own);
     people.push_back(sum / static_cast<double>(given.size()));
     bands[band_of(own, f.pass_points, band)][band_of(people.back(), f.pass_points, band)] += 1;
-    if (given.size() < judges.size()) continue;
+    if (given.size() < judges.size()) {
+      ++a.incomplete;
+      continue;
+    }
     std::vector<double> row = {own};
     for (const auto& [judge, points] : given) row.push_back(points);
     table.push_back(std::move(row));
@@ -82,43 +89,29 @@ json optional(const std::optional<double>& v) { return v ? json(*v) : json(); }
 }  // namespace
 
 std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where) {
+  const auto rows = parse_csv(text, where);
+  const auto at = [&](const CsvRow& row) { return where + ":" + std::to_string(row.line); };
+  const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
+                     rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
+  if (!known) throw Error(where + ":1", "is no heading of marks", "begin with candidate,judge,points or candidate,judge,points,rating");
   std::vector<HumanMark> out;
-  std::istringstream lines(text);
-  std::vector<std::string> heading;
-  int number = 0;
-  const auto number_in = [&](const std::string& field, const char* what) {
-    double v = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
-      throw Error(where + ":" + std::to_string(number), "'" + one_line(field) + "' is no number of " + what, "write it with a decimal point");
-    return v;
-  };
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string> fields(1);
-    for (const char c : line) {
-      if (c == ',')
-        fields.emplace_back();
-      else
-        fields.back() += c;
-    }
-    if (heading.empty()) {
-      heading = fields;
-      const bool known = heading.size() >= 3 && heading.size() <= 4 && heading[0] == "candidate" && heading[1] == "judge" && heading[2] == "points" &&
-                         (heading.size() == 3 || heading[3] == "rating");
-      if (!known)
-        throw Error(where + ":" + std::to_string(number), "is no heading of marks",
-                    "begin with candidate,judge,points or candidate,judge,points,rating");
-      continue;
-    }
-    if (fields.size() != heading.size())
-      throw Error(where + ":" + std::to_string(number),
-                  "has " + std::to_string(fields.size()) + " fields, the heading " + std::to_string(heading.size()), "give each row all of them");
-    HumanMark m{fields[0], fields[1], number_in(fields[2], "points"), {}};
-    if (const auto known = identities.of_id(m.candidate)) m.candidate = known->pseudonym;
-    if (fields.size() == 4 && !fields[3].empty()) m.rating = number_in(fields[3], "a rating");
+  std::set<std::pair<std::string, std::string>> given;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto& f = rows[i].fields;
+    const auto number_in = [&](const std::string& field, const char* what) {
+      double v = 0;
+      const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
+      if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
+        throw Error(at(rows[i]), "'" + one_line(field) + "' is no number of " + what, "write it with a decimal point");
+      return v;
+    };
+    HumanMark m{f[0], f[1], number_in(f[2], "points"), {}};
+    if (m.judge.empty()) throw Error(at(rows[i]), "names no judge", "give each judge a name or number");
+    if (m.points < 0) throw Error(at(rows[i]), "has less than no points", "write points of the exam's own scale");
+    if (const auto enrolled = identities.of_id(m.candidate)) m.candidate = enrolled->pseudonym;
+    if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "a rating");
+    if (!given.emplace(m.candidate, m.judge).second)
+      throw Error(at(rows[i]), "is a second mark by judge " + m.judge + " for one candidate", "leave one of them");
     out.push_back(std::move(m));
   }
   if (out.empty()) throw Error(where, "holds no mark", "write a row for each candidate and judge");
@@ -150,6 +143,7 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
     const std::string verdict = s->result.value("verdict", "");
     (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
     by_station[s->station_key].push_back(points);
+    if (!s->simulated.empty()) ++f.simulated;
     if (verdict == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
     if (ids(s->result) != ids(any)) continue;  // regraded by another rubric
     std::vector<double> row;
@@ -202,7 +196,11 @@ json to_json(const ClassFigures& f) {
   for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"n", s.n}, {"mean_points", s.mean}});
   for (const auto& t : f.to_look_at) look.push_back({{"session", t.session}, {"candidate", t.candidate}, {"why", t.why}});
   const Agreement& a = f.agreement;
-  json agreement = {{"n", a.n}, {"judges", a.judges}, {"weighted_kappa", optional(a.kappa)}, {"borderline_cut_points", optional(a.cut)}};
+  json agreement = {{"n", a.n},
+                    {"judges", a.judges},
+                    {"incomplete", a.incomplete},
+                    {"weighted_kappa", optional(a.kappa)},
+                    {"borderline_cut_points", optional(a.cut)}};
   agreement["icc"] = a.icc ? json{{"single_random", a.icc->single_random},
                                   {"single_fixed", a.icc->single_fixed},
                                   {"average_random", a.icc->average_random},
@@ -211,6 +209,7 @@ json to_json(const ClassFigures& f) {
   agreement["limits"] = a.limits ? json{{"bias", a.limits->bias}, {"sd", a.limits->sd}, {"low", a.limits->low}, {"high", a.limits->high}} : json();
   return {{"exam", f.exam},
           {"n", f.n},
+          {"simulated", f.simulated},
           {"verdicts", {{"pass", f.pass}, {"fail", f.fail}, {"review", f.review}}},
           {"points", {{"mean", f.mean}, {"sd", f.sd}, {"max", f.max_points}, {"pass", f.pass_points}}},
           {"criteria", criteria},

@@ -35,7 +35,8 @@ struct StationFigures {
 struct Agreement {
   std::size_t n = 0;                        ///< candidates that people marked
   std::optional<Icc> icc;                   ///< program and judges as judges, candidates that all of them marked
-  std::size_t judges = 0;                   ///< with the program
+  std::size_t judges = 0;                   ///< people
+  std::size_t incomplete = 0;               ///< of the candidates, not marked by all of them: left out of the ICC
   std::optional<LimitsOfAgreement> limits;  ///< program less the mean of the judges, points
   std::optional<double> kappa;              ///< fail, borderline, pass: quadratic weights
   std::optional<double> cut;                ///< borderline regression, points
@@ -48,6 +49,7 @@ struct ToLookAt {
 struct ClassFigures {
   std::string exam;
   std::size_t n = 0, pass = 0, fail = 0, review = 0;
+  std::size_t simulated = 0;  ///< of n, sat by a simulated operator
   double max_points = 0, mean = 0, sd = 0, pass_points = 0;
   std::vector<double> points;  ///< ascending
   std::vector<CriterionFigures> criteria;

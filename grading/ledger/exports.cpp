@@ -63,10 +63,10 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   };
   std::map<std::string, Exam> exams;
   for (const auto& s : registry.sessions) {
-    if (!s.released) continue;
+    if (s.shown.is_null()) continue;
     Exam& exam = exams[s.scenario_id];
     exam.by_candidate[s.candidate] = &s;
-    for (const auto& c : s.result.at("criteria"))
+    for (const auto& c : s.shown.at("criteria"))
       if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
         exam.criteria.push_back(id);
   }
@@ -98,7 +98,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
         row += std::string(exam.criteria.size() + 2, ',');
         continue;
       }
-      const json& result = found->second->result;
+      const json& result = found->second->shown;
       row += "," + number_in(result.at("score").at("points"));
       for (const auto& wanted : exam.criteria) {
         row += ",";
@@ -113,22 +113,26 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
 }
 
 json lti_scores(const Registry& registry, Identities& identities) {
+  std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last counts
+  for (const auto& s : registry.sessions) last[{s.scenario_id, s.candidate}] = &s;
   json out = json::array();
-  for (const auto& s : registry.sessions) {
-    const auto identity = identities.of_pseudonym(s.candidate);
-    const bool shown = s.released && s.result.is_object();
-    json one = {{"userId", identity && s.released ? identity->id : s.candidate},
-                {"timestamp", utc_ms(s.received_utc_ns)},
-                {"activityProgress", "Completed"},
-                {"gradingProgress", shown                                                               ? "FullyGraded"
-                                    : s.result.is_object() && s.result.value("verdict", "") == "review" ? "PendingManual"
-                                                                                                        : "Pending"}};
+  for (const auto& [key, s] : last) {
+    const auto identity = identities.of_pseudonym(s->candidate);
+    if (!identity) continue;  // the platform knows nobody by a pseudonym
+    const bool shown = s->shown.is_object();
+    const bool review = s->result.is_object() && s->result.value("verdict", "") == "review";
+    json score = {{"userId", identity->id},
+                  {"timestamp", utc_ms(s->received_utc_ns)},
+                  {"activityProgress", "Completed"},
+                  {"gradingProgress", shown    ? "FullyGraded"
+                                      : review ? "PendingManual"
+                                               : "Pending"}};
     if (shown) {
-      one["scoreGiven"] = points_of(s.result);
-      one["scoreMaximum"] = s.result.at("score").at("max");
-      one["comment"] = feedback_of(s.result);
+      score["scoreGiven"] = points_of(s->shown);
+      score["scoreMaximum"] = s->shown.at("score").at("max");
+      score["comment"] = feedback_of(s->shown);
     }
-    out.push_back(std::move(one));
+    out.push_back({{"resourceId", s->scenario_id}, {"score", std::move(score)}});
   }
   return out;
 }
@@ -136,8 +140,14 @@ json lti_scores(const Registry& registry, Identities& identities) {
 std::string signed_results(const Registry& registry, const Ledger& ledger) {
   json results = json::array();
   for (const auto& s : registry.sessions)
-    results.push_back(
-        {{"session", s.seq}, {"candidate", s.candidate}, {"file_sha256", s.file_sha256}, {"released", s.released}, {"result", s.result}});
+    results.push_back({{"session", s.seq},
+                       {"candidate", s.candidate},
+                       {"file_sha256", s.file_sha256},
+                       {"released", s.released},
+                       {"result", s.result},
+                       {"shown", s.shown},
+                       {"simulated", s.simulated},
+                       {"findings", s.findings}});
   const Checkpoint& p = ledger.content().checkpoints.back();
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
@@ -161,13 +171,15 @@ bool results_hold(const std::string& text) {
 }
 
 std::string tidy_csv(const Registry& registry) {
-  std::string out = "session,candidate,scenario,verdict,released,criterion,metric,value,unit,points,max\n";
+  std::string out = "session,candidate,scenario,station,simulated,regraded,findings,verdict,released,criterion,metric,value,unit,points,max\n";
   for (const auto& s : registry.sessions) {
     if (!s.result.is_object()) continue;
     for (const auto& c : s.result.at("criteria"))
-      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + s.result.value("verdict", "") + "," +
-             (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
-             "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
+      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + s.station_key.substr(0, 16) + "," +
+             csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
+             s.result.value("verdict", "") + "," + (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," +
+             csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) + "," + csv_field(c.value("unit", "")) + "," +
+             number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }
   return out;
 }

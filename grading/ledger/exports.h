@@ -25,8 +25,8 @@ namespace cavum {
 /// True when `text` is what signed_results wrote, unchanged.
 [[nodiscard]] bool results_hold(const std::string& text);
 
-/// CSV, one row for each session and criterion: session, candidate, scenario, verdict, released, criterion, metric, value, unit, points, max.
-/// Pseudonyms only.
+/// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings (their number), verdict,
+/// released, criterion, metric, value, unit, points, max. Pseudonyms only.
 [[nodiscard]] std::string tidy_csv(const Registry& registry);
 
 /// A field of a CSV file: quoted where it must be, and never a formula to a spreadsheet that opens it.

@@ -20,26 +20,69 @@ std::string ticket_text_in(const SessionSetup& setup) {
   return {};
 }
 
+constexpr std::int64_t k_patience_ns = 300'000'000'000;  // by which the clocks of station and ledger may differ
+
+/// Operator that moved the stylus, in the beginning or after a gap; empty for a hand.
+std::string simulated_by(const SessionReader& session, const SessionSetup& setup) {
+  for (const auto& [key, value] : setup.notes)
+    if (key == "operator") return value;
+  for (const auto& e : session.events()) {
+    const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
+    if (detail.is_object() && detail.contains("source") && detail["source"].is_object() && detail["source"].contains("operator"))
+      return detail["source"].value("operator", "");
+  }
+  return {};
+}
+
+/// Times that contradict one another, and a gap that changed who or what sat the exam.
+std::vector<std::string> check_course(const SessionReader& session, const SessionSetup& setup, const std::optional<IssuedTicket>& ticket,
+                                      std::int64_t issued_utc_ns) {
+  std::vector<std::string> findings;
+  const std::int64_t begun = session.created().utc_ns, closed = session.seal()->clocks.utc_ns, now = read_clocks().utc_ns;
+  if (closed > now + k_patience_ns) findings.push_back("by the station's clock the exam ended on " + utc_text(closed) + ", after it was handed in");
+  if (ticket && begun < issued_utc_ns - k_patience_ns)
+    findings.push_back("by the station's clock the exam began on " + utc_text(begun) + ", before its ticket was issued");
+  for (const auto& e : session.events()) {
+    const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
+    if (!detail.is_object()) continue;
+    const std::int64_t resumed = detail.value("resumed_utc_ns", std::int64_t{0});
+    if (ticket && resumed > ticket->ticket.not_after_utc_ns)
+      findings.push_back("the exam was taken up again on " + utc_text(resumed) + ", when its ticket was no longer good");
+    const std::string source = detail.contains("source") && detail["source"].is_object() ? detail["source"].value("device", "") : "";
+    if (!source.empty() && source != setup.device)
+      findings.push_back("the exam was begun with " + setup.device + ", and taken up again with " + source);
+  }
+  return findings;
+}
+
+/// True for what looks like a pseudonym of ours.
+bool is_pseudonym(const std::string& name) { return name.size() == 16 && name.starts_with("C-") && name[6] == '-' && name[11] == '-'; }
+
 /// Ticket and claims of a session against the entries so far.
-std::vector<std::string> check_claims(const LedgerContent& content, const SessionSetup& setup, std::int64_t begun_utc_ns,
-                                      const std::string& chain_sha256, const std::string& nonce, bool without_ticket) {
+std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const SessionSetup& setup,
+                                      const std::string& chain_sha256, const std::string& nonce, const FilingOptions& options) {
   std::vector<std::string> findings;
   const Registry registry = read_registry(content);
   for (const auto& s : registry.sessions)
     if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));
   const std::string text = ticket_text_in(setup);
+  if (const std::string by = simulated_by(session, setup); !by.empty() && !options.simulated)
+    findings.push_back("no candidate sat this exam, but the simulated operator '" + by + "' (--simulated files it as that)");
   if (text.empty()) {
-    if (!without_ticket) findings.emplace_back("the session holds no ticket: nobody promised this exam");
+    if (!options.without_ticket) findings.emplace_back("the session holds no ticket: nobody promised this exam");
+    if (is_pseudonym(setup.candidate)) findings.emplace_back("the session bears a pseudonym, and no ticket that it was given by");
+    for (auto& f : check_course(session, setup, {}, 0)) findings.push_back(std::move(f));
     return findings;
   }
   try {
     const Ticket ticket = parse_ticket(text, content.public_key, "the session's ticket");
-    for (auto& f : check_ticket(ticket, setup, begun_utc_ns)) findings.push_back(std::move(f));
+    for (auto& f : check_ticket(ticket, setup, session.created().utc_ns)) findings.push_back(std::move(f));
     if (ticket.ledger != content.id) findings.emplace_back("the ticket was issued by another ledger");
     bool issued = false;
     for (const auto& t : registry.tickets) {
       if (t.ticket.nonce != nonce) continue;
       issued = true;
+      for (auto& f : check_course(session, setup, t, content.entries.at(t.seq).utc_ns)) findings.push_back(std::move(f));
       if (t.used_by) findings.push_back("the ticket was used before: entry " + std::to_string(*t.used_by));
     }
     if (!issued) findings.emplace_back("the ledger has not issued this ticket");
@@ -81,6 +124,7 @@ Registry read_registry(const LedgerContent& content) {
         s.station_key = e.body.at("station_key");
         s.nonce = e.body.at("nonce");
         s.result = e.body.at("result");
+        s.simulated = e.body.at("simulated");
         s.findings = e.body.at("findings").get<std::vector<std::string>>();
         if (!chains.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
         if (!s.nonce.empty() && s.findings.empty()) {
@@ -98,12 +142,12 @@ Registry read_registry(const LedgerContent& content) {
         FiledSession& s = r.sessions.at(by_seq.at(e.body.at("session").get<std::uint64_t>()));
         s.result = e.body.at("result");
         s.result_seq = e.seq;
-        s.released = false;  // a new result waits for its own release
+        s.released = false;  // a new result waits for its own release, and the old one stands until then
       } else if (e.kind == "release") {
         for (const auto& seq : e.body.at("results")) {
           bool found = false;
           for (auto& s : r.sessions)
-            if (s.result_seq == seq.get<std::uint64_t>()) s.released = found = true;
+            if (s.result_seq == seq.get<std::uint64_t>()) s.released = found = true, s.shown = s.result;
           if (!found) say("releases a result that does not count");
         }
       } else if (e.kind != "init" && e.kind != "forget") {
@@ -132,7 +176,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   const std::int64_t begun = session.created().utc_ns;
 
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
-  const auto claims = [&](const LedgerContent& c) { return check_claims(c, setup, begun, chain, nonce, options.without_ticket); };
+  const auto claims = [&](const LedgerContent& c) { return check_claims(c, session, setup, chain, nonce, options); };
   for (auto& f : claims(ledger.content())) out.findings.push_back(std::move(f));
   if (refused()) return out;
 
@@ -161,6 +205,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
                                     {"begun_utc_ns", begun},
                                     {"closed_utc_ns", session.seal()->clocks.utc_ns},
                                     {"nonce", nonce},
+                                    {"simulated", simulated_by(session, setup)},
                                     {"result", result.is_discarded() ? json(nullptr) : result},
                                     {"scenario_id", scenario_id},
                                     {"station_key", report.station_key},
@@ -173,17 +218,12 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   return out;
 }
 
-std::vector<std::string> check_ledger(const LedgerPlaces& places, bool replay) {
+LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   const LedgerContent content = read_ledger(places);
-  std::vector<std::string> findings = content.findings;
+  LedgerCheck out{content.findings, content.remarks};
+  auto& findings = out.findings;
   const Registry registry = read_registry(content);
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
-  std::int64_t before = 0;
-  for (const auto& e : content.entries) {
-    if (e.utc_ns < before)
-      findings.push_back("entry " + std::to_string(e.seq) + ": was entered before the one that it follows, by the computer's clock");
-    before = e.utc_ns;
-  }
   for (const auto& s : registry.sessions) {
     const std::string name = "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")", path = places.session(s.file_sha256);
     if (!std::filesystem::exists(path)) {
@@ -197,7 +237,12 @@ std::vector<std::string> check_ledger(const LedgerPlaces& places, bool replay) {
     if (replay && s.findings.empty())
       for (const auto& f : verify_session(path).findings) findings.push_back(name + ": " + f);
   }
-  return findings;
+  std::error_code none;
+  std::set<std::string> filed;
+  for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
+  for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
+    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
+  return out;
 }
 
 }  // namespace cavum

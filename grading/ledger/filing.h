@@ -19,7 +19,9 @@ struct FiledSession {
   nlohmann::json result;     ///< that counts: the sealed one, or the last regrade's
   std::uint64_t result_seq;  ///< of the entry that holds it
   std::vector<std::string> findings;
+  std::string simulated;  ///< operator that sat it instead of a candidate; empty for people
   bool released = false;  ///< the result that counts
+  nlohmann::json shown;   ///< the last one that was released: it stands until another is; null before
   std::int64_t received_utc_ns = 0;
 };
 struct IssuedTicket {
@@ -37,7 +39,8 @@ struct Registry {
 
 struct FilingOptions {
   bool without_ticket = false;  ///< for exams that nobody promised: practice, or before tickets were used
-  bool with_findings = false;   ///< files what does not hold, too, with what was found: for an appeal; its result is not released
+  bool simulated = false;       ///< also what a simulated operator sat; it is marked as such
+  bool with_findings = false;   ///< files what does not hold, too, with what was found: for an appeal; it is released only by name
 };
 struct Filing {
   std::vector<std::string> findings;  ///< why it was not filed, or with what it was; empty for a sound session
@@ -47,8 +50,12 @@ struct Filing {
 /// on disk. Throws Error when the file cannot be read as a session, DatabaseError when the disk refuses.
 [[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options = {});
 
+struct LedgerCheck {
+  std::vector<std::string> findings;  ///< what does not hold
+  std::vector<std::string> remarks;   ///< what may be harmless
+};
 /// What in a ledger does not hold: entries, tree, signatures, witness, tickets, and the sessions' files beside it; with `replay` each session is
 /// simulated again.
-[[nodiscard]] std::vector<std::string> check_ledger(const LedgerPlaces& places, bool replay);
+[[nodiscard]] LedgerCheck check_ledger(const LedgerPlaces& places, bool replay);
 
 }  // namespace cavum

@@ -17,10 +17,12 @@ std::optional<Identity> first(Statement s) { return s.step() ? std::optional(rea
 
 }  // namespace
 
-Identities::Identities(const std::string& path)
+Identities::Identities(const std::string& path, bool may_make)
     : database_([&] {
-        const ::mode_t before = ::umask(0077);  // the file and its log are the school's alone
         const bool make = !std::filesystem::exists(path);
+        if (make && !may_make)
+          throw Error(path, "the identities are not there", "restore them from their backup: without them nobody knows whose marks these are");
+        const ::mode_t before = ::umask(0077);  // the file and its log are the school's alone
         Database db = Database::open(path, make);
         if (make) {
           db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
@@ -66,6 +68,15 @@ std::vector<Identity> Identities::all() {
   auto s = database_.prepare("SELECT pseudonym, id, name FROM identity ORDER BY pseudonym");
   while (s.step()) out.push_back(read(s));
   return out;
+}
+
+std::vector<std::string> Identities::check(const SigningKey& school) {
+  std::vector<std::string> findings;
+  auto s = database_.prepare("SELECT pseudonym, id, salt FROM identity ORDER BY pseudonym");
+  while (s.step())
+    if (pseudonym_of(school, s.blob(2), s.text(1)) != s.text(0))
+      findings.push_back("identities: " + s.text(0) + " is not whom it was given to; the row was changed");
+  return findings;
 }
 
 bool Identities::forget(const std::string& pseudonym) {

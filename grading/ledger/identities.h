@@ -19,8 +19,10 @@ struct Identity {
 
 class Identities {
  public:
-  /// Opens the file, or makes it (mode 0600). Throws Error.
-  explicit Identities(const std::string& path);
+  /// Opens the file; with `make` makes it (mode 0600). Throws Error, also when it is missing: names that are lost are restored, not begun anew.
+  explicit Identities(const std::string& path, bool make = false);
+  /// What does not hold, in words: a number or salt that does not give its pseudonym under the school's key, so that marks would go to somebody else.
+  [[nodiscard]] std::vector<std::string> check(const SigningKey& school);
   /// The candidate's pseudonym: as before, or a new one. Throws Error when `id` is empty or no plain text.
   std::string enrol(const std::string& id, const std::string& name, const SigningKey& school);
   [[nodiscard]] std::optional<Identity> of_pseudonym(const std::string& pseudonym);

@@ -48,13 +48,19 @@ LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, json body) {
   e.kind = kind;
   e.utc_ns = read_clocks().utc_ns;
   e.body = std::move(body);
-  e.text = json{{"body", e.body}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
+  json told = e.body;
+  if (const auto result = told.find("result"); result != told.end()) {  // apart, so that a receipt shows no marks
+    e.attachment = result->dump();
+    told.erase("result");
+    told["result_sha256"] = to_hex(sha256(e.attachment));
+  }
+  e.text = json{{"body", told}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
   e.leaf = leaf_hash(bytes_of(e.text));
   return e;
 }
 
 /// What the row says, as far as it can be read; else a finding.
-LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf, std::vector<std::string>& findings) {
+LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf, std::string attachment, std::vector<std::string>& findings) {
   LedgerEntry e;
   e.seq = seq;
   e.leaf = leaf;
@@ -66,6 +72,12 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     e.kind = j.at("kind").get<std::string>();
     e.body = j.at("body");
     e.utc_ns = j.at("utc_ns").get<std::int64_t>();
+    e.attachment = std::move(attachment);
+    const std::string bound = e.body.is_object() ? e.body.value("result_sha256", "") : "";
+    if (bound != (e.attachment.empty() ? "" : to_hex(sha256(e.attachment))))
+      findings.push_back(name + ": its result was changed, added or removed after it was entered");
+    else if (!bound.empty())
+      e.body["result"] = json::parse(e.attachment);
     if (j.at("seq").get<std::uint64_t>() != seq) findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
   } catch (const json::exception&) {
     findings.push_back(name + ": is no JSON object with kind, seq, utc_ns and body");
@@ -123,8 +135,8 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
   return out;
 }
 
-void check_witness(LedgerContent& c) {
-  const auto witnessed = read_witness(c.id, c.findings);
+void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
+  c.witnessed = !witnessed.empty();
   if (witnessed.empty()) return;
   GrowingRoot growing;
   std::vector<Sha256> roots;
@@ -158,24 +170,40 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
 LedgerContent read_content(Database& db, const std::string& where) {
   if (db.integer("PRAGMA application_id") != k_ledger_application_id) throw Error(where, "is no ledger", "make one with `cavum ledger init FOLDER`");
   LedgerContent c;
-  auto rows = db.prepare("SELECT seq, text, leaf_sha256 FROM entry ORDER BY seq");
+  // The witness first: it is told after each entry, so what it knows by now is in the database by then. One snapshot of the tables for the same
+  // reason.
+  const std::string first = db.text("SELECT text FROM entry WHERE seq = 0");
+  const json begin = json::parse(first, nullptr, false);
+  const std::string id = begin.is_object() && begin.contains("body") && begin["body"].is_object() ? begin["body"].value("ledger", "") : "";
+  const auto witnessed = id.size() == 32 && id.find('/') == std::string::npos ? read_witness(id, c.findings) : std::vector<Checkpoint>();
+  const bool alone = !db.in_transaction();
+  if (alone) db.run("BEGIN");
+  auto rows = db.prepare("SELECT seq, text, leaf_sha256, coalesce(attachment, '') FROM entry ORDER BY seq");
   while (rows.step()) {
     const auto seq = static_cast<std::uint64_t>(rows.integer(0));
     if (seq != c.entries.size()) c.findings.push_back("entry " + std::to_string(c.entries.size()) + ": is missing");
-    c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), c.findings));
+    c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), rows.text(3), c.findings));
     if (c.entries.size() > seq + 1) break;
   }
   auto points = db.prepare("SELECT size, root_sha256, utc_ns, signature FROM checkpoint ORDER BY size");
   while (points.step())
     c.checkpoints.push_back({static_cast<std::uint64_t>(points.integer(0)), points.fixed_blob<32>(1), points.integer(2), points.fixed_blob<64>(3)});
+  if (alone) db.run("COMMIT");
   if (c.entries.empty() || c.entries[0].kind != "init") {
     c.findings.emplace_back("entry 0: does not begin a ledger");
     return c;
   }
   c.id = c.entries[0].body.value("ledger", "");
   c.public_key = c.entries[0].body.value("public_key", "");
+  c.school = c.entries[0].body.value("school", "");
   check_tree(c);
-  check_witness(c);
+  check_witness(c, witnessed);
+  std::int64_t before = 0;
+  for (const auto& e : c.entries) {
+    if (e.utc_ns < before)
+      c.remarks.push_back("entry " + std::to_string(e.seq) + ": by the computer's clock it is older than the one before; the clock was set back");
+    before = e.utc_ns;
+  }
   return c;
 }
 
@@ -199,10 +227,11 @@ Database open_for_adding(const std::string& path, bool make) {
 }
 
 void insert(Database& db, const LedgerEntry& e, const Checkpoint& p) {
-  db.prepare("INSERT INTO entry (seq, text, leaf_sha256) VALUES (?, ?, ?)")
+  db.prepare("INSERT INTO entry (seq, text, leaf_sha256, attachment) VALUES (?, ?, ?, nullif(?, ''))")
       .bind(1, static_cast<std::int64_t>(e.seq))
       .bind(2, e.text)
       .bind(3, e.leaf)
+      .bind(4, e.attachment)
       .run();
   db.prepare("INSERT INTO checkpoint (size, root_sha256, utc_ns, signature) VALUES (?, ?, ?, ?)")
       .bind(1, static_cast<std::int64_t>(p.size))
@@ -235,10 +264,15 @@ std::string witness_path(const std::string& ledger_id) { return station_path("wi
 
 LedgerContent read_ledger(const LedgerPlaces& places) {
   if (!std::filesystem::exists(places.database())) throw Error(places.folder, "holds no ledger", "make one with `cavum ledger init FOLDER`");
-  std::vector<std::string> findings;
-  Database db = Database::from_image(read_session_image(places.database(), findings), places.database());
   try {
-    LedgerContent c = read_content(db, places.database());
+    Database live = Database::open(places.database(), false);
+    return read_content(live, places.database());
+  } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy in memory
+  }
+  std::vector<std::string> findings;
+  Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
+  try {
+    LedgerContent c = read_content(copy, places.database());
     c.findings.insert(c.findings.begin(), findings.begin(), findings.end());
     return c;
   } catch (const DatabaseError& e) {

@@ -24,8 +24,9 @@ struct LedgerEntry {
   std::uint64_t seq = 0;
   std::string text;
   Sha256 leaf{};
-  std::string kind;  ///< `init`, `ticket`, `session`, `regrade`, `release`, `forget`
-  nlohmann::json body;
+  std::string attachment;  ///< a result's JSON text, or nothing; its SHA-256 is in the text
+  std::string kind;        ///< `init`, `ticket`, `session`, `regrade`, `release`, `forget`
+  nlohmann::json body;     ///< with `result` out of the attachment in place of `result_sha256`
   std::int64_t utc_ns = 0;
 };
 
@@ -43,9 +44,12 @@ struct Checkpoint {
 struct LedgerContent {
   std::string id;          ///< of the first entry, 32 hexadecimal digits
   std::string public_key;  ///< the school's, hexadecimal
+  std::string school;      ///< its name
+  bool witnessed = false;  ///< this computer has a witness of the ledger
   std::vector<LedgerEntry> entries;
   std::vector<Checkpoint> checkpoints;
   std::vector<std::string> findings;  ///< in words; empty when entries, tree and signatures hold
+  std::vector<std::string> remarks;   ///< what is odd and may be harmless: a clock that was set back
 };
 
 /// Places of a ledger in its folder.

@@ -2,6 +2,8 @@
 
 #include <sodium.h>
 
+#include <filesystem>
+
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 
@@ -9,7 +11,13 @@ namespace cavum {
 
 std::string school_key_path() { return station_path("school.key"); }
 
-SigningKey load_school_key(const std::string& path) { return load_signing_key(path, "school"); }
+std::string school_public_key_path() { return station_path("school.pub"); }
+
+SigningKey load_school_key(const std::string& path, bool make) {
+  if (!make && !std::filesystem::exists(path))
+    throw Error(path, "the school's key is not there", "restore it from its backup, or name its place with --key or CAVUM_HOME");
+  return load_signing_key(path, "school");
+}
 
 std::string random_hex(std::size_t bytes) {
   if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");

@@ -15,10 +15,12 @@ namespace cavum {
 
 /// $CAVUM_HOME/school.key, or ~/.config/cavum/school.key.
 [[nodiscard]] std::string school_key_path();
-/// Made on first use, mode 0600. Throws Error as load_signing_key does.
-[[nodiscard]] SigningKey load_school_key(const std::string& path);
+/// $CAVUM_HOME/school.pub: the public key (64 hexadecimal digits) of the school whose tickets this station takes.
+[[nodiscard]] std::string school_public_key_path();
+/// Throws Error as load_signing_key does, and when there is no key and `make` does not ask for one: a lost key is restored, not replaced.
+[[nodiscard]] SigningKey load_school_key(const std::string& path, bool make = false);
 
-/// `parts` fresh random bytes as hexadecimal digits (libsodium).
+/// `bytes` fresh random bytes as hexadecimal digits (libsodium).
 [[nodiscard]] std::string random_hex(std::size_t bytes);
 /// Bytes of lower-case hexadecimal digits; throws Error(`where`, ...) for anything else, or when they are not `bytes` many.
 [[nodiscard]] Bytes from_hex(const std::string& hex, std::size_t bytes, const std::string& where);

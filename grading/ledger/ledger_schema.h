@@ -9,7 +9,8 @@ inline constexpr std::array<const char*, 2> k_ledger_migrations = {
     R"(CREATE TABLE entry (      -- append only
   seq INTEGER PRIMARY KEY,   -- 0, 1, 2 ...
   text TEXT NOT NULL,        -- {"body":...,"kind":...,"seq":...,"utc_ns":...}: the leaf of the tree
-  leaf_sha256 BLOB NOT NULL  -- SHA-256(0x00 || text)
+  leaf_sha256 BLOB NOT NULL, -- SHA-256(0x00 || text)
+  attachment TEXT            -- a result (JSON), bound by text's body.result_sha256: a receipt shows the text, and no marks
 ) STRICT;
 CREATE TABLE checkpoint (    -- one after each entry: the school's signature over the tree so far
   size INTEGER PRIMARY KEY,  -- number of entries, 1, 2, 3 ...
@@ -23,8 +24,8 @@ CREATE TRIGGER checkpoint_stays BEFORE UPDATE ON checkpoint BEGIN SELECT RAISE(A
 CREATE TRIGGER checkpoint_is_kept BEFORE DELETE ON checkpoint BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)",
     // for people who look with sqlite3
     R"(CREATE VIEW session AS SELECT seq, text ->> '$.body.candidate' AS candidate, text ->> '$.body.scenario_id' AS scenario,
-  text ->> '$.body.file_sha256' AS file_sha256, text ->> '$.body.result.verdict' AS verdict, text ->> '$.body.result.score.points' AS points,
-  text ->> '$.body.result.score.max' AS points_max FROM entry WHERE text ->> '$.kind' = 'session';
+  text ->> '$.body.file_sha256' AS file_sha256, attachment ->> '$.verdict' AS verdict, attachment ->> '$.score.points' AS points,
+  attachment ->> '$.score.max' AS points_max FROM entry WHERE text ->> '$.kind' = 'session';
 CREATE VIEW ticket AS SELECT seq, text ->> '$.body.ticket.candidate' AS candidate, text ->> '$.body.ticket.exam' AS scenario,
   text ->> '$.body.ticket.nonce' AS nonce, text ->> '$.body.ticket.not_before' AS not_before, text ->> '$.body.ticket.not_after' AS not_after
   FROM entry WHERE text ->> '$.kind' = 'ticket';)"};

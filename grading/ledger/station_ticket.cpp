@@ -3,21 +3,20 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
+#include "grading/ledger/ledger_key.h"
 
 namespace cavum {
-
-std::string school_public_key_path() { return station_path("school.pub"); }
 
 HeldTicket read_ticket(const std::string& path) {
   HeldTicket held{{}, read_text_file(path), path};
   while (!held.text.empty() && (held.text.back() == '\n' || held.text.back() == '\r')) held.text.pop_back();
-  std::string key;
   const std::string pinned = school_public_key_path();
-  if (std::filesystem::exists(pinned)) {
-    key = read_text_file(pinned);
-    while (!key.empty() && (key.back() == '\n' || key.back() == '\r' || key.back() == ' ')) key.pop_back();
-    key = parse_public_key(key, pinned);
-  }
+  if (!std::filesystem::exists(pinned))
+    throw Error(pinned, "this station knows no school yet",
+                "copy the school's public key there: `cavum ledger init` writes it beside the school's key");
+  std::string key = read_text_file(pinned);
+  while (!key.empty() && (key.back() == '\n' || key.back() == '\r' || key.back() == ' ')) key.pop_back();
+  key = parse_public_key(key, pinned);
   held.ticket = parse_ticket(held.text, key, path);
   return held;
 }

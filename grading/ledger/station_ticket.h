@@ -14,10 +14,7 @@ struct HeldTicket {
   std::string path;
 };
 
-/// $CAVUM_HOME/school.pub: the public key (64 hexadecimal digits) of the only school whose tickets this station takes; without the file, any
-/// school's.
-[[nodiscard]] std::string school_public_key_path();
-/// Throws Error when the file is no ticket, was changed, or is another school's.
+/// Throws Error when the file is no ticket, was changed, or is not of the school in school_public_key_path(), or this station knows no school.
 [[nodiscard]] HeldTicket read_ticket(const std::string& path);
 /// Candidate and accommodations are the ticket's, and the session will hold it. Throws Error when `options` names another candidate or grants
 /// anything itself.

@@ -36,8 +36,12 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   const auto graded = json::parse(run("grade " + path("e0.cavum") + " --json").out);
   EXPECT_EQ(graded["accommodations"]["extra_time_percent"], 25.0) << graded["accommodations"];
 
-  ASSERT_EQ(run("ledger add " + path("L") + " " + path("e0.cavum") + " " + path("e1.cavum") + " --receipts " + path("receipts")).exit_code, 0);
-  const auto again = run("ledger add " + path("L") + " " + path("e0.cavum"));
+  const auto hands = run("ledger add " + path("L") + " " + path("e0.cavum"));
+  EXPECT_EQ(hands.exit_code, 1);
+  EXPECT_NE(hands.out.find("simulated operator 'expert'"), std::string::npos) << hands.out;
+  ASSERT_EQ(
+      run("ledger add " + path("L") + " " + path("e0.cavum") + " " + path("e1.cavum") + " --simulated --receipts " + path("receipts")).exit_code, 0);
+  const auto again = run("ledger add " + path("L") + " " + path("e0.cavum") + " --simulated");
   EXPECT_EQ(again.exit_code, 1);
   EXPECT_NE(again.out.find("submitted before"), std::string::npos) << again.out;
   EXPECT_EQ(run("ledger verify " + path("L") + " --replay --receipt " + path("receipts/receipt-3.json")).exit_code, 0);
@@ -50,15 +54,20 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   EXPECT_NE(gradebook.find("\n4711," + graded["score"]["points"].dump() + ","), std::string::npos) << gradebook;
   EXPECT_EQ(gradebook.find("4712"), std::string::npos);
 
-  write_text_file(
-      path("kind.toml"),
-      "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = \"target_removed_percent\"\nfull = 50\nzero = 0\npoints = 10\n");
+  write_text_file(path("kind.toml"),
+                  "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
+                  "\"target_removed_percent\"\nfull = 50\nzero = 0\npoints = 10\n");
   const auto regraded = run("ledger regrade " + path("L") + " --session 3 --rubric " + path("kind.toml") + " --reason appeal --json");
   ASSERT_EQ(regraded.exit_code, 0) << regraded.err;
   EXPECT_EQ(json::parse(regraded.out)["after"]["points"], 10.0);
   const auto shown = json::parse(run("ledger show " + path("L") + " --json").out);
   EXPECT_EQ(shown["sessions"][0]["regraded"], true);
   EXPECT_EQ(shown["sessions"][0]["released"], false) << "the new result waits for its release";
+
+  ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("again.csv")).exit_code, 0);
+  EXPECT_EQ(read_text_file(path("again.csv")), gradebook) << "until then the old one stands";
+  expect_refused("ledger export " + path("L") + " --format moodle --out " + path("m.csv"), {"is there already"});
+  EXPECT_NE(run("ledger candidates " + path("L")).out.find("4711, Ann Lee"), std::string::npos);
 
   ASSERT_EQ(run("ledger forget " + path("L") + " --candidate 4712").exit_code, 0);
   EXPECT_EQ(run("ledger verify " + path("L") + " --replay --receipt " + path("receipts/receipt-4.json")).exit_code, 0);
@@ -85,6 +94,8 @@ TEST_F(LedgerVerbs, WhatATicketDoesNotPromiseDoesNotBegin) {
   refused(sit_it + path("old.ticket"), "the ticket is good from 2020-01-01T00:00:00Z to 2020-01-02T00:00:00Z");
   write_text_file(path("home/school.pub"), std::string(64, 'a') + "\n");
   refused(sit_it + ticket, "ticket of another school");
+  fs::remove(path("home/school.pub"));
+  refused(sit_it + ticket, "knows no school yet");
 }
 
 TEST_F(LedgerVerbs, SayWhatIsWrongAndWhatToDo) {
@@ -94,6 +105,14 @@ TEST_F(LedgerVerbs, SayWhatIsWrongAndWhatToDo) {
                  {"'yesterday' is no time"});
   expect_refused("ledger ticket " + path("L") + " " + scenario() + " --from 2020-01-01T00:00Z --until 2030-01-01T00:00Z --out " + path("t"),
                  {"for whom"});
+  expect_refused("ledger release " + path("L"), {"whose results"});
+  expect_refused("ledger show " + path("L/none"), {"holds no ledger"});
+  expect_refused("ledger release " + path("L") + " --all --key " + path("nokey"), {"key is not there", "restore it"});
+  EXPECT_FALSE(fs::exists(path("nokey")));
+  write_text_file(path("twice.csv"), "id\n1\n1\n");
+  expect_refused("ledger ticket " + path("L") + " " + scenario() + " --candidates " + path("twice.csv") +
+                     " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("t"),
+                 {"twice.csv:3", "second time"});
   expect_refused("ledger release " + path("L") + " --candidate nobody", {"has no session in this ledger"});
   expect_refused("ledger regrade " + path("L") + " --session 0 --rubric x.toml --reason r", {"is no session's entry"});
   expect_refused("ledger forget " + path("L") + " --candidate nobody", {"not among the identities"});

@@ -88,7 +88,9 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   EXPECT_EQ(marks[0].candidate, by_number);
   const ClassFigures f = class_figures(r, "exam", marks, 3);
   EXPECT_EQ(f.agreement.n, 4u);
-  EXPECT_EQ(f.agreement.judges, 3u);
+  EXPECT_EQ(f.agreement.judges, 2u);
+  ASSERT_FALSE(f.to_look_at.empty());
+  EXPECT_EQ(f.to_look_at[0].candidate, "unknown") << "marked, and never sat";
   EXPECT_NEAR(f.agreement.limits->bias, 0.0, 1e-12);
   EXPECT_GT(f.agreement.icc->single_random, 0.99);
   EXPECT_NEAR(*f.agreement.kappa, 1.0, 1e-12);
@@ -109,7 +111,10 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   };
   says("name,points\n", "m.csv:1: is no heading");
   says("candidate,judge,points\nC-1,x,12,5\n", "m.csv:2: has 4 fields");
-  says("candidate,judge,points\nC-1,x,\"12,5\"\n", "m.csv:2: has 4 fields");
+  says("candidate,judge,points\nC-1,x,\"12,5\"\n", "m.csv:2: '12,5' is no number");
+  says("candidate,judge,points\nC-1,x,12\nC-1,x,13\n", "m.csv:3: is a second mark by judge x");
+  says("candidate,judge,points\nC-1,,12\n", "m.csv:2: names no judge");
+  says("candidate,judge,points\nC-1,x,-1\n", "m.csv:2: has less than no points");
   says("candidate,judge,points\nC-1,x,nan\n", "m.csv:2: 'nan' is no number");
   says("candidate,judge,points\n", "holds no mark");
 }
@@ -127,7 +132,7 @@ TEST(SimulatedClass, SitsIsFiledAndIsTheSameAgain) {
     const ClassSat sat = simulate_class(wanted, ledger, identities, [](int) {});
     EXPECT_EQ(sat.sat, 4);
     EXPECT_EQ(sat.filed, 4);
-    EXPECT_TRUE(check_ledger(school.places(), true).empty());
+    EXPECT_TRUE(check_ledger(school.places(), true).findings.empty());
     return class_figures(read_registry(ledger.content()), "block_cavity", {}, 3);
   };
   const School one;

@@ -35,7 +35,7 @@ class Attack : public testing::Test {
     EXPECT_FALSE(f.seq);
     expect_finding(f.findings, words);
     EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
-    EXPECT_TRUE(check_ledger(school_.places(), false).empty());
+    EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   }
   void expect_edit_refused(const std::string& sql, const std::vector<std::string>& words) {
     test::tamper(session_, sql);
@@ -47,7 +47,7 @@ class Attack : public testing::Test {
                  "DROP TRIGGER entry_stays; DROP TRIGGER entry_is_kept; DROP TRIGGER checkpoint_stays; DROP TRIGGER checkpoint_is_kept; " + sql);
   }
   void expect_ledger_finding(const std::vector<std::string>& words) {
-    expect_finding(check_ledger(school_.places(), false), words);
+    expect_finding(check_ledger(school_.places(), false).findings, words);
     EXPECT_THROW(school_.ledger(), Error) << "nothing is added to a ledger that does not hold";
   }
 
@@ -63,7 +63,7 @@ TEST_F(Attack, NoneIsFiledAndHolds) {
   const Filing f = file(session_);
   ASSERT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
   EXPECT_TRUE(f.findings.empty());
-  EXPECT_TRUE(check_ledger(school_.places(), true).empty());
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
   const auto registry = read_registry(read_ledger(school_.places()));
   ASSERT_EQ(registry.sessions.size(), 1u);
   EXPECT_EQ(registry.tickets.at(0).used_by, f.seq);
@@ -145,17 +145,48 @@ TEST_F(Attack, ATicketThatWasNeverIssued) {
   own.nonce = random_hex(16);
   expect_refused(school_.sit(sign_ticket(own, School::key())), {"has not issued this ticket"});
 }
+TEST_F(Attack, ASimulatedOperatorInTheCandidatesPlace) {
+  const std::string simulated = school_.sit(ticket_, "expert", [](ExamOptions& o) { o.notes.emplace_back("operator", "expert"); });
+  expect_refused(simulated, {"no candidate sat this exam", "simulated operator 'expert'"});
+  Ledger ledger = school_.ledger();
+  ASSERT_TRUE(file_session(ledger, simulated, {.simulated = true}).seq);
+  EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).simulated, "expert") << "it stays marked";
+}
+TEST_F(Attack, APseudonymWithoutItsTicket) {
+  const std::string session = school_.sit("", "expert", [&](ExamOptions& o) { o.candidate = parse_ticket(ticket_, "", "ticket").candidate; });
+  Ledger ledger = school_.ledger();
+  const Filing f = file_session(ledger, session, {.without_ticket = true});
+  EXPECT_FALSE(f.seq);
+  expect_finding(f.findings, {"bears a pseudonym"});
+}
+TEST_F(Attack, NamesExchangedAmongTheIdentities) {
+  school_.ticket("4712");
+  test::tamper(school_.places().identities(),
+               "UPDATE identity SET id = 'x' WHERE id = '4711'; UPDATE identity SET id = '4711' WHERE id = '4712'; UPDATE identity SET id = '4712' "
+               "WHERE id = 'x'");
+  EXPECT_EQ(Identities(school_.places().identities()).check(School::key()).size(), 2u);
+}
 TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {"holds no ticket"}); }
 
 TEST_F(Attack, AnEntryEditedInTheLedger) {
   ASSERT_TRUE(file(session_).seq);
-  edit_ledger("UPDATE entry SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"') WHERE seq = 2");
-  expect_ledger_finding({"entry 2", "changed after it was entered"});
+  edit_ledger("UPDATE entry SET attachment = replace(attachment, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"') WHERE seq = 2");
+  expect_ledger_finding({"entry 2", "its result was changed"});
+}
+TEST_F(Attack, AnEntrysTextEditedInTheLedger) {
+  ASSERT_TRUE(file(session_).seq);
+  edit_ledger("UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 2");
+  expect_ledger_finding({"entry 2", "its text was changed"});
+}
+TEST_F(Attack, AResultTakenOutOfTheLedger) {
+  ASSERT_TRUE(file(session_).seq);
+  edit_ledger("UPDATE entry SET attachment = NULL WHERE seq = 2");
+  expect_ledger_finding({"entry 2", "its result was changed, added or removed"});
 }
 TEST_F(Attack, AnEntryEditedWithItsHash) {
   ASSERT_TRUE(file(session_).seq);
   std::string text = read_ledger(school_.places()).entries.at(2).text;
-  text.replace(text.find("\"pass\""), 6, "\"fail\"");
+  text.replace(text.find("\"findings\":[]"), 13, "\"findings\":[7]");
   const Sha256 leaf = leaf_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   edit_ledger("UPDATE entry SET text = CAST(" + blob({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}) +
               " AS TEXT), leaf_sha256 = " + blob(leaf) + " WHERE seq = 2");
@@ -172,7 +203,7 @@ TEST_F(Attack, AnEntryTakenOutWithItsSignature) {
   expect_ledger_finding({"older copy", "has 2 entries, and had 3"});
 }
 TEST_F(Attack, AnEntrySlippedIn) {
-  edit_ledger("INSERT INTO entry VALUES (2, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":2,\"utc_ns\":1}', zeroblob(32))");
+  edit_ledger("INSERT INTO entry VALUES (2, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":2,\"utc_ns\":1}', zeroblob(32), NULL)");
   expect_ledger_finding({"entry 2", "signed nothing"});
 }
 TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
@@ -191,7 +222,7 @@ TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
   write_file(school_.places().database(), old);
   write_file(witness, old_witness);  // he thought of that, too
   school_.ticket("4713");
-  EXPECT_TRUE(check_ledger(school_.places(), false).empty()) << "nothing on this computer remembers";
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "nothing on this computer remembers";
   const LedgerContent now = read_ledger(school_.places());
   expect_finding(check_receipt(receipt, now.public_key, &now), {"history was rewritten"});
   write_file(witness, full_witness);
@@ -202,9 +233,9 @@ TEST_F(Attack, AFiledSessionChangedInItsFolder) {
   const auto filed = read_registry(read_ledger(school_.places())).sessions.at(0);
   std::filesystem::copy_file(school_.sit(ticket_, "novice"), school_.places().session(filed.file_sha256),
                              std::filesystem::copy_options::overwrite_existing);
-  expect_finding(check_ledger(school_.places(), false), {"entry 2", "its file was changed"});
+  expect_finding(check_ledger(school_.places(), false).findings, {"entry 2", "its file was changed"});
   std::filesystem::remove(school_.places().session(filed.file_sha256));
-  expect_finding(check_ledger(school_.places(), false), {"entry 2", "its file is gone"});
+  expect_finding(check_ledger(school_.places(), false).findings, {"entry 2", "its file is gone"});
 }
 TEST_F(Attack, AReceiptThatWasImproved) {
   const Filing filed = file(session_);
@@ -213,7 +244,8 @@ TEST_F(Attack, AReceiptThatWasImproved) {
   EXPECT_TRUE(check_receipt(receipt, "", nullptr).empty());
   auto better = receipt;
   std::string entry = better["entry"];
-  entry.replace(entry.find("\"pass\""), 6, "\"fail\"");
+  EXPECT_EQ(entry.find("verdict"), std::string::npos) << "a receipt shows no marks";
+  entry.replace(entry.find("\"findings\":[]"), 13, "\"findings\":[7]");
   better["entry"] = entry;
   expect_finding(check_receipt(better, "", nullptr), {"not the one that the school signed"});
   auto other = receipt;
@@ -232,11 +264,11 @@ TEST_F(Attack, ExportedResultsThatWereImproved) {
 TEST_F(Attack, AnAppealFilesWhatDoesNotHoldAndNeverReleasesItUnseen) {
   test::tamper(session_, "UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2");
   Ledger ledger = school_.ledger();
-  const Filing f = file_session(ledger, session_, {false, true});
+  const Filing f = file_session(ledger, session_, {.with_findings = true});
   ASSERT_TRUE(f.seq);
   expect_finding(f.findings, {"chunk 2", "clocks"});
   EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).findings, f.findings);
-  EXPECT_TRUE(check_ledger(school_.places(), true).empty());
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }
 
 }  // namespace

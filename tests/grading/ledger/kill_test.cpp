@@ -33,7 +33,7 @@ void expect_nothing_lost(const School& school, const std::vector<std::string>& a
   }
   std::vector<std::string> more;
   enter_three(school, more);
-  EXPECT_TRUE(check_ledger(school.places(), false).empty()) << when;
+  EXPECT_TRUE(check_ledger(school.places(), false).findings.empty()) << when;
   EXPECT_GE(read_ledger(school.places()).entries.size(), 4 + acknowledged.size()) << when;
 }
 
@@ -77,7 +77,7 @@ TEST(KilledLedger, ADiskThatForgetsWhatItSyncedIsFound) {
   std::vector<std::string> acknowledged;
   enter_three(school, acknowledged);
   write_file(school.places().database(), before);
-  EXPECT_FALSE(check_ledger(school.places(), false).empty());
+  EXPECT_FALSE(check_ledger(school.places(), false).findings.empty());
 }
 
 }  // namespace

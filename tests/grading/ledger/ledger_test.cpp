@@ -6,6 +6,7 @@
 #include <iostream>
 #include <random>
 
+#include "grading/ledger/csv.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/ledger_schema.h"
 #include "tests/grading/ledger/school.h"
@@ -52,7 +53,7 @@ TEST(Ledger, WhatThrowsWhileEnteringLeavesNothing) {
   EXPECT_THROW(ledger.append("session", [](const LedgerContent&) -> json { throw Error("a", "b", "c"); }), Error);
   ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "a"}}; });
   EXPECT_EQ(read_ledger(school.places()).entries.size(), 2u);
-  EXPECT_TRUE(check_ledger(school.places(), false).empty());
+  EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
 }
 
 TEST(Ledger, AnotherSchoolsKeyIsRefused) {
@@ -68,7 +69,7 @@ TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
     old.run("DROP VIEW session; DROP VIEW ticket; PRAGMA user_version = 1");
   }
   school.ticket("1");
-  EXPECT_TRUE(check_ledger(school.places(), false).empty());
+  EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
   Database db = Database::open(school.places().database(), false);
   EXPECT_EQ(db.integer("PRAGMA user_version"), k_ledger_format);
   EXPECT_EQ(db.integer("SELECT count(*) FROM sqlite_schema WHERE type = 'view'"), 2);
@@ -98,7 +99,7 @@ TEST(Identities, AreForgottenWithoutATraceAndProofsStay) {
     EXPECT_TRUE(identities.forget(pseudonym));
     EXPECT_FALSE(identities.forget(pseudonym));
   }
-  EXPECT_TRUE(check_ledger(school.places(), true).empty());
+  EXPECT_TRUE(check_ledger(school.places(), true).findings.empty());
   // no byte of the name in any file of the school
   for (const auto& f : std::filesystem::recursive_directory_iterator(std::filesystem::path(school.ledger_folder()).parent_path())) {
     if (!f.is_regular_file()) continue;
@@ -152,12 +153,18 @@ TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
 
   const json scores = lti_scores(registry_, identities);
   ASSERT_EQ(scores.size(), 2u);
-  EXPECT_EQ(scores[0]["userId"], "4711");
-  EXPECT_EQ(scores[0]["gradingProgress"], "FullyGraded");
-  EXPECT_EQ(scores[0]["scoreGiven"], released.result["score"]["points"]);
-  EXPECT_FALSE(scores[1].contains("scoreGiven"));
-  EXPECT_TRUE(scores[1]["gradingProgress"] == "Pending" || scores[1]["gradingProgress"] == "PendingManual");
-  EXPECT_NE(scores[1]["userId"], "4712");
+  for (const auto& s : scores) {
+    EXPECT_EQ(s["resourceId"], "block_cavity");
+    const json& score = s["score"];
+    if (score["userId"] == "4711") {
+      EXPECT_EQ(score["gradingProgress"], "FullyGraded");
+      EXPECT_EQ(score["scoreGiven"], released.result["score"]["points"]);
+    } else {
+      EXPECT_EQ(score["userId"], "4712");
+      EXPECT_FALSE(score.contains("scoreGiven"));
+      EXPECT_TRUE(score["gradingProgress"] == "Pending" || score["gradingProgress"] == "PendingManual");
+    }
+  }
 }
 
 TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
@@ -170,11 +177,36 @@ TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   auto registry = read_registry(ledger.content());
   EXPECT_FALSE(registry.sessions.at(0).released);
   EXPECT_EQ(registry.sessions.at(0).result["score"]["points"], 12.5);
+  EXPECT_EQ(registry.sessions.at(0).shown, registry_.sessions.at(0).result) << "until then the old one stands";
+  Identities identities(school_.places().identities());
+  int left_out = 0;
+  EXPECT_NE(moodle_csv(registry, identities, left_out).find("\n4711," + registry_.sessions.at(0).result["score"]["points"].dump()),
+            std::string::npos);
   EXPECT_EQ(ledger.content().entries.at(2).body["result"], registry_.sessions.at(0).result) << "the sealed result stays";
   ledger.append("release", [&](const LedgerContent&) { return json{{"results", {registry.sessions.at(0).result_seq}}}; });
   EXPECT_TRUE(read_registry(ledger.content()).sessions.at(0).released);
   ledger.append("release", [&](const LedgerContent&) { return json{{"results", {99}}}; });
-  expect_finding(check_ledger(school_.places(), false), {"releases a result that does not count"});
+  expect_finding(check_ledger(school_.places(), false).findings, {"releases a result that does not count"});
+}
+
+TEST(Identities, ThatAreLostAreNotBegunAnew) {
+  const School school;
+  std::filesystem::remove(school.places().identities());
+  EXPECT_THROW(Identities(school.places().identities()), Error);
+  EXPECT_FALSE(std::filesystem::exists(school.places().identities()));
+}
+
+TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
+  const auto rows = parse_csv("\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].fields, (std::vector<std::string>{"id", "name"}));
+  EXPECT_EQ(rows[1].fields, (std::vector<std::string>{"1", "Lee; \"Ann\""}));
+  EXPECT_EQ(rows[2].fields, (std::vector<std::string>{"2", "Müller"}));
+  EXPECT_EQ(rows[2].line, 5);
+  EXPECT_EQ(parse_csv("id,name\n1,\"Meier, Hans\"\n", "c.csv")[1].fields[1], "Meier, Hans");
+  EXPECT_EQ(parse_csv("id,name\n1,O\"Neil\n", "c.csv")[1].fields[1], "O\"Neil");
+  for (const char* bad : {"id,name\n1\n", "id,name\n1,\"open\n", "id,name\n1,M\xfcller\n"})
+    EXPECT_THROW(static_cast<void>(parse_csv(bad, "c.csv")), Error) << bad;
 }
 
 TEST(CsvField, IsQuotedAndNeverAFormula) {

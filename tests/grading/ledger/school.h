@@ -24,7 +24,11 @@ inline constexpr std::int64_t k_hour_ns = 3'600'000'000'000;
 
 class School {
  public:
-  School() { Ledger::create(ledger_folder(), "School of Dentistry", key()); }
+  School() {
+    Ledger::create(ledger_folder(), "School of Dentistry", key());
+    Identities(places().identities(), true);
+    write_text_file(school_public_key_path(), to_hex(key().public_key) + "\n");
+  }
   /// The same school with all its files, in a folder of its own; CAVUM_HOME points there.
   School(const School& other) : folder_() {
     for (const auto& entry : std::filesystem::directory_iterator(other.folder_.file("")))
@@ -34,7 +38,7 @@ class School {
   [[nodiscard]] std::string ledger_folder() const { return folder_.file("ledger"); }
   [[nodiscard]] LedgerPlaces places() const { return {ledger_folder()}; }
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
-  [[nodiscard]] static SigningKey key() { return load_school_key(school_key_path()); }
+  [[nodiscard]] static SigningKey key() { return load_school_key(school_key_path(), true); }
   [[nodiscard]] Ledger ledger() const { return Ledger(ledger_folder(), key()); }
 
   /// A ticket for an hour around now, issued in the ledger; `change` may spoil it before it is signed.
