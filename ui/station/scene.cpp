@@ -159,6 +159,11 @@ Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std:
   }
 }
 
+void Scene::show_bodies(std::vector<GpuMesh> bodies) {
+  bodies_ = std::move(bodies);
+  shown_version_ = 0;  // drawn anew
+}
+
 std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
   // told apart by lightness as well as by hue, for eyes that see no red or green
   std::vector<glm::vec3> table(k_colours, glm::vec3(0.62F, 0.52F, 0.70F));
@@ -211,6 +216,8 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     plain_program_.set("opacity", 0.45F);
     plain_program_.set("flat_light", 1.0F);
     target_.draw();
+    plain_program_.set("opacity", 1.0F);
+    for (const GpuMesh& body : bodies_) body.draw();
     glDepthMask(GL_TRUE);
     // the nearest surface alone, so that walls behind walls do not add up to white
     tissue_program_.use();

@@ -36,6 +36,8 @@ int key_of(const std::string& name) {
   if (name == "pageup") return GLFW_KEY_PAGE_UP;
   if (name == "home") return GLFW_KEY_HOME;
   if (name == "end") return GLFW_KEY_END;
+  if (name == "ctrl") return GLFW_KEY_LEFT_CONTROL;
+  if (name == "shift") return GLFW_KEY_LEFT_SHIFT;
   if (name == "+") return GLFW_KEY_EQUAL;
   if (name.size() == 1) {
     const char c = name[0];

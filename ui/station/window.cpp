@@ -126,6 +126,7 @@ void Window::set_text_scale(double scale) {
 
 bool Window::closing() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 void Window::ask_to_close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void Window::stay_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 void Window::set_visible(bool visible) { visible ? glfwShowWindow(window_) : glfwHideWindow(window_); }
 
 int Window::width() const {

@@ -26,6 +26,7 @@ class Window {
 
   [[nodiscard]] bool closing() const;
   void ask_to_close();
+  void stay_open();  ///< after all
   void set_visible(bool visible);
   [[nodiscard]] int width() const;   ///< pixels
   [[nodiscard]] int height() const;  ///< pixels

@@ -1,0 +1,230 @@
+// The authoring view as an author meets it: the real program on a virtual screen, its keys pressed by a script. What counts is the file it leaves
+// behind: the bytes of what was changed, and nothing else.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "scenarios/parse.h"
+#include "tests/engine/support/basics.h"
+#include "tests/ui/station/virtual_screen.h"
+#include "ui/station/author_document.h"
+#include "ui/station/author_worker.h"
+#include "ui/station/author_zones.h"
+
+namespace cavum {
+namespace {
+
+const std::string k_class_1 = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml";
+
+/// `text` with one part replaced by another; the part must be there once.
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  EXPECT_NE(text.find(part), std::string::npos) << part;
+  return text.replace(text.find(part), part.size(), by);
+}
+
+class AuthorWindow : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { screen_ = std::make_unique<testing_station::VirtualScreen>(); }
+  static void TearDownTestSuite() { screen_.reset(); }
+  void SetUp() override {
+    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+    ::setenv("CAVUM_DATA", CAVUM_SOURCE_DIR "/data", 1);
+    write_text_file(file(), read_text_file(k_class_1));
+  }
+  void TearDown() override { ::unsetenv("CAVUM_DATA"); }
+
+  [[nodiscard]] std::string file() const { return folder_.file("class_1.toml"); }
+  [[nodiscard]] std::string said() const { return read_text_file(folder_.file("err")); }
+  int run(const std::string& script, const std::string& more = "") const {
+    write_text_file(folder_.file("script"), script);
+    const int status = std::system((CAVUM_BINARY " station --author " + file() + " --script " + folder_.file("script") +
+                                    " --pictures " CAVUM_PICTURES + " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err"))
+                                       .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  testing_basics::Folder folder_;
+
+ private:
+  static inline std::unique_ptr<testing_station::VirtualScreen> screen_;
+};
+
+TEST_F(AuthorWindow, APointAndTheDepthMovedByKeysAreAllThatDiffersInTheFile) {
+  // seen from occlusal with buccal down the picture, mesial lies to the left: the first point (-1.5, 0) goes two steps to the right
+  const std::string script = R"(wait author
+sleep 0.3
+picture 20-author
+key right
+key right
+key pageup
+wait author-busy
+wait author
+sleep 0.3
+picture 21-author-changed
+key 2
+sleep 0.5
+picture 22-author-from-the-side
+hold ctrl
+key s
+release ctrl
+sleep 0.3
+key escape
+)";
+  EXPECT_EQ(run(script), 0) << said();
+  const std::string before = read_text_file(k_class_1), after = read_text_file(file());
+  const Scenario s = parse_scenario(after, file());
+  EXPECT_NEAR(std::fabs(s.zones.target[0].outline.points_mm[0].x + 1.5), 0.2, 1e-9);
+  EXPECT_EQ(after, replaced(replaced(before, "[-1.5, 0]", "[" + written_number(s.zones.target[0].outline.points_mm[0].x) + ", 0]"), "depth_mm = 1.8",
+                            "depth_mm = 1.9"));
+  EXPECT_EQ(std::system((CAVUM_BINARY " scenario check " + file() + " >" + folder_.file("out")).c_str()), 0);
+  for (const char* name : {"20-author", "21-author-changed", "22-author-from-the-side"})
+    EXPECT_GT(std::filesystem::file_size(std::string(CAVUM_PICTURES) + "/" + name + ".png"), 20000u) << name;
+}
+
+TEST_F(AuthorWindow, ChangesOfEveryKindTakenBackLeaveTheFileAsItWas) {
+  EXPECT_EQ(run("wait author\nkey i\nkey left\nkey tab\nkey pageup\nkey ]\nkey pagedown\n"
+                "hold ctrl\nkey z\nkey z\nkey z\nkey z\nkey z\nkey s\nrelease ctrl\nsleep 0.2\nkey escape\n"),
+            0)
+      << said();
+  EXPECT_EQ(read_text_file(file()), read_text_file(k_class_1));
+}
+
+TEST_F(AuthorWindow, AsksBeforeUnsavedChangesAreLost) {
+  const std::string before = read_text_file(file());
+  EXPECT_EQ(run("wait author\nkey pageup\nclose\nsleep 0.4\npicture 23-author-closing\nkey n\n"), 0) << said();
+  EXPECT_EQ(read_text_file(file()), before) << "closed without saving";
+  EXPECT_EQ(run("wait author\nkey pageup\nclose\nsleep 0.4\nkey escape\nsleep 0.2\nkey pageup\nkey escape\nsleep 0.4\nkey enter\n"), 0) << said();
+  EXPECT_EQ(read_text_file(file()), replaced(before, "depth_mm = 1.8", "depth_mm = 2")) << "gone back, changed more, saved on closing";
+}
+
+TEST_F(AuthorWindow, AMistakeMadeByHandIsNamedWithItsLine) {
+  // the container narrower than the leeway: a mistake, not a warning
+  EXPECT_EQ(
+      run("wait author\nkey tab\nkey tab\nkey pagedown 3\nwait author\nsleep 0.3\npicture 24-author-mistake\nkey escape\nsleep 0.4\nkey enter\n"), 0)
+      << said();
+  const auto problems = check_scenario(read_text_file(file()), file());
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(problems[0].what.find("narrower than the leeway"), std::string::npos);
+}
+
+TEST_F(AuthorWindow, EndedFromOutsideKeepsWhatIsUnsavedBesideTheFile) {
+  const std::string before = read_text_file(file());
+  write_text_file(folder_.file("script"), "wait author\nkey pageup\nsleep 60\n");
+  std::thread ender([this] {
+    for (int i = 0; i < 300 && !std::filesystem::exists(folder_.file("pid")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::this_thread::sleep_for(std::chrono::seconds(12));
+    ::kill(std::stoi(read_text_file(folder_.file("pid"))), SIGTERM);
+  });
+  const int status = std::system(("echo $$ >" + folder_.file("pid") + "; exec " CAVUM_BINARY " station --author " + file() + " --script " +
+                                  folder_.file("script") + " 2>" + folder_.file("err"))
+                                     .c_str());
+  ender.join();
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(read_text_file(file()), before);
+  EXPECT_EQ(read_text_file(file() + ".unsaved"), replaced(before, "depth_mm = 1.8", "depth_mm = 1.9")) << said();
+}
+
+TEST(AuthorDocument, DoesNotOverwriteWhatSomebodyElseWrote) {
+  const testing_basics::Folder folder;
+  const std::string path = folder.file("a.toml");
+  write_text_file(path, "a = 1 # mine\n");
+  AuthorDocument d(path);
+  d.make(set_number(d.text(), path, "a", 2), "");
+  write_text_file(path, "a = 3 # theirs\n");
+  EXPECT_THROW(d.save(), Error);
+  EXPECT_EQ(read_text_file(path), "a = 3 # theirs\n");
+  EXPECT_EQ(d.text(), "a = 2 # mine\n");
+  d.read_again();
+  EXPECT_EQ(d.text(), "a = 3 # theirs\n");
+  EXPECT_FALSE(d.unsaved());
+  EXPECT_TRUE(d.undo());
+  EXPECT_EQ(d.text(), "a = 2 # mine\n") << "reading again loses nothing";
+  d.save();
+  EXPECT_EQ(read_text_file(path), "a = 2 # mine\n");
+  std::filesystem::remove(path);
+  EXPECT_THROW(d.save(), Error) << "gone from under it";
+}
+
+TEST(AuthorDocument, APullOfTheMouseIsTakenBackAtOnce) {
+  const testing_basics::Folder folder;
+  const std::string path = folder.file("a.toml");
+  write_text_file(path, "a = 1\nb = 1\n");
+  AuthorDocument d(path);
+  for (int i = 2; i < 20; ++i) d.make(set_number(d.text(), path, "a", i), "a");
+  d.rest();
+  for (int i = 2; i < 20; ++i) d.make(set_number(d.text(), path, "a", 20 + i), "a");
+  EXPECT_TRUE(d.undo());
+  EXPECT_EQ(d.text(), "a = 19\nb = 1\n");
+  EXPECT_TRUE(d.undo());
+  EXPECT_EQ(d.text(), "a = 1\nb = 1\n");
+  EXPECT_FALSE(d.undo());
+  EXPECT_TRUE(d.redo());
+  EXPECT_TRUE(d.redo());
+  EXPECT_EQ(d.text(), "a = 39\nb = 1\n");
+  EXPECT_FALSE(d.redo());
+}
+
+TEST(AuthorZones, EveryPlaceIsThatOfItsValueInEveryShippedScenario) {
+  std::size_t numbers = 0, points = 0;
+  for (const auto& f : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios")) {
+    if (f.path().extension() != ".toml") continue;
+    const std::string text = read_text_file(f.path().string());
+    for (const AuthorZone& zone : author_zones(read_scenario(text, "f").scenario, 3.0, {})) {
+      for (const AuthorNumber& n : zone.numbers) {
+        ++numbers;
+        EXPECT_TRUE(n.value >= n.low && n.value <= n.high) << n.place;
+        const TextChange same = set_number(text, "f", n.place, n.value);
+        EXPECT_TRUE(same.empty() || same.removed.empty()) << f.path() << " " << n.place << ": " << same.removed;  // there already, or not written
+      }
+      for (std::size_t i = 0; i < zone.points_mm.size(); ++i, ++points)
+        EXPECT_TRUE(set_point(text, "f", zone.points_place + "/" + std::to_string(i), zone.points_mm[i].x, zone.points_mm[i].y).empty());
+    }
+  }
+  EXPECT_GT(numbers, 30u);
+  EXPECT_GT(points, 10u);
+}
+
+TEST(AuthorZones, APointLiesOnTheBordersOfTheShapeItMakes) {
+  // the corners of a polygon are on the prism's wall wherever it leans
+  const Scenario s = read_scenario(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml"), "f").scenario;
+  const auto zones = author_zones(s, 2.0, {});
+  ASSERT_EQ(zones[1].points_mm.size(), 4u);
+  EXPECT_EQ(zones[1].in_tooth(zones[1].points_mm[0]), (Vec3{3.9, -1.6, 2.0}));
+  EXPECT_EQ(zones[0].in_tooth(zones[0].points_mm[1]), (Vec3{3.6, 0, 2.0}));
+}
+
+TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
+  ::setenv("CAVUM_DATA", CAVUM_SOURCE_DIR "/data", 1);
+  AuthorWorker worker;
+  const std::string text = read_text_file(k_class_1);
+  const auto findings_of = [&](std::uint64_t version, const std::string& of) {
+    worker.look_at(version, of, k_class_1);
+    for (;;) {
+      if (auto f = worker.take(); f && f->checked && f->version == version) return f;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  };
+  const auto sound = findings_of(1, text);
+  EXPECT_TRUE(sound->problems.empty());
+  EXPECT_TRUE(sound->expert_s.has_value());
+  ASSERT_NE(sound->tooth, nullptr);
+  float low = 1e9F;  // the target's surface ends where the target does, but for the smoothing
+  for (const GpuVertex& v : sound->body[0].vertices) low = std::min(low, v.at_mm[2]);
+  EXPECT_NEAR(low, sound->target_low_mm.z, 0.1);
+  for (std::size_t i = 1; i < k_author_layers; ++i) EXPECT_FALSE(sound->body[i].indices.empty()) << i;
+  const auto wrong = findings_of(2, replaced(text, "depth_mm = 1.8", "depth_mm = -1"));
+  ASSERT_EQ(wrong->problems.size(), 1u);
+  EXPECT_EQ(wrong->problems[0].line, 35);
+  EXPECT_TRUE(wrong->body[0].indices.empty());
+  const auto none = findings_of(3, "title = [");
+  EXPECT_FALSE(none->problems.empty());
+}
+
+}  // namespace
+}  // namespace cavum
