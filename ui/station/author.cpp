@@ -63,7 +63,7 @@ class Author {
     const AuthorContext context{screen, document_, author_, zones_, busy() ? mistakes_ : findings_->problems, findings_.get(), busy(), floor_z_mm_};
     const AuthorWish wish = author_screen(context);
     window_.end_frame();
-    if (std::exchange(author_.shown_differs, false)) show_bodies();
+    if (std::exchange(author_.shown_differs, false) || chosen_layer() != shown_layer_) show_bodies();
     grant(wish);
     if (window_.closing()) {
       window_.stay_open();
@@ -141,11 +141,21 @@ class Author {
     state_.screen = busy() ? Screen::author_busy : Screen::author;
   }
 
+  [[nodiscard]] std::size_t chosen_layer() const { return zones_.empty() ? 0 : static_cast<std::size_t>(zones_[author_.zone].layer); }
+
+  /// That of the chosen zone stronger than the others.
   void show_bodies() {
     if (!scene_) return;
     std::vector<GpuMesh> meshes;
-    for (std::size_t i = 0; i < k_author_layers; ++i)
-      if (author_.shown[i] && !bodies_[i].indices.empty()) meshes.emplace_back().put(bodies_[i].vertices, bodies_[i].indices);
+    shown_layer_ = chosen_layer();
+    for (std::size_t i = k_author_layers; i-- > 0;) {  // the target over what surrounds it
+      if (!author_.shown[i] || bodies_[i].indices.empty()) continue;
+      std::vector<GpuVertex> vertices = bodies_[i].vertices;
+      constexpr std::uint8_t k_strong = 190;
+      if (i == shown_layer_)
+        for (GpuVertex& v : vertices) v.colour[3] = k_strong;
+      meshes.emplace_back().put(vertices, bodies_[i].indices);
+    }
     scene_->show_bodies(std::move(meshes));
   }
 
@@ -201,6 +211,7 @@ class Author {
   std::array<MeshData, k_author_layers> bodies_;
   double opening_z_mm_ = 0.0, floor_z_mm_ = 0.0;
   Vec3 chamber_mm_;
+  std::size_t shown_layer_ = 0;
   std::uint64_t read_version_ = 0, asked_version_ = 0, bodies_version_ = 0;
   bool done_ = false, discarded_ = false;
   Clock::time_point start_ = Clock::now(), last_frame_ = start_, changed_ = start_;

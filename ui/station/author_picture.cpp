@@ -89,6 +89,7 @@ void draw_depth(ImDrawList& draw, const AuthorContext& c, const Sight& sight, co
   draw.AddQuadFilled({b.x - r, b.y}, {b.x, b.y - r}, {b.x + r, b.y}, {b.x, b.y + r}, IM_COL32(0, 0, 0, 220));
   const float s = r - 2.0F * px;
   draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s}, colour_of(zone.layer, 255));
+  if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r) return;  // from above the word would cover the points
   const std::string word = "depth " + written_number(*zone.depth_mm) + " mm";
   draw.AddText({b.x + r + 4, b.y + 1}, IM_COL32(0, 0, 0, 255), word.c_str());
   draw.AddText({b.x + r + 3, b.y}, IM_COL32(255, 255, 255, 255), word.c_str());

@@ -70,12 +70,12 @@ std::array<MeshData, k_author_layers> zone_bodies(const ZoneMap& zones, const Oc
   };
   const IVec3 low = zones.low(), high = zones.low() + zones.size();
   std::array<MeshData, k_author_layers> bodies;
-  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 150), [&](IVec3 l) { return zones.zone(l) == Zone::target; });
-  bodies[1] = body_of(tooth, low, high, 2, colour(AuthorLayer::leeway, 60), [&](IVec3 l) {
+  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 130), [&](IVec3 l) { return zones.zone(l) == Zone::target; });
+  bodies[1] = body_of(tooth, low, high, 2, colour(AuthorLayer::leeway, 80), [&](IVec3 l) {
     const Zone z = zones.zone(l);
     return z == Zone::target || z == Zone::leeway_sides || z == Zone::leeway_bottom;
   });
-  bodies[2] = body_of(tooth, low, high, 2, colour(AuthorLayer::container, 45), [&](IVec3 l) {
+  bodies[2] = body_of(tooth, low, high, 2, colour(AuthorLayer::container, 80), [&](IVec3 l) {
     const Zone z = zones.zone(l);
     return z != Zone::none && z != Zone::protected_;
   });

@@ -216,8 +216,6 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     plain_program_.set("opacity", 0.45F);
     plain_program_.set("flat_light", 1.0F);
     target_.draw();
-    plain_program_.set("opacity", 1.0F);
-    for (const GpuMesh& body : bodies_) body.draw();
     glDepthMask(GL_TRUE);
     // the nearest surface alone, so that walls behind walls do not add up to white
     tissue_program_.use();
@@ -230,6 +228,13 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     tissue_program_.set("flat_light", 0.6F);
     tooth_.draw_hard_tissue(sight);
     glDepthFunc(GL_LESS);
+    // over all tissue, so that their colours stay what the key says
+    light(plain_program_, view, look, projection);
+    plain_program_.set("glass", 1.0F);
+    plain_program_.set("flat_light", 1.0F);
+    glDisable(GL_DEPTH_TEST);
+    for (const GpuMesh& body : bodies_) body.draw();
+    glEnable(GL_DEPTH_TEST);
   } else {
     tooth_.draw_hard_tissue(sight);
   }

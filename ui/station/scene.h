@@ -32,7 +32,7 @@ class Scene {
   Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target);
 
   [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
-  /// Bodies seen through clear tissue beside the target, in the colours and opacities of their corners.
+  /// Bodies seen through clear tissue, one over the other in this order, in the colours and opacities of their corners.
   void show_bodies(std::vector<GpuMesh> bodies);
   /// A texture of this size with the picture; drawn again only when something differs. `samples` a pixel.
   [[nodiscard]] unsigned picture(const SceneView& view, int width, int height, int samples);

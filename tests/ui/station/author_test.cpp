@@ -220,7 +220,7 @@ TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
   for (std::size_t i = 1; i < k_author_layers; ++i) EXPECT_FALSE(sound->body[i].indices.empty()) << i;
   const auto wrong = findings_of(2, replaced(text, "depth_mm = 1.8", "depth_mm = -1"));
   ASSERT_EQ(wrong->problems.size(), 1u);
-  EXPECT_EQ(wrong->problems[0].line, 35);
+  EXPECT_EQ(wrong->problems[0].line, 38);
   EXPECT_TRUE(wrong->body[0].indices.empty());
   const auto none = findings_of(3, "title = [");
   EXPECT_FALSE(none->problems.empty());
