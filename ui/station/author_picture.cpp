@@ -39,7 +39,7 @@ ImU32 colour_of(AuthorLayer layer, int opacity) {
 
 /// A line that is seen on light and on dark.
 void line(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 colour, float width) {
-  draw.AddLine(a, b, IM_COL32(0, 0, 0, 200), width + 2.5F);
+  draw.AddLine(a, b, IM_COL32(0, 0, 0, (colour >> IM_COL32_A_SHIFT) * 3 / 4), width + 2.5F);
   draw.AddLine(a, b, colour, width);
 }
 

@@ -146,6 +146,12 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   end_area();
 }
 
+const char* picture_heading(const AuthorContext& c) {
+  if (c.screen.scene == nullptr) return "The tooth is being read ...";
+  if (c.busy) return "ZONES BEFORE THE LAST CHANGE";
+  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : "ZONES";
+}
+
 void points_by_key(const AuthorContext& c, const AuthorZone& zone) {
   AuthorState& s = c.state;
   const std::size_t n = zone.points_mm.size();
@@ -255,11 +261,7 @@ AuthorWish author_screen(const AuthorContext& c) {
   begin_area(t, "author tooth", at, size, false);
   ImGui::PopStyleVar();
   if (c.screen.scene != nullptr) author_picture(c, at, size);
-  words_in_picture(t, at, size,
-                   c.screen.scene == nullptr ? "The tooth is being read ..."
-                   : c.busy                  ? "ZONES BEFORE THE LAST CHANGE"
-                                             : "ZONES",
-                   {}, t.accent);
+  words_in_picture(t, at, size, picture_heading(c), {}, t.accent);
   end_area();
   keys(c, wish);
   ask_about_closing(c, wish);

@@ -230,7 +230,7 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     glDepthFunc(GL_LESS);
     // over all tissue, so that their colours stay what the key says
     light(plain_program_, view, look, projection);
-    plain_program_.set("glass", 1.0F);
+    plain_program_.set("glass", 0.5F);
     plain_program_.set("flat_light", 1.0F);
     glDisable(GL_DEPTH_TEST);
     for (const GpuMesh& body : bodies_) body.draw();

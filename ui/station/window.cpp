@@ -92,6 +92,10 @@ void Window::begin_frame() {
   glfwPollEvents();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (mouse_) {
+    ImGui::GetIO().MousePos = {(*mouse_)[0], (*mouse_)[1]};
+    ImGui::GetIO().MouseDown[0] = mouse_pressed_;
+  }
   ImGui::NewFrame();
 }
 
@@ -152,6 +156,11 @@ void Window::press(int key, bool held) {
 }
 
 void Window::release(int key) { ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_RELEASE, 0); }
+
+void Window::point_at(float x, float y, bool pressed) {
+  mouse_ = {x, y};
+  mouse_pressed_ = pressed;
+}
 
 bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
 

@@ -87,12 +87,42 @@ key escape
     EXPECT_GT(std::filesystem::file_size(std::string(CAVUM_PICTURES) + "/" + name + ".png"), 20000u) << name;
 }
 
-TEST_F(AuthorWindow, ChangesOfEveryKindTakenBackLeaveTheFileAsItWas) {
-  EXPECT_EQ(run("wait author\nkey i\nkey left\nkey tab\nkey pageup\nkey ]\nkey pagedown\n"
-                "hold ctrl\nkey z\nkey z\nkey z\nkey z\nkey z\nkey s\nrelease ctrl\nsleep 0.2\nkey escape\n"),
+TEST_F(AuthorWindow, TheMousePullsAPointAndTheDepth) {
+  // 1280 x 800: from occlusal the points of the fissure stand 128 px apart, which are 3 mm; the floor's handle is pulled from the side
+  EXPECT_EQ(run("wait author\nmouse 539 363\nsleep 0.1\nmouse 539 363 pressed\nsleep 0.1\nmouse 550 370 pressed\nsleep 0.1\nmouse 582 406 pressed\n"
+                "sleep 0.1\nmouse 582 406\nwait author-busy\nwait author\nsleep 0.2\npicture 25-author-pulled\nhold ctrl\nkey s\nrelease ctrl\n"
+                "sleep 0.2\nkey escape\n"),
             0)
       << said();
-  EXPECT_EQ(read_text_file(file()), read_text_file(k_class_1));
+  const std::string before = read_text_file(k_class_1), after = read_text_file(file());
+  const Scenario s = parse_scenario(after, file());
+  const Vec3 to = s.zones.target[0].outline.points_mm[0];
+  EXPECT_NEAR(to.x, -1.5 - 3.0 * 43 / 128, 0.05);
+  EXPECT_NEAR(to.y, 3.0 * 43 / 128, 0.05);
+  EXPECT_EQ(after, replaced(before, "[-1.5, 0]", "[" + written_number(to.x) + ", " + written_number(to.y) + "]"));
+
+  write_text_file(file(), before);
+  EXPECT_EQ(run("wait author\nkey 2\nsleep 0.3\npicture 26-author-depth\nmouse 475 421\nsleep 0.1\nmouse 475 421 pressed\nsleep 0.1\n"
+                "mouse 475 430 pressed\nsleep 0.1\nmouse 475 440 pressed\nsleep 0.1\nmouse 475 440\nwait author-busy\nwait author\n"
+                "hold ctrl\nkey s\nrelease ctrl\nsleep 0.2\nkey escape\n"),
+            0)
+      << said();
+  const double depth = parse_scenario(read_text_file(file()), file()).zones.target[0].bottom.depth_mm;
+  EXPECT_GT(depth, 2.1);
+  EXPECT_LT(depth, 2.6);
+  EXPECT_EQ(read_text_file(file()), replaced(before, "depth_mm = 1.8", "depth_mm = " + written_number(depth)));
+}
+
+TEST_F(AuthorWindow, ChangesOfEveryKindTakenBackLeaveTheFileAsItWas) {
+  const std::string changes = "wait author\nkey i\nkey left\nkey tab\nkey pageup\nkey ]\nkey pagedown\nhold ctrl\n", before = read_text_file(file());
+  const std::string save = "key s\nrelease ctrl\nsleep 0.2\nkey escape\n";
+  EXPECT_EQ(run(changes + "key z\nkey z\nkey z\nkey z\nkey z\n" + save), 0) << said();
+  EXPECT_EQ(read_text_file(file()), before);
+  EXPECT_EQ(run(changes + save), 0) << said();
+  const ZoneSpec zones = parse_scenario(read_text_file(file()), file()).zones;
+  EXPECT_EQ(zones.target[0].outline.points_mm.size(), 3u);
+  EXPECT_NEAR(zones.leeway.bottom_mm, 0.3, 1e-9);
+  EXPECT_NEAR(zones.leeway.sides_mm, 0.15, 1e-9);
 }
 
 TEST_F(AuthorWindow, AsksBeforeUnsavedChangesAreLost) {
@@ -115,14 +145,15 @@ TEST_F(AuthorWindow, AMistakeMadeByHandIsNamedWithItsLine) {
 
 TEST_F(AuthorWindow, EndedFromOutsideKeepsWhatIsUnsavedBesideTheFile) {
   const std::string before = read_text_file(file());
-  write_text_file(folder_.file("script"), "wait author\nkey pageup\nsleep 60\n");
+  write_text_file(folder_.file("script"), "wait author\nkey pageup\nsleep 0.2\npicture changed\nsleep 300\n");
   std::thread ender([this] {
-    for (int i = 0; i < 300 && !std::filesystem::exists(folder_.file("pid")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    std::this_thread::sleep_for(std::chrono::seconds(12));
+    constexpr int k_patience = 3000;  // tenths of a second
+    for (int i = 0; i < k_patience && !std::filesystem::exists(folder_.file("changed.png")); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ::kill(std::stoi(read_text_file(folder_.file("pid"))), SIGTERM);
   });
   const int status = std::system(("echo $$ >" + folder_.file("pid") + "; exec " CAVUM_BINARY " station --author " + file() + " --script " +
-                                  folder_.file("script") + " 2>" + folder_.file("err"))
+                                  folder_.file("script") + " --pictures " + folder_.file("") + " 2>" + folder_.file("err"))
                                      .c_str());
   ender.join();
   EXPECT_EQ(WEXITSTATUS(status), 1);
