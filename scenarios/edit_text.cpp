@@ -289,7 +289,7 @@ TextChange remove_point(const std::string& text, const std::string& path, const 
   } else if (const std::size_t more = text.find_first_not_of(" \t\r\n", end); more != std::string::npos && text[more] == ',') {
     end = more + 1;
   }
-  const TextChange change{begin, text.substr(begin, end - begin), ""};
+  TextChange change{begin, text.substr(begin, end - begin), ""};
   const std::string changed = with_change(text, change);
   if (Reading(changed, path).list(place).size() + 1 != list.size()) r.fail(list[index], "the point could not be taken out");
   return change;

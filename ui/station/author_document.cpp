@@ -62,7 +62,7 @@ void AuthorDocument::read_again() {
 }
 
 std::string AuthorDocument::keep_aside() const {
-  const std::string aside = path_ + ".unsaved";
+  std::string aside = path_ + ".unsaved";
   write_text_file(aside, text_);
   return aside;
 }

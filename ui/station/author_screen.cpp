@@ -82,7 +82,7 @@ void numbers(const AuthorContext& c) {
     ImGui::PushID(n.place.c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     auto value = static_cast<float>(n.value);
-    const std::string format = std::string("%.3g ") + n.unit;
+    const std::string format = std::string("%.3f ") + n.unit;
     if (ImGui::DragFloat("##number", &value, 0.01F, static_cast<float>(n.low), static_cast<float>(n.high), format.c_str()))
       author_set_number(c, n, static_cast<double>(value), true);
     if (ImGui::IsItemActivated()) s.number = i;

@@ -235,9 +235,14 @@ TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
   AuthorWorker worker;
   const std::string text = read_text_file(k_class_1);
   const auto findings_of = [&](std::uint64_t version, const std::string& of) {
+    const auto asked = std::chrono::steady_clock::now();
+    const auto so_far_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count(); };
     worker.look_at(version, of, k_class_1);
     for (;;) {
-      if (auto f = worker.take(); f && f->checked && f->version == version) return f;
+      auto f = worker.take();
+      if (f && f->version == version)
+        std::printf("text %d: %s after %.2f s\n", static_cast<int>(version), f->checked ? "check" : "zones", so_far_s());
+      if (f && f->checked && f->version == version) return f;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   };
@@ -249,6 +254,8 @@ TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
   for (const GpuVertex& v : sound->body[0].vertices) low = std::min(low, v.at_mm[2]);
   EXPECT_NEAR(low, sound->target_low_mm.z, 0.1);
   for (std::size_t i = 1; i < k_author_layers; ++i) EXPECT_FALSE(sound->body[i].indices.empty()) << i;
+  const auto deeper = findings_of(4, replaced(text, "depth_mm = 1.8", "depth_mm = 2"));  // the tooth is there already
+  EXPECT_LT(deeper->target_low_mm.z, sound->target_low_mm.z - 0.1);
   const auto wrong = findings_of(2, replaced(text, "depth_mm = 1.8", "depth_mm = -1"));
   ASSERT_EQ(wrong->problems.size(), 1u);
   EXPECT_EQ(wrong->problems[0].line, 38);
