@@ -7,12 +7,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "scenarios/parse.h"
 #include "tests/engine/support/basics.h"
+#include "tests/scenarios/test_teeth.h"
 #include "tests/ui/station/virtual_screen.h"
 #include "ui/station/author_document.h"
 #include "ui/station/author_worker.h"
@@ -221,13 +223,27 @@ TEST(AuthorZones, EveryPlaceIsThatOfItsValueInEveryShippedScenario) {
   EXPECT_GT(points, 10u);
 }
 
-TEST(AuthorZones, APointLiesOnTheBordersOfTheShapeItMakes) {
-  // the corners of a polygon are on the prism's wall wherever it leans
-  const Scenario s = read_scenario(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml"), "f").scenario;
-  const auto zones = author_zones(s, 2.0, {});
-  ASSERT_EQ(zones[1].points_mm.size(), 4u);
-  EXPECT_EQ(zones[1].in_tooth(zones[1].points_mm[0]), (Vec3{3.9, -1.6, 2.0}));
-  EXPECT_EQ(zones[0].in_tooth(zones[0].points_mm[1]), (Vec3{3.6, 0, 2.0}));
+TEST(AuthorZones, APointLiesOnTheBorderOfTheShapeItMakes) {
+  // the corners of a prism's outline are on its wall wherever it leans and turns, by the shape's own signed distance
+  std::mt19937_64 random(testing_basics::drawn_seed("AuthorZones"));
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  const Tooth tooth = cavum::testing::dentin_block(2, 2, 0.2);
+  for (int i = 0; i < 50; ++i) {
+    Scenario s = read_scenario(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml"), "f").scenario;
+    ShapeSpec& prism = s.zones.target[1];
+    ASSERT_EQ(prism.kind, ShapeSpec::Kind::prism);
+    prism.at_mm = {draw(-2, 2), draw(-2, 2), draw(-3, 0)};
+    prism.axis = normalized(Vec3{draw(-0.5, 0.5), draw(-0.5, 0.5), 1});
+    prism.turn_deg = draw(-180, 180);
+    prism.outline.centre_mm = {draw(-1, 1), draw(-1, 1), 0};
+    const double opening_z_mm = prism.at_mm.z + 0.5 * prism.axis.z * prism.height_mm;
+    const AuthorZone zone = author_zones(s, opening_z_mm, {})[1];
+    const auto shape = ShapeMaker(tooth, "f").make({prism});
+    ASSERT_EQ(zone.points_mm.size(), 4u);
+    for (const Vec3 p : zone.points_mm) EXPECT_NEAR(shape->distance_mm(zone.in_tooth(p)), 0, 1e-9);
+    const Vec3 middle = (zone.points_mm[0] + zone.points_mm[2]) / 2;
+    EXPECT_LT(shape->distance_mm(zone.in_tooth(middle)), -0.5) << "and within them is inside";
+  }
 }
 
 TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
