@@ -16,24 +16,6 @@
 namespace cavum {
 namespace {
 
-/// A right-handed frame whose z is `axis`; turned about it.
-struct Frame {
-  Vec3 at, x, y, z;
-  [[nodiscard]] Vec3 local(Vec3 p) const noexcept { return {dot(p - at, x), dot(p - at, y), dot(p - at, z)}; }
-};
-
-Frame frame_of(const ShapeSpec& s) {
-  Frame f;
-  f.at = s.at_mm;
-  f.z = s.axis;
-  const Vec3 x0 = std::fabs(f.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - f.z * f.z.x) : normalized(Vec3{0, 1, 0} - f.z * f.z.y);
-  const Vec3 y0 = cross(f.z, x0);
-  const SinCos turn = det_sincos(s.turn_deg * k_pi / 180);
-  f.x = x0 * turn.cos + y0 * turn.sin;
-  f.y = y0 * turn.cos - x0 * turn.sin;
-  return f;
-}
-
 /// Distance of a body that is the meeting of two independent directions.
 double meet(double a, double b) noexcept {
   if (a > 0 && b > 0) return std::sqrt(a * a + b * b);
@@ -42,7 +24,7 @@ double meet(double a, double b) noexcept {
 
 class Box final : public Shape {
  public:
-  explicit Box(const ShapeSpec& s) : frame_(frame_of(s)), half_(s.size_mm * 0.5) {}
+  explicit Box(const ShapeSpec& s) : frame_(shape_frame(s)), half_(s.size_mm * 0.5) {}
   double distance_mm(Vec3 p) const noexcept override {
     const Vec3 q = frame_.local(p);
     const Vec3 d{std::fabs(q.x) - half_.x, std::fabs(q.y) - half_.y, std::fabs(q.z) - half_.z};
@@ -52,7 +34,7 @@ class Box final : public Shape {
   }
 
  private:
-  Frame frame_;
+  ShapeFrame frame_;
   Vec3 half_;
 };
 
@@ -69,7 +51,7 @@ class Ball final : public Shape {
 /// Cylinder and cone: a four-cornered profile turned about the axis.
 class Frustum final : public Shape {
  public:
-  Frustum(const ShapeSpec& s, double top) : frame_(frame_of(s)), low_(s.radius_mm), top_(top), height_(s.height_mm) {}
+  Frustum(const ShapeSpec& s, double top) : frame_(shape_frame(s)), low_(s.radius_mm), top_(top), height_(s.height_mm) {}
   double distance_mm(Vec3 p) const noexcept override {
     const Vec3 q = frame_.local(p);
     const double r = std::sqrt(q.x * q.x + q.y * q.y), z = q.z;
@@ -81,20 +63,21 @@ class Frustum final : public Shape {
   }
 
  private:
-  Frame frame_;
+  ShapeFrame frame_;
   double low_, top_, height_;
 };
 
 class Prism final : public Shape {
  public:
-  explicit Prism(const ShapeSpec& s) : frame_(frame_of(s)), height_(s.height_mm), outline_(make_outline(s.outline, s.outline.centre_mm, nullptr)) {}
+  explicit Prism(const ShapeSpec& s)
+      : frame_(shape_frame(s)), height_(s.height_mm), outline_(make_outline(s.outline, s.outline.centre_mm, nullptr)) {}
   double distance_mm(Vec3 p) const noexcept override {
     const Vec3 q = frame_.local(p);
     return meet(outline_->distance_mm(q.x, q.y), std::fabs(q.z - 0.5 * height_) - 0.5 * height_);
   }
 
  private:
-  Frame frame_;
+  ShapeFrame frame_;
   double height_;
   std::unique_ptr<Outline> outline_;
 };
@@ -234,6 +217,18 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
 }
 
 }  // namespace
+
+ShapeFrame shape_frame(const ShapeSpec& s) {
+  ShapeFrame f;
+  f.at = s.at_mm;
+  f.z = s.axis;
+  const Vec3 x0 = std::fabs(f.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - f.z * f.z.x) : normalized(Vec3{0, 1, 0} - f.z * f.z.y);
+  const Vec3 y0 = cross(f.z, x0);
+  const SinCos turn = det_sincos(s.turn_deg * k_pi / 180);
+  f.x = x0 * turn.cos + y0 * turn.sin;
+  f.y = y0 * turn.cos - x0 * turn.sin;
+  return f;
+}
 
 std::string place_text(const std::string& file, const ShapeSpec& spec) {
   return file + ":" + std::to_string(spec.line) + ":" + std::to_string(spec.column);

@@ -18,6 +18,14 @@ class Shape {
   [[nodiscard]] virtual double distance_mm(Vec3 p) const noexcept = 0;
 };
 
+/// A right-handed frame: x and y across a body, z along its axis.
+struct ShapeFrame {
+  Vec3 at, x, y, z;
+  [[nodiscard]] Vec3 local(Vec3 p) const noexcept { return {dot(p - at, x), dot(p - at, y), dot(p - at, z)}; }
+};
+/// That of a body which has a place, an axis and a turn about it.
+[[nodiscard]] ShapeFrame shape_frame(const ShapeSpec& spec);
+
 /// "file:line:column" of a shape.
 [[nodiscard]] std::string place_text(const std::string& file, const ShapeSpec& spec);
 

@@ -7,6 +7,7 @@
 #include "ui/number_check.h"
 #include "ui/own_places.h"
 #include "ui/seed_check.h"
+#include "ui/station/author.h"
 #include "ui/station/station.h"
 #include "ui/verbs.h"
 
@@ -17,10 +18,16 @@ constexpr std::size_t k_longest_code = 47;
 
 struct Options {
   StationOptions station;
+  std::string author;
   int frame_times = 0;
 };
 
-void require_sound(const StationOptions& o) {
+void require_sound(const StationOptions& o, const std::string& author) {
+  if (!author.empty()) {
+    if (!o.replay.empty() || !o.sitting.scenario.empty())
+      throw Error("--author " + author, "was asked for together with an exam or a replay", "name the scenario after --author alone");
+    return;
+  }
   if (!o.replay.empty() && !o.sitting.scenario.empty())
     throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
   if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, "has no script that takes any", "add --script");
@@ -66,6 +73,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
   station->add_option("--replay", s.replay, "look at a recorded exam instead");
   station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
+  station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");
   station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse, falcon, touch")->capture_default_str();
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
@@ -90,8 +98,10 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")
       ->check(CLI::Range(1, 100000));
   station->callback([o, &exit_code] {
-    require_sound(o->station);
-    if (o->frame_times > 0) {
+    require_sound(o->station, o->author);
+    if (!o->author.empty()) {
+      exit_code = run_author(o->station, o->author);
+    } else if (o->frame_times > 0) {
       print_frame_times(o->station, o->frame_times);
       exit_code = 0;
     } else {

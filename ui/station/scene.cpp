@@ -159,6 +159,11 @@ Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std:
   }
 }
 
+void Scene::show_bodies(std::vector<GpuMesh> bodies) {
+  bodies_ = std::move(bodies);
+  shown_version_ = 0;  // drawn anew
+}
+
 std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
   // told apart by lightness as well as by hue, for eyes that see no red or green
   std::vector<glm::vec3> table(k_colours, glm::vec3(0.62F, 0.52F, 0.70F));
@@ -223,6 +228,13 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     tissue_program_.set("flat_light", 0.6F);
     tooth_.draw_hard_tissue(sight);
     glDepthFunc(GL_LESS);
+    // over all tissue, so that their colours stay what the key says
+    light(plain_program_, view, look, projection);
+    plain_program_.set("glass", 0.5F);
+    plain_program_.set("flat_light", 1.0F);
+    glDisable(GL_DEPTH_TEST);
+    for (const GpuMesh& body : bodies_) body.draw();
+    glEnable(GL_DEPTH_TEST);
   } else {
     tooth_.draw_hard_tissue(sight);
   }

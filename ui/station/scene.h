@@ -32,6 +32,8 @@ class Scene {
   Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target);
 
   [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
+  /// Bodies seen through clear tissue, one over the other in this order, in the colours and opacities of their corners.
+  void show_bodies(std::vector<GpuMesh> bodies);
   /// A texture of this size with the picture; drawn again only when something differs. `samples` a pixel.
   [[nodiscard]] unsigned picture(const SceneView& view, int width, int height, int samples);
   /// Pictures drawn so far.
@@ -44,7 +46,7 @@ class Scene {
 
   ToothDrawing tooth_;
   std::vector<Tissue> tissues_;
-  std::vector<GpuMesh> points_;
+  std::vector<GpuMesh> points_, bodies_;
   GpuMesh handpiece_, target_;
   ShaderProgram tissue_program_, plain_program_;
   RenderTarget target_picture_;

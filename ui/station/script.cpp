@@ -20,8 +20,8 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<const char*, 15> k_words{"wait",  "go",   "until", "type",    "key",    "hold", "release", "sleep",
-                                              "stall", "hide", "show",  "picture", "memory", "fail", "close"};
+constexpr std::array<const char*, 16> k_words{"mouse", "wait",  "go",   "until", "type",    "key",    "hold", "release",
+                                              "sleep", "stall", "hide", "show",  "picture", "memory", "fail", "close"};
 
 int key_of(const std::string& name) {
   if (name == "enter") return GLFW_KEY_ENTER;
@@ -36,6 +36,8 @@ int key_of(const std::string& name) {
   if (name == "pageup") return GLFW_KEY_PAGE_UP;
   if (name == "home") return GLFW_KEY_HOME;
   if (name == "end") return GLFW_KEY_END;
+  if (name == "ctrl") return GLFW_KEY_LEFT_CONTROL;
+  if (name == "shift") return GLFW_KEY_LEFT_SHIFT;
   if (name == "+") return GLFW_KEY_EQUAL;
   if (name.size() == 1) {
     const char c = name[0];
@@ -74,6 +76,12 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
       std::istringstream value(c.text);
       if (!(value >> c.number) || c.number < 0) throw Error(where, "'" + c.word + "' needs seconds", "write a number of 0 or more");
     }
+    if (c.word == "mouse") {
+      std::istringstream x(c.text);
+      std::string button;
+      if (!(x >> c.x) || !(words >> c.number)) throw Error(where, "'mouse' needs a place", "write two numbers of pixels, and 'pressed' after them");
+      c.pressed = (words >> button) && button == "pressed";
+    }
     if (c.word == "key" || c.word == "hold" || c.word == "release") {
       c.key = key_of(c.text);
       if (c.key == 0) throw Error(where, "'" + c.text + "' is no key", "see the head of ui/station/script.h");
@@ -106,6 +114,7 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
     window.press(c.key, now_s - since_s_ < c.number);
     return now_s - since_s_ >= c.number;
   }
+  if (c.word == "mouse") window.point_at(static_cast<float>(c.x), static_cast<float>(c.number), c.pressed);
   if (c.word == "hold") window.press(c.key, true);
   if (c.word == "release") window.release(c.key);
   if (c.word == "sleep") return now_s - since_s_ >= c.number;

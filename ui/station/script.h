@@ -1,11 +1,15 @@
 // Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. One command a
 // line, # begins a comment:
-//   wait SCREEN      until that screen shows (sign-in, device-check, briefing, exam, grading, result, trouble), 300 s at most
+//   wait SCREEN      until that screen shows, 300 s at most: sign-in, device-check, briefing, exam, grading, result, trouble, author, author-busy
 //   go SCREEN        presses enter now and then until that screen shows
 //   until SECONDS    until the exam's clock has come so far
 //   type TEXT        letters
-//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, a letter, a digit, [ ] + - , . ; a
-//   second word holds it so many seconds hold NAME, release NAME: a key, while other commands go on sleep SECONDS    the window goes on meanwhile
+//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, ctrl, shift,
+//                    a letter, a digit, [ ] + - , . ; a second word holds it so many seconds
+//   hold NAME        a key, while other commands go on
+//   release NAME     lets it go
+//   mouse X Y        there from now on, pixels; with its left button when a third word says pressed
+//   sleep SECONDS    the window goes on meanwhile
 //   stall SECONDS    the window stands still, as with a graphics card that hangs
 //   hide, show       the window
 //   picture NAME     of the screen, NAME.png in the folder of pictures
@@ -37,6 +41,8 @@ class Script {
   struct Command {
     std::string word, text;
     double number = 0.0;
+    double x = 0.0;
+    bool pressed = false;  // of the mouse
     int key = 0, line = 0;
   };
   /// False: not yet done, look again in the next frame.

@@ -20,6 +20,10 @@ const char* screen_name(Screen screen) noexcept {
       return "replay";
     case Screen::trouble:
       return "trouble";
+    case Screen::author:
+      return "author";
+    case Screen::author_busy:
+      return "author-busy";
   }
   return "";
 }

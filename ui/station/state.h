@@ -8,7 +8,7 @@
 
 namespace cavum {
 
-enum class Screen { sign_in, device_check, briefing, exam, grading, result, replay, trouble };
+enum class Screen { sign_in, device_check, briefing, exam, grading, result, replay, trouble, author, author_busy };
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
 
 /// What a button or a key asked for; the station does it after the frame.
@@ -30,6 +30,7 @@ struct StationState {
   bool playing = false;          ///< the replay
   double pause_key_s = 0.0;      ///< for so long the pause button stays pressed
   double handpiece_speed = 1.0;  ///< of the dial, 0.1..1
+  bool own_arrows = false;       ///< the screen has another use for the arrows than turning the tooth
   Vec3 wanted_mm;                ///< where mouse and keyboard want the tip, tooth frame
   Quat wanted_rotation;          ///< of the handpiece then
   bool focus_code = true;

@@ -156,6 +156,9 @@ class Station {
         return trouble_screen(context);
       case Screen::replay:
         return replay_screen(context);
+      case Screen::author:  // in a window of its own, author.h
+      case Screen::author_busy:
+        return;
     }
   }
 

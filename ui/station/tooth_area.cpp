@@ -38,7 +38,7 @@ void keys(StationState& s, double frame_s, bool arrows_turn) {
 bool tooth_area(const ScreenContext& c, ImVec2 size) {
   StationState& s = c.state;
   const bool mouse_is_stylus = c.sitting != nullptr && s.screen == Screen::exam && c.sitting->device().pointer() != nullptr;
-  if (!ImGui::GetIO().WantTextInput) keys(s, c.frame_s, !mouse_is_stylus);
+  if (!ImGui::GetIO().WantTextInput && !ImGui::GetIO().KeyCtrl) keys(s, c.frame_s, !mouse_is_stylus && !s.own_arrows);
   s.view.high_contrast = s.high_contrast;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const unsigned picture = c.scene->picture(s.view, static_cast<int>(size.x), static_cast<int>(size.y), c.samples);

@@ -92,6 +92,10 @@ void Window::begin_frame() {
   glfwPollEvents();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (mouse_) {
+    ImGui::GetIO().MousePos = {(*mouse_)[0], (*mouse_)[1]};
+    ImGui::GetIO().MouseDown[0] = mouse_pressed_;
+  }
   ImGui::NewFrame();
 }
 
@@ -126,6 +130,7 @@ void Window::set_text_scale(double scale) {
 
 bool Window::closing() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 void Window::ask_to_close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void Window::stay_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 void Window::set_visible(bool visible) { visible ? glfwShowWindow(window_) : glfwHideWindow(window_); }
 
 int Window::width() const {
@@ -151,6 +156,11 @@ void Window::press(int key, bool held) {
 }
 
 void Window::release(int key) { ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_RELEASE, 0); }
+
+void Window::point_at(float x, float y, bool pressed) {
+  mouse_ = {x, y};
+  mouse_pressed_ = pressed;
+}
 
 bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
 

@@ -2,7 +2,9 @@
 // door as those of a keyboard.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 struct GLFWwindow;
@@ -26,6 +28,7 @@ class Window {
 
   [[nodiscard]] bool closing() const;
   void ask_to_close();
+  void stay_open();  ///< after all
   void set_visible(bool visible);
   [[nodiscard]] int width() const;   ///< pixels
   [[nodiscard]] int height() const;  ///< pixels
@@ -37,6 +40,8 @@ class Window {
   /// hold it.
   void press(int key, bool held = false);
   void release(int key);
+  /// The mouse from now on, pixels; `pressed`: its left button.
+  void point_at(float x, float y, bool pressed);
   void type(const std::string& text);
   /// A field waits for letters.
   [[nodiscard]] bool wants_text() const;
@@ -46,6 +51,8 @@ class Window {
  private:
   GLFWwindow* window_ = nullptr;
   bool software_ = false;
+  std::optional<std::array<float, 2>> mouse_;  // of `point_at`
+  bool mouse_pressed_ = false;
   int pressed_ = 0;      // by `press`, to be released
   std::string picture_;  // of the running frame
 };

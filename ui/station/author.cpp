@@ -1,0 +1,225 @@
+#include "ui/station/author.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "ui/interrupt.h"
+#include "ui/station/author_screen.h"
+#include "ui/station/script.h"
+#include "ui/station/window.h"
+
+namespace cavum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+class Author {
+ public:
+  Author(const StationOptions& options, const std::string& scenario)
+      : document_(scenario), window_("Cavum: authoring", options.width, options.height) {
+    if (!options.script.empty()) script_ = Script(read_text_file(options.script), options.script, options.pictures);
+    ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;  // every key has a meaning of its own here
+    state_.screen = Screen::author_busy;
+    state_.own_arrows = true;
+    state_.left_handed = options.left_handed;
+    state_.high_contrast = options.high_contrast;
+    state_.text_scale = options.text_scale;
+    state_.view.clear = true;
+    state_.view.handpiece = false;
+    state_.view.camera.look_from_occlusal();
+    state_.view.camera.distance_mm = 30.0F;
+  }
+
+  int run() {
+    while (!done_ && !Interrupt::asked()) frame();
+    if (!document_.unsaved() || discarded_) return 0;
+    std::fprintf(stderr, "cavum: %s: was left with changes that are not saved; they are in %s\n", document_.path().c_str(),
+                 document_.keep_aside().c_str());
+    return 1;
+  }
+
+ private:
+  void frame() {
+    const auto began = Clock::now();
+    const double frame_s = std::min(0.1, seconds_since(last_frame_));
+    last_frame_ = began;
+    dress();
+    follow_text();
+    follow_findings();
+    script_.step(window_, state_.screen, 0.0, seconds_since(start_));
+    window_.begin_frame();
+    state_.view.stereo = false;  // points are shown for one eye
+    const ScreenContext screen{theme_, state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, window_.software() ? 1 : 4, true};
+    const AuthorContext context{screen, document_, author_, zones_, busy() ? mistakes_ : findings_->problems, findings_.get(), busy(), floor_z_mm_};
+    const AuthorWish wish = author_screen(context);
+    window_.end_frame();
+    if (std::exchange(author_.shown_differs, false) || chosen_layer() != shown_layer_) show_bodies();
+    grant(wish);
+    if (window_.closing()) {
+      window_.stay_open();
+      grant(AuthorWish::close);
+    }
+    const double least_s = window_.software() ? 1.0 / 25.0 : 1.0 / 120.0;
+    if (const double left_s = least_s - seconds_since(began); left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+  }
+
+  [[nodiscard]] bool busy() const { return findings_ == nullptr || findings_->version != document_.version() || !findings_->checked; }
+
+  void dress() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
+    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
+    if (state_.text_scale == dressed_scale_) return;
+    dressed_scale_ = state_.text_scale;
+    theme_ = make_theme(state_.high_contrast, state_.text_scale);
+    apply_theme(theme_);
+    window_.set_text_scale(state_.text_scale);
+  }
+
+  /// What the text says, at once; what it means on the tooth, when the hand has rested for a moment.
+  void follow_text() {
+    if (document_.version() != read_version_) {
+      ReadScenario read = read_scenario(document_.text(), document_.path());
+      scenario_ = std::move(read.scenario);
+      mistakes_ = std::move(read.problems);
+      read_version_ = document_.version();
+      changed_ = Clock::now();
+      find_zones();
+    }
+    constexpr double k_rest_s = 0.4;
+    if (asked_version_ != document_.version() && (asked_version_ == 0 || seconds_since(changed_) > k_rest_s)) {
+      worker_.look_at(document_.version(), document_.text(), document_.path());
+      asked_version_ = document_.version();
+    }
+    state_.screen = busy() ? Screen::author_busy : Screen::author;
+  }
+
+  void find_zones() {
+    zones_ = author_zones(scenario_, opening_z_mm_, chamber_mm_);
+    author_.zone = std::min(author_.zone, zones_.empty() ? 0 : zones_.size() - 1);
+    if (zones_.empty()) return;
+    const AuthorZone& chosen = zones_[author_.zone];
+    author_.point = std::min(author_.point, chosen.points_mm.empty() ? 0 : chosen.points_mm.size() - 1);
+    author_.number = std::min(author_.number, chosen.numbers.empty() ? 0 : chosen.numbers.size() - 1);
+  }
+
+  void follow_findings() {
+    auto found = worker_.take();
+    if (!found) return;
+    findings_ = std::move(found);
+    if (findings_->tooth && findings_->tooth_file != shown_tooth_) {
+      scene_ = std::make_unique<Scene>(findings_->tooth->octree, findings_->tooth->tissues, shelf_, nullptr);
+      shown_tooth_ = findings_->tooth_file;
+    }
+    const bool laid = !findings_->body[0].indices.empty();
+    if (laid) {
+      const bool first = bodies_version_ == 0;
+      const Vec3 low = findings_->target_low_mm, high = findings_->target_high_mm;
+      opening_z_mm_ = findings_->opening_z_mm;
+      chamber_mm_ = findings_->chamber_mm;
+      floor_z_mm_ = low.z;
+      if (first)
+        state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
+                                        static_cast<float>((low.z + high.z) / 2)};
+      if (bodies_version_ != findings_->version) {
+        bodies_ = findings_->body;
+        show_bodies();
+        bodies_version_ = findings_->version;
+      }
+      find_zones();
+    }
+    state_.screen = busy() ? Screen::author_busy : Screen::author;
+  }
+
+  [[nodiscard]] std::size_t chosen_layer() const { return zones_.empty() ? 0 : static_cast<std::size_t>(zones_[author_.zone].layer); }
+
+  /// That of the chosen zone stronger than the others.
+  void show_bodies() {
+    if (!scene_) return;
+    std::vector<GpuMesh> meshes;
+    shown_layer_ = chosen_layer();
+    for (std::size_t i = k_author_layers; i-- > 0;) {  // the target over what surrounds it
+      if (!author_.shown[i] || bodies_[i].indices.empty()) continue;
+      std::vector<GpuVertex> vertices = bodies_[i].vertices;
+      constexpr std::uint8_t k_strong = 190;
+      if (i == shown_layer_)
+        for (GpuVertex& v : vertices) v.colour[3] = k_strong;
+      meshes.emplace_back().put(vertices, bodies_[i].indices);
+    }
+    scene_->show_bodies(std::move(meshes));
+  }
+
+  void grant(AuthorWish wish) {
+    try {
+      switch (wish) {
+        case AuthorWish::save:
+        case AuthorWish::save_and_close:
+          document_.save();
+          author_.message = "Saved.";
+          done_ = wish == AuthorWish::save_and_close;
+          break;
+        case AuthorWish::undo:
+          author_.message = document_.undo() ? "" : "There is nothing to take back.";
+          break;
+        case AuthorWish::redo:
+          author_.message = document_.redo() ? "" : "There is nothing to make again.";
+          break;
+        case AuthorWish::read_again:
+          document_.read_again();
+          author_.message = "Read again from the file.";
+          break;
+        case AuthorWish::close:
+          author_.ask_close = document_.unsaved();
+          done_ = !author_.ask_close;
+          break;
+        case AuthorWish::discard:
+          done_ = discarded_ = true;
+          break;
+        case AuthorWish::none:
+          break;
+      }
+    } catch (const Error& e) {
+      author_.message = e.what();
+    }
+  }
+
+  AuthorDocument document_;
+  Scenario scenario_;
+  std::vector<Problem> mistakes_;  // of the text alone
+  std::vector<AuthorZone> zones_;
+  std::vector<DiamondPoint> shelf_;
+  Interrupt interrupt_;
+  Window window_;
+  Script script_;
+  StationState state_;
+  AuthorState author_;
+  Theme theme_;
+  double dressed_scale_ = 0.0;
+  std::unique_ptr<Scene> scene_;
+  std::string shown_tooth_;
+  std::unique_ptr<AuthorFindings> findings_;
+  std::array<MeshData, k_author_layers> bodies_;
+  double opening_z_mm_ = 0.0, floor_z_mm_ = 0.0;
+  Vec3 chamber_mm_;
+  std::size_t shown_layer_ = 0;
+  std::uint64_t read_version_ = 0, asked_version_ = 0, bodies_version_ = 0;
+  bool done_ = false, discarded_ = false;
+  Clock::time_point start_ = Clock::now(), last_frame_ = start_, changed_ = start_;
+  AuthorWorker worker_;
+};
+
+}  // namespace
+
+int run_author(const StationOptions& options, const std::string& scenario) { return Author(options, scenario).run(); }
+
+}  // namespace cavum

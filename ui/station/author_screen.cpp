@@ -1,0 +1,271 @@
+#include "ui/station/author_screen.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+/// Runs an edit; what cannot be done is said.
+template <class Edit>
+void change(const AuthorContext& c, const std::string& name, bool pull, const Edit& edit) {
+  if (!pull) c.document.rest();
+  try {
+    c.document.make(edit(), name);
+    c.state.message.clear();
+  } catch (const Error& e) {
+    c.state.message = e.what();
+  }
+  if (!pull) c.document.rest();
+}
+
+void top_bar(const AuthorContext& c, ImVec2 size, AuthorWish& wish) {
+  const Theme& t = c.screen.theme;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(20), t.px(10)});
+  begin_area(t, "author top", {0, 0}, size, true);
+  ImGui::PopStyleVar();
+  const float buttons = t.px(440);
+  ImGui::BeginChild("file", {size.x - buttons - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
+  quiet_text(t, "Authoring    " + c.document.path() + (c.document.unsaved() ? "    NOT SAVED" : "    saved"));
+  wrapped_text(c.screen.scenario.title);
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("buttons", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
+  if (side_button(t, "Undo (Ctrl Z)")) wish = AuthorWish::undo;
+  ImGui::SameLine();
+  if (side_button(t, "Redo (Ctrl Y)")) wish = AuthorWish::redo;
+  ImGui::SameLine();
+  if (side_button(t, "Save (Ctrl S)")) wish = AuthorWish::save;
+  ImGui::EndChild();
+  end_area();
+}
+
+void zone_list(const AuthorContext& c) {
+  const Theme& t = c.screen.theme;
+  AuthorState& s = c.state;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < c.zones.size(); ++i) {
+    const AuthorZone& zone = c.zones[i];
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const auto colour = layer_colour(zone.layer);
+    const float side = ImGui::GetTextLineHeight();
+    draw.AddRectFilled(at, {at.x + side, at.y + side}, IM_COL32(colour[0], colour[1], colour[2], 255), t.px(3));
+    ImGui::Dummy({side, side});
+    ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));
+    const std::string label = zone.title + (zone.line > 0 ? "   line " + std::to_string(zone.line) : "");
+    if (ImGui::Selectable(label.c_str(), s.zone == i)) {
+      s.zone = i;
+      s.point = s.number = 0;
+    }
+    ImGui::PopID();
+  }
+}
+
+void numbers(const AuthorContext& c) {
+  const Theme& t = c.screen.theme;
+  AuthorState& s = c.state;
+  const AuthorZone& zone = c.zones[s.zone];
+  if (zone.numbers.empty()) quiet_text(t, "Its shape comes from a file; nothing of it is changed here.");
+  for (std::size_t i = 0; i < zone.numbers.size(); ++i) {
+    const AuthorNumber& n = zone.numbers[i];
+    const bool chosen = s.number == i;
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, t.accent);
+    ImGui::TextUnformatted(((chosen ? "> " : "   ") + n.label).c_str());
+    if (chosen) ImGui::PopStyleColor();
+    ImGui::PushID(n.place.c_str());
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+    auto value = static_cast<float>(n.value);
+    const std::string format = std::string("%.3f ") + n.unit;
+    if (ImGui::DragFloat("##number", &value, 0.01F, static_cast<float>(n.low), static_cast<float>(n.high), format.c_str()))
+      author_set_number(c, n, static_cast<double>(value), true);
+    if (ImGui::IsItemActivated()) s.number = i;
+    if (ImGui::IsItemDeactivated()) c.document.rest();
+    ImGui::PopID();
+  }
+  if (s.point < zone.points_mm.size()) {
+    const Vec3 p = zone.points_mm[s.point];
+    wrapped_text("Point " + std::to_string(s.point + 1) + " of " + std::to_string(zone.points_mm.size()) + ":  " + written_number(p.x) + ", " +
+                 written_number(p.y) + " mm");
+  }
+}
+
+void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
+  const Theme& t = c.screen.theme;
+  AuthorState& s = c.state;
+  begin_area(t, "author side", at, size, true);
+  zone_list(c);
+  ImGui::Separator();
+  if (s.zone < c.zones.size()) numbers(c);
+  ImGui::Separator();
+  for (std::size_t i = 0; i < k_author_layers; ++i) {
+    const std::string label = std::string(layer_name(static_cast<AuthorLayer>(i))) + " (F" + std::to_string(i + 1) + ")";
+    s.shown_differs = ImGui::Checkbox(label.c_str(), &s.shown[i]) || s.shown_differs;
+    if (i % 2 == 0) ImGui::SameLine(size.x / 2);
+  }
+  quiet_text(
+      t,
+      "Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: size, PgUp and PgDn: larger, "
+      "smaller.  C: clear or opaque tooth.  View: 1 to 5, W A S D, + and -, right mouse button.  F5: read the file again.  Esc: close.");
+  end_area();
+}
+
+std::string verdict(const AuthorContext& c) {
+  const auto warnings = std::count_if(c.problems.begin(), c.problems.end(), [](const Problem& p) { return p.warning; });
+  const auto mistakes = static_cast<std::ptrdiff_t>(c.problems.size()) - warnings;
+  const auto counted = [](std::ptrdiff_t n, const char* word) { return std::to_string(n) + " " + word + (n == 1 ? "" : "s"); };
+  if (c.busy) return mistakes > 0 ? counted(mistakes, "mistake") + "; checking ..." : "checking ...";
+  std::string text = mistakes > 0 ? counted(mistakes, "mistake") : "sound";
+  if (warnings > 0) text += ", " + counted(warnings, "warning");
+  if (c.findings != nullptr && c.findings->expert_s) text += "; the built-in expert needs about " + number_text("%.0f s", *c.findings->expert_s);
+  return text;
+}
+
+void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
+  const Theme& t = c.screen.theme;
+  begin_area(t, "author findings", at, size, true);
+  if (!c.state.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, t.warn);
+    wrapped_text(c.state.message);
+    ImGui::PopStyleColor();
+  }
+  wrapped_text("Check: " + verdict(c));
+  const std::string file = std::filesystem::path(c.document.path()).filename().string();
+  for (const Problem& p : c.problems) {
+    const std::string where = p.line > 0 ? file + ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : p.where;
+    ImGui::PushStyleColor(ImGuiCol_Text, p.warning ? t.warn : t.bad);
+    wrapped_text(where + (p.warning ? "  warning: " : "  MISTAKE: ") + p.what + "; " + p.what_to_do);
+    ImGui::PopStyleColor();
+  }
+  end_area();
+}
+
+const char* picture_heading(const AuthorContext& c) {
+  if (c.screen.scene == nullptr) return "The tooth is being read ...";
+  if (c.busy) return "ZONES BEFORE THE LAST CHANGE";
+  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : "ZONES";
+}
+
+void points_by_key(const AuthorContext& c, const AuthorZone& zone) {
+  AuthorState& s = c.state;
+  const std::size_t n = zone.points_mm.size();
+  if (n == 0) return;
+  if (ImGui::IsKeyPressed(GLFW_KEY_PERIOD)) s.point = (s.point + 1) % n;
+  if (ImGui::IsKeyPressed(GLFW_KEY_COMMA)) s.point = (s.point + n - 1) % n;
+  if (key_pressed(GLFW_KEY_I)) {
+    // half way to the next point; behind the end of a path as far as the last piece is long
+    const Vec3 a = zone.points_mm[s.point];
+    const bool end = !zone.closed && s.point + 1 == n;
+    const Vec3 to = end ? a + (a - zone.points_mm[n >= 2 ? n - 2 : 0]) * 0.5 : (a + zone.points_mm[(s.point + 1) % n]) * 0.5;
+    change(c, "", false, [&] { return insert_point(c.document.text(), c.document.path(), zone.points_place, s.point + 1, to.x, to.y); });
+    if (c.state.message.empty()) ++s.point;
+  }
+  if (key_pressed(GLFW_KEY_X)) {
+    if (n > zone.least_points) {
+      change(c, "", false, [&] { return remove_point(c.document.text(), c.document.path(), zone.points_place, s.point); });
+      s.point = s.point > 0 ? s.point - 1 : 0;
+    } else {
+      s.message = "An outline of this kind needs at least " + std::to_string(zone.least_points) + " points.";
+    }
+  }
+}
+
+void numbers_by_key(const AuthorContext& c, const AuthorZone& zone) {
+  AuthorState& s = c.state;
+  const std::size_t n = zone.numbers.size();
+  if (n == 0) return;
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT_BRACKET)) s.number = (s.number + 1) % n;
+  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT_BRACKET)) s.number = (s.number + n - 1) % n;
+  const int larger = ImGui::IsKeyPressed(GLFW_KEY_PAGE_UP) - ImGui::IsKeyPressed(GLFW_KEY_PAGE_DOWN);
+  const AuthorNumber& number = zone.numbers[std::min(s.number, n - 1)];
+  if (larger != 0) author_set_number(c, number, number.value + larger * (ImGui::GetIO().KeyShift ? 0.01 : 0.1), false);
+}
+
+void keys(const AuthorContext& c, AuthorWish& wish) {
+  AuthorState& s = c.state;
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput || s.ask_close) return;
+  if (io.KeyCtrl) {
+    if (ImGui::IsKeyPressed(GLFW_KEY_S, false)) wish = AuthorWish::save;
+    if (ImGui::IsKeyPressed(GLFW_KEY_Z)) wish = io.KeyShift ? AuthorWish::redo : AuthorWish::undo;
+    if (ImGui::IsKeyPressed(GLFW_KEY_Y)) wish = AuthorWish::redo;
+    return;
+  }
+  for (std::size_t i = 0; i < k_author_layers; ++i)
+    if (key_pressed(GLFW_KEY_F1 + static_cast<int>(i))) {
+      s.shown[i] = !s.shown[i];
+      s.shown_differs = true;
+    }
+  if (key_pressed(GLFW_KEY_C)) c.screen.state.view.clear = !c.screen.state.view.clear;
+  if (key_pressed(GLFW_KEY_F5)) wish = AuthorWish::read_again;
+  if (key_pressed(GLFW_KEY_ESCAPE)) wish = AuthorWish::close;
+  if (c.zones.empty()) return;
+  if (key_pressed(GLFW_KEY_TAB)) {
+    s.zone = (s.zone + (io.KeyShift ? c.zones.size() - 1 : 1)) % c.zones.size();
+    s.point = s.number = 0;
+  }
+  points_by_key(c, c.zones[s.zone]);
+  numbers_by_key(c, c.zones[s.zone]);
+}
+
+void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
+  AuthorState& s = c.state;
+  const Theme& t = c.screen.theme;
+  const bool fresh = s.ask_close && !ImGui::IsPopupOpen("Save?");
+  if (fresh) ImGui::OpenPopup("Save?");
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal("Save?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return;
+  heading_text("Save your changes?");
+  ImGui::TextUnformatted("Something was changed and is not in the file yet.");
+  ImGui::Dummy({0, t.px(6)});
+  if (main_button(t, "Save and close  (Enter)", true, !fresh)) wish = AuthorWish::save_and_close;
+  ImGui::SameLine();
+  if (ImGui::Button("Close without saving  (N)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N))) wish = AuthorWish::discard;
+  ImGui::SameLine();
+  if (ImGui::Button("Back  (Esc)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
+  if (wish != AuthorWish::none) s.ask_close = false;
+  if (!s.ask_close) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to, bool pull) {
+  const std::string place = zone.points_place + "/" + std::to_string(point);
+  change(c, place, pull, [&] { return set_point(c.document.text(), c.document.path(), place, to.x, to.y); });
+}
+
+void author_set_number(const AuthorContext& c, const AuthorNumber& number, double value, bool pull) {
+  change(c, number.place, pull,
+         [&] { return set_number(c.document.text(), c.document.path(), number.place, std::clamp(value, number.low, number.high)); });
+}
+
+AuthorWish author_screen(const AuthorContext& c) {
+  const Theme& t = c.screen.theme;
+  AuthorWish wish = AuthorWish::none;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float top = t.px(76), bottom = t.px(150), side = std::min(t.px(330), screen.x * 0.45F), middle = screen.y - top - bottom;
+  const bool left = c.screen.state.left_handed;
+  top_bar(c, {screen.x, top}, wish);
+  side_panel(c, {left ? 0 : screen.x - side, top}, {side, screen.y - top});
+  findings(c, {left ? side : 0, screen.y - bottom}, {screen.x - side, bottom});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  const ImVec2 at{left ? side : 0, top}, size{screen.x - side, middle};
+  begin_area(t, "author tooth", at, size, false);
+  ImGui::PopStyleVar();
+  if (c.screen.scene != nullptr) author_picture(c, at, size);
+  words_in_picture(t, at, size, picture_heading(c), {}, t.accent);
+  end_area();
+  keys(c, wish);
+  ask_about_closing(c, wish);
+  return wish;
+}
+
+}  // namespace cavum

@@ -1,0 +1,159 @@
+#include "ui/station/author_worker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/tooth/surface_mesh.h"
+#include "scenarios/check.h"
+#include "scenarios/surface_files.h"
+#include "scenarios/zone_map.h"
+
+namespace cavum {
+namespace {
+
+/// Leaves `step` apart in a box (low, high exclusive) that `inside` says yes to, as a smooth surface.
+template <class Inside>
+MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std::array<std::uint8_t, 4>& colour, const Inside& inside) {
+  const IVec3 from = low - IVec3{step, step, step}, span = high - low;
+  const IVec3 size{span.x / step + 4, span.y / step + 4, span.z / step + 4};
+  std::vector<std::uint8_t> in;
+  in.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z));
+  const auto rim = [](int i, int n) { return i == 0 || i == n - 1; };
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const bool edge = rim(x, size.x) || rim(y, size.y) || rim(z, size.z);
+        in.push_back(!edge && inside(from + IVec3{x * step, y * step, z * step}) ? 1 : 0);
+      }
+  TriangleMesh mesh = march_tetrahedra(size, tooth.centre_mm(from), step * tooth.leaf_mm(), in, [](IVec3, IVec3) { return 0.5; });
+  // steps of leaves are no walls: each corner goes to the middle of its neighbours, a few times
+  constexpr int k_rounds = 4;
+  for (int round = 0; round < k_rounds; ++round) {
+    std::vector<Vec3> sum(mesh.vertices_mm.size());
+    std::vector<int> count(mesh.vertices_mm.size(), 0);
+    for (const auto& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        sum[t[i]] += mesh.vertices_mm[t[(i + 1) % 3]] + mesh.vertices_mm[t[(i + 2) % 3]];
+        count[t[i]] += 2;
+      }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      if (count[i] > 0) mesh.vertices_mm[i] = sum[i] / count[i];
+  }
+  const auto vec = [](Vec3 v) { return glm::vec3(v.x, v.y, v.z); };
+  std::vector<glm::vec3> normals(mesh.vertices_mm.size(), glm::vec3(0));
+  MeshData data;
+  for (const auto& t : mesh.triangles) {
+    const glm::vec3 a = vec(mesh.vertices_mm[t[0]]), n = glm::cross(vec(mesh.vertices_mm[t[1]]) - a, vec(mesh.vertices_mm[t[2]]) - a);
+    for (const std::uint32_t i : t) {
+      normals[i] += n;
+      data.indices.push_back(i);
+    }
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    data.vertices.push_back(gpu_vertex(vec(mesh.vertices_mm[i]), normals[i] / std::max(1e-9F, glm::length(normals[i])), colour));
+  return data;
+}
+
+bool counts_from_chamber(const Scenario& s) {
+  const auto does = [](const ShapeSpec& shape) { return shape.kind == ShapeSpec::Kind::column && shape.outline.from_chamber; };
+  return std::any_of(s.zones.target.begin(), s.zones.target.end(), does) ||
+         std::any_of(s.zones.protected_shapes.begin(), s.zones.protected_shapes.end(), does);
+}
+
+}  // namespace
+
+std::array<MeshData, k_author_layers> zone_bodies(const ZoneMap& zones, const Octree& tooth) {
+  const auto colour = [](AuthorLayer layer, std::uint8_t opacity) -> std::array<std::uint8_t, 4> {
+    const auto c = layer_colour(layer);
+    return {c[0], c[1], c[2], opacity};
+  };
+  const IVec3 low = zones.low(), high = zones.low() + zones.size();
+  std::array<MeshData, k_author_layers> bodies;
+  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 130), [&](IVec3 l) { return zones.zone(l) == Zone::target; });
+  bodies[1] = body_of(tooth, low, high, 2, colour(AuthorLayer::leeway, 80), [&](IVec3 l) {
+    const Zone z = zones.zone(l);
+    return z == Zone::target || z == Zone::leeway_sides || z == Zone::leeway_bottom;
+  });
+  bodies[2] = body_of(tooth, low, high, 2, colour(AuthorLayer::container, 80), [&](IVec3 l) {
+    const Zone z = zones.zone(l);
+    return z != Zone::none && z != Zone::protected_;
+  });
+  // anywhere in the tooth, coarser
+  constexpr int k_coarse = 3;
+  if (zones.count(Zone::protected_) > 0)
+    bodies[3] = body_of(tooth, {0, 0, 0}, tooth.size(), k_coarse, colour(AuthorLayer::guarded, 90),
+                        [&](IVec3 l) { return zones.zone(l) == Zone::protected_; });
+  return bodies;
+}
+
+void AuthorWorker::look_at(std::uint64_t version, const std::string& text, const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  task_ = Task{version, text, path};
+  asked_.notify_one();
+}
+
+std::unique_ptr<AuthorFindings> AuthorWorker::take() {
+  const std::lock_guard lock(mutex_);
+  return std::move(found_);
+}
+
+void AuthorWorker::publish(AuthorFindings findings) {
+  auto found = std::make_unique<AuthorFindings>(std::move(findings));
+  const std::lock_guard lock(mutex_);
+  found_ = std::move(found);
+}
+
+void AuthorWorker::work(const std::stop_token& stop) {
+  for (;;) {
+    Task task;
+    {
+      std::unique_lock lock(mutex_);
+      if (!asked_.wait(lock, stop, [this] { return task_.has_value(); })) return;
+      task = std::move(*task_);
+      task_.reset();
+    }
+    find(task);
+  }
+}
+
+void AuthorWorker::find(const Task& task) {
+  AuthorFindings f;
+  f.version = task.version;
+  ReadScenario read = read_scenario(task.text, task.path);
+  Scenario& s = read.scenario;
+  try {
+    SurfaceFiles files;
+    const bool whole = read.problems.empty() && read_surfaces(s, files).empty();
+    if (!s.tooth_file.empty()) {
+      if (const std::string file = find_tooth_file(s); file != tooth_file_ || tooth_ == nullptr) {
+        tooth_ = std::make_shared<const Tooth>(load_tooth_file(file));
+        tooth_file_ = file;
+      }
+      f.tooth = tooth_;
+      f.tooth_file = tooth_file_;
+    }
+    if (f.tooth && counts_from_chamber(s)) f.chamber_mm = tissue_relief(*f.tooth, "pulp", TissuePart::chamber, task.path).middle_mm;
+    if (whole && f.tooth && missing_tissues(s, *f.tooth).empty()) {
+      const ZoneMap zones = build_zones(s, *f.tooth);
+      f.target_low_mm = zones.target_low_mm();
+      f.target_high_mm = zones.target_high_mm();
+      f.opening_z_mm = zones.opening_z_mm();
+      f.body = zone_bodies(zones, f.tooth->octree);
+      publish(f);
+    }
+  } catch (const Error&) {
+    // why there are no zones is one of the problems that the check finds now
+  }
+  try {
+    CheckedScenario checked = check_whole(task.text, task.path);
+    f.problems = std::move(checked.problems);
+    f.expert_s = checked.expert_s;
+  } catch (const std::exception& e) {
+    f.problems = {{task.path, without_advice(e.what()), "mend it in a text editor", 0, 0, false}};
+  }
+  f.checked = true;
+  publish(std::move(f));
+}
+
+}  // namespace cavum

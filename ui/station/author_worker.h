@@ -1,0 +1,65 @@
+// Lays an author's zones into the tooth and checks the scenario, in a thread of its own: both take a second or more, and the window never waits.
+// Only the newest text counts; what came before it and has not begun is left out.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/tooth/tooth.h"
+#include "scenarios/parse.h"
+#include "scenarios/zone_map.h"
+#include "ui/station/author_zones.h"
+#include "ui/station/instrument_mesh.h"
+
+namespace cavum {
+
+/// What is known of one text. It comes twice: with the zones, and again when all is checked.
+struct AuthorFindings {
+  std::uint64_t version = 0;                   ///< of the text
+  std::shared_ptr<const Tooth> tooth;          ///< null when the scenario's cannot be read
+  std::string tooth_file;                      ///< its path
+  std::array<MeshData, k_author_layers> body;  ///< surfaces of the zones, by layer; all empty when there are none
+  Vec3 target_low_mm, target_high_mm;
+  double opening_z_mm = 0.0;
+  Vec3 chamber_mm;  ///< middle of the pulp chamber, where the scenario counts from it
+  bool checked = false;
+  std::vector<Problem> problems;
+  std::optional<double> expert_s;
+};
+
+class AuthorWorker {
+ public:
+  AuthorWorker() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
+  /// The next text to look at; never waits for more than a few bytes to be copied.
+  void look_at(std::uint64_t version, const std::string& text, const std::string& path);
+  /// What was found since the last call, if anything was.
+  [[nodiscard]] std::unique_ptr<AuthorFindings> take();
+
+ private:
+  struct Task {
+    std::uint64_t version = 0;
+    std::string text, path;
+  };
+  void work(const std::stop_token& stop);
+  void find(const Task& task);
+  void publish(AuthorFindings findings);
+
+  std::mutex mutex_;  // of what stands below it, down to the tooth
+  std::condition_variable_any asked_;
+  std::optional<Task> task_;
+  std::unique_ptr<AuthorFindings> found_;
+  std::shared_ptr<const Tooth> tooth_;  // of the worker alone
+  std::string tooth_file_;
+  std::jthread thread_;  // the last: it ends first
+};
+
+/// The surfaces of the zones for the screen, smoothed: what is to be removed, that with its leeway, that with its container, what is protected.
+[[nodiscard]] std::array<MeshData, k_author_layers> zone_bodies(const ZoneMap& zones, const Octree& tooth);
+
+}  // namespace cavum

@@ -1,0 +1,151 @@
+#include "ui/station/author_zones.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cavum {
+namespace {
+
+using Kind = ShapeSpec::Kind;
+
+constexpr std::array<const char*, 9> k_shape_names{"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "STL file", "canal cone"};
+
+void add_bottom(AuthorZone& zone, const BottomSpec& b, const std::string& at) {
+  switch (b.kind) {
+    case BottomSpec::Kind::level:
+      zone.numbers.push_back({"level of the floor, z", at + "/z_mm", b.z_mm, -100, 100});
+      break;
+    case BottomSpec::Kind::below_surface:
+    case BottomSpec::Kind::below_lowest:
+    case BottomSpec::Kind::below_mean:
+      zone.numbers.push_back({"depth", at + "/depth_mm", b.depth_mm, 0.05, 30});
+      zone.depth_mm = b.depth_mm;
+      zone.depth_place = at + "/depth_mm";
+      break;
+    default:
+      zone.numbers.push_back({"floor deeper than the " + b.tissue + "'s", at + "/deeper_mm", b.deeper_mm, -5, 5});
+  }
+}
+
+void add_outline(AuthorZone& zone, const OutlineSpec& o, const std::string& at) {
+  switch (o.kind) {
+    case OutlineSpec::Kind::circle:
+      zone.numbers.push_back({"radius", at + "/radius_mm", o.radius_mm, 0.05, 20});
+      break;
+    case OutlineSpec::Kind::stroke:
+      zone.numbers.push_back({"width", at + "/width_mm", o.width_mm, 0.1, 20});
+      zone.half_width_mm = 0.5 * o.width_mm + o.offset_mm;
+      break;
+    case OutlineSpec::Kind::polygon:
+      zone.closed = true;
+      zone.least_points = 3;
+      break;
+    case OutlineSpec::Kind::projection:
+      zone.numbers.push_back({"rounding", at + "/rounding_mm", o.rounding_mm, 0, 5});
+      break;
+  }
+  zone.numbers.push_back({"outline wider by", at + "/offset_mm", o.offset_mm, -5, 5});
+  if (o.points_mm.empty()) return;
+  zone.points_place = at + "/points_mm";
+  zone.points_mm = o.points_mm;
+}
+
+AuthorZone zone_of(const ShapeSpec& s, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
+  AuthorZone zone;
+  zone.line = s.line;
+  zone.frame = shape_frame(s);
+  const auto number = [&](const char* label, const char* key, double value, double low, double high, const char* unit = "mm") {
+    zone.numbers.push_back({label, at + "/" + key, value, low, high, unit});
+  };
+  switch (s.kind) {
+    case Kind::column: {
+      add_bottom(zone, s.bottom, at + "/bottom");
+      add_outline(zone, s.outline, at + "/outline");
+      number("taper of the walls", "taper_deg", s.taper_deg, -30, 45, "deg");
+      const Vec3 from = s.outline.from_chamber ? chamber_mm : Vec3{};
+      zone.frame = {{from.x + s.outline.centre_mm.x, from.y + s.outline.centre_mm.y, opening_z_mm}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      break;
+    }
+    case Kind::prism: {
+      number("height", "height_mm", s.height_mm, 0.05, 100);
+      add_outline(zone, s.outline, at + "/outline");
+      const ShapeFrame f = zone.frame;
+      const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
+      zone.frame.at = f.at + f.z * up + f.x * s.outline.centre_mm.x + f.y * s.outline.centre_mm.y;
+      break;
+    }
+    case Kind::box:
+      zone.numbers.push_back({"size along x", at + "/size_mm/0", s.size_mm.x, 0.05, 100});
+      zone.numbers.push_back({"size along y", at + "/size_mm/1", s.size_mm.y, 0.05, 100});
+      zone.numbers.push_back({"size along z", at + "/size_mm/2", s.size_mm.z, 0.05, 100});
+      break;
+    case Kind::cylinder:
+      number("height", "height_mm", s.height_mm, 0.05, 100);
+      number("radius", "radius_mm", s.radius_mm, 0.05, 100);
+      break;
+    case Kind::cone:
+      number("height", "height_mm", s.height_mm, 0.05, 100);
+      number("radius below", "radius_mm", s.radius_mm, 0, 100);
+      number("radius above", "top_radius_mm", s.top_radius_mm, 0, 100);
+      break;
+    case Kind::ball:
+      number("radius", "radius_mm", s.radius_mm, 0.05, 100);
+      break;
+    case Kind::tissue:
+      number("grown by", "offset_mm", s.offset_mm, -5, 5);
+      break;
+    case Kind::canal_cone:
+      number("begins below the mouth by", "deeper_mm", s.deeper_mm, -5, 5);
+      number("taper", "taper_deg", s.taper_deg, 0, 45, "deg");
+      break;
+    case Kind::stl:
+      break;
+  }
+  if (s.kind == Kind::box || s.kind == Kind::cylinder || s.kind == Kind::cone || s.kind == Kind::ball || s.kind == Kind::prism) {
+    zone.numbers.push_back({"place, mesial (x)", at + "/at_mm/0", s.at_mm.x, -100, 100});
+    zone.numbers.push_back({"place, buccal (y)", at + "/at_mm/1", s.at_mm.y, -100, 100});
+    zone.numbers.push_back({"place, occlusal (z)", at + "/at_mm/2", s.at_mm.z, -100, 100});
+  }
+  return zone;
+}
+
+AuthorZone margin_of(AuthorLayer layer, const MarginSpec& m, const std::string& at) {
+  AuthorZone zone;
+  zone.layer = layer;
+  zone.title = layer_name(layer);
+  zone.numbers = {{"width below", at + "/bottom_mm", m.bottom_mm, 0, 5}, {"width beside", at + "/sides_mm", m.sides_mm, 0, 5}};
+  return zone;
+}
+
+}  // namespace
+
+const char* layer_name(AuthorLayer layer) noexcept {
+  constexpr std::array<const char*, k_author_layers> k_names{"target", "leeway", "container", "protected"};
+  return k_names[static_cast<std::size_t>(layer)];
+}
+
+std::array<std::uint8_t, 3> layer_colour(AuthorLayer layer) noexcept {
+  constexpr std::array<std::array<std::uint8_t, 3>, k_author_layers> k_colours{{{86, 190, 240}, {240, 228, 66}, {213, 94, 0}, {204, 121, 167}}};
+  return k_colours[static_cast<std::size_t>(layer)];
+}
+
+std::vector<AuthorZone> author_zones(const Scenario& scenario, double opening_z_mm, Vec3 chamber_mm) {
+  std::vector<AuthorZone> zones;
+  const auto bodies = [&](AuthorLayer layer, const char* key, const std::vector<ShapeSpec>& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      zones.push_back(zone_of(list[i], std::string("zones/") + key + "/" + std::to_string(i), opening_z_mm, chamber_mm));
+      AuthorZone& zone = zones.back();
+      zone.layer = layer;
+      zone.title = std::string(layer_name(layer)) + " " + std::to_string(i + 1) + ", " + k_shape_names[static_cast<std::size_t>(list[i].kind)];
+      if (list[i].combine == ShapeSpec::Combine::subtract) zone.title += ", taken away";
+      if (list[i].combine == ShapeSpec::Combine::intersect) zone.title += ", in common";
+    }
+  };
+  bodies(AuthorLayer::target, "target", scenario.zones.target);
+  zones.push_back(margin_of(AuthorLayer::leeway, scenario.zones.leeway, "zones/leeway"));
+  zones.push_back(margin_of(AuthorLayer::container, scenario.zones.container, "zones/container"));
+  bodies(AuthorLayer::guarded, "protected", scenario.zones.protected_shapes);
+  return zones;
+}
+
+}  // namespace cavum
