@@ -83,7 +83,7 @@ class StylusSource final : public LiveSource {
   static StationPedal require_pedal() {
     auto pedal = load_station_pedal(station_pedal_path());
     if (!pedal)
-      throw Error("foot pedal", "this station knows none, and without one the handpiece stands still",
+      throw Error("stylus", "this station has no foot pedal, and without one the handpiece stands still",
                   "plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal");
     return *pedal;
   }
