@@ -32,7 +32,7 @@ void make_key(const std::string& path, const std::string& owner) {
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
   randombytes_buf(seed.data(), seed.size());
   const std::string text = heading_of(owner) + to_hex(seed) + "\n";
-  const std::string temporary = path + "." + std::to_string(::getpid());
+  const std::string temporary = path + "." + std::to_string(::getpid()) + "." + std::to_string(randombytes_random());  // threads make keys, too
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (fd < 0) fail("the " + owner + "'s key cannot be made");
   const bool written = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;

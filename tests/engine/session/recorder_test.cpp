@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <set>
+#include <thread>
+#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -233,6 +235,18 @@ TEST(StationKey, IsMadeOnceForItsUserAlone) {
   std::filesystem::permissions(path, std::filesystem::perms::group_read, std::filesystem::perm_options::remove);
   std::filesystem::resize_file(path, 20);
   EXPECT_THROW((void)load_station_key(path), Error);
+}
+
+TEST(StationKey, MadeByManyAtOnceIsOne) {
+  const Folder folder;
+  const std::string path = folder.file("home/station.key");
+  std::vector<SigningKey> keys(16);
+  std::vector<std::thread> threads;
+  for (auto& key : keys) threads.emplace_back([&key, &path] { key = load_station_key(path); });
+  for (auto& t : threads) t.join();
+  for (const auto& key : keys) EXPECT_EQ(key.public_key, keys[0].public_key);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.file("home")), std::filesystem::directory_iterator()), 1)
+      << "nothing is left over";
 }
 
 }  // namespace
