@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 #include <thread>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
