@@ -1,18 +1,16 @@
-// `cavum ledger` and `cavum verify`: tickets, filing, release and export of results, and what holds of a session or of the whole ledger.
+// `cavum ledger`: tickets, filing, release and export of results, and what holds of them.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
-#include "grading/ledger/csv.h"
-#include "grading/ledger/explain_session.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
+#include "grading/ledger/issue.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/exam.h"
@@ -56,32 +54,6 @@ void init(const Options& o) {
             << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known << "\n";
 }
 
-struct Person {
-  std::string id, name;
-};
-
-/// Table with columns `id` and, if wanted, `name`; others are passed over.
-std::vector<Person> read_candidates(const std::string& path) {
-  const auto rows = parse_csv(read_text_file(path), path);
-  const auto column = [&](const char* name) {
-    if (rows.empty()) return std::size_t{0};
-    return static_cast<std::size_t>(std::find(rows[0].fields.begin(), rows[0].fields.end(), name) - rows[0].fields.begin());
-  };
-  const std::size_t id = column("id"), name = column("name");
-  if (rows.empty() || id == rows[0].fields.size()) throw Error(path + ":1", "is no heading of candidates", "begin with id,name");
-  std::vector<Person> people;
-  std::set<std::string> seen;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto& f = rows[i].fields;
-    const std::string where = path + ":" + std::to_string(rows[i].line);
-    if (f[id].empty()) throw Error(where, "has no id", "give each candidate the school's own number or address");
-    if (!seen.insert(f[id]).second) throw Error(where, "'" + f[id] + "' stands there a second time", "leave one of them");
-    people.push_back({f[id], name < f.size() ? f[name] : ""});
-  }
-  if (people.empty()) throw Error(path, "names no candidate", "write one on each line below the heading");
-  return people;
-}
-
 /// A file that is not there yet, unless --overwrite allows it.
 void require_new(const Options& o, const std::string& path) {
   require_writable(path);
@@ -96,43 +68,32 @@ Identities sound_identities(const Ledger& ledger) {
   return identities;
 }
 
-void ticket(const Options& o) {
+void issue_tickets(const Options& o) {
   if (o.candidate.empty() == o.candidates.empty())
     throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
-  const std::vector<Person> people = o.candidates.empty() ? std::vector<Person>{{o.candidate, o.name}} : read_candidates(o.candidates);
-  Ticket t;
-  t.not_before_utc_ns = parse_utc(o.from, "--from");
-  t.not_after_utc_ns = parse_utc(o.until, "--until");
-  if (t.not_after_utc_ns <= t.not_before_utc_ns) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
+  const std::vector<Person> people =
+      o.candidates.empty() ? std::vector<Person>{{o.candidate, o.name}} : parse_people(read_text_file(o.candidates), o.candidates);
+  const std::int64_t from = parse_utc(o.from, "--from"), until = parse_utc(o.until, "--until");
+  if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
   ExamOptions exam;
   exam.tooth_file = o.tooth;
   exam.rubric_file = o.rubric;
   exam.force_model = o.model;
   exam.grant = o.grant;
   const auto setup = prepare_exam(o.scenario, exam);
-  t.exam = setup->scenario.id;
-  t.artifacts = examined_artifacts(setup->session);
-  for (const auto& note : setup->session.notes)
-    if (note.first.starts_with("accommodation.")) t.grant.push_back(note);
-  std::sort(t.grant.begin(), t.grant.end());
-
   Ledger ledger(o.folder, key_of(o));
   Identities identities = sound_identities(ledger);
-  t.ledger = ledger.content().id;
-  t.public_key = ledger.content().public_key;
+  const Ticket ticket = promise(*setup, ledger.content(), from, until);
   const bool folder = !o.candidates.empty();
-  if (t.not_after_utc_ns < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
+  if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
   if (folder) std::filesystem::create_directories(o.out);
   json printed = json::array();
   for (const auto& p : people) {
-    t.candidate = identities.enrol(p.id, p.name, ledger.key());
-    t.nonce = random_hex(16);
-    const std::string file = folder ? o.out + "/" + t.candidate + ".ticket" : o.out, text = sign_ticket(t, ledger.key());
+    const std::string candidate = identities.enrol(p.id, p.name, ledger.key()), file = folder ? o.out + "/" + candidate + ".ticket" : o.out;
     require_new(o, file);
-    ledger.append("ticket", [&](const LedgerContent&) { return json::parse(text); });
-    write_text_file(file, text + "\n");
-    printed.push_back({{"candidate", t.candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
-    if (!o.as_json) std::cout << t.candidate << "  " << file << "  " << p.id << (p.name.empty() ? "" : ", " + p.name) << "\n";
+    write_text_file(file, issue(ledger, ticket, candidate) + "\n");
+    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
+    if (!o.as_json) std::cout << candidate << "  " << file << "  " << p.id << (p.name.empty() ? "" : ", " + p.name) << "\n";
   }
   if (o.as_json) print_json(json{{"tickets", printed}});
 }
@@ -160,9 +121,7 @@ int add(const Options& o) {
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
-      if (!o.out.empty()) {
-        write_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
-      }
+      if (!o.out.empty()) write_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
     }
     if (!o.as_json) {
       std::cout << path << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
@@ -201,7 +160,7 @@ void release(const Options& o) {
   std::vector<std::string> wanted = o.chosen;
   for (auto& w : wanted)
     if (const auto known = identities.of_id(w)) w = known->pseudonym;
-  std::size_t released = 0, kept_back = 0;
+  std::size_t kept_back = 0;
   std::vector<std::string> unknown = wanted;
   const Registry before = read_registry(ledger.content());
   json results = json::array();
@@ -214,14 +173,13 @@ void release(const Options& o) {
       continue;
     }
     results.push_back(s.result_seq);
-    ++released;
   }
   if (!unknown.empty()) throw Error("--candidate " + unknown[0], "has no session in this ledger", "see `cavum ledger show " + o.folder + "`");
-  if (released > 0) ledger.append("release", [&](const LedgerContent&) { return json{{"results", results}}; });
+  if (!results.empty()) ledger.append("release", [&](const LedgerContent&) { return json{{"results", results}}; });
   if (o.as_json)
-    print_json(json{{"released", released}, {"kept_back", kept_back}});
+    print_json(json{{"released", results.size()}, {"kept_back", kept_back}});
   else
-    std::cout << released << " results released"
+    std::cout << results.size() << " results released"
               << (kept_back > 0 ? ", " + std::to_string(kept_back) +
                                       " kept back: filed with findings (--candidate with --with-findings releases them after an appeal)"
                                 : "")
@@ -356,25 +314,10 @@ void show(const Options& o) {
                 s.findings.empty() ? "" : ", with findings");
 }
 
-int verify_one(const Options& o) {
-  const SessionExplanation e = explain_session(o.sessions.at(0), o.key.empty() ? "" : parse_public_key(o.key, "--school-key"));
-  if (o.as_json)
-    print_json(json{{"verified", e.holds}, {"proved", e.proved}, {"findings", e.findings}, {"remarks", e.remarks}});
-  else
-    std::cout << to_text(e);
-  return e.holds ? 0 : 1;
-}
-
 }  // namespace
 
 void add_ledger_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
-  auto* verify = app.add_subcommand("verify", "Say in words what is proved of a recorded exam, and what is not");
-  verify->add_option("session", o->sessions, "a .cavum file")->required()->expected(1);
-  verify->add_option("--school-key", o->key, "public key (hexadecimal) of the school that must have issued the ticket");
-  verify->add_flag("--json", o->as_json, "one JSON object on stdout");
-  verify->callback([o, &exit_code] { exit_code = verify_one(*o); });
-
   auto* ledger = app.add_subcommand("ledger", "Tickets, filed exams, results and their release, kept so that no change goes unseen");
   ledger->require_subcommand(1);
   const auto verb = [&](const char* name, const char* what, const std::function<int(const Options&)>& run) {
@@ -396,7 +339,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--school", o->school, "name of the school, entered first")->capture_default_str();
   json_flag(v);
 
-  v = verb("ticket", "Promise an exam to a candidate, or to a list of them", done(ticket));
+  v = verb("ticket", "Promise an exam to a candidate, or to a list of them", done(issue_tickets));
   v->add_option("scenario", o->scenario, "scenario file (.toml)")->required();
   v->add_option("--candidate", o->candidate, "matriculation number or mail address; kept with the identities only");
   v->add_option("--name", o->name, "for people; kept with the identities only");

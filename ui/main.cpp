@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   cavum::add_explain_verbs(app, exit_code);
   cavum::add_ledger_verbs(app, exit_code);
   cavum::add_cohort_verbs(app, exit_code);
+  cavum::add_verify_verbs(app, exit_code);
   cavum::add_device_verbs(app, exit_code);
   cavum::add_station_verbs(app, exit_code);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });

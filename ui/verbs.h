@@ -16,6 +16,7 @@ void add_device_verbs(CLI::App& app, int& exit_code);
 void add_explain_verbs(CLI::App& app, int& exit_code);
 void add_ledger_verbs(CLI::App& app, int& exit_code);
 void add_cohort_verbs(CLI::App& app, int& exit_code);
+void add_verify_verbs(CLI::App& app, int& exit_code);
 void add_station_verbs(CLI::App& app, int& exit_code);
 
 }  // namespace cavum

@@ -11,7 +11,7 @@
 #include "engine/base/random.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/filing.h"
-#include "grading/ledger/ticket.h"
+#include "grading/ledger/issue.h"
 #include "scenarios/simulated_exam.h"
 
 namespace cavum::cohort {
@@ -42,13 +42,8 @@ void sit(const Student& student, const std::string& scenario) {
 ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities& identities, const std::function<void(int)>& done) {
   std::filesystem::create_directories(wanted.sessions);
   const auto setup = prepare_exam(wanted.scenario, {});
-  Ticket t;
-  t.ledger = ledger.content().id;
-  t.public_key = ledger.content().public_key;
-  t.exam = setup->scenario.id;
-  t.artifacts = examined_artifacts(setup->session);
-  t.not_before_utc_ns = read_clocks().utc_ns - k_day_ns;
-  t.not_after_utc_ns = read_clocks().utc_ns + k_day_ns;
+  const std::int64_t now = read_clocks().utc_ns;
+  const Ticket ticket = promise(*setup, ledger.content(), now - k_day_ns, now + k_day_ns);
 
   Random random(wanted.seed);
   std::vector<int> level(static_cast<std::size_t>(wanted.n));
@@ -59,12 +54,10 @@ ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities
     Student s;
     s.seed = random.next() >> 1;
     s.skill = "student-" + std::to_string(level[static_cast<std::size_t>(i)]);
-    t.candidate = s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ledger.key());
-    t.nonce = random_hex(16);
-    s.ticket = sign_ticket(t, ledger.key());
+    s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ledger.key());
     s.path = wanted.sessions + "/" + s.candidate + ".cavum";
     if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
-    ledger.append("ticket", [&](const LedgerContent&) { return nlohmann::json::parse(s.ticket); });
+    s.ticket = issue(ledger, ticket, s.candidate);
     students.push_back(std::move(s));
   }
 

@@ -18,14 +18,6 @@ Bytes message_of(const json& facts) {
   return {text.begin(), text.end()};
 }
 
-std::vector<std::pair<std::string, std::string>> accommodations_in(const SessionSetup& setup) {
-  std::vector<std::pair<std::string, std::string>> out;
-  for (const auto& note : setup.notes)
-    if (note.first.starts_with("accommodation.")) out.push_back(note);
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 /// Days from 1970-01-01, proleptic Gregorian; `month` 1..12.
 std::int64_t days_since_1970(std::int64_t year, int month, int day) {
   year -= month <= 2 ? 1 : 0;
@@ -40,6 +32,14 @@ std::map<std::string, std::string> examined_artifacts(const SessionSetup& setup)
   std::map<std::string, std::string> out;
   for (const auto& a : artifacts_of(setup))
     if (a.name != "servo.toml" && a.name != k_final_tooth) out[a.name] = to_hex(sha256(a.bytes));
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> accommodations_in(const SessionSetup& setup) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const auto& note : setup.notes)
+    if (note.first.starts_with("accommodation.")) out.push_back(note);
+  std::sort(out.begin(), out.end());
   return out;
 }
 

@@ -31,6 +31,9 @@ struct Ticket {
 /// What a ticket fixes of a session: all its artifacts but the servo's settings, which are the device's.
 [[nodiscard]] std::map<std::string, std::string> examined_artifacts(const SessionSetup& setup);
 
+/// The notes of a session that grant something to its candidate, sorted.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> accommodations_in(const SessionSetup& setup);
+
 /// The ticket's facts in JSON, keys in order, as they are signed after "CVTICKET".
 [[nodiscard]] nlohmann::json to_json(const Ticket& ticket);
 /// One line of JSON {"signature", "ticket"}: the ticket's file.

@@ -9,6 +9,7 @@
 
 #include "engine/device/station_pedal.h"
 #include "tests/device/emulated_pedal.h"
+#include "tests/device/program.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
@@ -16,20 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing_device::EmulatedPedal;
-
-struct Ran {
-  int code = -1;
-  std::string out;
-};
-Ran run(const std::string& arguments) {
-  Ran r;
-  FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return r;
-  char text[4096];
-  while (const std::size_t n = std::fread(text, 1, sizeof text, pipe)) r.out.append(text, n);
-  r.code = WEXITSTATUS(::pclose(pipe));
-  return r;
-}
+using testing_device::Ran;
+using testing_device::run;
 
 class DevicesVerb : public ::testing::Test {
  protected:

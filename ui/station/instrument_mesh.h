@@ -1,18 +1,10 @@
 // The diamond point as one sees it, turned from its profile, and the head of the handpiece that holds it.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "engine/instrument/diamond_point.h"
-#include "ui/station/gpu.h"
+#include "ui/station/mesh_data.h"
 
 namespace cavum {
-
-struct MeshData {
-  std::vector<GpuVertex> vertices;
-  std::vector<std::uint32_t> indices;
-};
 
 /// In the tool's frame, mm: tip at the origin, +z towards the handle.
 [[nodiscard]] MeshData diamond_point_mesh(const DiamondPoint& point);

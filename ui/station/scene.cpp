@@ -130,19 +130,7 @@ MeshData target_mesh(const ZoneMap& zones) {
     const double from = distance[index(a)], to = distance[index(b)];
     return from < 0 && to > 0 ? std::clamp(from / (from - to), 0.05, 0.95) : 0.5;
   });
-  std::vector<glm::vec3> normals(mesh.vertices_mm.size(), glm::vec3(0));
-  const auto vec = [](Vec3 v) { return glm::vec3(v.x, v.y, v.z); };
-  MeshData data;
-  for (const auto& t : mesh.triangles) {
-    const glm::vec3 a = vec(mesh.vertices_mm[t[0]]), n = glm::cross(vec(mesh.vertices_mm[t[1]]) - a, vec(mesh.vertices_mm[t[2]]) - a);
-    for (const std::uint32_t i : t) {
-      normals[i] += n;
-      data.indices.push_back(i);
-    }
-  }
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    data.vertices.push_back(gpu_vertex(vec(mesh.vertices_mm[i]), normals[i] / std::max(1e-9F, glm::length(normals[i])), k_colour));
-  return data;
+  return smooth_shaded(mesh, k_colour);
 }
 
 Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target)

@@ -12,6 +12,7 @@
 #include "engine/base/file.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
+#include "grading/ledger/issue.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/simulated_exam.h"
@@ -44,20 +45,10 @@ class School {
   /// A ticket for an hour around now, issued in the ledger; `change` may spoil it before it is signed.
   std::string ticket(const std::string& candidate, const std::function<void(Ticket&)>& change = {}) const {
     Ledger ledger = this->ledger();
-    const auto setup = prepare_exam(k_scenario, {});
-    Ticket t;
-    t.ledger = ledger.content().id;
-    t.public_key = ledger.content().public_key;
-    t.exam = setup->scenario.id;
-    t.candidate = Identities(places().identities()).enrol(candidate, "", ledger.key());
-    t.nonce = random_hex(16);
-    t.not_before_utc_ns = read_clocks().utc_ns - k_hour_ns;
-    t.not_after_utc_ns = read_clocks().utc_ns + k_hour_ns;
-    t.artifacts = examined_artifacts(setup->session);
+    const std::int64_t now = read_clocks().utc_ns;
+    Ticket t = promise(*prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
     if (change) change(t);
-    const std::string text = sign_ticket(t, ledger.key());
-    ledger.append("ticket", [&](const LedgerContent&) { return nlohmann::json::parse(text); });
-    return text;
+    return issue(ledger, t, Identities(places().identities()).enrol(candidate, "", ledger.key()));
   }
   /// The exam, sat by a simulated candidate of this skill; `change` may alter what the station runs.
   std::string sit(const std::string& ticket, const std::string& skill = "expert", const std::function<void(ExamOptions&)>& change = {}) const {
