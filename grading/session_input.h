@@ -7,9 +7,16 @@
 #include <vector>
 
 #include "grading/grade.h"
-#include "grading/report.h"
 
 namespace cavum {
+
+/// What a reader is told of a session beside its figures.
+struct ReportFacts {
+  std::string candidate;  ///< pseudonym
+  std::string device, created, session_file, tooth_hash;
+  std::string calibration;               ///< of the device, as text
+  std::vector<std::string> points_toml;  ///< diamond points in the order of the tray
+};
 
 struct GradedSession {
   Scenario scenario;
