@@ -14,8 +14,9 @@ namespace cavum {
 struct ReportFacts {
   std::string candidate;  ///< pseudonym
   std::string device, created, session_file, tooth_hash;
-  std::string calibration;               ///< of the device, as text
-  std::vector<std::string> points_toml;  ///< diamond points in the order of the tray
+  std::string calibration;                                      ///< of the device, as text
+  std::vector<std::string> points_toml;                         ///< diamond points in the order of the tray
+  std::vector<std::pair<std::string, std::string>> notes = {};  ///< of the session: what gave the input, and how
 };
 
 struct GradedSession {

@@ -60,13 +60,13 @@ struct VerdictBox {
 };
 
 struct Picture {
-  std::string svg;    ///< a complete `<svg>` element with width and height, px
-  std::string title;  ///< below it, and for those who cannot see it; may be empty
+  std::string svg;      ///< a complete `<svg>` element with width and height, px
+  std::string title;    ///< below it, and for those who cannot see it; may be empty
   bool raster = false;  ///< drawn in cells that touch: print it as an image, not as lines
 };
 struct Pictures {
   std::vector<Picture> list;
-  int columns = 1;      ///< side by side on paper
+  int columns = 1;  ///< side by side on paper
   bool sections = false;
 };
 

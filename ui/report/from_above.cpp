@@ -21,9 +21,7 @@ struct Colour {
 };
 constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76};
 
-Colour mix(Colour a, Colour b, double share) {
-  return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share};
-}
+Colour mix(Colour a, Colour b, double share) { return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share}; }
 Colour of_deviation(double mm) { return mix(k_planned, mm < 0 ? k_left : k_beyond, std::min(1.0, std::fabs(mm) / k_colours_end_mm)); }
 std::string hex(Colour c) {
   const auto byte = [](double v) {
@@ -103,12 +101,12 @@ Picture picture_from_above(const GradeInput& input) {
 
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
   const double all_width = std::max(width, 420.0), all_height = height + 84;
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) + "' viewBox='0 0 " +
-                    fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' fill='#222222'>\n" +
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
+                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' fill='#222222'>\n" +
                     "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='4' y='15' font-size='12'>&#8593; buccal</text><text x='" +
                     fixed(width - 4, 0) + "' y='15' font-size='12' text-anchor='end'>mesial &#8594;</text>\n";
-  svg += "<image x='0' y='22' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) + "' preserveAspectRatio='none' href='data:image/png;base64," +
-         base64(png_of(image.get())) + "'/>\n";
+  svg += "<image x='0' y='22' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
+         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(png_of(image.get())) + "'/>\n";
   const double key = height + 34;
   constexpr int k_steps = 20;
   constexpr double k_bar_px = 15;

@@ -51,7 +51,10 @@ std::vector<Picture> motion_charts(const ReportSource& s) {
   for (std::size_t i = 0; i < n; i += bin) {
     const std::size_t end = std::min(n, i + bin);
     const double t = static_cast<double>(i) * m.step_s;
-    const auto largest = [&](const auto& values) { return static_cast<double>(*std::max_element(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(end))); };
+    const auto largest = [&](const auto& values) {
+      return static_cast<double>(
+          *std::max_element(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(end)));
+    };
     force.push_back({t, largest(m.force_cn) * 0.01});
     depth.push_back({t, std::max(0.0, largest(m.depth_um) * 1e-3)});
     speed.push_back({t, largest(m.rpm10) * 0.01});

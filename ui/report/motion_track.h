@@ -12,12 +12,12 @@ namespace cavum {
 /// Sample i belongs to i · step_s and what follows until the next.
 struct MotionTrack {
   double step_s = 0.02;
-  std::vector<std::int16_t> x_um, y_um, z_um;         ///< tip, tooth frame, clamped to ±32 mm
-  std::vector<std::int8_t> axis_x, axis_y, axis_z;    ///< from tip to handle, unit vector in 1/127
-  std::vector<std::uint16_t> force_cn;                ///< largest size of the rendered force in the step, 0.01 N
-  std::vector<std::int16_t> depth_um;                 ///< of the tip under the tooth's opening, negative above it
-  std::vector<std::uint16_t> rpm10;                   ///< 10 rpm
-  std::vector<std::uint16_t> tip_um_s;                ///< speed of the tip, mean over the step
+  std::vector<std::int16_t> x_um, y_um, z_um;       ///< tip, tooth frame, clamped to ±32 mm
+  std::vector<std::int8_t> axis_x, axis_y, axis_z;  ///< from tip to handle, unit vector in 1/127
+  std::vector<std::uint16_t> force_cn;              ///< largest size of the rendered force in the step, 0.01 N
+  std::vector<std::int16_t> depth_um;               ///< of the tip under the tooth's opening, negative above it
+  std::vector<std::uint16_t> rpm10;                 ///< 10 rpm
+  std::vector<std::uint16_t> tip_um_s;              ///< speed of the tip, mean over the step
   [[nodiscard]] std::size_t size() const noexcept { return x_um.size(); }
 };
 

@@ -42,7 +42,8 @@ ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::
   if (is(ExamEventKind::over_speed)) say("violation", "handpiece faster than " + plain_number(input.scenario.max_rpm) + " rpm");
   if (is(ExamEventKind::point_not_allowed)) {
     std::string name;
-    if (detail.is_object() && detail.contains("point") && detail["point"].is_number_unsigned() && detail["point"].get<std::size_t>() < points_toml.size())
+    if (detail.is_object() && detail.contains("point") && detail["point"].is_number_unsigned() &&
+        detail["point"].get<std::size_t>() < points_toml.size())
       name = parse_diamond_point(points_toml[detail["point"].get<std::size_t>()], "diamond point of the session").title;
     say("violation", "diamond point not allowed here" + (name.empty() ? "" : ": " + name));
   }

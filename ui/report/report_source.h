@@ -23,7 +23,7 @@ struct ReportIntegrity {
   std::string file;  ///< without its folder
   std::string file_sha256, chain_sha256, final_tooth_sha256, result_sha256, station_key, closed_utc;
   Replay replay = Replay::not_done;
-  bool at_filing = false;  ///< `replay` was done when the ledger took the session in
+  bool at_filing = false;                              ///< `replay` was done when the ledger took the session in
   std::vector<std::string> proved, findings, remarks;  ///< as explain_session says them
 };
 
@@ -60,11 +60,11 @@ struct ReportSource {
   const ReportFacts& facts;
   const Comparison* regrade = nullptr;  ///< what the session was sealed with, where this result is another one
   ReportReader reader = ReportReader::instructor;
-  ReportIntegrity integrity;
-  std::optional<ReportFiling> filing;
-  RubricSpec rubric;                ///< that the result was marked by
-  std::vector<Why> lost;            ///< of each criterion that lost points
-  std::vector<ReportEvent> events;  ///< in order of time
+  ReportIntegrity integrity = {};
+  std::optional<ReportFiling> filing = {};
+  RubricSpec rubric = {};                ///< that the result was marked by
+  std::vector<Why> lost = {};            ///< of each criterion that lost points
+  std::vector<ReportEvent> events = {};  ///< in order of time
 };
 
 /// With what follows from the result: `lost` and `events`. The references must outlive it.

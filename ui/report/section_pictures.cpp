@@ -59,8 +59,8 @@ std::vector<Wish> wishes(const Result& r, const GradeInput& input) {
   const auto over = worst(r, &WallMeasures::max_over_mm, &WallMeasures::worst_over);
   const auto under = worst(r, &WallMeasures::max_under_mm, &WallMeasures::worst_under);
   const auto named = [](const char* what, const Worst& w) {
-    return std::string("worst ") + what + ", " + fixed(w.mm, 2) + " mm at the " + (w.wall == static_cast<std::size_t>(Wall::floor) ? "" : "wall towards ") +
-           wall_name(static_cast<Wall>(w.wall));
+    return std::string("worst ") + what + ", " + fixed(w.mm, 2) + " mm at the " +
+           (w.wall == static_cast<std::size_t>(Wall::floor) ? "" : "wall towards ") + wall_name(static_cast<Wall>(w.wall));
   };
   if (const PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const View v : {View::mesio_distal, View::bucco_lingual}) list.push_back({v, p.first.site_mm, p.tissue + " broken into here"});

@@ -11,13 +11,13 @@
 namespace cavum {
 
 struct ToothGrid {
-  int edge_leaves = 2;                ///< a cell is so many leaves wide
-  double cell_mm = 0.1;               ///< edge of a cell
-  IVec3 low_leaf;                     ///< lowest leaf of cell (0,0,0); may lie outside the octree
-  Vec3 origin_mm;                     ///< centre of cell (0,0,0), tooth frame
-  IVec3 size;                         ///< cells along x, y, z; at least two without any tissue on every side
-  std::vector<std::uint16_t> solid;   ///< solid leaves of each cell, x fastest
-  std::vector<std::uint8_t> tissue;   ///< id of the solid tissue that fills most of the cell, else of what is there
+  int edge_leaves = 2;               ///< a cell is so many leaves wide
+  double cell_mm = 0.1;              ///< edge of a cell
+  IVec3 low_leaf;                    ///< lowest leaf of cell (0,0,0); may lie outside the octree
+  Vec3 origin_mm;                    ///< centre of cell (0,0,0), tooth frame
+  IVec3 size;                        ///< cells along x, y, z; at least two without any tissue on every side
+  std::vector<std::uint16_t> solid;  ///< solid leaves of each cell, x fastest
+  std::vector<std::uint8_t> tissue;  ///< id of the solid tissue that fills most of the cell, else of what is there
   [[nodiscard]] int cell_leaves() const noexcept { return edge_leaves * edge_leaves * edge_leaves; }
   [[nodiscard]] std::size_t index(IVec3 cell) const noexcept {
     return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(cell.y)) *
