@@ -1,0 +1,65 @@
+// The colour map of the signed distance to the target: discrete bands, orange with stripes where too much went (+), blue with dots where target was
+// left standing (−), told apart without colour too. The same numbers colour the tooth and its key.
+
+export const k_bands = 5;
+export const k_over = ["#fdd9b5", "#fdb777", "#f58f3d", "#dd6410", "#9c3a02"];
+export const k_under = ["#cfe1f2", "#9fc8e6", "#63a5d6", "#2b78bd", "#0b4488"];
+export const k_within = "#f2f1ec";
+
+/** Lower edges of the bands in units of the whole: below the first everything counts as on target. */
+export const k_distance_edges = [0.2, 0.4, 0.6, 0.8, 1];
+export const k_heat_edges = [0.05, 0.1, 0.25, 0.5, 0.75];
+
+export function rgb_of(colour: string): [number, number, number] {
+  const v = parseInt(colour.slice(1), 16);
+  return [(v >> 16) / 255, ((v >> 8) & 255) / 255, (v & 255) / 255];
+}
+
+/** `+0.32 mm overcut`, `−0.15 mm left standing`, in words for the value under the pointer. */
+export function distance_text(mm: number, saturates_mm: number, edges: readonly number[] = k_distance_edges): string {
+  const value = `${mm < 0 ? "−" : "+"}${Math.abs(mm).toFixed(2)} mm`;
+  if (Math.abs(mm) < edges[0] * saturates_mm) return `${value}, on target`;
+  return `${value} ${mm > 0 ? "overcut" : "left standing"}`;
+}
+
+function swatch(kind: "over" | "under" | "within", colour: string): HTMLElement {
+  const element = document.createElement("span");
+  element.className = `swatch ${kind}`;
+  element.style.backgroundColor = colour;
+  return element;
+}
+
+/** The key: one row of bands from left standing to overcut, with the edges' numbers and their signs. */
+export function key_element(edges: readonly number[], whole: number, unit: string, digits: number, title: string, words: { over: string; under: string; within: string }): HTMLElement {
+  const key = document.createElement("figure");
+  key.className = "key";
+  const caption = document.createElement("figcaption");
+  caption.textContent = title;
+  const row = document.createElement("div");
+  row.className = "bands";
+  const text = (v: number): string => (v * whole).toFixed(digits);
+  const band = (kind: "over" | "under" | "within", colour: string, label: string): void => {
+    const cell = document.createElement("div");
+    const number = document.createElement("span");
+    number.textContent = label;
+    cell.append(swatch(kind, colour), number);
+    row.append(cell);
+  };
+  for (let i = k_bands - 1; i >= 0; --i) band("under", k_under[i], i === k_bands - 1 ? `below −${text(edges[i])}` : `−${text(edges[i])}`);
+  band("within", k_within, `±${text(edges[0])}`);
+  for (let i = 0; i < k_bands; ++i) band("over", k_over[i], i === k_bands - 1 ? `above +${text(edges[i])}` : `+${text(edges[i])}`);
+  const ends = document.createElement("div");
+  ends.className = "ends";
+  for (const [name, word] of [["under", `− ${words.under}`], ["within", words.within], ["over", `+ ${words.over}`]]) {
+    const end = document.createElement("span");
+    end.className = name;
+    end.textContent = word;
+    ends.append(end);
+  }
+  const unit_note = document.createElement("span");
+  unit_note.className = "unit";
+  unit_note.textContent = unit;
+  caption.append(" ", unit_note);
+  key.append(caption, row, ends);
+  return key;
+}

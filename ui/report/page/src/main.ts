@@ -1,0 +1,96 @@
+// The report's page: fills in the 3D view, the scrubber and the charts, and wires the buttons that jump to a moment. Everything else in the
+// document was written by the program and stays as it is.
+import { Charts } from "./charts.ts";
+import { Clock } from "./clock.ts";
+import { read_data, type ReportData, type Vec3 } from "./data.ts";
+import { k_distance_edges, k_heat_edges } from "./deviation.ts";
+import { make, reduced_motion } from "./dom.ts";
+import { Recording } from "./motion.ts";
+import { Player } from "./player.ts";
+import { ToothControls } from "./tooth_controls.ts";
+import { ToothField } from "./tooth_field.ts";
+import { ToothView } from "./view.ts";
+
+function say_why(section: HTMLElement, why: string): void {
+  let place = section.querySelector(".fallback");
+  if (!place) {
+    place = make("p", { class: "fallback" });
+    section.append(place);
+  }
+  place.textContent = why;
+}
+
+function webgl_works(): boolean {
+  try {
+    return document.createElement("canvas").getContext("webgl2") !== null;
+  } catch {
+    return false;
+  }
+}
+
+function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): ToothView | null {
+  if (!webgl_works()) {
+    say_why(section, "The tooth cannot be shown in 3D: this browser offers no WebGL 2 here (it may be switched off, or the graphics driver may not support it). Everything else on this page works.");
+    return null;
+  }
+  const heat = data.kind === "class";
+  const edges = heat ? k_heat_edges : k_distance_edges;
+  const whole = heat ? 1 : (data.scale_mm ?? 0.5);
+  const field = new ToothField(data);
+  const canvas = make("canvas");
+  const controls = new ToothControls(canvas, field, data, { edges, whole, with_instrument: (data.instruments ?? []).length > 0, go_to: clock ? (t) => { clock.pause(); clock.set(t); } : undefined });
+  section.append(controls.frame, controls.panel);
+  try {
+    const view = new ToothView(canvas, field, data, { edges, whole });
+    controls.connect(view);
+    section.querySelector(".fallback")?.remove();
+    return view;
+  } catch (error) {
+    controls.frame.remove();
+    controls.panel.remove();
+    say_why(section, `The tooth cannot be shown in 3D: ${error instanceof Error ? error.message : String(error)}. Everything else on this page works.`);
+    return null;
+  }
+}
+
+function start(): void {
+  const data = read_data(document);
+  document.documentElement.classList.add("scripted");
+  document.documentElement.classList.toggle("high-contrast", data.high_contrast === true);
+  const session = data.kind === "session" && data.motion !== undefined;
+  const clock = session ? new Clock(data.duration_s ?? 0) : null;
+  const tooth = document.getElementById("tooth-3d");
+  const view = tooth ? tooth_in(tooth, data, clock) : null;
+  if (!clock || !data.motion) return;
+
+  const events = [...(data.events ?? [])].sort((a, b) => a.t_s - b.t_s);
+  const recording = new Recording(data.motion);
+  clock.on_time((t) => view?.show(t, recording.at(t)));
+  const player = new Player(clock, events, (event) => view?.mark(event.site_mm));
+  if (tooth) {
+    const frame = tooth.querySelector(".view");
+    if (frame) frame.after(player.element);
+    else tooth.append(player.element);
+  }
+  const charts = document.getElementById("charts");
+  if (charts && recording.n > 0) new Charts(charts, recording, events, clock);
+
+  for (const jump of document.querySelectorAll<HTMLElement>(".jump"))
+    jump.addEventListener("click", () => {
+      clock.pause();
+      clock.set(Number(jump.dataset.t));
+      const site = [jump.dataset.x, jump.dataset.y, jump.dataset.z];
+      view?.mark(site.every((v) => v !== undefined) ? (site.map(Number) as Vec3) : null);
+      tooth?.scrollIntoView({ behavior: reduced_motion() ? "auto" : "smooth", block: "start" });
+    });
+
+  const from_address = (): void => {
+    const found = /^#t=([0-9]+(?:\.[0-9]+)?)$/.exec(location.hash);
+    if (found) clock.set(Number(found[1]));
+  };
+  window.addEventListener("hashchange", from_address);
+  clock.set(clock.duration_s); // what the exam left
+  from_address();
+}
+
+start();

@@ -1,0 +1,409 @@
+// The 3D view: the tooth with its colours, the section where it is cut away, the target's outline, the instrument, the marked place. It draws only
+// when something changed.
+import * as THREE from "three";
+import type { Instrument, ReportData, Vec3 } from "./data.ts";
+import { instrument_mesh, pose_instrument } from "./instrument.ts";
+import type { Sample } from "./motion.ts";
+import { k_views, Orbit } from "./orbit.ts";
+import { type Clip, in_sight, outward_at, probe, type Reading } from "./probe.ts";
+import type { Block, ToothField } from "./tooth_field.ts";
+import { section_material, shared_uniforms, type SharedUniforms, tooth_material } from "./tooth_material.ts";
+import { heat_at, type Surface, target_surface, ToothSurface } from "./tooth_surface.ts";
+import { Surroundings } from "./surroundings.ts";
+
+export interface ViewOptions {
+  edges: readonly number[];
+  whole: number;
+}
+
+const k_back = 0xf4f5f3;
+
+/** Geometry whose arrays grow with what is put into it. */
+class Growing {
+  readonly geometry = new THREE.BufferGeometry();
+  private capacity = { vertices: 0, indices: 0 };
+
+  put(surface: Surface): void {
+    const vertices = surface.cubes.length;
+    const indices = surface.triangles.length;
+    if (vertices > this.capacity.vertices || indices > this.capacity.indices) {
+      this.geometry.dispose();
+      this.capacity = { vertices: Math.ceil(vertices * 1.3), indices: Math.ceil(indices * 1.3) };
+      const { vertices: v, indices: i } = this.capacity;
+      this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * v), 3));
+      this.geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * v), 3));
+      this.geometry.setAttribute("tissue_colour", new THREE.BufferAttribute(new Uint8Array(3 * v), 3, true));
+      this.geometry.setAttribute("marks", new THREE.BufferAttribute(new Float32Array(2 * v), 2));
+      this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(i), 1));
+    }
+    const fill = (attribute: THREE.BufferAttribute, values: ArrayLike<number>): void => {
+      attribute.array.set(values);
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(0, values.length);
+      attribute.needsUpdate = true;
+    };
+    const of = (name: string): THREE.BufferAttribute => this.geometry.getAttribute(name) as THREE.BufferAttribute;
+    fill(of("position"), surface.positions);
+    fill(of("normal"), surface.normals);
+    fill(of("tissue_colour"), surface.colours);
+    fill(of("marks"), surface.marks);
+    fill(this.geometry.index!, surface.triangles);
+    this.geometry.setDrawRange(0, indices);
+  }
+}
+
+function volume_texture(data: Uint8Array, size: Vec3, filter: THREE.MagnificationTextureFilter): THREE.Data3DTexture {
+  const texture = new THREE.Data3DTexture(data as Uint8Array<ArrayBuffer>, ...size);
+  texture.format = THREE.RedFormat;
+  texture.type = THREE.UnsignedByteType;
+  texture.minFilter = texture.magFilter = filter;
+  texture.wrapS = texture.wrapT = texture.wrapR = THREE.ClampToEdgeWrapping;
+  texture.unpackAlignment = 1;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function bytes_of(values: Float32Array, whole: Vec3, block: Block, into: Uint8Array): void {
+  let i = 0;
+  for (let z = block.low[2]; z < block.low[2] + block.size[2]; ++z)
+    for (let y = block.low[1]; y < block.low[1] + block.size[1]; ++y) {
+      const from = (z * whole[1] + y) * whole[0] + block.low[0];
+      for (let x = 0; x < block.size[0]; ++x) into[i++] = values[from + x] * 255 + 0.5;
+    }
+}
+
+export class ToothView {
+  readonly orbit: Orbit;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly surface: ToothSurface;
+  private readonly growing = new Growing();
+  private readonly shared: SharedUniforms;
+  private readonly surroundings: Surroundings;
+  private readonly density: THREE.Data3DTexture;
+  private readonly still: { surface: Surface; geometry: THREE.BufferGeometry };
+  private deeper_mm = 0;
+  private readonly section: THREE.Mesh;
+  private readonly moving_bytes: Uint8Array;
+  private readonly moving_texture: THREE.Data3DTexture;
+  private readonly target = new THREE.Group();
+  private readonly marker: THREE.Group;
+  private instruments: { from_s: number; group: THREE.Group }[] = [];
+  private clip: Clip | null = null;
+  private section_version = -1;
+  private with_instrument = true;
+  private pending = false;
+  private sampled: Sample | null = null;
+  private sampled_s = 0;
+  readonly centre: THREE.Vector3;
+  readonly radius: number;
+  /** Called after each picture with the time that updating the mesh took, ms (0 when it was not). */
+  mesh_ms = 0;
+
+  /** Throws when WebGL is not to be had. */
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly field: ToothField, data: ReportData, options: ViewOptions) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setClearColor(k_back);
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    const { cell_mm, origin_mm, size } = field;
+    const place = (object: THREE.Object3D, low: Vec3): void => {
+      object.position.set(...(origin_mm.map((o, a) => o + low[a] * cell_mm) as Vec3));
+      object.scale.setScalar(cell_mm);
+    };
+
+    this.shared = shared_uniforms(options.edges, options.whole);
+    this.surface = new ToothSurface(field, data);
+    this.surroundings = new Surroundings(field);
+    const density = (this.density = volume_texture(this.surroundings.bytes, this.surroundings.size, THREE.LinearFilter));
+    const coarse_mm = this.surroundings.cell_mm;
+    const material = tooth_material(this.shared, {
+      density: { value: density },
+      density_low: { value: new THREE.Vector3(...origin_mm).subScalar(cell_mm / 2) },
+      density_size: { value: new THREE.Vector3(...this.surroundings.size).multiplyScalar(coarse_mm) },
+      back_colour: { value: new THREE.Vector3(0.55, 0.5, 0.45) },
+    });
+    const still = new THREE.BufferGeometry();
+    const surface = this.surface.still();
+    this.still = { surface, geometry: still };
+    still.setAttribute("position", new THREE.BufferAttribute(surface.positions, 3));
+    still.setAttribute("normal", new THREE.BufferAttribute(surface.normals, 3));
+    still.setAttribute("tissue_colour", new THREE.BufferAttribute(surface.colours, 3, true));
+    still.setAttribute("marks", new THREE.BufferAttribute(surface.marks, 2));
+    still.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
+    for (const geometry of [still, this.growing.geometry]) {
+      const mesh = new THREE.Mesh(geometry, material);
+      mesh.frustumCulled = false;
+      place(mesh, [0, 0, 0]);
+      this.scene.add(mesh);
+    }
+    const bounds = solid_bounds(field);
+    this.centre = bounds.centre;
+    this.radius = bounds.radius;
+
+    // the section
+    const moving = field.moving ?? { low: [0, 0, 0] as Vec3, size: [1, 1, 1] as Vec3 };
+    const whole_bytes = new Uint8Array(field.values.length);
+    bytes_of(field.untouched, size, { low: [0, 0, 0], size }, whole_bytes);
+    this.moving_bytes = new Uint8Array(moving.size[0] * moving.size[1] * moving.size[2]);
+    this.moving_texture = volume_texture(this.moving_bytes, moving.size, THREE.LinearFilter);
+    const distance_bytes = Uint8Array.from(field.distance, (d) => d + 128);
+    const palette = Array.from({ length: 16 }, (_, i) => {
+      const colour = new THREE.Color(data.tissues[i]?.colour ?? "#cccccc").convertLinearToSRGB();
+      return new THREE.Vector3(colour.r, colour.g, colour.b);
+    });
+    this.section = new THREE.Mesh(
+      new THREE.PlaneGeometry(2 * this.radius, 2 * this.radius),
+      section_material(this.shared, {
+        still_share: { value: volume_texture(whole_bytes, size, THREE.LinearFilter) },
+        moving_share: { value: this.moving_texture },
+        tissue: { value: volume_texture(field.tissue, size, THREE.NearestFilter) },
+        distance_box: { value: volume_texture(distance_bytes, field.box.size, THREE.LinearFilter) },
+        low: { value: new THREE.Vector3(...origin_mm) },
+        cells: { value: new THREE.Vector3(...size) },
+        moving_low: { value: new THREE.Vector3(...moving.low) },
+        moving_cells: { value: new THREE.Vector3(...(field.moving ? moving.size : ([0, 0, 0] as Vec3))) },
+        box_low: { value: new THREE.Vector3(...field.box.low) },
+        box_cells: { value: new THREE.Vector3(...field.box.size) },
+        cell: { value: cell_mm },
+        palette: { value: palette },
+        filled: { value: Array.from({ length: 16 }, (_, i) => (data.tissues[i] && !data.tissues[i].solid && data.tissues[i].name !== "air" ? 1 : 0)) },
+        with_target: { value: true },
+      }),
+    );
+    this.section.visible = false;
+    this.scene.add(this.section);
+
+    this.target.visible = false;
+    const outline = target_surface(field);
+    const shape = new THREE.BufferGeometry();
+    shape.setAttribute("position", new THREE.BufferAttribute(outline.positions.slice(), 3));
+    shape.setAttribute("normal", new THREE.BufferAttribute(outline.normals.slice(), 3));
+    shape.setIndex(new THREE.BufferAttribute(outline.triangles.slice(), 1));
+    for (const [opacity, through] of [[0.42, false], [0.16, true]] as [number, boolean][]) {
+      const mesh = new THREE.Mesh(shape, outline_material(this.shared, opacity, through));
+      mesh.renderOrder = 2;
+      mesh.frustumCulled = false;
+      place(mesh, field.box.low);
+      this.target.add(mesh);
+    }
+    this.scene.add(this.target);
+
+    this.marker = marker_of();
+    this.scene.add(this.marker);
+    this.set_instruments(data.instruments ?? []);
+    const sun = new THREE.DirectionalLight(0xffffff, 2.2);
+    sun.position.set(-0.5, 0.7, 0.8);
+    this.orbit = new Orbit(canvas, { centre: this.centre, radius: this.radius }, () => this.redraw());
+    this.orbit.camera.add(sun);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x999999, 1.6), this.orbit.camera);
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+    this.show(0, null);
+  }
+
+  /** The tooth and the instrument at a time. */
+  show(t_s: number, sample: Sample | null): void {
+    this.sampled = sample;
+    this.sampled_s = t_s;
+    this.redraw();
+  }
+
+  set_colouring(by_deviation: boolean): void {
+    this.shared.by_deviation.value = by_deviation;
+    this.redraw();
+  }
+
+  set_target(visible: boolean): void {
+    this.target.visible = visible;
+    this.redraw();
+  }
+
+  set_instrument(visible: boolean): void {
+    this.with_instrument = visible;
+    this.redraw();
+  }
+
+  /** Cuts the tooth away beyond a plane; null shows it whole. */
+  set_clip(clip: Clip | null): void {
+    this.clip = clip;
+    const n = clip ? new THREE.Vector3(...clip.normal) : new THREE.Vector3();
+    (this.shared.clip.value as THREE.Vector4).set(n.x, n.y, n.z, clip ? clip.offset_mm : 1);
+    this.section.visible = clip !== null;
+    if (clip) {
+      this.section.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), n);
+      this.section.position.copy(this.centre).addScaledVector(n, clip.offset_mm - n.dot(this.centre) - 1e-3);
+      this.section.updateMatrixWorld();
+    }
+    this.redraw();
+  }
+
+  /** Marks a place and, when it is hidden, turns until it is seen; null takes the mark away. */
+  mark(place_mm: Vec3 | null): void {
+    this.marker.visible = place_mm !== null;
+    if (place_mm) {
+      this.marker.position.set(...place_mm);
+      this.update_tooth();
+      this.face(place_mm);
+    }
+    this.redraw();
+  }
+
+  /** What lies under a point of the canvas, in CSS pixels from its upper left corner. */
+  read(x: number, y: number): Reading | null {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.orbit.camera);
+    return probe(this.field, ray.ray.origin.toArray() as Vec3, ray.ray.direction.toArray() as Vec3, this.clip);
+  }
+
+  /** For a class: shows the share that deviated by more than `deeper_mm`. */
+  set_heat_depth(deeper_mm: number): void {
+    this.deeper_mm = deeper_mm;
+    this.still.geometry.setAttribute("marks", new THREE.BufferAttribute(this.surface.heat_marks(this.still.surface, deeper_mm), 2));
+    this.redraw();
+  }
+
+  /** For a class: the share of it, per cent, that deviated at a place of the surface; null where nothing is known. */
+  heat_at(place_mm: Vec3): number | null {
+    return heat_at(this.field, place_mm, outward_at(this.field, place_mm), this.deeper_mm);
+  }
+
+  redraw(): void {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => {
+      this.pending = false;
+      this.draw();
+    });
+  }
+
+  draw(): void {
+    this.update_tooth();
+    this.update_section();
+    this.update_instrument();
+    const size = this.orbit.camera.position.distanceTo(this.marker.position) * 0.018;
+    this.marker.scale.setScalar(size);
+    this.marker.quaternion.copy(this.orbit.camera.quaternion);
+    this.renderer.render(this.scene, this.orbit.camera);
+  }
+
+  private update_tooth(): void {
+    const begin = performance.now();
+    if (!this.field.set_time(this.sampled_s)) return;
+    const surface = this.surface.moving();
+    if (surface) this.growing.put(surface);
+    this.surroundings.update();
+    this.density.needsUpdate = true;
+    this.mesh_ms = performance.now() - begin;
+  }
+
+  private update_section(): void {
+    if (!this.section.visible || this.section_version === this.field.version || !this.field.moving) return;
+    this.section_version = this.field.version;
+    bytes_of(this.field.values, this.field.size, this.field.moving, this.moving_bytes);
+    this.moving_texture.needsUpdate = true;
+  }
+
+  private update_instrument(): void {
+    let current: THREE.Group | null = null;
+    for (const { from_s, group } of this.instruments) {
+      if (from_s <= this.sampled_s || current === null) current = group;
+      group.visible = false;
+    }
+    if (!current || !this.sampled || !this.with_instrument) return;
+    current.visible = true;
+    pose_instrument(current, new THREE.Vector3(...this.sampled.tip_mm), new THREE.Vector3(...this.sampled.axis));
+  }
+
+  private set_instruments(list: Instrument[]): void {
+    this.instruments = [...list].sort((a, b) => a.from_s - b.from_s).map((i) => ({ from_s: i.from_s, group: instrument_mesh(i) }));
+    for (const { group } of this.instruments) this.scene.add(group);
+  }
+
+  private face(place_mm: Vec3): void {
+    const towards = this.orbit.camera.position.clone().sub(new THREE.Vector3(...place_mm)).normalize();
+    if (in_sight(this.field, place_mm, towards.toArray() as Vec3)) return;
+    for (const elevation_deg of [45, 65, 90, 20, 0, -20])
+      for (let i = 0; i < 8; ++i) {
+        const azimuth_deg = k_views.oblique.azimuth_deg + 45 * (i % 2 ? (i + 1) / 2 : -i / 2);
+        const [a, e] = [(azimuth_deg * Math.PI) / 180, (elevation_deg * Math.PI) / 180];
+        if (!in_sight(this.field, place_mm, [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)])) continue;
+        this.orbit.look({ azimuth_deg, elevation_deg });
+        return;
+      }
+  }
+
+  private resize(): void {
+    const width = Math.max(this.canvas.parentElement!.clientWidth, 1);
+    const height = Math.max(this.canvas.parentElement!.clientHeight, 1);
+    this.renderer.setSize(width, height, false);
+    this.orbit.resize(width, height);
+    this.draw();
+  }
+}
+
+/** The sphere around all solid tissue. */
+function solid_bounds(field: ToothField): { centre: THREE.Vector3; radius: number } {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  const [nx, ny, nz] = field.size;
+  let at = 0;
+  for (let z = 0; z < nz; ++z)
+    for (let y = 0; y < ny; ++y)
+      for (let x = 0; x < nx; ++x, ++at)
+        if (field.untouched[at] > 0.5) {
+          if (x < low[0]) low[0] = x;
+          if (y < low[1]) low[1] = y;
+          if (z < low[2]) low[2] = z;
+          if (x > high[0]) high[0] = x;
+          if (y > high[1]) high[1] = y;
+          if (z > high[2]) high[2] = z;
+        }
+  const centre = new THREE.Vector3(...([0, 1, 2].map((a) => field.origin_mm[a] + ((low[a] + high[a]) / 2) * field.cell_mm) as Vec3));
+  const radius = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) * 0.5 * field.cell_mm;
+  return { centre, radius };
+}
+
+function outline_material(shared: SharedUniforms, opacity: number, through: boolean): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    uniforms: { clip: shared.clip, opacity: { value: opacity } },
+    vertexShader: /* glsl */ `
+varying vec3 v_world, v_normal, v_view;
+void main() {
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  vec4 view = viewMatrix * world;
+  v_world = world.xyz; v_normal = mat3(viewMatrix) * normal; v_view = view.xyz;
+  gl_Position = projectionMatrix * view;
+}`,
+    fragmentShader: /* glsl */ `
+uniform vec4 clip; uniform float opacity;
+varying vec3 v_world, v_normal, v_view;
+void main() {
+  if (dot(clip.xyz, v_world) > clip.w) discard;
+  float s = v_world.z / 0.5, w = fwidth(s);
+  float line = 1.0 - smoothstep(0.5, 1.5, abs(fract(s + 0.5) - 0.5) / max(w, 1e-5));
+  line *= 1.0 - smoothstep(0.2, 0.6, w);
+  float facing = abs(dot(normalize(v_normal), normalize(v_view)));
+  gl_FragColor = vec4(0.0, 0.36, 0.40, opacity * (0.45 + 0.55 * (1.0 - facing) + 0.9 * line));
+}`,
+    transparent: true,
+    depthWrite: false,
+    depthTest: !through,
+    side: THREE.DoubleSide,
+  });
+}
+
+/** A ring with a point, of one size on the screen, seen through everything. */
+function marker_of(): THREE.Group {
+  const group = new THREE.Group();
+  const part = (geometry: THREE.BufferGeometry, colour: number, order: number): void => {
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: colour, depthTest: false, depthWrite: false, transparent: true }));
+    mesh.renderOrder = order;
+    group.add(mesh);
+  };
+  part(new THREE.RingGeometry(0.78, 1.22, 48), 0xffffff, 5);
+  part(new THREE.RingGeometry(0.86, 1.14, 48), 0x8a0064, 6);
+  part(new THREE.CircleGeometry(0.3, 24), 0xffffff, 5);
+  part(new THREE.CircleGeometry(0.22, 24), 0x8a0064, 6);
+  group.visible = false;
+  return group;
+}
