@@ -10,10 +10,10 @@
 
 #include "engine/base/file.h"
 #include "grading/cohort/simulated_class.h"
-#include "ui/cohort_page.h"
 #include "ui/number_check.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
+#include "ui/report/class_report.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -60,8 +60,11 @@ void report(const Options& o) {
   }
   const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
   if (!o.out.empty()) {
+    if (!o.out.ends_with(".pdf") && !o.out.ends_with(".html"))
+      throw Error("--out " + o.out, "is no kind of report", "use a name ending in .html or .pdf");
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
-    write_text_file(o.out, class_html(figures, *cohort::class_tooth(registry, places, o.exam)));
+    const auto tooth = cohort::class_tooth(registry, places, o.exam);
+    write_text_file(o.out, o.out.ends_with(".pdf") ? class_pdf(figures, *tooth) : class_html(figures, *tooth));
   }
   if (o.as_json) {
     print_json(to_json(figures));
@@ -95,7 +98,7 @@ void add_cohort_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--exam", o->exam, "id of the scenario")->required();
   v->add_option("--marks", o->marks, "people's marks, CSV `candidate,judge,points[,rating]`");
   v->add_option("--borderline", o->borderline, "the rating that means borderline")->check(between(-1000, 1000))->capture_default_str();
-  v->add_option("--out", o->out, "also a page (.html)");
+  v->add_option("--out", o->out, "also a report (.html or .pdf)");
   v->add_flag("--json", o->as_json, "one JSON object on stdout");
   v->callback([o, &exit_code] {
     report(*o);

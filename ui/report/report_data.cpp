@@ -15,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_colours_end_mm = 0.5;  // beyond this deviation from the target colours differ no more
 constexpr double k_silhouette_step_mm = 0.1, k_silhouette_mm = 12.0;
 
 double rounded(double v, double unit) { return std::round(v / unit) * unit; }
@@ -23,30 +22,13 @@ json point(Vec3 p) { return {rounded(p.x, 1e-4), rounded(p.y, 1e-4), rounded(p.z
 json cells(IVec3 v) { return {v.x, v.y, v.z}; }
 json site(const std::optional<Vec3>& p) { return p ? point(*p) : json(); }
 
-json tissues_json(const ReportSource& s) {
-  const auto& tissues = s.input.before.tissues;
-  std::size_t most = 0;
-  for (const auto& t : tissues) most = std::max<std::size_t>(most, t.id);
-  json list = json::array();
-  for (std::size_t id = 0; id <= most; ++id) list.push_back({{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
-  for (const auto& t : tissues)
-    list[t.id] = {{"name", t.name}, {"colour", tissue_colour(t.id, s.input.scenario.accommodations.high_contrast)}, {"solid", t.solid}};
-  return list;
-}
-
 json grid_json(const ReportSource& s) {
   const ToothGrid g = make_tooth_grid(s.input.before);
   const ChangedCells c = make_changed_cells(g, s.input);
-  return {{"cell_mm", g.cell_mm},
-          {"origin_mm", point(g.origin_mm)},
-          {"size", cells(g.size)},
-          {"before", packed_array(shares_of(g.solid, g.cell_leaves()))},
-          {"tissue", packed_array(g.tissue)},
-          {"box", {{"low", cells(c.low)}, {"size", cells(c.size)}}},
-          {"after", packed_array(shares_of(c.solid, g.cell_leaves()))},
-          {"first", packed_array(c.first)},
-          {"last", packed_array(c.last)},
-          {"distance", packed_array(c.distance)}};
+  json grid = cells_json(g, c);
+  grid["first"] = packed_array(c.first);
+  grid["last"] = packed_array(c.last);
+  return grid;
 }
 
 json motion_json(const ReportSource& s) {
@@ -85,6 +67,26 @@ json instruments_json(const ReportSource& s) {
 
 }  // namespace
 
+json tissues_json(const Tooth& tooth, bool high_contrast) {
+  std::size_t most = 0;
+  for (const auto& t : tooth.tissues) most = std::max<std::size_t>(most, t.id);
+  json list = json::array();
+  for (std::size_t id = 0; id <= most; ++id) list.push_back({{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
+  for (const auto& t : tooth.tissues) list[t.id] = {{"name", t.name}, {"colour", tissue_colour(t.id, high_contrast)}, {"solid", t.solid}};
+  return list;
+}
+
+json cells_json(const ToothGrid& g, const ChangedCells& c) {
+  return {{"cell_mm", g.cell_mm},
+          {"origin_mm", point(g.origin_mm)},
+          {"size", cells(g.size)},
+          {"before", packed_array(shares_of(g.solid, g.cell_leaves()))},
+          {"tissue", packed_array(g.tissue)},
+          {"box", {{"low", cells(c.low)}, {"size", cells(c.size)}}},
+          {"after", packed_array(shares_of(c.solid, g.cell_leaves()))},
+          {"distance", packed_array(c.distance)}};
+}
+
 json report_data(const ReportSource& s) {
   json events = json::array(), moments = json::array();
   for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", e.kind}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
@@ -103,7 +105,7 @@ json report_data(const ReportSource& s) {
           {"title", report_title(s)},
           {"duration_s", static_cast<double>(s.input.records.size()) * k_tick_s},
           {"high_contrast", s.input.scenario.accommodations.high_contrast},
-          {"tissues", tissues_json(s)},
+          {"tissues", tissues_json(s.input.before, s.input.scenario.accommodations.high_contrast)},
           {"grid", grid_json(s)},
           {"scale_mm", k_colours_end_mm},
           {"motion", motion_json(s)},

@@ -1,0 +1,220 @@
+#include "ui/report/class_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "scenarios/picture.h"
+#include "ui/chart_svg.h"
+#include "ui/report/html_writer.h"
+#include "ui/report/pdf_writer.h"
+
+namespace cavum {
+namespace {
+
+using cohort::ClassFigures;
+using cohort::ClassTooth;
+
+constexpr int k_bins = 20;
+
+std::string number(const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : "–"; }
+std::string count(std::size_t n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
+
+/// Points of the class in twentieths of the whole, and the cut.
+Picture distribution(const ClassFigures& f) {
+  std::vector<double> in_bin(k_bins, 0.0);
+  for (const double p : f.points) in_bin[static_cast<std::size_t>(std::clamp(static_cast<int>(p / f.max_points * k_bins), 0, k_bins - 1))] += 1;
+  Chart c;
+  c.x_label = "points";
+  c.y_label = "candidates";
+  ChartSeries steps;
+  steps.colour = "#0072b2";
+  for (int i = 0; i < k_bins; ++i) {
+    steps.points.push_back({f.max_points * i / k_bins, in_bin[static_cast<std::size_t>(i)]});
+    steps.points.push_back({f.max_points * (i + 1) / k_bins, in_bin[static_cast<std::size_t>(i)]});
+  }
+  c.series = {steps};
+  c.x_range = {0, f.max_points};
+  c.y_range = {0, 1.15 * std::max(1.0, *std::max_element(in_bin.begin(), in_bin.end()))};
+  c.marks = {{f.pass_points, true, "pass mark"}};
+  if (f.agreement.cut) c.marks.push_back({*f.agreement.cut, true, "borderline regression"});
+  c.width_px = 760;
+  c.height_px = 300;
+  return {svg_page(c.width_px, c.height_px, chart_group(c, 0, 0)), "How the points of the class lie around the pass mark"};
+}
+
+ReportTable key_figures(const ClassFigures& f) {
+  ReportTable t{{{"Figure", false, 3}, {"Value", true, 2}, {"What it says", false, 6}}, {}, "The class in figures"};
+  const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
+  row("mean", fixed(f.mean, 1) + " of " + plain_number(f.max_points), "points");
+  row("standard deviation", fixed(f.sd, 1), "points");
+  row("pass / review / fail", std::to_string(f.pass) + " / " + std::to_string(f.review) + " / " + std::to_string(f.fail), "candidates");
+  row("Cronbach's alpha", number(f.alpha, 2), "how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951");
+  row("standard error", number(f.sem, 1), "points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again");
+  return t;
+}
+
+/// Middle of what the class cut too much, weighted by how many did; the target's where nobody did.
+Vec3 hottest_mm(const ClassTooth& t) {
+  const IVec3 low = t.map->low(), size = t.map->size();
+  Vec3 sum;
+  double all = 0;
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const IVec3 leaf = low + IVec3{x, y, z};
+        const double heat = std::max(0.0, t.map->percent(leaf));
+        sum += t.zones.centre_mm(leaf) * (heat * heat);
+        all += heat * heat;
+      }
+  return all > 0 ? sum * (1 / all) : (t.zones.target_low_mm() + t.zones.target_high_mm()) * 0.5;
+}
+
+void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
+  d.blocks.emplace_back(Heading{"Where on the tooth"});
+  d.blocks.emplace_back(
+      Paragraph{count(t.map->sessions(), "cavity", "cavities") +
+                    " laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
+                    "place inside the target.",
+                ""});
+  d.blocks.emplace_back(LiveFigure{"tooth-3d",
+                                   "The tooth with the planned cavity",
+                                   "The tooth in 3D needs a browser with scripts and WebGL; the sections below show the same.",
+                                   {}});
+  Pictures pictures{{}, 2, false};
+  for (auto& svg : class_pictures(t)) pictures.list.push_back({std::move(svg), ""});
+  d.blocks.emplace_back(std::move(pictures));
+  d.blocks.emplace_back(Pictures{{{heat_legend_svg(), ""}}, 1, false});
+  d.blocks.emplace_back(Paragraph{"The sections run through the middle of what was cut too much.", "", Paragraph::Kind::small});
+  if (t.left_out > 0)
+    d.blocks.emplace_back(
+        Paragraph{std::to_string(t.left_out) + " sat it with another text, tooth or leaf size than most; they are not in these pictures.", "Note",
+                  Paragraph::Kind::note});
+  for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{finding, "Not in these pictures", Paragraph::Kind::note});
+  if (f.walls.empty()) return;
+  ReportTable walls{
+      {{"Wall", false, 3}, {"Cut by", true, 2}, {"Mean, mm", true, 2}, {"95th percentile, mm", true, 3}, {"Largest of all, mm", true, 3}},
+      {},
+      "Walls"};
+  for (const auto& w : f.walls)
+    walls.rows.push_back({{{w.wall}, {std::to_string(w.n)}, {fixed(w.mean_mm, 2)}, {fixed(w.p95_mm, 2)}, {fixed(w.worst_mm, 2)}}});
+  d.blocks.emplace_back(std::move(walls));
+  d.blocks.emplace_back(
+      Paragraph{"Signed distance of the cut surface from the target's wall, + = overcut, averaged over the class.", "", Paragraph::Kind::small});
+}
+
+void add_criteria(Document& d, const ClassFigures& f) {
+  d.blocks.emplace_back(Heading{"Criteria"});
+  ReportTable t{{{"Criterion", false, 3}, {"Measure", false, 4}, {"Share of points", true, 2}, {"Discrimination", true, 2}, {"Remark", false, 5}},
+                {},
+                "Criteria"};
+  for (const auto& c : f.criteria) {
+    const std::string remark = c.difficulty > 0.95                           ? "nearly everybody has all of it: it tells candidates apart little"
+                               : c.difficulty < 0.2                          ? "hardly anybody has it: is the task clear, the limit right?"
+                               : c.discrimination && *c.discrimination < 0.1 ? "goes its own way: who does well elsewhere does not here"
+                                                                             : "";
+    t.rows.push_back({{{c.id}, {c.metric}, {fixed(c.difficulty, 2)}, {number(c.discrimination, 2)}, {remark}}});
+  }
+  d.blocks.emplace_back(std::move(t));
+  d.blocks.emplace_back(
+      Paragraph{"Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
+                "one skill, and a rubric of few and different ones has a low one without being unfair.",
+                "", Paragraph::Kind::small});
+}
+
+void add_stations(Document& d, const ClassFigures& f) {
+  d.blocks.emplace_back(Heading{"Stations"});
+  if (f.stations.size() < 2) {
+    d.blocks.emplace_back(Paragraph{"All sat at one station.", ""});
+    return;
+  }
+  ReportTable t{{{"Station (public key)", false, 4}, {"Candidates", true, 2}, {"Mean points", true, 2}}, {}, "Stations"};
+  for (const auto& s : f.stations) t.rows.push_back({{{s.key.substr(0, 16) + "…"}, {std::to_string(s.n)}, {fixed(s.mean, 1)}}});
+  d.blocks.emplace_back(std::move(t));
+  if (!f.station_effect) return;
+  const auto& e = *f.station_effect;
+  d.blocks.emplace_back(
+      Paragraph{"F = " + fixed(e.f, 2) + "; stations hold " + fixed(100 * e.share, 1) +
+                    " % of the variance, and shuffled candidates give as much in a share of " + fixed(e.chance, 3) + " of 9,999 shuffles. " +
+                    (e.chance < 0.01 ? "One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there."
+                                     : "No station stands out."),
+                ""});
+}
+
+void add_agreement(Document& d, const ClassFigures& f) {
+  const auto& a = f.agreement;
+  d.blocks.emplace_back(Heading{"Agreement with people"});
+  if (a.n == 0) {
+    d.blocks.emplace_back(Paragraph{"No marks of people were given (--marks).", ""});
+    return;
+  }
+  d.blocks.emplace_back(Paragraph{count(a.n, "candidate", "candidates") + " marked by " + count(a.judges, "judge", "judges") + ".", ""});
+  ReportTable t{{{"Figure", false, 3}, {"Value", true, 3}, {"What it says", false, 6}}, {}, "Agreement with people"};
+  const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
+  if (a.icc) {
+    row("ICC(2,1)", fixed(a.icc->single_random, 2), "agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)");
+    row("ICC(3,1)", fixed(a.icc->single_fixed, 2), "the same when a judge may be harder than another throughout");
+    row("ICC(3,k)", fixed(a.icc->average_fixed, 2), "consistency of all judges' mean");
+  }
+  if (a.limits)
+    row("program less people", fixed(a.limits->bias, 1) + " (" + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) + ")",
+        "points: mean, and limits within which about 95 % lie (Bland and Altman 1986)");
+  row("weighted kappa", number(a.kappa, 2), "fail, borderline, pass; quadratic weights (Cohen 1968)");
+  if (a.cut)
+    row("cut by borderline regression", fixed(*a.cut, 1),
+        "points at the rating that means borderline; the rubric's pass mark is " + fixed(f.pass_points, 1));
+  d.blocks.emplace_back(std::move(t));
+  if (a.incomplete > 0)
+    d.blocks.emplace_back(Paragraph{count(a.incomplete, "candidate was", "candidates were") + " not marked by all judges, and left out of the ICC.",
+                                    "", Paragraph::Kind::small});
+}
+
+void add_to_look_at(Document& d, const ClassFigures& f) {
+  d.blocks.emplace_back(Heading{"To look at"});
+  if (f.to_look_at.empty()) {
+    d.blocks.emplace_back(Paragraph{"Nothing stands out.", ""});
+    return;
+  }
+  ReportTable t{{{"Entry", true, 1}, {"Candidate", false, 3}, {"Why", false, 6}}, {}, "Sessions to look at"};
+  for (const auto& l : f.to_look_at) t.rows.push_back({{{l.session > 0 ? std::to_string(l.session) : "–"}, {l.candidate}, {l.why}}});
+  d.blocks.emplace_back(std::move(t));
+}
+
+}  // namespace
+
+std::vector<std::string> class_pictures(const ClassTooth& t) {
+  const Vec3 at = hottest_mm(t);
+  const auto draw = [&](View view, double at_mm, const std::string& title) {
+    PictureSpec spec{view, at_mm, 30, title};
+    spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
+    return section_svg(t.tooth, nullptr, t.zones, spec);
+  };
+  return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, "Mesio-distal, y = " + fixed(at.y, 2) + " mm"),
+          draw(View::bucco_lingual, at.x, "Bucco-lingual, x = " + fixed(at.x, 2) + " mm"),
+          draw(View::horizontal, at.z, "Horizontal, z = " + fixed(at.z, 2) + " mm")};
+}
+
+Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
+  Document d;
+  d.title = tooth.scenario.title + ": the class";
+  d.subtitle =
+      count(f.n, "candidate", "candidates") + " of the exam " + f.exam + "; the last attempt of each counts, sessions filed with findings do not";
+  if (f.simulated > 0)
+    d.blocks.emplace_back(Paragraph{std::to_string(f.simulated) + " were sat by simulated operators.", "Note", Paragraph::Kind::note});
+  d.blocks.emplace_back(key_figures(f));
+  d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
+  add_places(d, f, tooth);
+  add_criteria(d, f);
+  add_stations(d, f);
+  add_agreement(d, f);
+  add_to_look_at(d, f);
+  d.footer = {"Class of the exam " + f.exam + ", " + count(f.n, "candidate", "candidates"),
+              "Formulae and sources: grading/cohort/README.md of Cavum " CAVUM_VERSION "."};
+  return d;
+}
+
+std::string class_html(const ClassFigures& f, const ClassTooth& tooth) { return html_of(class_document(f, tooth), class_data(f, tooth)); }
+std::string class_pdf(const ClassFigures& f, const ClassTooth& tooth) { return pdf_of(class_document(f, tooth)); }
+
+}  // namespace cavum
