@@ -176,7 +176,6 @@ TEST_F(ReportData, MotionKeepsEveryPeakOfTheForceAndThePlaceOfTheTip) {
                           rpm = unpack(m["rpm10"]), az = unpack(m["az"]), speed = unpack(m["tip_um_s"]);
   const auto step = static_cast<std::size_t>(std::lround(m["dt_s"].get<double>() * 1000));
   ASSERT_EQ(m["n"].get<std::size_t>(), (inputs.size() + step - 1) / step);
-  double way_um = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::size_t begin = i * step, end = std::min(inputs.size(), begin + step);
     double most = 0;
@@ -189,11 +188,14 @@ TEST_F(ReportData, MotionKeepsEveryPeakOfTheForceAndThePlaceOfTheTip) {
     ASSERT_NEAR(static_cast<double>(z[i]) * 1e3, inputs[begin].tip_nm[2], 501);
     ASSERT_NEAR(static_cast<double>(depth[i]) * 1e-3, session_->zones.opening_z_mm() - inputs[begin].tip_nm[2] * 1e-6, 0.0006);
     ASSERT_NEAR(static_cast<double>(rpm[i]) * 10, records[begin].rpm, 5.01);
-    way_um += static_cast<double>(speed[i]) * m["dt_s"].get<double>();
+    const std::size_t next = std::min(end, inputs.size() - 1);
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) square += std::pow(1e-3 * (inputs[next].tip_nm[k] - inputs[begin].tip_nm[k]), 2);
+    if (next > begin) {
+      ASSERT_NEAR(static_cast<double>(speed[i]), std::min(65535.0, std::sqrt(square) / (static_cast<double>(next - begin) * 1e-3)), 0.51) << i;
+    }
     ASSERT_GT(az[i], 100) << "the handle points up";
   }
-  EXPECT_LE(way_um * 1e-3, result_.motion.path_mm * 1.02) << "a way over longer steps is no longer";
-  EXPECT_GE(way_um * 1e-3, result_.motion.path_mm * 0.8);
   EXPECT_NEAR(static_cast<double>(*std::max_element(force.begin(), force.end())) * 0.01, result_.motion.force_peak_n, 0.006);
 }
 
@@ -215,9 +217,10 @@ TEST_F(ReportData, EventsMomentsAndInstrumentsAreThoseOfTheExam) {
   for (const auto& c : grade["criteria"]) {
     const bool lost = c["max"].get<double>() - c["points"].get<double>() > 1e-6;
     std::size_t timed = 0;
-    if (lost)
-      for (const auto& m : run_json("grade " + path("s.cavum") + " --why " + c["id"].get<std::string>())["moments"])
-        timed += m["t_s"].is_null() ? 0 : 1;
+    if (lost) {
+      const json why = run_json("grade " + path("s.cavum") + " --why " + c["id"].get<std::string>());
+      for (const auto& m : why["moments"]) timed += m["t_s"].is_null() ? 0 : 1;
+    }
     EXPECT_EQ(moments[c["title"]], timed) << c["id"];
   }
   ASSERT_EQ(data_["instruments"].size(), 1u);
