@@ -162,6 +162,6 @@ export function target_surface(field: ToothField): Mesh {
   const size = field.box.size;
   const values = new Float32Array(field.distance.length);
   for (let i = 0; i < values.length; ++i) values[i] = -field.distance[i] * k_distance_unit_mm;
-  const most = 2 * field.cell_mm;
+  const most = 1.05 * field.cell_mm + 1.5 * k_distance_unit_mm; // neighbours of a true distance differ by a cell at most
   return new SurfaceNets(size).mesh({ size, values }, 0, { low: [0, 0, 0], high: size }, undefined, (a, b) => Math.abs(a - b) < most);
 }

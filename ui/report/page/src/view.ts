@@ -1,7 +1,7 @@
 // The 3D view: the tooth with its colours, the section where it is cut away, the target's outline, the instrument, the marked place. It draws only
 // when something changed.
 import * as THREE from "three";
-import type { Instrument, ReportData, Vec3 } from "./data.ts";
+import type { Instrument, ReportData, Tissue, Vec3 } from "./data.ts";
 import { instrument_mesh, pose_instrument } from "./instrument.ts";
 import type { Sample } from "./motion.ts";
 import { k_views, Orbit } from "./orbit.ts";
@@ -82,6 +82,7 @@ export class ToothView {
   private readonly surroundings: Surroundings;
   private readonly density: THREE.Data3DTexture;
   private readonly still: { surface: Surface; geometry: THREE.BufferGeometry };
+  private readonly duration_s: number;
   private deeper_mm = 0;
   private readonly section: THREE.Mesh;
   private readonly moving_bytes: Uint8Array;
@@ -105,6 +106,7 @@ export class ToothView {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setClearColor(k_back);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.duration_s = data.duration_s ?? 0;
     const { cell_mm, origin_mm, size } = field;
     const place = (object: THREE.Object3D, low: Vec3): void => {
       object.position.set(...(origin_mm.map((o, a) => o + low[a] * cell_mm) as Vec3));
@@ -166,7 +168,7 @@ export class ToothView {
         box_cells: { value: new THREE.Vector3(...field.box.size) },
         cell: { value: cell_mm },
         palette: { value: palette },
-        filled: { value: Array.from({ length: 16 }, (_, i) => (data.tissues[i] && !data.tissues[i].solid && data.tissues[i].name !== "air" ? 1 : 0)) },
+        kind: { value: Int32Array.from({ length: 16 }, (_, i) => tissue_kind(data.tissues[i])) },
         with_target: { value: true },
       }),
     );
@@ -280,7 +282,7 @@ export class ToothView {
     this.update_tooth();
     this.update_section();
     this.update_instrument();
-    const size = this.orbit.camera.position.distanceTo(this.marker.position) * 0.018;
+    const size = this.orbit.camera.position.distanceTo(this.marker.position) * 0.014;
     this.marker.scale.setScalar(size);
     this.marker.quaternion.copy(this.orbit.camera.quaternion);
     this.renderer.render(this.scene, this.orbit.camera);
@@ -309,7 +311,8 @@ export class ToothView {
       if (from_s <= this.sampled_s || current === null) current = group;
       group.visible = false;
     }
-    if (!current || !this.sampled || !this.with_instrument) return;
+    // at the end stands the result, with nothing before it
+    if (!current || !this.sampled || !this.with_instrument || this.sampled_s >= this.duration_s) return;
     current.visible = true;
     pose_instrument(current, new THREE.Vector3(...this.sampled.tip_mm), new THREE.Vector3(...this.sampled.axis));
   }
@@ -339,6 +342,11 @@ export class ToothView {
     this.orbit.resize(width, height);
     this.draw();
   }
+}
+
+/** 1 for a solid tissue, 2 for one that fills a space (pulp), 0 for air and what is no tissue. */
+function tissue_kind(tissue: Tissue | undefined): number {
+  return tissue === undefined || tissue.name === "air" ? 0 : tissue.solid ? 1 : 2;
 }
 
 /** The sphere around all solid tissue. */
