@@ -39,7 +39,8 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->events = reader.events();
   s->sealed_result_json = reader.result_json();
   s->notes = setup.notes;
-  s->facts = {setup.candidate, setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(s->before)};
+  s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(s->before), setup.calibration,
+              setup.points_toml, setup.notes};
   return s;
 }
 

@@ -304,6 +304,8 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   return svg;
 }
 
+std::string tissue_colour(std::uint8_t tissue, bool high_contrast) { return tissue_colour(palette_of(high_contrast), tissue); }
+
 std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones) {
   const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
   const double low = zones.target_low_mm().z + 0.3 * (zones.target_high_mm().z - zones.target_low_mm().z);

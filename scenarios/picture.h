@@ -34,6 +34,9 @@ struct PictureSpec {
 /// Three sections through the middle of the target and the view from above, on one sheet.
 [[nodiscard]] std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones);
 
+/// The colour of a tissue in these pictures, "#rrggbb".
+[[nodiscard]] std::string tissue_colour(std::uint8_t tissue, bool high_contrast = false);
+
 /// The key to the colours, an `<svg>` element. `with_removed` adds what a graded section shows.
 [[nodiscard]] std::string legend_svg(bool with_removed, bool high_contrast = false);
 

@@ -15,7 +15,6 @@
 #include "engine/servo/real_time_json.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/station_ticket.h"
-#include "grading/report.h"
 #include "grading/result_json.h"
 #include "scenarios/live_exam.h"
 #include "scenarios/simulated_exam.h"
@@ -24,6 +23,7 @@
 #include "ui/live_source.h"
 #include "ui/own_places.h"
 #include "ui/print_json.h"
+#include "ui/report/report.h"
 #include "ui/seed_check.h"
 #include "ui/verbs.h"
 
@@ -134,7 +134,7 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
 void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
   const ClosedExam closed = grade_and_close(exam, o.out);
   const Result& result = closed.result;
-  if (!o.report.empty()) write_text_file(o.report, report_html(result, closed.graded->input(), closed.graded->facts));
+  if (!o.report.empty()) write_closing_report(o.report, o.out, result, *closed.graded);
   if (o.json) {
     auto j = to_json(result);
     j["session"] = o.out;
@@ -309,7 +309,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
   exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
   exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
-  exam->add_option("--report", o->report, "also write the report (HTML)");
+  exam->add_option("--report", o->report, "also write the instructor's report: .html or .pdf");
   exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed or stopped: with --motion, --operator, --device or --end");
   exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
   exam->add_flag("--quiet", o->quiet, "no progress bar");

@@ -1,4 +1,4 @@
-// `cavum grade` and `cavum report`: a recorded exam, marked.
+// `cavum grade`: recorded exams, marked.
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -11,12 +11,9 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "grading/compare.h"
-#include "grading/report.h"
 #include "grading/result_json.h"
-#include "grading/session_input.h"
 #include "grading/why.h"
-#include "scenarios/parse.h"
-#include "scenarios/rubric_check.h"
+#include "ui/marked_session.h"
 #include "ui/print_json.h"
 #include "ui/session_files.h"
 #include "ui/verbs.h"
@@ -28,65 +25,16 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::vector<std::string> sessions;
-  std::string rubric, scenario, why, out;
-  bool json = false, another_task = false, overwrite = false;
-  [[nodiscard]] bool anew() const { return !rubric.empty() || !scenario.empty(); }
+  std::string why, out;
+  MarkingOptions marking;
+  bool json = false;
 };
-
-/// A session marked as asked, and beside it what it was sealed with.
-struct Graded {
-  std::unique_ptr<GradedSession> session;
-  RubricSpec rubric;
-  Result result;
-  std::optional<Comparison> comparison;
-  bool regrade = false;  ///< the result is not the sealed one, which stands in `comparison`
-};
-
-Graded graded(const std::string& path, const Options& o) {
-  Graded g;
-  g.session = load_for_grading(path);
-  GradedSession& s = *g.session;
-  const auto old = read_old_result(s.sealed_result_json);
-  const RubricSpec old_rubric = s.rubric;
-  std::optional<Result> again;
-  if (o.anew() && old) again = grade(s.input(), old_rubric);
-  if (!o.scenario.empty()) use_scenario(s, load_scenario(o.scenario), o.another_task);
-  if (!o.rubric.empty())
-    use_rubric(s, parse_rubric(read_text_file(o.rubric), o.rubric));
-  else if (!o.scenario.empty())
-    use_rubric(s, s.scenario.rubric);
-  g.rubric = s.rubric;
-  if (again && o.scenario.empty()) {
-    g.result = *again;
-    mark(g.result, g.rubric);
-  } else {
-    g.result = grade(s.input(), g.rubric);
-  }
-  if (!old) return g;
-  g.comparison = compare(*old, again ? *again : g.result, old_rubric, g.result, g.rubric);
-  g.comparison->by = o.rubric.empty() ? "" : "the rubric " + o.rubric;
-  if (!o.scenario.empty()) g.comparison->by += (o.rubric.empty() ? "" : " and ") + ("the scenario " + o.scenario);
-  if (!o.anew()) g.comparison->by = "this version of the program";
-  g.regrade = o.anew() || g.comparison->differs();
-  return g;
-}
 
 /// The result with its contract names, and beside it the old one where another rubric or scenario was asked for.
-Json json_of(const Graded& g) {
+Json json_of(const MarkedSession& g) {
   Json j = to_json(g.result);
   if (g.regrade) j["regrade"] = to_json(*g.comparison);
   return j;
-}
-
-/// A mistake in what is to be marked by is found before any session is opened; what is unwise is said on the side.
-void require_sound_marking(const Options& o) {
-  const auto warn = [](const RubricSpec& rubric) {
-    for (const auto& p : turned_round(rubric)) std::cerr << "cavum: " << one_line(p.text()) << "\n";
-  };
-  if (!o.rubric.empty()) warn(parse_rubric(read_text_file(o.rubric), o.rubric));
-  if (o.scenario.empty()) return;
-  const Scenario s = load_scenario(o.scenario);
-  if (o.rubric.empty()) warn(s.rubric);
 }
 
 void write_new(const std::string& path, const Json& json) {
@@ -95,7 +43,7 @@ void write_new(const std::string& path, const Json& json) {
 }
 
 void run_grade_one(const std::string& path, const Options& o) {
-  const Graded g = graded(path, o);
+  const MarkedSession g = marked_session(path, o.marking);
   if (!o.why.empty()) {
     const Why w = why(g.session->input(), g.result, g.rubric, o.why);
     if (o.json) {
@@ -127,7 +75,7 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
   };
   for (const auto& file : files) {
     try {
-      const Graded g = graded(file, o);
+      const MarkedSession g = marked_session(file, o.marking);
       const std::string now = verdict_name(g.result.verdict);
       Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
       if (g.comparison) {
@@ -177,7 +125,7 @@ int run_grade(const Options& o) {
     if (std::filesystem::exists(o.out)) throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
     require_writable(o.out);
   }
-  require_sound_marking(o);
+  require_sound_marking(o.marking);
   const auto files = session_files(o.sessions);
   const bool many = files.size() > 1 || std::filesystem::is_directory(o.sessions.front());
   if (many && !o.why.empty()) throw Error("--why", "explains one session", "name one session file");
@@ -186,57 +134,20 @@ int run_grade(const Options& o) {
   return 0;
 }
 
-/// An earlier report may be written anew, any other file not.
-void require_report_place(const Options& o) {
-  require_writable(o.out);
-  if (!std::filesystem::exists(o.out) || std::filesystem::file_size(o.out) == 0 || o.overwrite) return;
-  const std::string text = read_text_file(o.out), head = text.substr(0, 200);
-  const bool report = o.out.ends_with(".svg") ? head.starts_with("<svg") : head.starts_with("<!doctype html>");
-  if (!report || text.find(o.out.ends_with(".svg") ? "of the target removed" : "grading/README.md of Cavum") == std::string::npos)
-    throw Error(o.out, "exists already and is no report of Cavum", "choose another name, or overwrite it with --overwrite");
-}
-
-void run_report(const Options& o) {
-  if (o.out.ends_with(".pdf"))
-    throw Error(o.out, "this version writes reports as HTML only", "use a name ending in .html and print it as PDF from a browser");
-  const bool picture = o.out.ends_with(".svg");
-  if (!picture && !o.out.ends_with(".html"))
-    throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html, or in .svg for the sections alone");
-  require_report_place(o);
-  require_sound_marking(o);
-  const Graded g = graded(o.sessions.front(), o);
-  const GradeInput input = g.session->input();
-  write_text_file(o.out,
-                  picture ? sections_svg(g.result, input) : report_html(g.result, input, g.session->facts, g.regrade ? &*g.comparison : nullptr));
-  std::cout << "written: " << o.out << " (" << verdict_name(g.result.verdict) << ")\n";
-}
-
 }  // namespace
 
 void add_grade_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
   auto* grades = app.add_subcommand("grade", "Mark recorded exams, by their own rubric or another, or by a corrected scenario");
   grades->add_option("session", o->sessions, "session files (.cavum), or folders of them")->required();
-  grades->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the session's own");
-  grades->add_option("--scenario", o->scenario, "mark by this corrected scenario (TOML): its zones, and its rubric unless --rubric names one");
-  grades->add_flag("--another-task", o->another_task, "let --scenario be that of another task than the session's");
+  grades->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");
+  grades->add_option("--scenario", o->marking.scenario,
+                     "mark by this corrected scenario (TOML): its zones, and its rubric unless --rubric names one");
+  grades->add_flag("--another-task", o->marking.another_task, "let --scenario be that of another task than the session's");
   grades->add_option("--why", o->why, "ticks, places and numbers behind each point that this criterion lost");
   grades->add_option("--out", o->out, "write the JSON to this file too, which must not exist yet");
   grades->add_flag("--json", o->json, "one JSON object on standard output");
   grades->callback([o, &exit_code] { exit_code = run_grade(*o); });
-
-  const auto r = std::make_shared<Options>();
-  auto* reports = app.add_subcommand("report", "Write the report of a recorded exam, or its sections as a picture");
-  reports->add_option("session", r->sessions, "session file (.cavum)")->required()->expected(1);
-  reports->add_option("--out", r->out, "file to write: .html for the report, .svg for the three sections")->required();
-  reports->add_option("--rubric", r->rubric, "mark by this rubric (TOML) instead of the session's own");
-  reports->add_option("--scenario", r->scenario, "mark by this corrected scenario (TOML)");
-  reports->add_flag("--another-task", r->another_task, "let --scenario be that of another task than the session's");
-  reports->add_flag("--overwrite", r->overwrite, "write over a file that is no report");
-  reports->callback([r, &exit_code] {
-    run_report(*r);
-    exit_code = 0;
-  });
 }
 
 }  // namespace cavum

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   cavum::add_rig_verbs(app, exit_code);
   cavum::add_explain_verbs(app, exit_code);
   cavum::add_ledger_verbs(app, exit_code);
+  cavum::add_report_verbs(app, exit_code);
   cavum::add_cohort_verbs(app, exit_code);
   cavum::add_verify_verbs(app, exit_code);
   cavum::add_device_verbs(app, exit_code);

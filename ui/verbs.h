@@ -11,6 +11,8 @@ void add_scenario_verbs(CLI::App& app, int& exit_code);
 void add_exam_verbs(CLI::App& app, int& exit_code);
 void add_replay_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
+/// After the ledger's: `ledger report` is one of them.
+void add_report_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
 void add_device_verbs(CLI::App& app, int& exit_code);
 void add_explain_verbs(CLI::App& app, int& exit_code);

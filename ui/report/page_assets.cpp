@@ -21,7 +21,9 @@ extern const char cavum_page_script_begin[], cavum_page_script_end[], cavum_page
 
 namespace cavum {
 
-std::string_view page_script() noexcept { return {cavum_page_script_begin, static_cast<std::size_t>(cavum_page_script_end - cavum_page_script_begin)}; }
+std::string_view page_script() noexcept {
+  return {cavum_page_script_begin, static_cast<std::size_t>(cavum_page_script_end - cavum_page_script_begin)};
+}
 
 std::string_view page_style() noexcept { return {cavum_page_style_begin, static_cast<std::size_t>(cavum_page_style_end - cavum_page_style_begin)}; }
 

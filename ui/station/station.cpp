@@ -15,6 +15,7 @@
 #include "engine/base/file.h"
 #include "engine/session/session_reader.h"
 #include "ui/interrupt.h"
+#include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
@@ -232,7 +233,7 @@ class Station {
   void write_report() {
     const ClosedExam& closed = sitting_->closed();
     const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
-    write_text_file(path, report_html(closed.result, closed.graded->input(), closed.graded->facts));
+    write_closing_report(path, sitting_->path(), closed.result, *closed.graded);
     state_.message = "Report: " + path;
   }
 

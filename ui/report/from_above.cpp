@@ -1,0 +1,128 @@
+#include "ui/report/from_above.h"
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "ui/report/packed_array.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_colours_end_mm = 0.5, k_wanted_px = 560;
+
+struct Colour {
+  double r, g, b;
+};
+constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76};
+
+Colour mix(Colour a, Colour b, double share) { return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share}; }
+Colour of_deviation(double mm) { return mix(k_planned, mm < 0 ? k_left : k_beyond, std::min(1.0, std::fabs(mm) / k_colours_end_mm)); }
+std::string hex(Colour c) {
+  const auto byte = [](double v) {
+    constexpr char k_digits[] = "0123456789abcdef";
+    const auto n = static_cast<unsigned>(std::lround(v * 255));
+    return std::string{k_digits[n >> 4], k_digits[n & 15]};
+  };
+  return "#" + byte(c.r) + byte(c.g) + byte(c.b);
+}
+
+/// z of the highest solid leaf of each column, -1 without; x fastest.
+std::vector<int> tops(const Octree& tree) {
+  const IVec3 n = tree.size();
+  std::vector<int> top(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y), -1);
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    if (!tree.is_solid(t)) return;
+    for (int y = at.y; y < std::min(n.y, at.y + edge); ++y)
+      for (int x = at.x; x < std::min(n.x, at.x + edge); ++x) {
+        int& z = top[static_cast<std::size_t>(y) * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(x)];
+        z = std::max(z, at.z + edge - 1);
+      }
+  });
+  return top;
+}
+
+Bytes png_of(cairo_surface_t* surface) {
+  Bytes bytes;
+  const auto write = [](void* to, const unsigned char* data, unsigned n) {
+    auto& all = *static_cast<Bytes*>(to);
+    all.insert(all.end(), data, data + n);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  if (cairo_surface_write_to_png_stream(surface, write, &bytes) != CAIRO_STATUS_SUCCESS)
+    throw Error("report", "the picture of the tooth could not be packed", "free some memory");
+  return bytes;
+}
+
+}  // namespace
+
+Picture picture_from_above(const GradeInput& input) {
+  const Octree& before = input.before.octree;
+  const IVec3 n = before.size();
+  const std::vector<int> was = tops(before), is = tops(input.after);
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(std::clamp(y, 0, n.y - 1)) * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(std::clamp(x, 0, n.x - 1));
+  };
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, n.x, n.y),
+                                                                           cairo_surface_destroy);
+  cairo_surface_flush(image.get());
+  unsigned char* rows = cairo_image_surface_get_data(image.get());
+  if (rows == nullptr) throw Error("report", "there is no room for a picture of the tooth", "free some memory");
+  const int stride = cairo_image_surface_get_stride(image.get());
+  for (int y = 0; y < n.y; ++y)
+    for (int x = 0; x < n.x; ++x) {
+      const int top = is[index(x, y)];
+      std::uint32_t pixel = 0;
+      if (was[index(x, y)] >= 0) {
+        Colour c{0.15, 0.15, 0.15};  // cut right through
+        if (top >= 0) {
+          const bool cut = top < was[index(x, y)], left = input.zones.zone({x, y, top}) == Zone::target;
+          c = cut || left ? of_deviation(input.zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()})) : k_tooth;
+          // light from the upper left: slopes that face away from it are darker
+          const auto height = [&](int dx, int dy) {
+            const int z = is[index(x + dx, y + dy)];
+            return z < 0 ? top : z;
+          };
+          const double slope = (height(2, -2) - height(-2, 2)) / 8.0;
+          const double light = std::clamp(1.0 + 0.22 * std::clamp(slope, -2.0, 1.0), 0.55, 1.12);
+          c = {std::min(1.0, c.r * light), std::min(1.0, c.g * light), std::min(1.0, c.b * light)};
+        }
+        const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(v * 255)); };
+        pixel = 0xff000000u | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+      }
+      std::memcpy(rows + static_cast<std::ptrdiff_t>(n.y - 1 - y) * stride + 4 * static_cast<std::ptrdiff_t>(x), &pixel, 4);
+    }
+  cairo_surface_mark_dirty(image.get());
+
+  const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
+  const double all_width = std::max(width, 420.0), all_height = height + 84;
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
+                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' fill='#222222'>\n" +
+                    "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='4' y='15' font-size='12'>&#8593; buccal</text><text x='" +
+                    fixed(width - 4, 0) + "' y='15' font-size='12' text-anchor='end'>mesial &#8594;</text>\n";
+  svg += "<image x='0' y='22' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
+         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(png_of(image.get())) + "'/>\n";
+  const double key = height + 34;
+  constexpr int k_steps = 20;
+  constexpr double k_bar_px = 15;
+  for (int i = 0; i < k_steps; ++i)
+    svg += "<rect x='" + fixed(60 + i * k_bar_px, 0) + "' y='" + fixed(key, 0) + "' width='" + fixed(k_bar_px + 0.5, 1) + "' height='12' fill='" +
+           hex(of_deviation(k_colours_end_mm * (2.0 * (i + 0.5) / k_steps - 1))) + "'/>";
+  svg += "<rect x='60' y='" + fixed(key, 0) + "' width='" + fixed(k_steps * k_bar_px, 0) + "' height='12' fill='none' stroke='#666666'/>\n";
+  const auto label = [&](double x, const std::string& text) {
+    svg += "<text x='" + fixed(x, 0) + "' y='" + fixed(key + 28, 0) + "' font-size='12' text-anchor='middle'>" + text + "</text>";
+  };
+  label(70, fixed(k_colours_end_mm, 1) + " mm left");
+  label(60 + k_steps * k_bar_px / 2, "as planned");
+  label(50 + k_steps * k_bar_px, fixed(k_colours_end_mm, 1) + " mm beyond");
+  svg += "\n<path d='M4 " + fixed(key + 46, 0) + "h" + fixed(px / before.leaf_mm(), 1) + "' stroke='#222222' stroke-width='2'/><text x='" +
+         fixed(10 + px / before.leaf_mm(), 0) + "' y='" + fixed(key + 50, 0) + "' font-size='12'>1 mm</text>\n</svg>\n";
+  return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor"};
+}
+
+}  // namespace cavum

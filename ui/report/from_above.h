@@ -1,0 +1,12 @@
+// The tooth from above as the candidate left it: what was cut is coloured by how far its surface lies from the target's walls and floor.
+#pragma once
+
+#include "grading/grade.h"
+#include "ui/report/document.h"
+
+namespace cavum {
+
+/// A picture with its key. Blue: so much of the target was left; orange: so much was cut beyond it; white: as planned.
+[[nodiscard]] Picture picture_from_above(const GradeInput& input);
+
+}  // namespace cavum

@@ -1,0 +1,181 @@
+// What only an instructor's report shows: every figure with its bound, perforation by force and by tissue, the work, the device.
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "scenarios/accommodations.h"
+#include "ui/report/report_document.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+const std::string k_dash = "–";
+
+std::string bounded(double v, double bound, int digits, const std::string& unit) {
+  return fixed(v, digits) + " ± " + fixed(bound, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+void add_volumes(Document& d, const Result& r) {
+  d.blocks.push_back(Heading{"Volumes"});
+  ReportTable t{{{"What", false, 4}, {"Volume", true, 3}, {"First at", true, 1.4}, {"Place x, y, z, mm", false, 2.2}}, {}, "Volumes"};
+  const auto volume = [&](const std::string& name, const Volume& v, const Trace& first = {}) {
+    t.rows.push_back({{{name},
+                       {bounded(v.mm3, v.bound_mm3, 2, "mm³")},
+                       first.tick < 0 ? TableCell{""} : time_cell(first.tick, first.site_mm),
+                       {first.tick < 0 ? "" : place_text(first.site_mm)}}});
+  };
+  volume("target", r.volumes.target);
+  t.rows.push_back({{{"target removed"}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
+  volume("target left standing", r.volumes.missed);
+  volume("removed in all", r.volumes.removed);
+  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}) {
+    const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
+    volume("removed, " + std::string(zone_name(z)), v.removed, v.removed.mm3 > 0 ? v.first : Trace{});
+  }
+  for (const auto& tissue : r.tissues)
+    if (r.volumes.tissue[tissue.id].mm3 > 0) volume("removed of " + tissue.name + ", in whole leaves", r.volumes.tissue[tissue.id]);
+  t.rows.push_back({{{"agreement (Dice)"}, {bounded(r.volumes.dice, r.volumes.dice_bound, 3, "")}, {""}, {""}}});
+  d.blocks.push_back(std::move(t));
+}
+
+void add_walls(Document& d, const Result& r) {
+  d.blocks.push_back(Heading{"Walls"});
+  ReportTable t{
+      {{"mm, + = overcut", false, 1.6}, {"mean", true}, {"p95", true}, {"over", true}, {"at", true, 0.9}, {"under", true}, {"at", true, 0.9}},
+      {},
+      "Walls"};
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const WallMeasures& m = r.shape.wall[w];
+    const auto cell = [&](double v, double bound) { return TableCell{m.samples == 0 ? k_dash : fixed(v, 2) + " ± " + fixed(bound, 2)}; };
+    t.rows.push_back({{{wall_name(static_cast<Wall>(w))},
+                       cell(m.mean_mm, m.mean_bound_mm),
+                       cell(m.p95_mm, m.p95_bound_mm),
+                       cell(m.max_over_mm, r.shape.bound_mm),
+                       time_cell(m.worst_over.tick, m.worst_over.site_mm),
+                       cell(m.max_under_mm, r.shape.bound_mm),
+                       time_cell(m.worst_under.tick, m.worst_under.site_mm)}});
+  }
+  d.blocks.push_back(std::move(t));
+  d.blocks.push_back(Heading{"Cavity"});
+  ReportTable c{{{"What", false, 3}, {"Measured", true, 2}, {"Target", true, 2}}, {}, "Cavity"};
+  const auto shape = [&](const char* name, const std::optional<double>& v, double target) {
+    c.rows.push_back({{{name}, {v ? bounded(*v, r.shape.bound_mm, 2, "mm") : k_dash}, {fixed(target, 2) + " mm"}}});
+  };
+  shape("length", r.shape.length_mm, r.shape.target_length_mm);
+  shape("width", r.shape.width_mm, r.shape.target_width_mm);
+  shape("depth", r.shape.depth_mm, r.shape.target_depth_mm);
+  c.rows.push_back({{{"wall taper"},
+                     {r.shape.taper_deg ? bounded(*r.shape.taper_deg, r.shape.taper_bound_deg, 1, "°") : k_dash},
+                     {r.access.target_taper_deg ? bounded(*r.access.target_taper_deg, r.access.target_taper_bound_deg, 1, "°") : k_dash}}});
+  if (r.access.overhang) {
+    c.rows.push_back({{{"roof left over"}, {bounded(r.access.overhang->mm3, r.access.overhang->bound_mm3, 2, "mm³")}, {"0 mm³"}}});
+    c.rows.push_back({{{"canals covered"},
+                       {r.access.canals_covered_percent ? bounded(*r.access.canals_covered_percent, r.access.canals_bound_percent, 1, "%") : k_dash},
+                       {"0 %"}}});
+    c.rows.push_back({{{"cut below the target"}, {bounded(r.access.floor_cut.mm3, r.access.floor_cut.bound_mm3, 2, "mm³")}, {"0 mm³"}}});
+  }
+  d.blocks.push_back(std::move(c));
+}
+
+void add_perforation(Document& d, const Result& r) {
+  d.blocks.push_back(Heading{"Perforation"});
+  const PerforationMeasures& p = r.perforation;
+  if (!p.agree())
+    d.blocks.push_back(Paragraph{
+        p.detected() ? "the force shows a faulty breakthrough, the tissue does not" : "the tissue shows a faulty breakthrough, the force does not",
+        "Force and tissue disagree", Paragraph::Kind::note});
+  ReportTable t{
+      {{"Source", false, 1}, {"Kind", false, 0.9}, {"Time", true, 1.3}, {"Place x, y, z, mm", false, 2}, {"What", false, 5}}, {}, "Perforation"};
+  for (const auto& e : p.events)
+    t.rows.push_back({{{"force"},
+                       {e.fault ? "fault" : "aim"},
+                       time_cell(e.tick, e.site_mm),
+                       {place_text(e.site_mm)},
+                       {fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N while the tip went on by " + fixed(e.advance_mm, 2) +
+                        " mm; sureness " + fixed(e.sureness, 2) + "; " + (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")}},
+                      e.fault});
+  for (const auto& [kind, truth] : {std::pair{"fault", &p.fault}, std::pair{"aim", &p.aim}}) {
+    if (truth == &p.aim && !p.has_aims) continue;
+    t.rows.push_back({{{"tissue"},
+                       {kind},
+                       time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
+                       {truth->perforated ? place_text(truth->first.site_mm) : ""},
+                       {truth->perforated ? truth->tissue + " touched, " + bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³") : "not touched"}},
+                      truth == &p.fault && truth->perforated});
+  }
+  d.blocks.push_back(std::move(t));
+}
+
+void add_work(Document& d, const ReportSource& s) {
+  const Result& r = s.result;
+  const MotionMeasures& m = r.motion;
+  d.blocks.push_back(Heading{"Work"});
+  d.blocks.push_back(Paragraph{"Time " + fixed(m.time_s, 1) + " s, handpiece turning " + fixed(m.handpiece_time_s, 1) + " s, idle " +
+                                   fixed(m.idle_s, 1) + " s. Way of the tip " + fixed(m.path_mm, 0) + " mm. Force " + fixed(m.force_mean_n, 2) +
+                                   " N on average while cutting, " + fixed(m.force_peak_n, 2) + " N at most, over the limit for " +
+                                   fixed(m.force_over_limit_s, 1) + " s. Steps " + std::to_string(r.progress.steps_completed) + " of " +
+                                   std::to_string(r.progress.steps) + " completed, " + std::to_string(r.progress.violations) +
+                                   " violations; the exam ended: " + r.progress.finish + ".",
+                               ""});
+  ReportTable t{{{"What", false, 3}, {"", false, 7}}, {}, "Accommodations, pauses, late work"};
+  const std::string granted = accommodations_text(r.accommodations);
+  t.rows.push_back({{{"accommodations"}, {granted.empty() ? "none" : granted}}});
+  t.rows.push_back({{{"time limit"}, {fixed(static_cast<double>(r.limit_ticks) * k_tick_s, 1) + " s"}}});
+  std::string pauses;
+  for (const auto& p : r.pauses)
+    pauses += (pauses.empty() ? "" : "; ") + fixed(static_cast<double>(p.begin) * k_tick_s, 1) + " s to " +
+              fixed(static_cast<double>(p.end) * k_tick_s, 1) + " s";
+  t.rows.push_back(
+      {{{"pauses"}, {(pauses.empty() ? "none" : pauses) + (r.pauses_refused > 0 ? "; refused: " + std::to_string(r.pauses_refused) : "")}}});
+  const std::int64_t late = m.late_ticks + r.late_work.ticks;
+  t.rows.push_back({{{"late work"},
+                     {late == 0 ? "none"
+                                : fixed(static_cast<double>(late) * k_tick_s, 1) + " s after the end, " + fixed(m.late_removed_mm3, 2) +
+                                      " mm³ removed in it; nothing of it counts"}}});
+  d.blocks.push_back(std::move(t));
+}
+
+/// Of a live exam: how punctual the servo was, as the session's own event says it.
+void add_servo(ReportTable& t, const SessionEvent& e) {
+  const json j = json::parse(e.detail_json, nullptr, false);
+  if (!j.is_object()) return;
+  const json lateness = j.value("lateness", json::object());
+  const auto us = [&](const char* key) {
+    return lateness.is_object() && lateness.contains(key) && lateness[key].is_number() ? fixed(lateness[key].get<double>() * 1e-3, 3) + " ms"
+                                                                                       : k_dash;
+  };
+  const auto count = [&](const char* key) { return j.contains(key) && j[key].is_number() ? j[key].dump() : k_dash; };
+  t.rows.push_back({{{"lateness of the servo"},
+                     {count("ticks") + " ticks, " + count("overruns") + " late; half of them within " + us("p50_us") + ", 99.9 % within " +
+                      us("p999_us") + ", worst " + us("worst_us")}}});
+}
+
+void add_device(Document& d, const ReportSource& s) {
+  d.blocks.push_back(Heading{"Device and calibration"});
+  ReportTable t{{{"What", false, 3}, {"", false, 7}}, {}, "Device and calibration"};
+  t.rows.push_back({{{"device"}, {s.facts.device}}});
+  t.rows.push_back({{{"calibration"}, {s.facts.calibration.empty() ? "none recorded" : s.facts.calibration}}});
+  for (const auto& [key, value] : s.facts.notes)
+    if (key != "ticket") t.rows.push_back({{{key}, {value}}});
+  bool live = false;
+  for (const auto& e : s.input.events)
+    if (e.kind == "servo_lateness") {
+      add_servo(t, e);
+      live = true;
+    }
+  if (!live) t.rows.push_back({{{"lateness of the servo"}, {"not recorded: the exam did not run in real time"}}});
+  t.rows.push_back({{{"tooth"}, {s.result.tooth_name + ", hash " + s.facts.tooth_hash + ", leaf " + fixed(s.result.leaf_mm, 3) + " mm"}}});
+  d.blocks.push_back(std::move(t));
+}
+
+}  // namespace
+
+void add_instructor_parts(Document& d, const ReportSource& s) {
+  add_volumes(d, s.result);
+  add_walls(d, s.result);
+  add_perforation(d, s.result);
+  add_work(d, s);
+  add_device(d, s);
+}
+
+}  // namespace cavum

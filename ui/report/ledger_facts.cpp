@@ -1,0 +1,88 @@
+#include "ui/report/ledger_facts.h"
+
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "grading/ledger/identities.h"
+
+namespace cavum {
+
+using nlohmann::json;
+
+ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(read_ledger(places)) {
+  if (!content.findings.empty()) throw Error(folder, "does not hold (" + content.findings.front() + ")", "see `cavum ledger verify " + folder + "`");
+  registry = read_registry(content);
+}
+
+const FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
+  for (const auto& s : registry.sessions)
+    if (s.file_sha256 == file_sha256) return s;
+  throw Error(path, "was never filed in the ledger " + places.folder,
+              "file it with `cavum ledger add " + places.folder + " " + path + "`, or leave --ledger out");
+}
+
+ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, ReportReader reader, bool with_name) {
+  const std::string entry = "entry " + std::to_string(session.seq);
+  const bool shown = !session.shown.is_null();
+  if (reader == ReportReader::student && !shown)
+    throw Error(entry, "is not released, and a student's report is of released results only",
+                "release it with `cavum ledger release " + ledger.places.folder + " --candidate " + session.candidate + "`, or use --for instructor");
+  if (with_name && !shown) throw Error("--with-name", entry + " is not released, and names stand with released results only", "release it first");
+  ReportFiling f;
+  f.entry = session.seq;
+  f.ledger = ledger.content.id;
+  f.school = ledger.content.school;
+  f.public_key = ledger.content.public_key;
+  f.date = utc_text(session.received_utc_ns);
+  f.released = shown;
+  f.findings = session.findings;
+  for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
+    if (c.size > session.seq) {
+      f.root = to_hex(c.root);
+      f.entries = c.size;
+      break;
+    }
+  if (with_name) {
+    Identities identities(ledger.places.identities());
+    const auto who = identities.of_pseudonym(session.candidate);
+    if (!who) throw Error("--with-name", "nobody is known behind " + session.candidate, "the identity was forgotten; leave --with-name out");
+    f.name = who->name.empty() ? who->id : who->name;
+  }
+  for (const auto& s : ledger.registry.sessions) {
+    if (s.candidate != session.candidate || s.scenario_id != session.scenario_id) continue;
+    const bool released = !s.shown.is_null();
+    if (reader == ReportReader::student && !released) continue;
+    const json& result = reader == ReportReader::student ? s.shown : s.result;
+    ReportAttempt a;
+    a.entry = s.seq;
+    a.date = utc_text(s.received_utc_ns);
+    a.released = reader == ReportReader::student ? released : s.released;
+    a.this_one = s.seq == session.seq;
+    if (result.is_object() && result.contains("score") && result["score"].is_object()) {
+      a.verdict = result.value("verdict", "");
+      a.points = result["score"].value("points", 0.0);
+      a.max = result["score"].value("max", 0.0);
+    }
+    f.attempts.push_back(std::move(a));
+  }
+  return f;
+}
+
+void require_released_result(const FiledSession& session, const Result& result) {
+  constexpr double k_rounding = 1e-5;  // of the JSON
+  const json& shown = session.shown;
+  const bool same = shown.is_object() && shown.value("verdict", "") == verdict_name(result.verdict) && shown.contains("score") &&
+                    std::fabs(shown["score"].value("points", -1.0) - result.points) < k_rounding &&
+                    std::fabs(shown["score"].value("max", -1.0) - result.max_points) < k_rounding;
+  if (same) return;
+  const std::string released = shown.is_object() && shown.contains("score")
+                                   ? shown.value("verdict", "") + ", " + fixed(shown["score"].value("points", 0.0), 1) + " points"
+                                   : "another";
+  throw Error("entry " + std::to_string(session.seq),
+              "the released result is " + released + ", and this report would show " + verdict_name(result.verdict) + ", " + fixed(result.points, 1) +
+                  " points",
+              "name the rubric or scenario that it was marked by with --rubric or --scenario");
+}
+
+}  // namespace cavum

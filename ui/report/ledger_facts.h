@@ -1,0 +1,28 @@
+// What the school's ledger knows of a session that a report is made of: its entry, whether it was released, the candidate's other attempts.
+#pragma once
+
+#include <string>
+
+#include "grading/ledger/filing.h"
+#include "ui/report/report_source.h"
+
+namespace cavum {
+
+/// A ledger that holds, as reports read it. Throws Error when there is none or something in it does not hold.
+struct ReportLedger {
+  explicit ReportLedger(const std::string& folder);
+  LedgerPlaces places;
+  LedgerContent content;
+  Registry registry;
+  /// The session with this file; throws Error when it was never filed. `path` names it in the error.
+  [[nodiscard]] const FiledSession& session(const std::string& file_sha256, const std::string& path) const;
+};
+
+/// `with_name`: also who the candidate is, from the ledger's identities. Throws Error when the reader may not see that: a student's report of a
+/// result that was not released, or a name before that.
+[[nodiscard]] ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, ReportReader reader, bool with_name);
+
+/// Throws Error when a student's report of `result` would not be the released result: that came from a regrade, by a rubric that has to be named.
+void require_released_result(const FiledSession& session, const Result& result);
+
+}  // namespace cavum

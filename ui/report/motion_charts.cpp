@@ -1,0 +1,88 @@
+#include "ui/report/motion_charts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/text.h"
+#include "ui/chart_svg.h"
+#include "ui/report/motion_track.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_width_px = 900, k_height_px = 210;
+constexpr std::size_t k_bins = 700;         // points of a line
+constexpr double k_one_line_share = 0.016;  // of the time: events nearer than that share a line
+
+std::vector<ChartMark> event_marks(const std::vector<ReportEvent>& events, double duration_s) {
+  std::vector<ChartMark> marks;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const bool joins = !marks.empty() && events[i].t_s - marks.back().at < k_one_line_share * duration_s;
+    if (!joins) {
+      first = i;
+      marks.push_back({events[i].t_s, true, ""});
+    }
+    marks.back().label = std::to_string(first + 1) + (i > first ? "\u2013" + std::to_string(i + 1) : "");
+  }
+  return marks;
+}
+
+Picture chart(const std::string& title, const std::string& unit, const std::string& colour, std::vector<ChartPoint> points, double duration_s,
+              const std::vector<ChartMark>& marks) {
+  Chart c;
+  c.title = title;
+  c.x_label = "time, s";
+  c.y_label = unit;
+  c.width_px = k_width_px;
+  c.height_px = k_height_px;
+  c.x_range = {0.0, std::max(duration_s, 1e-3)};
+  c.series.push_back({"", colour, ChartSeries::Style::line, std::move(points), 1.2});
+  c.marks = marks;
+  return {svg_page(k_width_px, k_height_px, chart_group(c, 0, 0)), ""};
+}
+
+}  // namespace
+
+std::vector<Picture> motion_charts(const ReportSource& s) {
+  const MotionTrack m = make_motion_track(s.input);
+  const std::size_t n = m.size(), bin = std::max<std::size_t>(1, (n + k_bins - 1) / k_bins);
+  std::vector<ChartPoint> force, depth, speed;
+  for (std::size_t i = 0; i < n; i += bin) {
+    const std::size_t end = std::min(n, i + bin);
+    const double t = static_cast<double>(i) * m.step_s;
+    const auto largest = [&](const auto& values) {
+      return static_cast<double>(
+          *std::max_element(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(end)));
+    };
+    force.push_back({t, largest(m.force_cn) * 0.01});
+    depth.push_back({t, std::max(0.0, largest(m.depth_um) * 1e-3)});
+    speed.push_back({t, largest(m.rpm10) * 0.01});
+  }
+  const double duration_s = static_cast<double>(s.input.records.size()) * k_tick_s;
+  const auto marks = event_marks(s.events, duration_s);
+  return {chart("Force on the hand", "force, N", "#d55e00", std::move(force), duration_s, marks),
+          chart("Depth of the tip below the opening", "depth, mm", "#0072b2", std::move(depth), duration_s, marks),
+          chart("Handpiece speed", "1000 rpm", "#4d4d4d", std::move(speed), duration_s, marks)};
+}
+
+Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_percent) {
+  Chart c;
+  c.x_label = "attempt";
+  c.y_label = "points, %";
+  c.width_px = 420;
+  c.height_px = 200;
+  ChartSeries line{"", "#0072b2", ChartSeries::Style::line, {}, 1.4}, dots{"", "#0072b2", ChartSeries::Style::dots, {}, 1.4};
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const ChartPoint p{static_cast<double>(i + 1), attempts[i].max > 0 ? 100 * attempts[i].points / attempts[i].max : 0};
+    line.points.push_back(p);
+    dots.points.push_back(p);
+  }
+  c.series = {line, dots};
+  c.x_range = {0.5, static_cast<double>(attempts.size()) + 0.5};
+  c.y_range = {0, 105};
+  c.marks = {{pass_percent, false, "pass mark"}};
+  return {svg_page(c.width_px, c.height_px, chart_group(c, 0, 0)), ""};
+}
+
+}  // namespace cavum

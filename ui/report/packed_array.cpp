@@ -1,0 +1,49 @@
+#include "ui/report/packed_array.h"
+
+#include <sodium.h>
+#include <zstd.h>
+
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "engine/base/bytes.h"
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+constexpr int k_level = 9;  // of zstd: higher ones take seconds for a tooth and save little
+
+template <class T>
+nlohmann::json pack(std::span<const T> values, const char* type, bool delta) {
+  using Unsigned = std::make_unsigned_t<T>;
+  ByteWriter raw;
+  Unsigned last = 0;
+  for (const T v : values) {
+    const auto u = static_cast<Unsigned>(v);
+    raw.put(static_cast<Unsigned>(delta ? u - last : u));
+    last = u;
+  }
+  const Bytes bytes(raw.bytes().begin(), raw.bytes().end());
+  Bytes packed(ZSTD_compressBound(bytes.size()));
+  const std::size_t n = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), k_level);
+  if (ZSTD_isError(n) != 0) throw Error("report", "zstd refuses to pack " + std::to_string(bytes.size()) + " bytes", "free some memory");
+  packed.resize(n);
+  return {{"type", type}, {"n", values.size()}, {"delta", delta}, {"zstd", base64(packed)}};
+}
+
+}  // namespace
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  std::string text(sodium_base64_encoded_len(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+  sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), sodium_base64_VARIANT_ORIGINAL);
+  text.pop_back();  // the zero at its end
+  return text;
+}
+
+nlohmann::json packed_array(std::span<const std::uint8_t> values, bool delta) { return pack(values, "u8", delta); }
+nlohmann::json packed_array(std::span<const std::int8_t> values, bool delta) { return pack(values, "i8", delta); }
+nlohmann::json packed_array(std::span<const std::uint16_t> values, bool delta) { return pack(values, "u16", delta); }
+nlohmann::json packed_array(std::span<const std::int16_t> values, bool delta) { return pack(values, "i16", delta); }
+
+}  // namespace cavum

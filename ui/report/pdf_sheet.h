@@ -1,0 +1,74 @@
+// A4 pages on which text, rules and pictures are put from top to bottom; a head with the title and a foot with page number and proof stand on each.
+// Cairo writes the file, Pango sets the text, librsvg draws the pictures.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ui/report/document.h"
+
+namespace cavum {
+
+struct PdfColour {
+  double r = 0.1, g = 0.1, b = 0.1;
+};
+
+struct PdfText {
+  std::string text;
+  double size_pt = 9.5;
+  bool bold = false;
+  PdfColour colour = {};
+  bool right = false;                  ///< set against the right edge
+  std::string lead = {};               ///< bold, before the text
+  std::optional<PdfColour> fill = {};  ///< behind it
+  double most_pt = 0;                  ///< greatest height, beyond which it ends in "…"; 0 = any
+};
+
+/// A picture read from SVG. Throws Error when it is none.
+class PdfPicture {
+ public:
+  explicit PdfPicture(const std::string& svg);
+  [[nodiscard]] double width_px() const noexcept { return width_px_; }
+  [[nodiscard]] double height_px() const noexcept { return height_px_; }
+  /// Draws it into a rectangle of a cairo context (cairo_t*).
+  void draw(void* cairo, double x, double y, double width, double height) const;
+
+ private:
+  std::shared_ptr<void> handle_;
+  double width_px_ = 0, height_px_ = 0;
+};
+
+class PdfSheet {
+ public:
+  /// Writes into `out`, complete after `finish`. `pages`: how many there will be, 0 = not known.
+  PdfSheet(const Document& document, int pages, std::string& out);
+  ~PdfSheet();
+  PdfSheet(const PdfSheet&) = delete;
+  PdfSheet& operator=(const PdfSheet&) = delete;
+
+  [[nodiscard]] double width_pt() const noexcept;
+  [[nodiscard]] double page_height_pt() const noexcept;
+  /// A new page unless so much is left on this one; true when there was one.
+  bool need(double height_pt);
+  void space(double height_pt);
+
+  /// Height of text that is as wide as that.
+  [[nodiscard]] double height(const PdfText& text, double width_pt);
+  /// Text below what stands there already, over as many pages as it takes.
+  void lines(const PdfText& text, double width_pt);
+  /// Text at a place from here, which is not moved; returns its height.
+  double at(const PdfText& text, double x_pt, double y_pt, double width_pt);
+  void rule(PdfColour colour);
+  void fill(double x_pt, double width_pt, double height_pt, PdfColour colour);
+  void frame(double x_pt, double width_pt, double height_pt, PdfColour colour, double line_pt);
+  void draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster);
+  /// Ends the last page and the file; returns how many pages there are.
+  int finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> s_;
+};
+
+}  // namespace cavum

@@ -1,0 +1,189 @@
+#include "ui/report/pdf_writer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/text.h"
+#include "ui/report/pdf_sheet.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_text_pt = 9.5, k_small_pt = 8, k_cell_pt = 7.8, k_padding_pt = 3, k_gap_pt = 6;
+constexpr double k_pt_per_px = 0.75;
+
+PdfColour verdict_colour(const std::string& verdict) {
+  if (verdict == "pass") return {0.0, 0.447, 0.698};
+  if (verdict == "fail") return {0.835, 0.369, 0.0};
+  return {0.541, 0.427, 0.0};
+}
+
+class Printer {
+ public:
+  explicit Printer(PdfSheet& sheet) : s_(sheet) {}
+
+  void title(const Document& d) {
+    s_.lines({d.title, 17, true}, s_.width_pt());
+    s_.space(2);
+    s_.lines({d.subtitle, k_small_pt, false, {0.3, 0.3, 0.3}}, s_.width_pt());
+    s_.space(k_gap_pt);
+  }
+  void operator()(const Heading& b) {
+    constexpr double k_with_next_pt = 70;  // a heading does not stand alone at the foot of a page
+    s_.space(b.level > 2 ? 5 : 9);
+    s_.need((b.level > 2 ? 14 : 20) + k_with_next_pt);
+    s_.lines({b.text, b.level > 2 ? 10.0 : 12.5, true}, s_.width_pt());
+    if (b.level <= 2) s_.rule({0.75, 0.75, 0.75});
+    s_.space(3);
+  }
+  void operator()(const Paragraph& b) {
+    const double size = b.kind == Paragraph::Kind::small ? k_small_pt : k_text_pt;
+    PdfText text{b.text, size, false};
+    text.lead = b.lead;
+    if (b.kind == Paragraph::Kind::note) text.fill = PdfColour{1.0, 0.957, 0.839};
+    s_.lines(text, s_.width_pt());
+    s_.space(k_gap_pt / 2);
+  }
+  void operator()(const Bullets& b) {
+    for (const auto& item : b.items) {
+      s_.lines({"• " + item, b.small ? k_small_pt : k_text_pt, false}, s_.width_pt());
+      s_.space(1);
+    }
+    s_.space(k_gap_pt / 2);
+  }
+  void operator()(const VerdictBox& b) {
+    const double left = 0.36 * s_.width_pt(), inner = 8;
+    const PdfColour colour = verdict_colour(b.verdict);
+    const PdfText verdict{b.verdict, 20, true, colour}, score{b.score, 11, true};
+    double height_left = s_.height(verdict, left) + s_.height(score, left), height_right = 0;
+    for (const auto& line : b.lines) height_left += s_.height({line, k_small_pt, false}, left) + 1;
+    const double right = s_.width_pt() - left - 3 * inner;
+    for (const auto& reason : b.reasons) height_right += s_.height({"• " + reason, k_text_pt, false}, right) + 2;
+    const double height = std::max(height_left, height_right) + 2 * inner;
+    s_.need(height);
+    s_.frame(0, s_.width_pt(), height, colour, 1.4);
+    double y = inner;
+    for (const PdfText& t : {verdict, score}) y += s_.at(t, inner, y, left);
+    for (const auto& line : b.lines) y += s_.at({line, k_small_pt, false}, inner, y + 1, left) + 1;
+    y = inner;
+    for (const auto& reason : b.reasons) y += s_.at({"• " + reason, k_text_pt, false}, left + 2 * inner, y, right) + 2;
+    s_.space(height + k_gap_pt);
+  }
+  void operator()(const ReportTable& b) {
+    const std::vector<double> widths = widths_of(b);
+    TableRow head;
+    for (const auto& c : b.columns) head.cells.push_back({c.title});
+    const double head_height = height_of(b, head, widths, true);
+    const bool has_head = std::any_of(b.columns.begin(), b.columns.end(), [](const TableColumn& c) { return !c.title.empty(); });
+    const auto print_head = [&] {
+      if (!has_head) return;
+      s_.fill(0, s_.width_pt(), head_height, {0.93, 0.93, 0.93});
+      row(b, head, widths, true);
+      s_.space(head_height);
+    };
+    const double most = s_.page_height_pt() - head_height - 1;
+    bool begun = false;
+    for (const auto& r : b.rows) {
+      const double height = std::min(height_of(b, r, widths, false), most);
+      if (!begun) {
+        s_.need(height + head_height);
+        print_head();
+      } else if (s_.need(height)) {
+        print_head();
+      }
+      begun = true;
+      if (r.lost) s_.fill(0, s_.width_pt(), height, {1.0, 0.955, 0.92});
+      row(b, r, widths, false, most);
+      s_.space(height);
+      s_.rule({0.86, 0.86, 0.86});
+    }
+    s_.space(k_gap_pt);
+  }
+  void operator()(const Pictures& b) {
+    const auto columns = static_cast<std::size_t>(std::max(1, b.columns));
+    constexpr double k_between_pt = 12;
+    const double width = (s_.width_pt() - k_between_pt * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+    for (std::size_t first = 0; first < b.list.size(); first += columns) {
+      const std::size_t end = std::min(b.list.size(), first + columns);
+      struct Placed {
+        PdfPicture picture;
+        double width, height, title;
+      };
+      std::vector<Placed> placed;
+      double tallest = 0, titles = 0;
+      for (std::size_t i = first; i < end; ++i) {
+        PdfPicture p(b.list[i].svg);
+        const double scale = std::min({k_pt_per_px, width / p.width_px(), 0.6 * s_.page_height_pt() / p.height_px()});
+        const double title = b.list[i].title.empty() ? 0 : s_.height({b.list[i].title, k_small_pt, false}, width) + 2;
+        tallest = std::max(tallest, p.height_px() * scale);
+        titles = std::max(titles, title);
+        placed.push_back({std::move(p), 0, 0, title});
+        placed.back().width = placed.back().picture.width_px() * scale;
+        placed.back().height = placed.back().picture.height_px() * scale;
+      }
+      s_.need(tallest + titles + k_gap_pt);
+      for (std::size_t i = first; i < end; ++i) {
+        const Placed& p = placed[i - first];
+        const double x = static_cast<double>(i - first) * (width + k_between_pt);
+        s_.draw(p.picture, x, tallest - p.height, p.width, p.height, b.list[i].raster);
+        if (p.title > 0) s_.at({b.list[i].title, k_small_pt, false}, x, tallest + 2, width);
+      }
+      s_.space(tallest + titles + k_gap_pt);
+    }
+  }
+  void operator()(const LiveFigure& b) {
+    if (!b.on_paper.empty()) (*this)(Pictures{b.on_paper, 1});
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> widths_of(const ReportTable& t) const {
+    double sum = 0;
+    for (const auto& c : t.columns) sum += c.width;
+    std::vector<double> widths;
+    for (const auto& c : t.columns) widths.push_back(s_.width_pt() * c.width / sum);
+    return widths;
+  }
+  static PdfText cell_text(const std::string& text, bool number, bool head) {
+    PdfText t{text, k_cell_pt, head};
+    t.right = number;
+    return t;
+  }
+  double height_of(const ReportTable& t, const TableRow& r, const std::vector<double>& widths, bool head) {
+    double height = 0;
+    for (std::size_t i = 0; i < r.cells.size(); ++i)
+      height = std::max(height, s_.height(cell_text(r.cells[i].text, t.columns[i].number, head), widths[i] - 2 * k_padding_pt));
+    return height + 2 * k_padding_pt;
+  }
+  void row(const ReportTable& t, const TableRow& r, const std::vector<double>& widths, bool head, double most = 0) {
+    double x = 0;
+    for (std::size_t i = 0; i < r.cells.size(); ++i) {
+      PdfText text = cell_text(r.cells[i].text, t.columns[i].number, head);
+      text.most_pt = most > 0 ? most - 2 * k_padding_pt : 0;
+      s_.at(text, x + k_padding_pt, k_padding_pt, widths[i] - 2 * k_padding_pt);
+      x += widths[i];
+    }
+  }
+  PdfSheet& s_;
+};
+
+/// Prints everything; `pages`: how many there will be, 0 when not known yet. Returns how many there were.
+int print(const Document& d, int pages, std::string& out) {
+  PdfSheet sheet(d, pages, out);
+  Printer printer(sheet);
+  printer.title(d);
+  for (const auto& block : d.blocks) std::visit(printer, block);
+  for (const auto& line : d.footer) sheet.lines({line, 7, false, {0.35, 0.35, 0.35}}, sheet.width_pt());
+  return sheet.finish();
+}
+
+}  // namespace
+
+std::string pdf_of(const Document& document) {
+  std::string bytes;
+  const int pages = print(document, 0, bytes);
+  bytes.clear();
+  print(document, pages, bytes);
+  return bytes;
+}
+
+}  // namespace cavum

@@ -1,0 +1,18 @@
+// The report of a recorded exam, for a student or an instructor, as one HTML file or as PDF: the same words, figures and pictures.
+#pragma once
+
+#include <string>
+
+#include "ui/report/report_source.h"
+
+namespace cavum {
+
+/// One file that needs nothing else, with the tooth in 3D and the motion where a browser has scripts and WebGL.
+[[nodiscard]] std::string report_html(const ReportSource& source);
+/// A4 pages. The same source gives the same bytes.
+[[nodiscard]] std::string report_pdf(const ReportSource& source);
+
+/// The instructor's report of an exam that has just been closed, without a replay, as `path` ends: .pdf or else HTML.
+void write_closing_report(const std::string& path, const std::string& session_path, const Result& result, const GradedSession& graded);
+
+}  // namespace cavum

@@ -1,0 +1,128 @@
+#include "ui/report/report_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/instrument/diamond_point.h"
+#include "scenarios/picture.h"
+#include "ui/report/motion_track.h"
+#include "ui/report/packed_array.h"
+#include "ui/report/tooth_grid.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+constexpr double k_colours_end_mm = 0.5;  // beyond this deviation from the target colours differ no more
+constexpr double k_silhouette_step_mm = 0.1, k_silhouette_mm = 12.0;
+
+double rounded(double v, double unit) { return std::round(v / unit) * unit; }
+json point(Vec3 p) { return {rounded(p.x, 1e-4), rounded(p.y, 1e-4), rounded(p.z, 1e-4)}; }
+json cells(IVec3 v) { return {v.x, v.y, v.z}; }
+json site(const std::optional<Vec3>& p) { return p ? point(*p) : json(); }
+
+json tissues_json(const ReportSource& s) {
+  const auto& tissues = s.input.before.tissues;
+  std::size_t most = 0;
+  for (const auto& t : tissues) most = std::max<std::size_t>(most, t.id);
+  json list = json::array();
+  for (std::size_t id = 0; id <= most; ++id) list.push_back({{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
+  for (const auto& t : tissues)
+    list[t.id] = {{"name", t.name}, {"colour", tissue_colour(t.id, s.input.scenario.accommodations.high_contrast)}, {"solid", t.solid}};
+  return list;
+}
+
+json grid_json(const ReportSource& s) {
+  const ToothGrid g = make_tooth_grid(s.input.before);
+  const ChangedCells c = make_changed_cells(g, s.input);
+  return {{"cell_mm", g.cell_mm},
+          {"origin_mm", point(g.origin_mm)},
+          {"size", cells(g.size)},
+          {"before", packed_array(shares_of(g.solid, g.cell_leaves()))},
+          {"tissue", packed_array(g.tissue)},
+          {"box", {{"low", cells(c.low)}, {"size", cells(c.size)}}},
+          {"after", packed_array(shares_of(c.solid, g.cell_leaves()))},
+          {"first", packed_array(c.first)},
+          {"last", packed_array(c.last)},
+          {"distance", packed_array(c.distance)}};
+}
+
+json motion_json(const ReportSource& s) {
+  const MotionTrack m = make_motion_track(s.input);
+  return {{"dt_s", m.step_s},
+          {"n", m.size()},
+          {"x_um", packed_array(m.x_um, true)},
+          {"y_um", packed_array(m.y_um, true)},
+          {"z_um", packed_array(m.z_um, true)},
+          {"ax", packed_array(m.axis_x, true)},
+          {"ay", packed_array(m.axis_y, true)},
+          {"az", packed_array(m.axis_z, true)},
+          {"force_cn", packed_array(m.force_cn)},
+          {"depth_um", packed_array(m.depth_um, true)},
+          {"rpm10", packed_array(m.rpm10, true)},
+          {"tip_um_s", packed_array(m.tip_um_s)}};
+}
+
+/// Silhouettes of the points that were mounted, from when.
+json instruments_json(const ReportSource& s) {
+  json list = json::array();
+  int mounted = -1;
+  for (std::size_t i = 0; i < s.input.inputs.size(); ++i) {
+    const std::size_t point = s.input.inputs[i].point;
+    if (static_cast<int>(point) == mounted) continue;
+    mounted = static_cast<int>(point);
+    if (point >= s.facts.points_toml.size()) continue;
+    const DiamondPoint p = parse_diamond_point(s.facts.points_toml[point], "diamond point of the session");
+    json profile = json::array({{0.0, 0.0}});
+    for (const auto& at : p.profile.walk(k_silhouette_step_mm, std::min(k_silhouette_mm, p.profile.length_mm())))
+      profile.push_back({rounded(at.at.z_mm, 1e-3), rounded(at.at.r_mm, 1e-3)});
+    list.push_back({{"from_s", static_cast<double>(i) * k_tick_s}, {"name", p.title}, {"profile_mm", std::move(profile)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+json report_data(const ReportSource& s) {
+  json events = json::array(), moments = json::array();
+  for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", e.kind}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
+  for (const auto& w : s.lost)
+    for (const auto& m : w.items) {
+      if (m.tick < 0) continue;
+      moments.push_back({{"criterion", w.criterion.title},
+                         {"t_s", static_cast<double>(m.tick) * k_tick_s},
+                         {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
+                         {"site_mm", site(m.site_mm)},
+                         {"what", m.what},
+                         {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
+    }
+  return {{"schema", 1},
+          {"kind", "session"},
+          {"title", report_title(s)},
+          {"duration_s", static_cast<double>(s.input.records.size()) * k_tick_s},
+          {"high_contrast", s.input.scenario.accommodations.high_contrast},
+          {"tissues", tissues_json(s)},
+          {"grid", grid_json(s)},
+          {"scale_mm", k_colours_end_mm},
+          {"motion", motion_json(s)},
+          {"instruments", instruments_json(s)},
+          {"events", std::move(events)},
+          {"moments", std::move(moments)}};
+}
+
+std::string script_text(const json& data) {
+  const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+}  // namespace cavum

@@ -1,0 +1,216 @@
+#include "ui/report/report_document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/text.h"
+#include "scenarios/picture.h"
+#include "ui/report/from_above.h"
+#include "ui/report/motion_charts.h"
+#include "ui/report/section_pictures.h"
+
+namespace cavum {
+namespace {
+
+const std::string k_dash = "–";
+
+std::string with_unit(const std::string& number, const std::string& unit) { return unit.empty() ? number : number + " " + unit_text(unit); }
+
+std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
+  return points ? fixed(*points, 1) + " / " + fixed(max.value_or(0), 1) : k_dash;
+}
+
+/// How far from the pass mark, in points.
+std::vector<std::string> margin(const Result& r) {
+  std::vector<std::string> lines;
+  if (r.compensatory) {
+    const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
+    lines.push_back(
+        fixed(std::fabs(off), 1) + " points " + (off < 0 ? "below" : "above") + " the pass mark of " + fixed(mark, 1) + " points (" +
+        plain_number(r.pass_percent) + " %)" +
+        (r.borderline_percent > 0 ? "; within " + fixed(r.borderline_percent / 100 * r.max_points, 1) + " points of it a person decides" : ""));
+  } else {
+    const CriterionResult* lowest = nullptr;
+    const auto percent = [](const CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
+    for (const auto& c : r.criteria)
+      if (c.max > 0 && (lowest == nullptr || percent(c) < percent(*lowest))) lowest = &c;
+    lines.push_back("each criterion must reach " + plain_number(r.pass_percent) + " % by itself" +
+                    (lowest != nullptr ? "; the lowest, " + lowest->title + ", reaches " + fixed(percent(*lowest), 1) + " %" : ""));
+  }
+  lines.push_back("± " + fixed(r.points_bound, 1) + " if every figure were off by its whole bound");
+  return lines;
+}
+
+/// What gives full marks and what none, and beyond what the exam is failed.
+std::string limits_text(const CriterionSpec& c, const std::string& unit) {
+  std::string s = "full " + std::string(c.full <= c.zero ? "up to " : "from ") + with_unit(plain_number(c.full), unit) + ", none " +
+                  (c.full <= c.zero ? "from " : "up to ") + with_unit(plain_number(c.zero), unit);
+  if (c.critical_above) s += "; failed above " + with_unit(plain_number(*c.critical_above), unit);
+  if (c.critical_below) s += "; failed below " + with_unit(plain_number(*c.critical_below), unit);
+  return s;
+}
+
+void add_criteria(Document& d, const ReportSource& s) {
+  d.blocks.push_back(Heading{"Criteria"});
+  ReportTable t{{{"Criterion", false, 2.2}, {"Value", true, 1.6}, {"Limits", false, 2.4}, {"Points", true, 1.5}, {"Why", false, 4}}, {}, "Criteria"};
+  for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
+    const CriterionResult& c = s.result.criteria[i];
+    const std::string value = c.value ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit) : k_dash;
+    const std::string points = fixed(c.points, 1) + (c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "") + " / " + fixed(c.max, 1);
+    const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";
+    t.rows.push_back({{{c.title}, {value}, {limits}, {points}, {c.reason}}, c.max - c.points > 1e-9});
+  }
+  d.blocks.push_back(std::move(t));
+}
+
+/// A row of a moment: time, place, what, how much, points.
+TableRow moment_row(const WhyItem& m) {
+  const std::string amount = m.amount ? with_unit(fixed(*m.amount, 3), m.unit) : "";
+  std::string what = m.what;
+  if (m.end_tick > m.tick && m.tick >= 0) what += " (until " + fixed(static_cast<double>(m.end_tick) * k_tick_s, 2) + " s)";
+  return {{time_cell(m.tick, m.site_mm), {place_text(m.site_mm)}, {what}, {amount}, {m.points_lost ? fixed(*m.points_lost, 2) : ""}},
+          m.points_lost && *m.points_lost > 0};
+}
+
+void add_moments(Document& d, const ReportSource& s) {
+  d.blocks.push_back(Heading{"Where the points went"});
+  if (s.lost.empty()) {
+    d.blocks.push_back(Paragraph{"No points were lost.", ""});
+    return;
+  }
+  for (const auto& w : s.lost) {
+    const auto& c = w.criterion;
+    d.blocks.push_back(Heading{c.title + ": " + fixed(c.max - c.points, 1) + " of " + fixed(c.max, 1) + " points lost", 3});
+    ReportTable t{{{"Time", true, 1.2}, {"Place x, y, z, mm", false, 2}, {"What", false, 6}, {"How much", true, 1.7}, {"Points lost", true, 1.2}},
+                  {},
+                  "Moments behind " + c.title};
+    for (const auto& m : w.items) t.rows.push_back(moment_row(m));
+    if (w.left_out > 0)
+      t.rows.push_back({{{k_dash},
+                         {""},
+                         {std::to_string(w.left_out) + " smaller moments together"},
+                         {fixed(w.left_out_amount, 3)},
+                         {w.left_out_points > 0 ? fixed(w.left_out_points, 2) : ""}},
+                        w.left_out_points > 0});
+    d.blocks.push_back(std::move(t));
+  }
+}
+
+void add_pictures(Document& d, const ReportSource& s) {
+  const bool strong = s.input.scenario.accommodations.high_contrast;
+  d.blocks.push_back(Heading{"The tooth"});
+  d.blocks.push_back(LiveFigure{"tooth-3d",
+                                "The tooth in three dimensions",
+                                "The tooth in three dimensions, and the motion through it, need a browser with scripts and WebGL.",
+                                {}});
+  d.blocks.push_back(Pictures{{picture_from_above(s.input)}});
+  d.blocks.push_back(Heading{"Sections: removed against target"});
+  Pictures sections{{}, 2, true};
+  for (auto& p : section_pictures(s.result, s.input)) sections.list.push_back({std::move(p.svg), std::move(p.title), true});
+  d.blocks.push_back(std::move(sections));
+  d.blocks.push_back(Pictures{{{legend_svg(true, strong), ""}}});
+}
+
+void add_course(Document& d, const ReportSource& s) {
+  d.blocks.push_back(Heading{"Force, depth and speed"});
+  d.blocks.push_back(
+      LiveFigure{"charts", "Force, depth and handpiece speed over time", "The charts that move need a browser with scripts.", motion_charts(s)});
+  if (s.events.empty()) return;
+  d.blocks.push_back(Heading{"Events", 3});
+  ReportTable t{{{"No.", true, 0.6}, {"Time", true, 1.2}, {"Kind", false, 1.4}, {"What", false, 6}, {"Place x, y, z, mm", false, 2}}, {}, "Events"};
+  for (std::size_t i = 0; i < s.events.size(); ++i) {
+    const ReportEvent& e = s.events[i];
+    t.rows.push_back({{{std::to_string(i + 1)}, {fixed(e.t_s, 3) + " s", Jump{e.t_s, e.site_mm}}, {e.kind}, {e.text}, {place_text(e.site_mm)}},
+                      e.kind == "perforation" || e.kind == "violation"});
+  }
+  d.blocks.push_back(std::move(t));
+}
+
+void add_attempts(Document& d, const ReportSource& s) {
+  d.blocks.push_back(Heading{"Attempts over time"});
+  if (!s.filing) {
+    d.blocks.push_back(Paragraph{"This report was made from one session alone; earlier attempts are known to the school's ledger.", ""});
+    return;
+  }
+  const bool all = s.reader == ReportReader::instructor;
+  ReportTable t{{{"Attempt", true, 1}, {"Filed (UTC)", false, 3}, {"Verdict", false, 1.5}, {"Points", true, 2}, {"Entry", true, 1}, {"", false, 2.5}},
+                {},
+                "Attempts"};
+  std::vector<ReportAttempt> shown;
+  for (const auto& a : s.filing->attempts) {
+    if (!all && !a.released) continue;
+    shown.push_back(a);
+    t.rows.push_back(
+        {{{std::to_string(shown.size())},
+          {a.date},
+          {a.verdict},
+          {points_of(a.points, a.max)},
+          {std::to_string(a.entry)},
+          {std::string(a.this_one ? "this report" : "") + (a.this_one && !a.released ? ", " : "") + (a.released ? "" : "not released")}}});
+  }
+  d.blocks.push_back(Pictures{{attempts_chart(shown, s.result.pass_percent)}});
+  d.blocks.push_back(std::move(t));
+}
+
+void add_regrade(Document& d, const Comparison& c) {
+  const auto because = [](const std::vector<std::string>& why) {
+    std::string s;
+    for (const auto& w : why) s += (s.empty() ? "" : "; ") + w;
+    return s;
+  };
+  d.blocks.push_back(Heading{"Beside the sealed result"});
+  ReportTable t{{{"", false, 2}, {"Sealed", true, 1.5}, {"Regrade", true, 1.5}, {"Change", true, 1}, {"What changed", false, 5}},
+                {},
+                "Sealed result and regrade"};
+  t.rows.push_back({{{"verdict"}, {c.before.verdict}, {c.verdict}, {""}, {because(c.rules)}}});
+  t.rows.push_back(
+      {{{"points"}, {points_of(c.before.points, c.before.max)}, {points_of(c.points, c.max)}, {signed_points(c.points - c.before.points)}, {""}}});
+  for (const auto& k : c.criteria) {
+    std::string why = because(k.why);
+    if (k.old_value && k.new_value && fixed(*k.old_value, 3) != fixed(*k.new_value, 3))
+      why += (why.empty() ? "" : "; ") + with_unit("value " + fixed(*k.old_value, 3) + " → " + fixed(*k.new_value, 3), k.unit);
+    t.rows.push_back({{{k.id}, {points_of(k.old_points, k.old_max)}, {points_of(k.new_points, k.new_max)}, {signed_points(k.difference())}, {why}}});
+  }
+  d.blocks.push_back(std::move(t));
+}
+
+}  // namespace
+
+TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
+  if (tick < 0) return {k_dash};
+  const double t_s = static_cast<double>(tick) * k_tick_s;
+  return {fixed(t_s, 3) + " s", Jump{t_s, site_mm}};
+}
+
+std::string place_text(const std::optional<Vec3>& p) { return p ? fixed(p->x, 2) + ", " + fixed(p->y, 2) + ", " + fixed(p->z, 2) : ""; }
+
+std::string unit_text(const std::string& unit) {
+  if (unit == "mm3") return "mm³";
+  if (unit.starts_with("mm3 ")) return "mm³" + unit.substr(3);
+  return unit;
+}
+
+Document report_document(const ReportSource& s) {
+  const Result& r = s.result;
+  Document d;
+  d.title = report_title(s);
+  const bool named = s.filing && s.filing->name && s.filing->released;
+  d.subtitle = (named ? *s.filing->name + ", candidate " : "Candidate ") + s.facts.candidate + " · " + s.facts.created + " · " + r.tooth_name +
+               " · " + s.facts.device + (s.reader == ReportReader::instructor ? " · instructor's report" : "");
+  d.created = s.facts.created;
+  if (s.regrade != nullptr) d.blocks.push_back(Paragraph{regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
+  d.blocks.push_back(
+      VerdictBox{verdict_name(r.verdict), fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points", margin(r), r.verdict_reasons});
+  if (s.regrade != nullptr && s.reader == ReportReader::instructor) add_regrade(d, *s.regrade);
+  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
+  add_criteria(d, s);
+  add_pictures(d, s);
+  add_course(d, s);
+  add_moments(d, s);
+  if (s.reader == ReportReader::instructor) add_instructor_parts(d, s);
+  add_attempts(d, s);
+  add_integrity(d, s);
+  return d;
+}
+
+}  // namespace cavum

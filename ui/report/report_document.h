@@ -1,0 +1,25 @@
+// The words, tables and pictures of a report, for a student or for an instructor: what html_writer.h and pdf_writer.h print.
+#pragma once
+
+#include "ui/report/document.h"
+#include "ui/report/report_source.h"
+
+namespace cavum {
+
+/// The whole report. What belongs to an instructor alone is left out of a student's.
+[[nodiscard]] Document report_document(const ReportSource& source);
+
+/// The parts that an instructor sees besides: every figure with its bound, perforation, work, device, proof. Appended to `document`.
+void add_instructor_parts(Document& document, const ReportSource& source);
+
+/// What is proved of the session: hashes, closing, replay, ticket, entry. Appended as blocks, and in short as the footer.
+void add_integrity(Document& document, const ReportSource& source);
+
+/// "12.3 s" as a cell that jumps there; a dash for a negative tick.
+[[nodiscard]] TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm);
+/// "1.20, 0.30, -2.10".
+[[nodiscard]] std::string place_text(const std::optional<Vec3>& site_mm);
+/// "mm³" for "mm3".
+[[nodiscard]] std::string unit_text(const std::string& unit);
+
+}  // namespace cavum

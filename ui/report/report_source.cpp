@@ -1,0 +1,86 @@
+#include "ui/report/report_source.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "engine/instrument/diamond_point.h"
+#include "scenarios/runner.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+std::string text_of(const json& detail, const char* key) {
+  return detail.is_object() && detail.contains(key) && detail[key].is_string() ? detail[key].get<std::string>() : "";
+}
+
+std::optional<Vec3> site_of(const json& detail) {
+  if (!detail.is_object() || !detail.contains("site_mm")) return {};
+  const json& p = detail["site_mm"];
+  if (!p.is_array() || p.size() != 3 || !p[0].is_number() || !p[1].is_number() || !p[2].is_number()) return {};
+  return Vec3{p[0], p[1], p[2]};
+}
+
+std::string spaced(std::string kind) {
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  return kind;
+}
+
+ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::vector<std::string>& points_toml) {
+  const json detail = json::parse(e.detail_json, nullptr, false);
+  const std::string step = text_of(detail, "step");
+  const auto is = [&](ExamEventKind kind) { return e.kind == event_name(kind); };
+  ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, "device", spaced(e.kind), site_of(detail)};
+  const auto say = [&](const char* kind, const std::string& text) { r.kind = kind, r.text = text; };
+  if (is(ExamEventKind::step_started)) say("step", "step \"" + step + "\" begins");
+  if (is(ExamEventKind::step_completed)) say("step", "step \"" + step + "\" completed");
+  if (is(ExamEventKind::step_failed)) say("step", "step \"" + step + "\" failed");
+  if (is(ExamEventKind::step_time_limit)) say("limit", "time limit of step \"" + step + "\"");
+  if (is(ExamEventKind::time_limit)) say("limit", "time limit of the exam");
+  if (is(ExamEventKind::over_speed)) say("violation", "handpiece faster than " + plain_number(input.scenario.max_rpm) + " rpm");
+  if (is(ExamEventKind::point_not_allowed)) {
+    std::string name;
+    if (detail.is_object() && detail.contains("point") && detail["point"].is_number_unsigned() &&
+        detail["point"].get<std::size_t>() < points_toml.size())
+      name = parse_diamond_point(points_toml[detail["point"].get<std::size_t>()], "diamond point of the session").title;
+    say("violation", "diamond point not allowed here" + (name.empty() ? "" : ": " + name));
+  }
+  if (is(ExamEventKind::aim_reached)) say("aim", text_of(detail, "tissue") + " reached: the aim");
+  if (is(ExamEventKind::perforation)) say("perforation", text_of(detail, "tissue") + " broken into (tissue)");
+  if (is(ExamEventKind::finished)) say("finish", "the exam ended: " + text_of(detail, "how"));
+  if (is(ExamEventKind::pause_started)) say("pause", "pause begins");
+  if (is(ExamEventKind::pause_ended)) say("pause", "pause ends");
+  if (is(ExamEventKind::pause_refused)) say("pause", "pause refused");
+  if (e.kind == "gap") say("gap", "the recording was interrupted here and taken up again");
+  return r;
+}
+
+}  // namespace
+
+std::vector<ReportEvent> report_events(const Result& result, const GradeInput& input, const std::vector<std::string>& points_toml) {
+  std::vector<ReportEvent> list;
+  for (const auto& e : input.events)
+    if (e.kind != "servo_lateness") list.push_back(event_of(e, input, points_toml));
+  for (const auto& e : result.perforation.events)
+    list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? "perforation" : "aim",
+                    "breakthrough in the force: " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N, " +
+                        (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue"),
+                    e.site_mm});
+  std::stable_sort(list.begin(), list.end(), [](const ReportEvent& a, const ReportEvent& b) { return a.t_s < b.t_s; });
+  return list;
+}
+
+ReportSource report_source(const Result& result, const GradeInput& input, const ReportFacts& facts, const RubricSpec& rubric) {
+  ReportSource s{.result = result, .input = input, .facts = facts, .rubric = rubric};
+  constexpr double k_nothing = 1e-9;
+  for (const auto& c : result.criteria)
+    if (c.max - c.points > k_nothing) s.lost.push_back(why(input, result, rubric, c.id));
+  s.events = report_events(result, input, facts.points_toml);
+  return s;
+}
+
+std::string report_title(const ReportSource& s) { return s.result.scenario_title; }
+
+}  // namespace cavum

@@ -1,0 +1,79 @@
+// Everything that a report is made of: the result and what it was measured on, what is proved of the session, and what the school's ledger
+// knows. The page's data and the document are both made from it, so that they tell the same.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/compare.h"
+#include "grading/grade.h"
+#include "grading/session_input.h"
+#include "grading/why.h"
+
+namespace cavum {
+
+/// Whom a report is for: a student sees the verdict and where each point went, an instructor every figure besides.
+enum class ReportReader { student, instructor };
+
+/// What is known of a session file's truth.
+struct ReportIntegrity {
+  enum class Replay { not_done, agrees, differs };
+  std::string file;  ///< without its folder
+  std::string file_sha256, chain_sha256, final_tooth_sha256, result_sha256, station_key, closed_utc;
+  Replay replay = Replay::not_done;
+  bool at_filing = false;                              ///< `replay` was done when the ledger took the session in
+  std::vector<std::string> proved, findings, remarks;  ///< as explain_session says them
+};
+
+/// One attempt of a candidate at an exam, as the ledger holds it.
+struct ReportAttempt {
+  std::uint64_t entry = 0;
+  std::string date;  ///< when it was filed, UTC
+  std::string verdict;
+  double points = 0, max = 0;
+  bool released = false, this_one = false;
+};
+
+/// What the ledger says of a session.
+struct ReportFiling {
+  std::uint64_t entry = 0, entries = 0;  ///< its number, and how many the root below is of
+  std::string ledger, school, public_key, root, date;
+  bool released = false;
+  std::vector<std::string> findings;    ///< it was filed with
+  std::optional<std::string> name;      ///< of the candidate: only when asked for, and released
+  std::vector<ReportAttempt> attempts;  ///< of this candidate at this exam, the oldest first
+};
+
+/// Something that happened, in words.
+struct ReportEvent {
+  double t_s = 0;
+  std::string kind;  ///< perforation, aim, violation, step, pause, limit, finish, device, gap
+  std::string text;
+  std::optional<Vec3> site_mm;
+};
+
+struct ReportSource {
+  const Result& result;
+  const GradeInput& input;
+  const ReportFacts& facts;
+  const Comparison* regrade = nullptr;  ///< what the session was sealed with, where this result is another one
+  ReportReader reader = ReportReader::instructor;
+  ReportIntegrity integrity = {};
+  std::optional<ReportFiling> filing = {};
+  RubricSpec rubric = {};                ///< that the result was marked by
+  std::vector<Why> lost = {};            ///< of each criterion that lost points
+  std::vector<ReportEvent> events = {};  ///< in order of time
+};
+
+/// With what follows from the result: `lost` and `events`. The references must outlive it.
+[[nodiscard]] ReportSource report_source(const Result& result, const GradeInput& input, const ReportFacts& facts, const RubricSpec& rubric);
+
+/// The events of the exam and the breakthroughs seen in the force, in words and in order of time.
+[[nodiscard]] std::vector<ReportEvent> report_events(const Result& result, const GradeInput& input, const std::vector<std::string>& points_toml);
+
+/// Title of a report: the exam's.
+[[nodiscard]] std::string report_title(const ReportSource& source);
+
+}  // namespace cavum

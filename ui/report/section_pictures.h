@@ -1,0 +1,27 @@
+// Sections of removed against target for a report: eight of them, through the middle of the target, through the places of the worst over- and
+// undercut, and through a perforation where there is one; and three on one sheet, as a picture by itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grading/grade.h"
+#include "scenarios/picture.h"
+
+namespace cavum {
+
+struct SectionPicture {
+  View view = View::mesio_distal;
+  double at_mm = 0.0;  ///< where it is cut, along the axis looked at, tooth frame
+  std::string title;   ///< with its place: "Mesio-distal, y = 0.12 mm: through the middle of the target"
+  std::string svg;     ///< a complete `<svg>` element
+};
+
+inline constexpr std::size_t k_report_sections = 8;
+/// Always k_report_sections, no two the same.
+[[nodiscard]] std::vector<SectionPicture> section_pictures(const Result& result, const GradeInput& input);
+
+/// Three sections (through the middle of the target, or the place of a perforation) with the key to their colours: one standalone SVG document.
+[[nodiscard]] std::string sections_svg(const Result& result, const GradeInput& input);
+
+}  // namespace cavum

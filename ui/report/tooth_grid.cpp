@@ -1,0 +1,152 @@
+#include "ui/report/tooth_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/error.h"
+#include "grading/removed_map.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_wanted_cell_mm = 0.1, k_around_target_mm = 1.0;
+constexpr int k_margin_cells = 2;
+constexpr std::size_t k_most_counts = 24'000'000;  // cells times tissues: 48 MB while counting
+
+IVec3 min_of(IVec3 a, IVec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+IVec3 max_of(IVec3 a, IVec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+std::size_t volume(IVec3 n) { return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z); }
+
+/// Cells from a multiple of the edge, so that the same tooth gives the same cells wherever its tissue begins.
+int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+
+}  // namespace
+
+ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
+  const Octree& tree = tooth.octree;
+  constexpr int k_far = std::numeric_limits<int>::max();
+  IVec3 low{k_far, k_far, k_far}, high{-1, -1, -1};
+  std::array<int, 256> column;
+  column.fill(-1);
+  std::vector<std::uint8_t> ids;
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    low = min_of(low, at);
+    high = max_of(high, at + IVec3{edge, edge, edge});
+    if (column[t] >= 0) return;
+    column[t] = static_cast<int>(ids.size());
+    ids.push_back(t);
+  });
+  if (ids.empty()) throw Error(tooth.name, "this tooth holds no tissue", "use another one");
+
+  ToothGrid g;
+  most_cells = std::min(most_cells, k_most_counts / ids.size());
+  IVec3 from;
+  for (g.edge_leaves = std::max(1, static_cast<int>(k_wanted_cell_mm / tree.leaf_mm() + 0.5));; ++g.edge_leaves) {
+    const int e = g.edge_leaves;
+    from = {floor_div(low.x, e) - k_margin_cells, floor_div(low.y, e) - k_margin_cells, floor_div(low.z, e) - k_margin_cells};
+    const IVec3 to{floor_div(high.x - 1, e) + 1 + k_margin_cells, floor_div(high.y - 1, e) + 1 + k_margin_cells,
+                   floor_div(high.z - 1, e) + 1 + k_margin_cells};
+    g.size = to - from;
+    if (volume(g.size) <= most_cells) break;
+  }
+  const int e = g.edge_leaves;
+  g.cell_mm = e * tree.leaf_mm();
+  g.low_leaf = {from.x * e, from.y * e, from.z * e};
+  g.origin_mm = tree.origin_mm() + Vec3{g.low_leaf.x + 0.5 * e, g.low_leaf.y + 0.5 * e, g.low_leaf.z + 0.5 * e} * tree.leaf_mm();
+
+  const std::size_t kinds = ids.size();
+  std::vector<std::uint16_t> count(volume(g.size) * kinds, 0);
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    const auto kind = static_cast<std::size_t>(column[t]);
+    const IVec3 a = at - g.low_leaf, b = a + IVec3{edge, edge, edge};
+    const auto shared = [e](int cell, int from_leaf, int to_leaf) { return std::min(to_leaf, (cell + 1) * e) - std::max(from_leaf, cell * e); };
+    for (int z = a.z / e; z * e < b.z; ++z)
+      for (int y = a.y / e; y * e < b.y; ++y) {
+        const int area = shared(z, a.z, b.z) * shared(y, a.y, b.y);
+        for (int x = a.x / e; x * e < b.x; ++x) {
+          auto& n = count[g.index({x, y, z}) * kinds + kind];
+          n = static_cast<std::uint16_t>(n + area * shared(x, a.x, b.x));
+        }
+      }
+  });
+  g.solid.resize(volume(g.size));
+  g.tissue.resize(volume(g.size));
+  for (std::size_t i = 0; i < g.solid.size(); ++i) {
+    unsigned solid = 0, most_solid = 0, others = 0, most_other = 0;
+    std::uint8_t of_solid = k_air, of_other = k_air;
+    for (std::size_t k = 0; k < kinds; ++k) {
+      const unsigned n = count[i * kinds + k];
+      if (tree.is_solid(ids[k])) {
+        solid += n;
+        if (n > most_solid) most_solid = n, of_solid = ids[k];
+      } else {
+        others += n;
+        if (n > most_other) most_other = n, of_other = ids[k];
+      }
+    }
+    const unsigned air = static_cast<unsigned>(g.cell_leaves()) - solid - others;
+    g.solid[i] = static_cast<std::uint16_t>(solid);
+    g.tissue[i] = solid > 0 ? of_solid : most_other > air ? of_other : static_cast<std::uint8_t>(k_air);
+  }
+  return g;
+}
+
+ChangedCells make_changed_cells(const ToothGrid& g, const GradeInput& input) {
+  const Octree& tree = input.before.octree;
+  const auto cell_at = [&](Vec3 p) {
+    const Vec3 c = (p - g.origin_mm) / g.cell_mm;
+    return IVec3{static_cast<int>(std::lround(c.x)), static_cast<int>(std::lround(c.y)), static_cast<int>(std::lround(c.z))};
+  };
+  const Vec3 around{k_around_target_mm, k_around_target_mm, k_around_target_mm};
+  IVec3 low = cell_at(input.zones.target_low_mm() - around), high = cell_at(input.zones.target_high_mm() + around) + IVec3{1, 1, 1};
+  for (const auto& r : input.removed) {
+    const IVec3 c = g.cell_of(r.leaf.leaf());
+    low = min_of(low, c);
+    high = max_of(high, c + IVec3{1, 1, 1});
+  }
+  ChangedCells box;
+  box.low = max_of(low, {0, 0, 0});
+  box.size = min_of(high, g.size) - box.low;
+
+  constexpr std::uint16_t k_never = 65535;
+  box.solid.resize(volume(box.size));
+  box.distance.resize(volume(box.size));
+  box.first.assign(volume(box.size), k_never);
+  box.last.assign(volume(box.size), k_never);
+  std::size_t i = 0;
+  for (int z = 0; z < box.size.z; ++z)
+    for (int y = 0; y < box.size.y; ++y)
+      for (int x = 0; x < box.size.x; ++x, ++i) {
+        const IVec3 cell = box.low + IVec3{x, y, z};
+        box.solid[i] = g.solid[g.index(cell)];
+        const double steps = input.zones.distance_mm(g.centre_mm(cell)) / k_distance_step_mm;
+        box.distance[i] = static_cast<std::int8_t>(std::lround(std::clamp(steps, -127.0, 127.0)));
+      }
+  const auto ticks = static_cast<double>(std::max<std::size_t>(1, input.records.size()));
+  const RemovedMap map(input.removed, std::numeric_limits<std::int64_t>::max());
+  RemovedMap::Marks seen = map.marks();
+  for (const auto& r : input.removed) {
+    const IVec3 leaf = r.leaf.leaf();
+    if (!tree.is_solid(r.leaf.tissue) || tree.tissue(leaf) == k_air || !seen.first_time(leaf)) continue;  // listed twice: the first time counts
+    const IVec3 c = g.cell_of(leaf) - box.low;
+    const std::size_t at = (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(box.size.y) + static_cast<std::size_t>(c.y)) *
+                               static_cast<std::size_t>(box.size.x) +
+                           static_cast<std::size_t>(c.x);
+    const double share = static_cast<double>(r.tick) / ticks * 65535.0;
+    const auto when = static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 65534.0)));
+    if (box.solid[at] > 0) --box.solid[at];
+    box.first[at] = box.first[at] == k_never ? when : std::min(box.first[at], when);
+    box.last[at] = box.last[at] == k_never ? when : std::max(box.last[at], when);
+  }
+  return box;
+}
+
+std::vector<std::uint8_t> shares_of(const std::vector<std::uint16_t>& solid, int cell_leaves) {
+  std::vector<std::uint8_t> shares(solid.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) shares[i] = static_cast<std::uint8_t>((solid[i] * 510 + cell_leaves) / (2 * cell_leaves));
+  return shares;
+}
+
+}  // namespace cavum

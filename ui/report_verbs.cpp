@@ -1,0 +1,135 @@
+// `cavum report` and `cavum ledger report`: reports of recorded exams, for instructors and for students.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "ui/marked_session.h"
+#include "ui/own_places.h"
+#include "ui/report/integrity.h"
+#include "ui/report/ledger_facts.h"
+#include "ui/report/report.h"
+#include "ui/report/section_pictures.h"
+#include "ui/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct Options {
+  std::string session, out, reader = "instructor", ledger;
+  MarkingOptions marking;
+  bool overwrite = false, with_name = false, no_replay = false, pdf = false;
+  [[nodiscard]] ReportReader for_whom() const { return reader == "student" ? ReportReader::student : ReportReader::instructor; }
+};
+
+/// An earlier report may be written anew, any other file not.
+void require_report_place(const Options& o) {
+  require_writable(o.out);
+  if (!std::filesystem::exists(o.out) || std::filesystem::file_size(o.out) == 0 || o.overwrite) return;
+  const std::string text = read_text_file(o.out), head = text.substr(0, 200);
+  const bool report = o.out.ends_with(".svg")   ? head.starts_with("<svg") && text.find("of the target removed") != std::string::npos
+                      : o.out.ends_with(".pdf") ? head.starts_with("%PDF") && text.find("(Cavum ") != std::string::npos
+                                                : head.starts_with("<!doctype html>") && text.find("grading/README.md of Cavum") != std::string::npos;
+  if (!report) throw Error(o.out, "exists already and is no report of Cavum", "choose another name, or overwrite it with --overwrite");
+}
+
+/// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
+ReportIntegrity integrity_of(const std::string& path, const Options& o, const FiledSession* filed) {
+  const bool replayed_then = filed != nullptr && filed->findings.empty();
+  ReportIntegrity i = read_integrity(path, !o.no_replay && !replayed_then);
+  if (replayed_then && i.findings.empty()) {
+    i.replay = ReportIntegrity::Replay::agrees;
+    i.at_filing = true;
+    i.remarks = {"the motion was simulated again when the ledger took the session in, and the file is the same since then"};
+  }
+  return i;
+}
+
+/// Writes the report of one session; `filed` and `ledger` are null without a ledger.
+void write_report(const std::string& session, const std::string& out, const Options& o, const ReportLedger* ledger, const FiledSession* filed) {
+  const MarkedSession m = marked_session(session, o.marking);
+  const GradeInput input = m.session->input();
+  if (out.ends_with(".svg")) return write_text_file(out, sections_svg(m.result, input));
+  if (filed != nullptr && o.for_whom() == ReportReader::student) require_released_result(*filed, m.result);
+  ReportSource source = report_source(m.result, input, m.session->facts, m.rubric);
+  if (m.regrade) source.regrade = &*m.comparison;
+  source.reader = o.for_whom();
+  if (filed != nullptr) source.filing = filing_of(*ledger, *filed, source.reader, o.with_name);
+  source.integrity = integrity_of(session, o, filed);
+  write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));
+  std::cout << "written: " << out << " (" << verdict_name(m.result.verdict) << ")\n";
+}
+
+void run_report(const Options& o) {
+  const bool picture = o.out.ends_with(".svg");
+  if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
+    throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
+  if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
+  require_report_place(o);
+  require_sound_marking(o.marking);
+  if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr);
+  const ReportLedger ledger(o.ledger);
+  const FiledSession& filed = ledger.session(to_hex(sha256(read_file(o.session))), o.session);
+  if (!picture) static_cast<void>(filing_of(ledger, filed, o.for_whom(), o.with_name));  // refused before the work begins
+  write_report(o.session, o.out, o, &ledger, &filed);
+}
+
+/// A student's report for each released session.
+int run_all(const Options& o) {
+  const ReportLedger ledger(o.ledger);
+  std::filesystem::create_directories(o.out);
+  Options each = o;
+  each.reader = "student";
+  int written = 0, failed = 0;
+  for (const auto& s : ledger.registry.sessions) {
+    if (s.shown.is_null()) continue;
+    each.out = o.out + "/" + s.candidate + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
+    try {
+      require_report_place(each);
+      write_report(ledger.places.session(s.file_sha256), each.out, each, &ledger, &s);
+      ++written;
+    } catch (const Error& e) {
+      ++failed;
+      std::cerr << "cavum: " << one_line(e.what()) << "\n";
+    }
+  }
+  std::cout << written << " reports written" << (failed > 0 ? ", " + std::to_string(failed) + " not" : "") << "\n";
+  return failed > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_report_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* one = app.add_subcommand("report", "Write the report of a recorded exam, or its sections as a picture");
+  one->add_option("session", o->session, "session file (.cavum)")->required();
+  one->add_option("--out", o->out, "file to write: .html or .pdf for the report, .svg for three sections alone")->required();
+  one->add_option("--for", o->reader, "instructor: every figure; student: the verdict, the criteria, and where each point went")
+      ->check(CLI::IsMember({"student", "instructor"}))
+      ->capture_default_str();
+  one->add_option("--ledger", o->ledger, "the ledger that holds the session: other attempts, release, receipt");
+  one->add_flag("--with-name", o->with_name, "with --ledger: also the candidate's name, once the result is released");
+  one->add_flag("--no-replay", o->no_replay, "do not simulate the exam again to prove it");
+  one->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");
+  one->add_option("--scenario", o->marking.scenario, "mark by this corrected scenario (TOML)");
+  one->add_flag("--another-task", o->marking.another_task, "let --scenario be that of another task than the session's");
+  one->add_flag("--overwrite", o->overwrite, "write over a file that is no report");
+  one->callback([o, &exit_code] {
+    run_report(*o);
+    exit_code = 0;
+  });
+
+  const auto a = std::make_shared<Options>();
+  auto* all = app.get_subcommand("ledger")->add_subcommand("report", "A student's report for each released result, named by pseudonym and entry");
+  all->add_option("folder", a->ledger, "the ledger's folder")->required();
+  all->add_option("--out", a->out, "folder for the reports")->required();
+  all->add_flag("--pdf", a->pdf, "as PDF instead of HTML");
+  all->add_flag("--with-name", a->with_name, "also the candidates' names");
+  all->add_flag("--overwrite", a->overwrite, "write over files that are no reports");
+  all->callback([a, &exit_code] { exit_code = run_all(*a); });
+}
+
+}  // namespace cavum
