@@ -1,4 +1,5 @@
-// Checks the tests' types, bundles them, and runs them by Node's test runner. Run in the build directory of the page.
+// Checks the tests' types, bundles them, and runs them by Node's test runner: `node test/run.mjs units|browser|real|FILE...` in the build directory
+// of the page.
 import { spawnSync } from "node:child_process";
 import { readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -9,14 +10,18 @@ const run = (...args) => {
   const { status } = spawnSync(process.execPath, args, { stdio: "inherit" });
   if (status !== 0) process.exit(1);
 };
-writeFileSync("tsconfig.test.json", JSON.stringify({ extends: "./tsconfig.json", include: ["src/*.ts", "test/*.ts"] }));
-run("node_modules/typescript/bin/tsc", "--noEmit", "-p", "tsconfig.test.json");
-const wanted = process.argv.slice(2);
+const parts = { units: ["data", "surface_nets", "tooth"], browser: ["browser"], real: ["real"] };
+const wanted = process.argv.slice(2).flatMap((name) => parts[name] ?? [name]);
+const bundled = `tests_bundled_${wanted.join("_")}`;
 const files = readdirSync("test").filter((name) => name.endsWith(".test.ts") && (wanted.length === 0 || wanted.some((w) => name.startsWith(w))));
-rmSync("tests_bundled", { recursive: true, force: true });
+if (wanted.includes("data")) {  // once for all parts
+  writeFileSync("tsconfig.test.json", JSON.stringify({ extends: "./tsconfig.json", include: ["src/*.ts", "test/*.ts"] }));
+  run("node_modules/typescript/bin/tsc", "--noEmit", "-p", "tsconfig.test.json");
+}
+rmSync(bundled, { recursive: true, force: true });
 buildSync({
   entryPoints: files.map((name) => `test/${name}`),
-  outdir: "tests_bundled",
+  outdir: bundled,
   outExtension: { ".js": ".mjs" },
   bundle: true,
   platform: "node",
@@ -27,4 +32,4 @@ buildSync({
   sourcemap: "inline",
   logLevel: "warning",
 });
-run("--enable-source-maps", "--test", "--test-concurrency=1", ...files.map((name) => `tests_bundled/${name.replace(/\.ts$/, ".mjs")}`));
+run("--enable-source-maps", "--test", "--test-concurrency=1", ...files.map((name) => `${bundled}/${name.replace(/\.ts$/, ".mjs")}`));

@@ -45,9 +45,9 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
     cell.append(swatch(kind, colour), number);
     row.append(cell);
   };
-  for (let i = k_bands - 1; i >= 0; --i) band("over", k_over[i], i === k_bands - 1 ? `above +${text(edges[i])}` : `+${text(edges[i])}`);
+  for (let i = k_bands - 1; i >= 0; --i) band("over", k_over[i], i === k_bands - 1 ? `> +${text(edges[i])}` : `+${text(edges[i])}`);
   band("within", k_within, `±${text(edges[0])}`);
-  for (let i = 0; i < k_bands; ++i) band("under", k_under[i], i === k_bands - 1 ? `below −${text(edges[i])}` : `−${text(edges[i])}`);
+  for (let i = 0; i < k_bands; ++i) band("under", k_under[i], i === k_bands - 1 ? `< −${text(edges[i])}` : `−${text(edges[i])}`);
   const end = (kind: string, word: string): HTMLElement => {
     const element = document.createElement("span");
     element.className = `end ${kind}`;

@@ -75,7 +75,10 @@ function start(): void {
     else tooth.append(player.element);
   }
   const charts = document.getElementById("charts");
-  if (charts && recording.n > 0) new Charts(charts, recording, events, clock);
+  if (charts && recording.n > 0) {
+    new Charts(charts, recording, events, clock);
+    charts.querySelector(".fallback")?.remove();
+  }
 
   for (const jump of document.querySelectorAll<HTMLElement>(".jump"))
     jump.addEventListener("click", () => {

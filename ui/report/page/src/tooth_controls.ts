@@ -55,7 +55,7 @@ export class ToothControls {
         if (name === "oblique") view.orbit.reset();
         else view.orbit.look(k_views[name]);
       }));
-    this.frame.append(make("div", { class: "zoom" }, button("+", { "aria-label": "Zoom in" }, () => view.orbit.zoom(1.25)), button("−", { "aria-label": "Zoom out" }, () => view.orbit.zoom(0.8))));
+    this.frame.append(make("div", { class: "zoom" }, button("+", { "aria-label": "Zoom in" }, () => view.orbit.zoom(1.25)), button("−", { "aria-label": "Zoom out" }, () => view.orbit.zoom(0.8)), button("□", { "aria-label": "Whole tooth", title: "Whole tooth" }, () => view.orbit.show_whole())));
 
     const heat = data.kind === "class";
     const key = heat

@@ -96,7 +96,7 @@ void main() {
   float flat_light = by_deviation ? max(cut, value < -edge[0] * whole ? 1.0 : 0.0) : 0.0;
   float open = clamp(1.16 - mix(0.95, 0.5, flat_light) * hollow, 0.3, 1.0);
   vec3 key = normalize(vec3(-0.45, 0.65, 0.75)), fill = normalize(vec3(0.7, -0.1, 0.6));
-  float light = mix(0.42 + 0.50 * max(dot(n, key), 0.0) + 0.20 * max(dot(n, fill), 0.0), 0.72 + 0.22 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, fill), 0.0), flat_light);
+  float light = mix(0.48 + 0.46 * max(dot(n, key), 0.0) + 0.22 * max(dot(n, fill), 0.0), 0.72 + 0.22 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, fill), 0.0), flat_light);
   float shine = pow(max(dot(n, normalize(key + eye)), 0.0), 48.0) * 0.28 * gloss;
   float rim = pow(1.0 - max(dot(n, eye), 0.0), 3.0) * 0.18;
   gl_FragColor = vec4(colour * (light * open) * (1.0 - rim * (1.0 - 0.7 * flat_light)) + shine, 1.0);
@@ -116,7 +116,7 @@ uniform sampler3D still_share, moving_share, tissue, distance_box;
 uniform vec3 low, cells, moving_low, moving_cells, box_low, box_cells;
 uniform float cell;
 uniform vec3 palette[16];
-uniform int kind[16];          // 1 solid, 2 fills a space, 0 air
+uniform int kind[16];          // 1 solid, 2 pulp, 3 what surrounds the tooth, 0 air
 uniform vec3 axis;
 uniform bool with_target;
 varying vec3 v_world;
@@ -139,7 +139,7 @@ void main() {
   }
   int id = -1; float most = 0.0;
   for (int a = 0; a < 8; ++a) {
-    if (kind[ids[a]] != (solid ? 1 : 2)) continue;
+    if (solid ? kind[ids[a]] != 1 : kind[ids[a]] < 2) continue;
     float sum = 0.0;
     for (int b = 0; b < 8; ++b) if (ids[b] == ids[a]) sum += weights[b];
     if (sum > most) { most = sum; id = ids[a]; }
@@ -148,7 +148,7 @@ void main() {
   bool known = in_block(i, box_low, box_cells);
   float value = known ? (texture(distance_box, (i - box_low + 0.5) / box_cells).r * 255.0 - 128.0) * 0.02 : 9.0;
   vec3 colour = palette[id];
-  colour = mix(colour, vec3(1.0), 0.10);
+  colour = mix(colour, vec3(1.0), kind[id] == 3 ? 0.5 : 0.08);
   if (by_deviation && solid && value < 0.0 && before > 0.5) colour = mix(colour, under_colour[2], 0.75);
   if (with_target && known) {
     float w = fwidth(value);

@@ -19,7 +19,7 @@ export interface Surface extends Mesh {
 export class ToothSurface {
   private readonly nets: SurfaceNets;
   private readonly palette: Uint8Array;
-  private readonly fills: Uint8Array; // 1 for a tissue that fills a space without being solid: pulp
+  private readonly fills: Uint8Array; // 1 for pulp, which fills a space without being solid
 
   constructor(private readonly field: ToothField, data: ReportData) {
     this.nets = new SurfaceNets(field.size);
@@ -28,7 +28,7 @@ export class ToothSurface {
     data.tissues.forEach((tissue, id) => {
       const rgb = parseInt(tissue.colour.slice(1), 16);
       this.palette.set([rgb >> 16, (rgb >> 8) & 255, rgb & 255], 3 * id);
-      this.fills[id] = !tissue.solid && tissue.name !== "air" ? 1 : 0;
+      this.fills[id] = tissue.name === "pulp" ? 1 : 0;
     });
   }
 

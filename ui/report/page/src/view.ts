@@ -138,9 +138,9 @@ export class ToothView {
       place(mesh, [0, 0, 0]);
       this.scene.add(mesh);
     }
-    const bounds = solid_bounds(field);
-    this.centre = bounds.centre;
-    this.radius = bounds.radius;
+    const { whole, home } = spheres(field);
+    this.centre = whole.centre;
+    this.radius = whole.radius;
 
     // the section
     const moving = field.moving ?? { low: [0, 0, 0] as Vec3, size: [1, 1, 1] as Vec3 };
@@ -195,7 +195,7 @@ export class ToothView {
     this.set_instruments(data.instruments ?? []);
     const sun = new THREE.DirectionalLight(0xffffff, 2.2);
     sun.position.set(-0.5, 0.7, 0.8);
-    this.orbit = new Orbit(canvas, { centre: this.centre, radius: this.radius }, () => this.redraw());
+    this.orbit = new Orbit(canvas, home, whole, () => this.redraw());
     this.orbit.camera.add(sun);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x999999, 1.6), this.orbit.camera);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -344,13 +344,14 @@ export class ToothView {
   }
 }
 
-/** 1 for a solid tissue, 2 for one that fills a space (pulp), 0 for air and what is no tissue. */
+/** 1 for a solid tissue, 2 for pulp, 3 for what else surrounds the tooth, 0 for air and what is no tissue. */
 function tissue_kind(tissue: Tissue | undefined): number {
-  return tissue === undefined || tissue.name === "air" ? 0 : tissue.solid ? 1 : 2;
+  if (tissue === undefined || tissue.name === "air") return 0;
+  return tissue.solid ? 1 : tissue.name === "pulp" ? 2 : 3;
 }
 
-/** The sphere around all solid tissue. */
-function solid_bounds(field: ToothField): { centre: THREE.Vector3; radius: number } {
+/** The sphere around all solid tissue, and the one that the view begins with: the tooth's breadth around the height of what was to be done. */
+function spheres(field: ToothField): { whole: { centre: THREE.Vector3; radius: number }; home: { centre: THREE.Vector3; radius: number } } {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   const [nx, ny, nz] = field.size;
@@ -366,9 +367,14 @@ function solid_bounds(field: ToothField): { centre: THREE.Vector3; radius: numbe
           if (y > high[1]) high[1] = y;
           if (z > high[2]) high[2] = z;
         }
-  const centre = new THREE.Vector3(...([0, 1, 2].map((a) => field.origin_mm[a] + ((low[a] + high[a]) / 2) * field.cell_mm) as Vec3));
-  const radius = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) * 0.5 * field.cell_mm;
-  return { centre, radius };
+  const span = [0, 1, 2].map((a) => (high[a] - low[a]) * field.cell_mm);
+  const mm = (cells: number[]): THREE.Vector3 => new THREE.Vector3(...(cells.map((v, a) => field.origin_mm[a] + v * field.cell_mm) as Vec3));
+  const middle = [0, 1, 2].map((a) => (low[a] + high[a]) / 2);
+  const worked = field.box.low[2] + field.box.size[2] / 2;
+  const breadth = Math.hypot(span[0], span[1]) / 2;
+  const radius = Math.hypot(...span) / 2;
+  const height = Math.min(Math.max(worked, low[2] + breadth / field.cell_mm), Math.max(high[2] - (0.75 * breadth) / field.cell_mm, middle[2]));
+  return { whole: { centre: mm(middle), radius }, home: { centre: mm([middle[0], middle[1], height]), radius: Math.min(radius, 1.08 * breadth) } };
 }
 
 function outline_material(shared: SharedUniforms, opacity: number, through: boolean): THREE.ShaderMaterial {
