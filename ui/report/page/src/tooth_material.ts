@@ -7,7 +7,7 @@ const k_vertex = /* glsl */ `
 attribute vec3 tissue_colour;
 attribute vec2 marks;
 varying vec3 v_world, v_normal, v_view_normal, v_view, v_tissue;
-varying vec2 v_marks;
+centroid varying vec2 v_marks;  // never beyond the values at the corners
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   vec4 view = viewMatrix * world;
@@ -64,7 +64,7 @@ uniform sampler3D density;    // share of tissue in the surroundings, for the da
 uniform vec3 density_low, density_size;
 uniform vec3 back_colour;
 varying vec3 v_world, v_normal, v_view_normal, v_view, v_tissue;
-varying vec2 v_marks;
+centroid varying vec2 v_marks;  // never beyond the values at the corners
 
 float around(float mm) { return texture(density, (v_world + normalize(v_normal) * mm - density_low) / density_size).r; }
 

@@ -4,8 +4,8 @@ import type { ReportData, Vec3 } from "./data.ts";
 import { type Mesh, SurfaceNets } from "./surface_nets.ts";
 import { k_level, offset, type ToothField } from "./tooth_field.ts";
 
-/** Beyond the box nothing is known of the target: no vertex there is shown as inside or outside of it. */
-export const k_no_distance_mm = 9;
+/** Beyond the box lies nothing within 1 mm of the target; this stands for all of it, beyond what a packed distance can say. */
+export const k_no_distance_mm = 2.6;
 const k_distance_unit_mm = 0.02;
 const k_least_heat_percent = 5;
 
