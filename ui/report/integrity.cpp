@@ -53,7 +53,7 @@ void add_integrity(Document& d, const ReportSource& s) {
   else
     promise = "This session is tamper-evident. It was not replayed for this report.";
   d.blocks.push_back(Paragraph{promise, ""});
-  ReportTable t{{{"What", false, 3}, {"", false, 7}}, {}, "What is proved"};
+  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "What is proved"};
   const auto row = [&](const char* what, const std::string& text) {
     if (!text.empty()) t.rows.push_back({{{what}, {text}}});
   };

@@ -10,7 +10,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_text_pt = 9.5, k_small_pt = 8, k_cell_pt = 7.8, k_padding_pt = 3, k_gap_pt = 6;
-constexpr double k_pt_per_px = 0.75, k_most_of_page = 0.55;
+constexpr double k_pt_per_px = 0.75, k_most_of_page = 0.42;
 
 PdfColour verdict_colour(const std::string& verdict) {
   if (verdict == "pass") return {0.0, 0.447, 0.698};

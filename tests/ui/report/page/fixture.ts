@@ -9,7 +9,7 @@ const k_pulp_mm: Vec3 = [1.6, 1.4, 0.7];
 const k_pulp_z_mm = -0.8;
 const k_enamel_mm = 0.9;
 export const k_cut = { radius_mm: 1.5, floor_mm: 0.9 }; // about the z axis
-export const k_target = { x_mm: 0.2, radius_mm: 1.4, floor_mm: 0.7 };
+export const k_target = { x_mm: 0.2, radius_mm: 1.4, floor_mm: 0.65 };
 const k_from_s = 2;
 const k_to_s = 18;
 const k_top_mm = 3.6;
@@ -103,7 +103,7 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
   const last = new Uint16Array(box_n).fill(65535);
   const distance = new Int8Array(box_n);
   const heat = new Int8Array(box_n);
-  const sub = 4;
+  const sub = 2; // as a tooth of leaves half a cell wide
   const stamp = (z: number): number => {
     const share = Math.min(Math.max((k_top_mm - z) / (k_top_mm - k_cut.floor_mm), 0), 1);
     return Math.round(((k_from_s + share * (k_to_s - k_from_s)) / k_duration_s) * 65535);
@@ -136,7 +136,8 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
         if (!in_box) continue;
         const c = (b[2] * box_size[1] + b[1]) * box_size[0] + b[0];
         after[c] = Math.round((255 * kept) / sub ** 3);
-        const d = distance_mm(x, y, z);
+        // the target ends at the tooth's surface: in the air above its opening everything is outside, at the distance of its walls
+        const d = outside ? Math.abs(distance_mm(x, y, z)) : distance_mm(x, y, z);
         distance[c] = Math.max(-127, Math.min(127, Math.round(d / 0.02)));
         if (after[c] !== before[at]) {
           first[c] = stamp(z + k_cell_mm / 2);

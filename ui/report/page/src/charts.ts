@@ -29,7 +29,7 @@ export class Charts {
     this.quantities = [
       { name: "Force", unit: "N", digits: 2, colour: "#0b5394", values: recording.force_n },
       { name: "Depth", unit: "mm", digits: 2, colour: "#7a4b00", values: recording.depth_mm },
-      { name: "Handpiece", unit: "1000 rpm", digits: 1, colour: "#5b2a86", values: recording.rpm.map((v) => v / 1000) },
+      { name: "Handpiece", unit: "rpm", digits: 0, colour: "#5b2a86", values: recording.rpm },
       { name: "Tip speed", unit: "mm/s", digits: 1, colour: "#00695c", values: recording.tip_mm_s },
     ];
     this.shown = [0, Math.max(clock.duration_s, recording.dt_s)];
@@ -53,22 +53,22 @@ export class Charts {
       if (v > high) high = v;
       sum += v;
     }
-    const say = (v: number): string => `${v.toFixed(quantity.digits)} ${quantity.unit}`;
-    const range = quantity.values.length > 0 ? `${low.toFixed(quantity.digits)} to ${say(high)}, mean ${say(sum / quantity.values.length)}` : "nothing recorded";
+    const say = (v: number): string => number_text(v, quantity.digits);
+    const range = quantity.values.length > 0 ? `${say(low)} to ${say(high)} ${quantity.unit}, mean ${say(sum / quantity.values.length)} ${quantity.unit}` : "nothing recorded";
     const now = make("span", { class: "now" });
     this.values.push(now);
     const place = make("div", { class: "plot", tabindex: "0", role: "img", "aria-label": `${quantity.name} over time: ${range}. Arrow keys move the time, plus and minus zoom, 0 shows the whole exam.` });
-    const caption = make("figcaption", {}, make("b", {}, quantity.name), ` ${quantity.unit} `, make("span", { class: "range" }, range), now);
+    const caption = make("figcaption", {}, make("b", {}, `${quantity.name}, ${quantity.unit}`), make("span", { class: "range" }, range), now);
     this.section.append(make("figure", { class: "chart" }, caption, place));
     const time_axis: uPlot.Axis = { size: k_axis_px, font: "12px system-ui, sans-serif", stroke: "#444", grid: { stroke: "#e6e6e6", width: 1 }, ticks: { stroke: "#bbb", size: 4 }, values: (_u, splits) => splits.map((s) => clock_text(s)), incrs: [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600] };
     const options: uPlot.Options = {
       width: this.width(),
       height: k_height_px + (last ? k_axis_px : 0) + (first ? k_labels_px : 0),
-      padding: [first ? k_labels_px : 6, 8, last ? 0 : 6, 0],
+      padding: [first ? k_labels_px : 6, 18, last ? 0 : 6, 0],
       legend: { show: false },
       scales: { x: { time: false }, y: { range: (_u, min, max) => (min === null || max === null ? [0, 1] : [Math.min(min, 0), max > min ? max * 1.06 : min + 1]) } },
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 7 }, sync: { key: "exam", setSeries: false } },
-      axes: [last ? time_axis : { ...time_axis, size: 0, values: () => [], ticks: { show: false } }, { size: 46, font: "12px system-ui, sans-serif", stroke: "#444", grid: { stroke: "#eee", width: 1 }, ticks: { show: false } }],
+      axes: [last ? time_axis : { ...time_axis, size: 0, values: (_u, splits) => splits.map(() => ""), ticks: { show: false } }, { size: 62, font: "12px system-ui, sans-serif", stroke: "#444", grid: { stroke: "#eee", width: 1 }, ticks: { show: false } }],
       series: [{}, { label: quantity.name, stroke: quantity.colour, width: 1.3, fill: `${quantity.colour}18`, points: { show: false } }],
       hooks: {
         draw: [(u) => this.draw_marks(u, first)],
@@ -141,7 +141,7 @@ export class Charts {
       this.zoom_to(low, low + span);
     }
     const i = this.recording.index(t);
-    this.quantities.forEach((q, k) => { this.values[k].textContent = `${time_text(t)}: ${q.values[i]?.toFixed(q.digits) ?? "–"} ${q.unit}`; });
+    this.quantities.forEach((q, k) => { this.values[k].textContent = `${time_text(t)}: ${number_text(q.values[i], q.digits)} ${q.unit}`; });
     this.plots.forEach((plot) => plot.redraw(false, false));
   }
 
@@ -170,6 +170,11 @@ export class Charts {
     else return;
     e.preventDefault();
   }
+}
+
+/** `200,000` */
+function number_text(v: number, digits: number): string {
+  return v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits });
 }
 
 /** `1:05` on the time axis, with tenths where they matter. */

@@ -29,12 +29,12 @@ function swatch(kind: "over" | "under" | "within", colour: string): HTMLElement 
   return element;
 }
 
-/** The key: one row of bands from left standing to overcut, with the edges' numbers and their signs. */
-export function key_element(edges: readonly number[], whole: number, unit: string, digits: number, title: string, words: { over: string; under: string; within: string }): HTMLElement {
+/** The key: the bands from overcut to left standing, with the edges' numbers and their signs. */
+export function key_element(edges: readonly number[], whole: number, unit: string, digits: number, title: string, words: { over: string; under: string }): HTMLElement {
   const key = document.createElement("figure");
   key.className = "key";
   const caption = document.createElement("figcaption");
-  caption.textContent = title;
+  caption.textContent = `${title}, ${unit}`;
   const row = document.createElement("div");
   row.className = "bands";
   const text = (v: number): string => (v * whole).toFixed(digits);
@@ -45,21 +45,15 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
     cell.append(swatch(kind, colour), number);
     row.append(cell);
   };
-  for (let i = k_bands - 1; i >= 0; --i) band("under", k_under[i], i === k_bands - 1 ? `below −${text(edges[i])}` : `−${text(edges[i])}`);
+  for (let i = k_bands - 1; i >= 0; --i) band("over", k_over[i], i === k_bands - 1 ? `> +${text(edges[i])}` : `+${text(edges[i])}`);
   band("within", k_within, `±${text(edges[0])}`);
-  for (let i = 0; i < k_bands; ++i) band("over", k_over[i], i === k_bands - 1 ? `above +${text(edges[i])}` : `+${text(edges[i])}`);
-  const ends = document.createElement("div");
-  ends.className = "ends";
-  for (const [name, word] of [["under", `− ${words.under}`], ["within", words.within], ["over", `+ ${words.over}`]]) {
-    const end = document.createElement("span");
-    end.className = name;
-    end.textContent = word;
-    ends.append(end);
-  }
-  const unit_note = document.createElement("span");
-  unit_note.className = "unit";
-  unit_note.textContent = unit;
-  caption.append(" ", unit_note);
-  key.append(caption, row, ends);
+  for (let i = 0; i < k_bands; ++i) band("under", k_under[i], i === k_bands - 1 ? `< −${text(edges[i])}` : `−${text(edges[i])}`);
+  const end = (kind: string, word: string): HTMLElement => {
+    const element = document.createElement("span");
+    element.className = `end ${kind}`;
+    element.textContent = word;
+    return element;
+  };
+  key.append(caption, end("over", `+ ${words.over}`), row, end("under", `− ${words.under}`));
   return key;
 }

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { Instrument } from "./data.ts";
 
 const k_shank_radius_mm = 0.8;
-const k_shank_mm = 9;
+const k_shank_mm = 16; // from the tip
 
 /** A mesh whose tip stands at its origin and whose axis is +z. */
 export function instrument_mesh(instrument: Instrument): THREE.Group {
@@ -16,15 +16,11 @@ export function instrument_mesh(instrument: Instrument): THREE.Group {
   const profile = instrument.profile_mm;
   const [top_mm, top_radius_mm] = profile[profile.length - 1] ?? [0, 0];
   turned(profile, new THREE.MeshStandardMaterial({ color: 0x8f979f, roughness: 0.55, metalness: 0.35, side: THREE.DoubleSide }));
-  const neck: [number, number][] = [
-    [top_mm, top_radius_mm],
-    [top_mm + 0.05, Math.min(top_radius_mm, 0.5) || 0.5],
-    [top_mm + 2, 0.5],
-    [top_mm + 2.8, k_shank_radius_mm],
-    [top_mm + k_shank_mm, k_shank_radius_mm],
-    [top_mm + k_shank_mm, 0],
-  ];
-  turned(neck, new THREE.MeshStandardMaterial({ color: 0xc3c9ce, roughness: 0.35, metalness: 0.3, side: THREE.DoubleSide }));
+  // the profile may end with the head or run up the shank; what follows is the same for all
+  const neck_mm = Math.min(top_radius_mm, 0.5) || 0.5;
+  const shank: [number, number][] = top_mm < 6 ? [[top_mm, neck_mm], [top_mm + 2, neck_mm], [top_mm + 2.8, k_shank_radius_mm]] : [[top_mm, top_radius_mm], [top_mm + 0.5, k_shank_radius_mm]];
+  const end_mm = Math.max(top_mm + 4, k_shank_mm);
+  turned([...shank, [end_mm, k_shank_radius_mm], [end_mm, 0]], new THREE.MeshStandardMaterial({ color: 0xc3c9ce, roughness: 0.35, metalness: 0.3, side: THREE.DoubleSide }));
   return group;
 }
 

@@ -39,15 +39,14 @@ function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): 
   const field = new ToothField(data);
   const canvas = make("canvas");
   const controls = new ToothControls(canvas, field, data, { edges, whole, with_instrument: (data.instruments ?? []).length > 0, go_to: clock ? (t) => { clock.pause(); clock.set(t); } : undefined });
-  section.append(controls.frame, controls.panel);
+  section.append(controls.element);
   try {
     const view = new ToothView(canvas, field, data, { edges, whole });
     controls.connect(view);
     section.querySelector(".fallback")?.remove();
     return view;
   } catch (error) {
-    controls.frame.remove();
-    controls.panel.remove();
+    controls.element.remove();
     say_why(section, `The tooth cannot be shown in 3D: ${error instanceof Error ? error.message : String(error)}. Everything else on this page works.`);
     return null;
   }
@@ -65,7 +64,10 @@ function start(): void {
 
   const events = [...(data.events ?? [])].sort((a, b) => a.t_s - b.t_s);
   const recording = new Recording(data.motion);
-  clock.on_time((t) => view?.show(t, recording.at(t)));
+  clock.on_time((t) => {
+    view?.mark(null); // a mark belongs to its moment
+    view?.show(t, recording.at(t));
+  });
   const player = new Player(clock, events, (event) => view?.mark(event.site_mm));
   if (tooth) {
     const frame = tooth.querySelector(".view");
@@ -73,7 +75,10 @@ function start(): void {
     else tooth.append(player.element);
   }
   const charts = document.getElementById("charts");
-  if (charts && recording.n > 0) new Charts(charts, recording, events, clock);
+  if (charts && recording.n > 0) {
+    new Charts(charts, recording, events, clock);
+    charts.querySelector(".fallback")?.remove();
+  }
 
   for (const jump of document.querySelectorAll<HTMLElement>(".jump"))
     jump.addEventListener("click", () => {

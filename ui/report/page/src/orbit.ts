@@ -2,6 +2,11 @@
 // angles, so that straight from above is a view like any other. The wheel zooms only while the view has the focus: a page must scroll.
 import * as THREE from "three";
 
+export interface Sphere {
+  centre: THREE.Vector3;
+  radius: number;
+}
+
 export interface Pose {
   azimuth_deg: number;
   elevation_deg: number;
@@ -28,8 +33,8 @@ export class Orbit {
   private distance = 30;
   private readonly pointers = new Map<number, { x: number; y: number }>();
 
-  /** `home`: centre and the radius that fits the view. `changed` is called after every move. */
-  constructor(private readonly element: HTMLElement, private readonly home: { centre: THREE.Vector3; radius: number }, private readonly changed: () => void) {
+  /** `home`: what the view shows first; `whole`: all there is. `changed` is called after every move. */
+  constructor(private readonly element: HTMLElement, private readonly home: Sphere, private readonly whole: Sphere, private readonly changed: () => void) {
     this.reset();
     element.addEventListener("pointerdown", (e) => {
       element.setPointerCapture(e.pointerId);
@@ -64,9 +69,10 @@ export class Orbit {
     this.place();
   }
 
-  /** Puts a place into the middle of the view. */
-  centre_on(at: THREE.Vector3): void {
-    this.centre.copy(at);
+  /** All of it, from where the eye stands. */
+  show_whole(): void {
+    this.centre.copy(this.whole.centre);
+    this.distance = (this.fitting() * this.whole.radius) / this.home.radius;
     this.place();
   }
 
@@ -80,7 +86,7 @@ export class Orbit {
 
   zoom(by: number): void {
     const fit = this.fitting();
-    this.distance = Math.min(Math.max(this.distance / by, fit * 0.12), fit * 2.5);
+    this.distance = Math.min(Math.max(this.distance / by, fit * 0.12), fit * 4);
     this.place();
   }
 
@@ -139,8 +145,9 @@ export class Orbit {
     this.camera.position.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)).multiplyScalar(this.distance).add(this.centre);
     this.camera.up.set(-Math.sin(e) * Math.cos(a), -Math.sin(e) * Math.sin(a), Math.cos(e));
     this.camera.lookAt(this.centre);
-    this.camera.near = Math.max(this.distance - 4 * this.home.radius, 0.1);
-    this.camera.far = this.distance + 4 * this.home.radius;
+    const reach = 3 * this.whole.radius; // the instrument stands out of the tooth
+    this.camera.near = Math.max(this.distance - reach, 0.1);
+    this.camera.far = this.distance + reach;
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
     this.changed();

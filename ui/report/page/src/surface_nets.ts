@@ -1,6 +1,6 @@
 // Naive surface nets: the closed surface where a sampled field passes its level, one vertex for each cube of eight samples that it crosses, one
 // quad (two triangles) around each crossed edge of the lattice. Edges are chosen by a region, so that two parts meshed apart share the very same
-// vertices on their border: a vertex is a function of the eight samples around it alone.
+// vertices on their border: a vertex is a function of the eight samples around it alone, its normal of those and their neighbours.
 
 /** Samples on a lattice, x fastest, then y, then z. */
 export interface Field {
@@ -179,14 +179,27 @@ export class SurfaceNets {
     x /= crossed;
     y /= crossed;
     z /= crossed;
-    // gradient of the trilinear field at the vertex
-    const gx = lerp2(c[1] - c[0], c[3] - c[2], c[5] - c[4], c[7] - c[6], y, z);
-    const gy = lerp2(c[2] - c[0], c[3] - c[1], c[6] - c[4], c[7] - c[5], x, z);
-    const gz = lerp2(c[4] - c[0], c[5] - c[1], c[6] - c[2], c[7] - c[3], x, y);
-    const length = Math.sqrt(gx * gx + gy * gy + gz * gz) || 1;
+    // central differences at the eight corners, blended at the vertex: smooth across cells
     const cx = cube % nx;
     const cy = Math.floor(cube / nx) % ny;
     const cz = Math.floor(cube / layer);
+    let gx = 0;
+    let gy = 0;
+    let gz = 0;
+    if (cx > 0 && cy > 0 && cz > 0 && cx + 2 < nx && cy + 2 < ny && cz + 2 < this.size[2]) {
+      for (let i = 0; i < 8; ++i) {
+        const at = cube + (i & 1) + ((i >> 1) & 1) * nx + (i >> 2) * layer;
+        const w = (i & 1 ? x : 1 - x) * (i & 2 ? y : 1 - y) * (i & 4 ? z : 1 - z);
+        gx += w * (v[at + 1] - v[at - 1]);
+        gy += w * (v[at + nx] - v[at - nx]);
+        gz += w * (v[at + layer] - v[at - layer]);
+      }
+    } else {
+      gx = lerp2(c[1] - c[0], c[3] - c[2], c[5] - c[4], c[7] - c[6], y, z);
+      gy = lerp2(c[2] - c[0], c[3] - c[1], c[6] - c[4], c[7] - c[5], x, z);
+      gz = lerp2(c[4] - c[0], c[5] - c[1], c[6] - c[2], c[7] - c[3], x, y);
+    }
+    const length = Math.sqrt(gx * gx + gy * gy + gz * gz) || 1;
     this.positions.reserve(3);
     this.normals.reserve(3);
     this.cubes.reserve(1);

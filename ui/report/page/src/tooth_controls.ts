@@ -27,6 +27,9 @@ export interface ControlsOptions {
 export class ToothControls {
   readonly frame: HTMLElement;
   readonly panel: HTMLElement;
+  /** Frame and panel beside each other where there is room. */
+  readonly element: HTMLElement;
+  private readonly hint: HTMLElement;
   private readonly readout: HTMLOutputElement;
   private view!: ToothView;
   private last: Reading | null = null;
@@ -36,26 +39,28 @@ export class ToothControls {
     canvas.setAttribute("role", "application");
     canvas.setAttribute("aria-label", "The tooth in 3D. Arrow keys turn it, plus and minus zoom, Home shows it all, Enter reads the value in the middle.");
     this.readout = make("output", { class: "readout", "aria-live": "polite" });
-    this.frame = make("div", { class: "view" }, canvas, make("div", { class: "cross", "aria-hidden": "true" }), this.readout);
+    this.hint = make("p", { class: "hint", "aria-hidden": "true" }, "Drag to turn, two fingers or shift to move; click, then the wheel zooms.");
+    this.frame = make("div", { class: "view" }, canvas, make("div", { class: "cross", "aria-hidden": "true" }), this.hint, this.readout);
     this.panel = make("div", { class: "panel" });
+    this.element = make("div", { class: "stage" }, this.frame, this.panel);
   }
 
   /** Builds the controls for a view that works. */
   connect(view: ToothView): void {
     this.view = view;
     const { panel, canvas, data, options } = this;
-    const views = make("div", { class: "buttons", role: "group", "aria-label": "Views" });
+    const views = make("div", { class: "views", role: "group", "aria-label": "Views" });
     for (const name of Object.keys(k_views))
       views.append(button(name[0].toUpperCase() + name.slice(1), {}, () => {
         if (name === "oblique") view.orbit.reset();
         else view.orbit.look(k_views[name]);
       }));
-    views.append(button("+", { "aria-label": "Zoom in" }, () => view.orbit.zoom(1.25)), button("−", { "aria-label": "Zoom out" }, () => view.orbit.zoom(0.8)));
+    this.frame.append(make("div", { class: "zoom" }, button("+", { "aria-label": "Zoom in" }, () => view.orbit.zoom(1.25)), button("−", { "aria-label": "Zoom out" }, () => view.orbit.zoom(0.8)), button("□", { "aria-label": "Whole tooth", title: "Whole tooth" }, () => view.orbit.show_whole())));
 
     const heat = data.kind === "class";
     const key = heat
-      ? key_element(options.edges, 100, "% of the class", 0, "Deviation from the target", { over: "overcut here", under: "left standing here", within: "few" })
-      : key_element(options.edges, options.whole, "mm", options.whole * options.edges[0] < 0.1 ? 2 : 1, "Distance of the cut surface from the target", { over: "overcut", under: "left standing", within: "on target" });
+      ? key_element(options.edges, 100, "% of the class", 0, "Deviation from the target", { over: "overcut here", under: "left standing here" })
+      : key_element(options.edges, options.whole, "mm", options.whole * options.edges[0] < 0.1 ? 2 : 1, "Distance of the cut surface from the target", { over: "overcut", under: "left standing" });
     if (!heat) {
       const untouched = make("p", { class: "untouched" }, make("span", { class: "swatch untouched" }), "target left standing, surface untouched");
       key.append(untouched);
@@ -74,6 +79,7 @@ export class ToothControls {
     }
     panel.append(key);
 
+    canvas.addEventListener("pointerdown", () => this.hint.remove(), { once: true });
     const rest = (): void => canvas.parentElement!.classList.remove("keyboard");
     canvas.addEventListener("pointermove", (e) => { if (!view.orbit.dragging && e.pointerType === "mouse") this.read(e.offsetX, e.offsetY); });
     canvas.addEventListener("pointerup", (e) => { if (e.pointerType !== "mouse") this.read(e.offsetX, e.offsetY); });

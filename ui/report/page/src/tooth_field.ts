@@ -40,6 +40,7 @@ export class ToothField implements Field {
   private readonly end_share: Uint8Array = new Uint8Array(0);
   private readonly first: Uint16Array = new Uint16Array(0);
   private readonly last: Uint16Array = new Uint16Array(0);
+  private readonly share: Float32Array = new Float32Array(0); // as it is now, before the blur
   private readonly work: [Float32Array, Float32Array] = [new Float32Array(0), new Float32Array(0)];
   private share_at = 0;
 
@@ -86,6 +87,7 @@ export class ToothField implements Field {
     this.work = [new Float32Array(n), new Float32Array(n)];
     for_each_row(whole, this.padded, (at, inner, count) => this.start_share.set(this.before.subarray(at, at + count), inner));
     this.end_share.set(this.start_share);
+    this.share = Float32Array.from(this.start_share, (v) => v * (1 / 255));
     const shared = overlap(this.padded, this.box);
     if (shared) for_each_row(this.box, shared, (at, _inner, count, x, y, z) => {
       const to = offset(this.padded!, x, y, z);
@@ -95,11 +97,11 @@ export class ToothField implements Field {
     });
   }
 
-  /** The lattice edges whose surface moves with the time; all other edges see only samples that never change. */
+  /** The lattice edges whose surface moves with the time; vertices and normals of all others see only samples that never change. */
   moving_edges(): Region | null {
     if (!this.moving) return null;
     const { low, size } = this.moving;
-    return { low: [low[0] - 1, low[1] - 1, low[2] - 1], high: [low[0] + size[0] + 1, low[1] + size[1] + 1, low[2] + size[2] + 1] };
+    return { low: low.map((v) => v - 2) as Vec3, high: low.map((v, a) => v + size[a] + 2) as Vec3 };
   }
 
   whole_edges(): Region {
@@ -112,23 +114,55 @@ export class ToothField implements Field {
     const at = this.duration_s > 0 ? Math.min(Math.max(t_s / this.duration_s, 0), 1) * 65535 : 65535;
     if (at === this.share_at && this.version > 0) return false;
     this.share_at = at;
-    const [share, scratch] = this.work;
-    const { first, last, start_share, end_share } = this;
-    for (let i = 0; i < share.length; ++i) {
-      const from = first[i];
-      let v = start_share[i];
-      if (at > from) {
-        const to = last[i];
-        v = at >= to ? end_share[i] : v + ((end_share[i] - v) * (at - from)) / (to - from);
-      } else if (at === from && from === last[i] && from !== k_never) v = end_share[i];
-      share[i] = v * (1 / 255);
-    }
-    blur(share, scratch, this.padded.size);
-    for_each_row(this.padded, this.moving, (from, _inner, n, x, y, z) => {
-      this.values.set(share.subarray(from, from + n), (z * this.size[1] + y) * this.size[0] + x);
-    });
+    const { first, last, start_share, end_share, share } = this;
+    const [nx, ny, nz] = this.padded.size;
+    const low: Vec3 = [nx, ny, nz];
+    const high: Vec3 = [-1, -1, -1];
+    for (let z = 0, i = 0; z < nz; ++z)
+      for (let y = 0; y < ny; ++y) {
+        let from_x = nx;
+        let to_x = -1;
+        for (let x = 0; x < nx; ++x, ++i) {
+          const from = first[i];
+          if (from === k_never) continue;
+          let v = start_share[i];
+          if (at > from || (at === from && from === last[i])) {
+            const to = last[i];
+            v = at >= to ? end_share[i] : v + ((end_share[i] - v) * (at - from)) / (to - from);
+          }
+          v = Math.fround(v * (1 / 255));
+          if (v === share[i]) continue;
+          share[i] = v;
+          if (x < from_x) from_x = x;
+          to_x = x;
+        }
+        if (to_x < 0) continue;
+        low[0] = Math.min(low[0], from_x);
+        high[0] = Math.max(high[0], to_x);
+        low[1] = Math.min(low[1], y);
+        high[1] = Math.max(high[1], y);
+        low[2] = Math.min(low[2], z);
+        high[2] = Math.max(high[2], z);
+      }
+    if (high[0] < 0 && this.version > 0) return false;
+    if (high[0] >= 0) this.blur_again({ low, size: [high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1] });
     ++this.version;
     return true;
+  }
+
+  /** Blurs again what changed cells reach; `changed` counts its cells from the padded block's first. */
+  private blur_again(changed: Block): void {
+    const padded = this.padded!;
+    const local: Block = { low: [0, 0, 0], size: padded.size };
+    const read = grown(changed, 2 * k_blur_cells, padded.size);
+    const written = grown(changed, k_blur_cells, padded.size);
+    const [share, scratch] = this.work;
+    for_each_row(local, read, (from, to, n) => share.set(this.share.subarray(from, from + n), to));
+    blur(share.subarray(0, read.size[0] * read.size[1] * read.size[2]), scratch, read.size);
+    for_each_row(read, written, (from, _inner, n, x, y, z) => {
+      const [lx, ly, lz] = padded.low;
+      this.values.set(share.subarray(from, from + n), ((lz + z) * this.size[1] + ly + y) * this.size[0] + lx + x);
+    });
   }
 
   /** When the tissue that lay at a place (in cells) went for good, up to now: the latest of the removed cells around it, s; null when none was. */

@@ -7,7 +7,7 @@ const k_vertex = /* glsl */ `
 attribute vec3 tissue_colour;
 attribute vec2 marks;
 varying vec3 v_world, v_normal, v_view_normal, v_view, v_tissue;
-varying vec2 v_marks;
+centroid varying vec2 v_marks;  // never beyond the values at the corners
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   vec4 view = viewMatrix * world;
@@ -64,7 +64,7 @@ uniform sampler3D density;    // share of tissue in the surroundings, for the da
 uniform vec3 density_low, density_size;
 uniform vec3 back_colour;
 varying vec3 v_world, v_normal, v_view_normal, v_view, v_tissue;
-varying vec2 v_marks;
+centroid varying vec2 v_marks;  // never beyond the values at the corners
 
 float around(float mm) { return texture(density, (v_world + normalize(v_normal) * mm - density_low) / density_size).r; }
 
@@ -92,12 +92,14 @@ void main() {
 
   vec3 n = normalize(v_view_normal), eye = normalize(-v_view);
   float hollow = 0.6 * around(0.9) + 0.4 * around(0.35);
-  float open = clamp(1.18 - 1.05 * hollow, 0.25, 1.0);
+  // where colours are to be read the light is flatter
+  float flat_light = by_deviation ? max(cut, value < -edge[0] * whole ? 1.0 : 0.0) : 0.0;
+  float open = clamp(1.16 - mix(0.95, 0.5, flat_light) * hollow, 0.3, 1.0);
   vec3 key = normalize(vec3(-0.45, 0.65, 0.75)), fill = normalize(vec3(0.7, -0.1, 0.6));
-  float light = 0.42 + 0.50 * max(dot(n, key), 0.0) + 0.20 * max(dot(n, fill), 0.0);
+  float light = mix(0.48 + 0.46 * max(dot(n, key), 0.0) + 0.22 * max(dot(n, fill), 0.0), 0.72 + 0.22 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, fill), 0.0), flat_light);
   float shine = pow(max(dot(n, normalize(key + eye)), 0.0), 48.0) * 0.28 * gloss;
   float rim = pow(1.0 - max(dot(n, eye), 0.0), 3.0) * 0.18;
-  gl_FragColor = vec4(colour * (light * open) * (1.0 - rim) + shine, 1.0);
+  gl_FragColor = vec4(colour * (light * open) * (1.0 - rim * (1.0 - 0.7 * flat_light)) + shine, 1.0);
 }`;
 
 const k_cap_vertex = /* glsl */ `
@@ -114,7 +116,7 @@ uniform sampler3D still_share, moving_share, tissue, distance_box;
 uniform vec3 low, cells, moving_low, moving_cells, box_low, box_cells;
 uniform float cell;
 uniform vec3 palette[16];
-uniform float filled[16];
+uniform int kind[16];          // 1 solid, 2 pulp, 3 what surrounds the tooth, 0 air
 uniform vec3 axis;
 uniform bool with_target;
 varying vec3 v_world;
@@ -124,17 +126,29 @@ void main() {
   if (!in_block(i, vec3(0.0), cells)) discard;
   float before = texture(still_share, (i + 0.5) / cells).r;
   float now = moving_cells.x > 0.0 && in_block(i, moving_low, moving_cells) ? texture(moving_share, (i - moving_low + 0.5) / moving_cells).r : before;
-  int id = int(texture(tissue, (i + 0.5) / cells).r * 255.0 + 0.5);
-  bool solid = now > 0.5, fills = filled[id] > 0.5 && before <= 0.5;
+  bool solid = now > 0.5;
+  if (!solid && before > 0.5) discard;  // drilled away
+  // of the tissues around the place that are solid (or that fill a space, where it is one) the nearest: borders run between the cells, not along them
+  int ids[8]; float weights[8];
+  vec3 base = clamp(floor(i), vec3(0.0), cells - 2.0), f = i - base;
+  for (int c = 0; c < 8; ++c) {
+    vec3 o = vec3(c & 1, (c >> 1) & 1, c >> 2);
+    ids[c] = min(int(texelFetch(tissue, ivec3(base + o), 0).r * 255.0 + 0.5), 15);
+    vec3 w = mix(1.0 - f, f, o);
+    weights[c] = w.x * w.y * w.z;
+  }
+  int id = -1; float most = 0.0;
+  for (int a = 0; a < 8; ++a) {
+    if (solid ? kind[ids[a]] != 1 : kind[ids[a]] < 2) continue;
+    float sum = 0.0;
+    for (int b = 0; b < 8; ++b) if (ids[b] == ids[a]) sum += weights[b];
+    if (sum > most) { most = sum; id = ids[a]; }
+  }
+  if (id < 0) discard;
   bool known = in_block(i, box_low, box_cells);
   float value = known ? (texture(distance_box, (i - box_low + 0.5) / box_cells).r * 255.0 - 128.0) * 0.02 : 9.0;
   vec3 colour = palette[id];
-  float alpha = 1.0;
-  if (!solid && !fills) {
-    if (before <= 0.5) discard;
-    discard;
-  }
-  colour = mix(colour, vec3(1.0), 0.10);
+  colour = mix(colour, vec3(1.0), kind[id] == 3 ? 0.5 : 0.08);
   if (by_deviation && solid && value < 0.0 && before > 0.5) colour = mix(colour, under_colour[2], 0.75);
   if (with_target && known) {
     float w = fwidth(value);
@@ -143,7 +157,7 @@ void main() {
   }
   float border = fwidth(now);
   colour *= 1.0 - 0.55 * (solid ? 1.0 - smoothstep(0.0, 1.5, (now - 0.5) / max(border, 1e-5)) : 0.0);
-  gl_FragColor = vec4(colour, alpha);
+  gl_FragColor = vec4(colour, 1.0);
 }`;
 
 export interface SharedUniforms {

@@ -4,8 +4,8 @@ import type { ReportData, Vec3 } from "./data.ts";
 import { type Mesh, SurfaceNets } from "./surface_nets.ts";
 import { k_level, offset, type ToothField } from "./tooth_field.ts";
 
-/** Beyond the box nothing is known of the target: no vertex there is shown as inside or outside of it. */
-export const k_no_distance_mm = 9;
+/** Beyond the box lies nothing within 1 mm of the target; this stands for all of it, beyond what a packed distance can say. */
+export const k_no_distance_mm = 2.6;
 const k_distance_unit_mm = 0.02;
 const k_least_heat_percent = 5;
 
@@ -19,7 +19,7 @@ export interface Surface extends Mesh {
 export class ToothSurface {
   private readonly nets: SurfaceNets;
   private readonly palette: Uint8Array;
-  private readonly fills: Uint8Array; // 1 for a tissue that fills a space without being solid: pulp
+  private readonly fills: Uint8Array; // 1 for pulp, which fills a space without being solid
 
   constructor(private readonly field: ToothField, data: ReportData) {
     this.nets = new SurfaceNets(field.size);
@@ -28,7 +28,7 @@ export class ToothSurface {
     data.tissues.forEach((tissue, id) => {
       const rgb = parseInt(tissue.colour.slice(1), 16);
       this.palette.set([rgb >> 16, (rgb >> 8) & 255, rgb & 255], 3 * id);
-      this.fills[id] = !tissue.solid && tissue.name !== "air" ? 1 : 0;
+      this.fills[id] = tissue.name === "pulp" ? 1 : 0;
     });
   }
 
@@ -162,6 +162,6 @@ export function target_surface(field: ToothField): Mesh {
   const size = field.box.size;
   const values = new Float32Array(field.distance.length);
   for (let i = 0; i < values.length; ++i) values[i] = -field.distance[i] * k_distance_unit_mm;
-  const most = 2 * field.cell_mm;
+  const most = 1.05 * field.cell_mm + 1.5 * k_distance_unit_mm; // neighbours of a true distance differ by a cell at most
   return new SurfaceNets(size).mesh({ size, values }, 0, { low: [0, 0, 0], high: size }, undefined, (a, b) => Math.abs(a - b) < most);
 }

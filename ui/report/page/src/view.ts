@@ -1,7 +1,7 @@
 // The 3D view: the tooth with its colours, the section where it is cut away, the target's outline, the instrument, the marked place. It draws only
 // when something changed.
 import * as THREE from "three";
-import type { Instrument, ReportData, Vec3 } from "./data.ts";
+import type { Instrument, ReportData, Tissue, Vec3 } from "./data.ts";
 import { instrument_mesh, pose_instrument } from "./instrument.ts";
 import type { Sample } from "./motion.ts";
 import { k_views, Orbit } from "./orbit.ts";
@@ -82,6 +82,7 @@ export class ToothView {
   private readonly surroundings: Surroundings;
   private readonly density: THREE.Data3DTexture;
   private readonly still: { surface: Surface; geometry: THREE.BufferGeometry };
+  private readonly duration_s: number;
   private deeper_mm = 0;
   private readonly section: THREE.Mesh;
   private readonly moving_bytes: Uint8Array;
@@ -105,6 +106,7 @@ export class ToothView {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setClearColor(k_back);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.duration_s = data.duration_s ?? 0;
     const { cell_mm, origin_mm, size } = field;
     const place = (object: THREE.Object3D, low: Vec3): void => {
       object.position.set(...(origin_mm.map((o, a) => o + low[a] * cell_mm) as Vec3));
@@ -136,9 +138,9 @@ export class ToothView {
       place(mesh, [0, 0, 0]);
       this.scene.add(mesh);
     }
-    const bounds = solid_bounds(field);
-    this.centre = bounds.centre;
-    this.radius = bounds.radius;
+    const { whole, home } = spheres(field);
+    this.centre = whole.centre;
+    this.radius = whole.radius;
 
     // the section
     const moving = field.moving ?? { low: [0, 0, 0] as Vec3, size: [1, 1, 1] as Vec3 };
@@ -166,7 +168,7 @@ export class ToothView {
         box_cells: { value: new THREE.Vector3(...field.box.size) },
         cell: { value: cell_mm },
         palette: { value: palette },
-        filled: { value: Array.from({ length: 16 }, (_, i) => (data.tissues[i] && !data.tissues[i].solid && data.tissues[i].name !== "air" ? 1 : 0)) },
+        kind: { value: Int32Array.from({ length: 16 }, (_, i) => tissue_kind(data.tissues[i])) },
         with_target: { value: true },
       }),
     );
@@ -193,7 +195,7 @@ export class ToothView {
     this.set_instruments(data.instruments ?? []);
     const sun = new THREE.DirectionalLight(0xffffff, 2.2);
     sun.position.set(-0.5, 0.7, 0.8);
-    this.orbit = new Orbit(canvas, { centre: this.centre, radius: this.radius }, () => this.redraw());
+    this.orbit = new Orbit(canvas, home, whole, () => this.redraw());
     this.orbit.camera.add(sun);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x999999, 1.6), this.orbit.camera);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -280,7 +282,7 @@ export class ToothView {
     this.update_tooth();
     this.update_section();
     this.update_instrument();
-    const size = this.orbit.camera.position.distanceTo(this.marker.position) * 0.018;
+    const size = this.orbit.camera.position.distanceTo(this.marker.position) * 0.014;
     this.marker.scale.setScalar(size);
     this.marker.quaternion.copy(this.orbit.camera.quaternion);
     this.renderer.render(this.scene, this.orbit.camera);
@@ -309,7 +311,8 @@ export class ToothView {
       if (from_s <= this.sampled_s || current === null) current = group;
       group.visible = false;
     }
-    if (!current || !this.sampled || !this.with_instrument) return;
+    // at the end stands the result, with nothing before it
+    if (!current || !this.sampled || !this.with_instrument || this.sampled_s >= this.duration_s) return;
     current.visible = true;
     pose_instrument(current, new THREE.Vector3(...this.sampled.tip_mm), new THREE.Vector3(...this.sampled.axis));
   }
@@ -341,8 +344,14 @@ export class ToothView {
   }
 }
 
-/** The sphere around all solid tissue. */
-function solid_bounds(field: ToothField): { centre: THREE.Vector3; radius: number } {
+/** 1 for a solid tissue, 2 for pulp, 3 for what else surrounds the tooth, 0 for air and what is no tissue. */
+function tissue_kind(tissue: Tissue | undefined): number {
+  if (tissue === undefined || tissue.name === "air") return 0;
+  return tissue.solid ? 1 : tissue.name === "pulp" ? 2 : 3;
+}
+
+/** The sphere around all solid tissue, and the one that the view begins with: the tooth's breadth around the height of what was to be done. */
+function spheres(field: ToothField): { whole: { centre: THREE.Vector3; radius: number }; home: { centre: THREE.Vector3; radius: number } } {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   const [nx, ny, nz] = field.size;
@@ -358,9 +367,14 @@ function solid_bounds(field: ToothField): { centre: THREE.Vector3; radius: numbe
           if (y > high[1]) high[1] = y;
           if (z > high[2]) high[2] = z;
         }
-  const centre = new THREE.Vector3(...([0, 1, 2].map((a) => field.origin_mm[a] + ((low[a] + high[a]) / 2) * field.cell_mm) as Vec3));
-  const radius = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) * 0.5 * field.cell_mm;
-  return { centre, radius };
+  const span = [0, 1, 2].map((a) => (high[a] - low[a]) * field.cell_mm);
+  const mm = (cells: number[]): THREE.Vector3 => new THREE.Vector3(...(cells.map((v, a) => field.origin_mm[a] + v * field.cell_mm) as Vec3));
+  const middle = [0, 1, 2].map((a) => (low[a] + high[a]) / 2);
+  const worked = field.box.low[2] + field.box.size[2] / 2;
+  const breadth = Math.hypot(span[0], span[1]) / 2;
+  const radius = Math.hypot(...span) / 2;
+  const height = Math.min(Math.max(worked, low[2] + breadth / field.cell_mm), Math.max(high[2] - (0.75 * breadth) / field.cell_mm, middle[2]));
+  return { whole: { centre: mm(middle), radius }, home: { centre: mm([middle[0], middle[1], height]), radius: Math.min(radius, 1.08 * breadth) } };
 }
 
 function outline_material(shared: SharedUniforms, opacity: number, through: boolean): THREE.ShaderMaterial {

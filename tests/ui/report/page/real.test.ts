@@ -1,0 +1,145 @@
+// A report that the program itself writes, in the browser: the words are those of `grade --json`, the tooth is the session's, and everything moves.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import type { Browser } from "puppeteer-core";
+import type { ReportData } from "../src/data.ts";
+import { Recording } from "../src/motion.ts";
+import { ToothField } from "../src/tooth_field.ts";
+import { ToothSurface } from "../src/tooth_surface.ts";
+import { different, k_skip, launch, open, pixels, scrubber_s, settled, violations } from "./chromium.ts";
+import { unbalanced_edges, volume } from "./mesh_checks.ts";
+
+const axe_source = readFileSync(createRequire(resolve("package.json")).resolve("axe-core/axe.min.js"), "utf8");
+const folder = mkdtempSync(join(tmpdir(), "cavum_page_"));
+const session = join(folder, "slot.cavum");
+const file = join(folder, "instructor.html");
+const student = join(folder, "student.html");
+interface Graded {
+  verdict: string;
+  score: { points: number; max: number };
+  criteria: { title: string; value: number | null; points: number; max: number; reason: string }[];
+  volumes: { removed_mm3: number };
+}
+let graded: Graded;
+let browser: Browser;
+
+function cavum(...args: string[]): string {
+  const run = spawnSync(process.env.CAVUM_BINARY!, args, { encoding: "utf8", env: { ...process.env, CAVUM_HOME: folder }, maxBuffer: 1 << 28 });
+  assert.equal(run.status, 0, `cavum ${args.join(" ")}: ${run.stderr}`);
+  return run.stdout;
+}
+function data_of(html: string): ReportData {
+  return JSON.parse(/<script type="application\/json" id="cavum-data">([\s\S]*?)<\/script>/.exec(html)![1]) as ReportData;
+}
+
+before(async () => {
+  cavum("exam", join(process.env.CAVUM_SOURCE_DIR!, "data/scenarios/slot.toml"), "--candidate", "A17", "--operator", "novice", "--out", session);
+  cavum("report", session, "--out", file);
+  cavum("report", session, "--for", "student", "--no-replay", "--out", student);
+  graded = JSON.parse(cavum("grade", session, "--json")) as Graded;
+  if (!k_skip) browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+test("a report is one file of at most 3 MB that names nothing outside itself", () => {
+  for (const name of [file, student]) {
+    assert.ok(statSync(name).size <= 3e6, `${statSync(name).size} bytes`);
+    // beside the licences in the script, which name the packages' authors
+    const words = readFileSync(name, "utf8").replace(/<(script|style)[\s\S]*?<\/\1>/g, "").replace(/ xmlns(:\w+)?='[^']*'/g, "");
+    assert.doesNotMatch(words, /(src|href)\s*=\s*['"](?!data:|#)/);
+  }
+});
+
+test("the packed tooth loses in the page what the grading says was removed", () => {
+  const data = data_of(readFileSync(file, "utf8"));
+  const field = new ToothField(data);
+  const surface = new ToothSurface(field, data);
+  const still = surface.still();
+  const at = (t_s: number): number => {
+    field.set_time(t_s);
+    const moving = surface.moving()!;
+    assert.equal(unbalanced_edges(still, moving), 0, `at ${t_s} s the surface is closed`);
+    return volume(still, moving) * field.cell_mm ** 3;
+  };
+  const start = at(0);
+  const middle = at(data.duration_s! / 2);
+  const end = at(data.duration_s!);
+  assert.ok(start > middle && middle > end);
+  // the blur rounds edges of the cavity, and part of what was removed may have been pulp
+  const lost = start - end;
+  assert.ok(Math.abs(lost - graded.volumes.removed_mm3) < 0.05 * graded.volumes.removed_mm3 + 0.1, `${lost} for ${graded.volumes.removed_mm3} mm³`);
+});
+
+test("the motion ends with the exam, and its force is that of the grading", () => {
+  const data = data_of(readFileSync(file, "utf8"));
+  const recording = new Recording(data.motion!);
+  const peak = recording.force_n.reduce((a, b) => Math.max(a, b), 0);
+  const said = (JSON.parse(cavum("grade", session, "--json")) as { force: { peak_n: number } }).force.peak_n;
+  assert.ok(peak >= said - 0.011, `${peak} N for ${said} N`);
+  assert.ok(Math.abs((recording.n - 1) * recording.dt_s - data.duration_s!) < 0.1);
+  for (let i = 0; i < recording.n; i += 97) assert.ok(Math.abs(Math.hypot(...recording.at(i * recording.dt_s).axis) - 1) < 0.02);
+});
+
+test("verdict, points and every criterion in the page are those of grade --json", { skip: k_skip }, async () => {
+  for (const name of [file, student]) {
+    const opened = await open(browser, name);
+    const { page } = opened;
+    const shown = await page.evaluate(() => ({
+      verdict: document.querySelector(".verdict")!.textContent!,
+      kind: document.querySelector(".verdict")!.className,
+      rows: [...document.querySelectorAll("table[aria-label=Criteria] tbody tr")].map((row) => ({ lost: row.classList.contains("lost"), cells: [...row.querySelectorAll("td")].map((c) => c.textContent!) })),
+    }));
+    assert.ok(shown.verdict.startsWith(graded.verdict) && shown.kind.includes(graded.verdict));
+    assert.ok(shown.verdict.includes(`${graded.score.points.toFixed(1)} of ${graded.score.max.toFixed(1)}`), shown.verdict);
+    assert.equal(shown.rows.length, graded.criteria.length);
+    graded.criteria.forEach((c, i) => {
+      const { cells, lost } = shown.rows[i];
+      assert.equal(cells[0], c.title);
+      if (c.value !== null) assert.ok(Math.abs(parseFloat(cells[1].replace("−", "-")) - c.value) < 0.0051, `${cells[1]} for ${c.value}`);
+      assert.ok(Math.abs(parseFloat(cells[3]) - c.points) < 0.051, `${cells[3]} for ${c.points}`);
+      assert.match(cells[3], new RegExp(`/ ${c.max.toFixed(1).replace(".", "\\.")}$`));
+      assert.equal(cells[4], c.reason);
+      assert.equal(lost, c.points < c.max - 0.05, c.title);
+    });
+    assert.deepEqual([...opened.requests, ...opened.complaints], []);
+    await page.close();
+  }
+});
+
+test("the report draws, moves, jumps to where points went, and is accessible", { skip: k_skip }, async () => {
+  const opened = await open(browser, file, "", 1200, 900);
+  const { page } = opened;
+  await page.screenshot({ path: "report_real_top.png" });
+  await page.evaluate(() => document.getElementById("tooth-3d")!.scrollIntoView());
+  const end = await pixels(page);
+  assert.ok(new Set(end.data).size > 50);
+  await page.screenshot({ path: "report_real_tooth.png" });
+  await page.evaluate(() => { location.hash = "#t=1"; });
+  await settled(page);
+  assert.equal(await scrubber_s(page), 1);
+  assert.ok(different(end, await pixels(page)) > 1000);
+  const wanted = await page.evaluate(() => {
+    const jump = [...document.querySelectorAll<HTMLElement>(".jump")].find((b) => b.dataset.x !== undefined && Number(b.dataset.t) > 1)!;
+    jump.click();
+    return Number(jump.dataset.t);
+  });
+  assert.ok(Math.abs((await scrubber_s(page)) - wanted) <= 0.051);
+  await settled(page);
+  await page.screenshot({ path: "report_real_jump.png" });
+  assert.deepEqual(await violations(page, axe_source), []);
+  assert.deepEqual([...opened.requests, ...opened.complaints], []);
+  await page.close();
+  const narrow = await open(browser, student, "", 360, 800);
+  assert.ok((await narrow.page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
+  assert.deepEqual(await violations(narrow.page, axe_source), []);
+  await narrow.page.screenshot({ path: "report_real_narrow.png", fullPage: true });
+  await narrow.page.close();
+});
