@@ -48,6 +48,12 @@ async function at(page: Page, t_s: number): Promise<void> {
   }, t_s);
   await settled(page);
 }
+/** Where the 3D view is on the screen. */
+async function view_box(page: Page): Promise<{ x: number; y: number; width: number; height: number }> {
+  const canvas = (await page.$("#tooth-3d canvas"))!;
+  await canvas.evaluate((e) => e.scrollIntoView({ block: "center" }));
+  return (await canvas.boundingBox())!;
+}
 /** Pixels that are not the view's empty background. */
 async function drawn(page: Page): Promise<number> {
   const { data } = await pixels(page);
@@ -186,7 +192,7 @@ test("the value under the pointer is the distance to the target", { skip }, asyn
   const { page } = opened;
   const said = (): Promise<string> => page.evaluate(() => document.querySelector(".readout")!.textContent!);
   await press(page, "Occlusal");
-  const box = (await (await page.$("#tooth-3d canvas"))!.boundingBox())!;
+  const box = await view_box(page);
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await settled(page);
   const found = /^−(0\.\d\d) mm left standing · dentin · cut at 0:(\d\d\.\d)/.exec(await said());
@@ -308,7 +314,7 @@ test("a class is drawn with its heat, by how much it deviated", { skip }, async 
   await page.select(".panel > label select", "0.1");
   await page.screenshot({ path: "report_class.png", fullPage: true });
   await press(page, "Occlusal");
-  const box = (await (await page.$("#tooth-3d canvas"))!.boundingBox())!;
+  const box = await view_box(page);
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   assert.match(await page.evaluate(() => document.querySelector(".readout")!.textContent!), /^−\d\d % of the class left it standing · dentin/);
   nothing_wrong(opened);

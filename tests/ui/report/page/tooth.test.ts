@@ -121,7 +121,8 @@ test("the target's outline lies on its walls and floor and has no lid", () => {
   let highest = -9;
   for (let i = 0; i < outline.cubes.length; ++i) {
     const p = [0, 1, 2].map((a) => field.origin_mm[a] + (field.box.low[a] + outline.positions[3 * i + a]) * cell);
-    assert.ok(Math.abs(distance_mm(p[0], p[1], p[2])) < (p[2] < 2.9 ? 0.06 : 0.1), `at ${p}`);
+    // at the opening, where the field jumps from inside to outside, it may end in a lip of one cell
+    assert.ok(Math.abs(distance_mm(p[0], p[1], p[2])) < (p[2] < 2.9 ? 0.06 : 0.13), `at ${p}`);
     highest = Math.max(highest, p[2]);
   }
   assert.ok(highest > 2.9 && highest < 3.6, `up to ${highest}, where the tooth ends`);

@@ -22,6 +22,7 @@ const k_axis_px = 30;
 export class Charts {
   private readonly plots: uPlot[] = [];
   private readonly values: HTMLElement[] = [];
+  private readonly lines: HTMLElement[] = [];
   private readonly quantities: Quantity[];
   private shown: [number, number];
 
@@ -33,10 +34,13 @@ export class Charts {
       { name: "Tip speed", unit: "mm/s", digits: 1, colour: "#00695c", values: recording.tip_mm_s },
     ];
     this.shown = [0, Math.max(clock.duration_s, recording.dt_s)];
-    section.append(make("div", { class: "buttons" }, button("Whole exam", {}, () => this.zoom_to(0, clock.duration_s)), button("Zoom in", {}, () => this.zoom(0.5)), button("Zoom out", {}, () => this.zoom(2))));
+    section.append(make("div", { class: "buttons" }, button("Whole exam", {}, () => this.zoom_to(0, clock.duration_s)), button("Zoom in", { "aria-label": "Zoom in on the time" }, () => this.zoom(0.5)), button("Zoom out", { "aria-label": "Zoom out of the time" }, () => this.zoom(2))));
     this.quantities.forEach((quantity, i) => this.add(quantity, i));
     clock.on_time(() => this.follow());
-    new ResizeObserver(() => this.plots.forEach((plot) => plot.setSize({ width: this.width(), height: plot.height }))).observe(section);
+    new ResizeObserver(() => {
+      this.plots.forEach((plot) => plot.setSize({ width: this.width(), height: plot.height }));
+      this.place_lines();
+    }).observe(section);
     this.follow();
   }
 
@@ -81,6 +85,9 @@ export class Charts {
       },
     };
     const plot = new uPlot(options, [this.recording.t_s, quantity.values] as unknown as uPlot.AlignedData, place);
+    const line = make("div", { class: "present", "aria-hidden": "true" });
+    plot.over.append(line);
+    this.lines.push(line);
     let pressed_x = 0;
     plot.over.addEventListener("mousedown", (e) => { pressed_x = e.clientX; });
     plot.over.addEventListener("click", (e) => {
@@ -93,7 +100,7 @@ export class Charts {
     this.plots.push(plot);
   }
 
-  /** Events as dashed lines with their names on the uppermost chart, and the present time as a full line. */
+  /** Events as dashed lines with their names on the uppermost chart. */
   private draw_marks(u: uPlot, with_names: boolean): void {
     const ctx = u.ctx;
     const ratio = devicePixelRatio;
@@ -119,16 +126,6 @@ export class Charts {
       ctx.fillText(event.kind, from, top - 4 * ratio);
       free_from = from + wide + 6 * ratio;
     }
-    const x = u.valToPos(this.clock.t_s, "x", true);
-    if (x >= left && x <= left + width) {
-      ctx.setLineDash([]);
-      ctx.strokeStyle = "#111";
-      ctx.lineWidth = 1.5 * ratio;
-      ctx.beginPath();
-      ctx.moveTo(x, top);
-      ctx.lineTo(x, top + height);
-      ctx.stroke();
-    }
     ctx.restore();
   }
 
@@ -142,7 +139,16 @@ export class Charts {
     }
     const i = this.recording.index(t);
     this.quantities.forEach((q, k) => { this.values[k].textContent = `${time_text(t)}: ${number_text(q.values[i], q.digits)} ${q.unit}`; });
-    this.plots.forEach((plot) => plot.redraw(false, false));
+    this.place_lines();
+  }
+
+  /** The present time as a line over each chart; the charts themselves need not be drawn again for it. */
+  private place_lines(): void {
+    this.plots.forEach((plot, i) => {
+      const x = plot.valToPos(this.clock.t_s, "x");
+      this.lines[i].hidden = !(x >= 0 && x <= plot.over.clientWidth);
+      this.lines[i].style.transform = `translateX(${x}px)`;
+    });
   }
 
   private zoom(by: number): void {
@@ -156,6 +162,7 @@ export class Charts {
     const low = Math.min(Math.max(from, 0), whole - span);
     this.shown = [low, low + span];
     for (const plot of this.plots) plot.setScale("x", { min: this.shown[0], max: this.shown[1] });
+    this.place_lines();
   }
 
   private key(e: KeyboardEvent): void {
@@ -172,9 +179,9 @@ export class Charts {
   }
 }
 
-/** `200,000` */
-function number_text(v: number, digits: number): string {
-  return v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits });
+/** `200,000`, `−0.35` */
+export function number_text(v: number, digits: number): string {
+  return v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
 }
 
 /** `1:05` on the time axis, with tenths where they matter. */

@@ -1,6 +1,6 @@
 // The report's page: fills in the 3D view, the scrubber and the charts, and wires the buttons that jump to a moment. Everything else in the
 // document was written by the program and stays as it is.
-import { Charts } from "./charts.ts";
+import { Charts, number_text } from "./charts.ts";
 import { Clock } from "./clock.ts";
 import { read_data, type ReportData, type Vec3 } from "./data.ts";
 import { k_distance_edges, k_heat_edges } from "./deviation.ts";
@@ -68,7 +68,11 @@ function start(): void {
     view?.mark(null); // a mark belongs to its moment
     view?.show(t, recording.at(t));
   });
-  const player = new Player(clock, events, (event) => view?.mark(event.site_mm));
+  const measured = (t: number): string => {
+    const at = recording.at(t);
+    return `${at.force_n.toFixed(2)} N · ${Math.abs(at.depth_mm).toFixed(2)} mm ${at.depth_mm < 0 ? "above the opening" : "deep"} · ${number_text(at.rpm, 0)} rpm`;
+  };
+  const player = new Player(clock, events, (event) => view?.mark(event.site_mm), measured);
   if (tooth) {
     const frame = tooth.querySelector(".view");
     if (frame) frame.after(player.element);

@@ -18,9 +18,10 @@ export class Player {
   private readonly range: HTMLInputElement;
   private readonly time: HTMLOutputElement;
   private readonly note: HTMLOutputElement;
+  private readonly measured: HTMLElement;
 
-  /** `chosen` is called with an event that was stepped to. */
-  constructor(private readonly clock: Clock, private readonly events: ExamEvent[], private readonly chosen: (event: ExamEvent) => void) {
+  /** `chosen` is called with an event that was stepped to; `values` says in words what was measured at a time. */
+  constructor(private readonly clock: Clock, private readonly events: ExamEvent[], private readonly chosen: (event: ExamEvent) => void, private readonly values: (t_s: number) => string) {
     const play = button("Play", { class: "play" }, () => (clock.is_playing ? clock.pause() : clock.play()));
     clock.on_play((playing) => {
       play.textContent = playing ? "Pause" : "Play";
@@ -45,7 +46,8 @@ export class Player {
     const speeds = dropdown("Speed", [["1", "1×"], ["4", "4×"], ["16", "16×"]], "1", (v) => clock.set_speed(Number(v)));
     const buttons = make("div", { class: "buttons" }, play, speeds);
     if (events.length > 0) buttons.append(button("Previous event", {}, () => this.step(-1)), button("Next event", {}, () => this.step(1)));
-    buttons.append(this.note);
+    this.measured = make("span", { class: "measured" });
+    buttons.append(this.measured, this.note);
     this.element = make("div", { class: "player", role: "group", "aria-label": "Replay of the drilling" }, make("div", { class: "track" }, this.range, ticks, this.time), buttons);
     clock.on_time(() => this.show());
     this.show();
@@ -79,6 +81,7 @@ export class Player {
     this.range.setAttribute("aria-valuetext", text);
     this.time.textContent = text;
     this.range.style.setProperty("--share", `${this.clock.duration_s > 0 ? (100 * t) / this.clock.duration_s : 0}%`);
+    this.measured.textContent = this.values(t);
     this.note.textContent = "";
   }
 }

@@ -3,6 +3,7 @@ import { time_text } from "./clock.ts";
 import type { ReportData, Vec3 } from "./data.ts";
 import { distance_text, key_element } from "./deviation.ts";
 import { button, checkbox, dropdown, make, radios } from "./dom.ts";
+import { Compass } from "./compass.ts";
 import { k_views } from "./orbit.ts";
 import type { Reading } from "./probe.ts";
 import type { ToothField } from "./tooth_field.ts";
@@ -79,6 +80,10 @@ export class ToothControls {
     }
     panel.append(key);
 
+    const compass = new Compass();
+    this.frame.append(compass.element);
+    view.on_draw = () => compass.follow(view.orbit.camera);
+    view.redraw();
     canvas.addEventListener("pointerdown", () => this.hint.remove(), { once: true });
     const rest = (): void => canvas.parentElement!.classList.remove("keyboard");
     canvas.addEventListener("pointermove", (e) => { if (!view.orbit.dragging && e.pointerType === "mouse") this.read(e.offsetX, e.offsetY); });

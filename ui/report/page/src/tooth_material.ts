@@ -96,7 +96,7 @@ void main() {
   float flat_light = by_deviation ? max(cut, value < -edge[0] * whole ? 1.0 : 0.0) : 0.0;
   float open = clamp(1.16 - mix(0.95, 0.5, flat_light) * hollow, 0.3, 1.0);
   vec3 key = normalize(vec3(-0.45, 0.65, 0.75)), fill = normalize(vec3(0.7, -0.1, 0.6));
-  float light = mix(0.48 + 0.46 * max(dot(n, key), 0.0) + 0.22 * max(dot(n, fill), 0.0), 0.72 + 0.22 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, fill), 0.0), flat_light);
+  float light = mix(0.54 + 0.40 * max(dot(n, key), 0.0) + 0.24 * max(dot(n, fill), 0.0), 0.72 + 0.22 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, fill), 0.0), flat_light);
   float shine = pow(max(dot(n, normalize(key + eye)), 0.0), 48.0) * 0.28 * gloss;
   float rim = pow(1.0 - max(dot(n, eye), 0.0), 3.0) * 0.18;
   gl_FragColor = vec4(colour * (light * open) * (1.0 - rim * (1.0 - 0.7 * flat_light)) + shine, 1.0);

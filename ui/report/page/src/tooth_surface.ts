@@ -5,7 +5,7 @@ import { type Mesh, SurfaceNets } from "./surface_nets.ts";
 import { k_level, offset, type ToothField } from "./tooth_field.ts";
 
 /** Beyond the box lies nothing within 1 mm of the target; this stands for all of it, beyond what a packed distance can say. */
-export const k_no_distance_mm = 2.6;
+export const k_no_distance_mm = 2.625;
 const k_distance_unit_mm = 0.02;
 const k_least_heat_percent = 5;
 
@@ -34,14 +34,32 @@ export class ToothSurface {
 
   /** What no time changes. */
   still(): Surface {
-    const mesh = this.dressed(this.nets.mesh(this.field, k_level, this.field.whole_edges(), this.field.moving_edges() ?? undefined));
-    return { ...mesh, positions: mesh.positions.slice(), normals: mesh.normals.slice(), cubes: mesh.cubes.slice(), triangles: mesh.triangles.slice() };
+    return kept(this.dressed(this.nets.mesh(this.field, k_level, this.field.whole_edges(), this.field.moving_edges() ?? undefined)));
   }
 
   /** What the present time of the field shows in the part that changes; its arrays live until the next call. */
   moving(): Surface | null {
     const edges = this.field.moving_edges();
     return edges ? this.dressed(this.nets.mesh(this.field, k_level, edges)) : null;
+  }
+
+  /** Where pulp lies open on the outside, as on the sides of a layered block; empty for a tooth, which encloses it. */
+  open_pulp(): Surface {
+    const { field, fills } = this;
+    const values = Float32Array.from(field.tissue, (id, i) => (fills[id] === 1 ? 1 : field.untouched[i]));
+    const mesh = this.dressed(this.nets.mesh({ size: field.size, values }, k_level, field.whole_edges()));
+    const [nx, ny] = field.size;
+    const step = [0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1];
+    const of_pulp = Array.from(mesh.cubes, (cube) => {
+      let [pulp, outside] = [0, 0];
+      for (const by of step) {
+        if (fills[field.tissue[cube + by]] === 1) ++pulp;
+        else if (field.untouched[cube + by] <= k_level) ++outside;
+      }
+      return pulp > 0 && outside > 0;
+    });
+    const triangles = mesh.triangles.filter((_, i, all) => [0, 1, 2].every((k) => of_pulp[all[i - (i % 3) + k]]));
+    return kept({ ...mesh, triangles });
   }
 
   /** For a class: marks of a surface where each place shows the share of the class (-1..1) that deviated there by more than `deeper_mm`. */
@@ -155,6 +173,11 @@ function heat_beside(field: ToothField, place_mm: Vec3, normal: Vec3, by_mm: num
   const i = [0, 1, 2].map((a) => Math.round((place_mm[a] + normal[a] * by_mm - field.origin_mm[a]) / field.cell_mm) - low[a]);
   if (i.some((v, a) => v < 0 || v >= size[a])) return null;
   return field.heat![(i[2] * size[1] + i[1]) * size[0] + i[0]];
+}
+
+/** A surface with arrays of its own, which the next meshing leaves alone. */
+function kept(surface: Surface): Surface {
+  return { ...surface, positions: surface.positions.slice(), normals: surface.normals.slice(), cubes: surface.cubes.slice(), triangles: surface.triangles.slice() };
 }
 
 /** The target's walls and floor: where the distance passes zero, without the jumps at its opening. In cells of the box. */

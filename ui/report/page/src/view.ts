@@ -52,6 +52,16 @@ class Growing {
   }
 }
 
+function geometry_of(surface: Surface): THREE.BufferGeometry {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(surface.positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(surface.normals, 3));
+  geometry.setAttribute("tissue_colour", new THREE.BufferAttribute(surface.colours, 3, true));
+  geometry.setAttribute("marks", new THREE.BufferAttribute(surface.marks, 2));
+  geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
+  return geometry;
+}
+
 function volume_texture(data: Uint8Array, size: Vec3, filter: THREE.MagnificationTextureFilter): THREE.Data3DTexture {
   const texture = new THREE.Data3DTexture(data as Uint8Array<ArrayBuffer>, ...size);
   texture.format = THREE.RedFormat;
@@ -98,8 +108,8 @@ export class ToothView {
   private sampled_s = 0;
   readonly centre: THREE.Vector3;
   readonly radius: number;
-  /** Called after each picture with the time that updating the mesh took, ms (0 when it was not). */
-  mesh_ms = 0;
+  /** Called before each picture. */
+  on_draw: (() => void) | null = null;
 
   /** Throws when WebGL is not to be had. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly field: ToothField, data: ReportData, options: ViewOptions) {
@@ -120,19 +130,14 @@ export class ToothView {
     const coarse_mm = this.surroundings.cell_mm;
     const material = tooth_material(this.shared, {
       density: { value: density },
-      density_low: { value: new THREE.Vector3(...origin_mm).subScalar(cell_mm / 2) },
+      density_low: { value: new THREE.Vector3(...this.surroundings.low_mm) },
       density_size: { value: new THREE.Vector3(...this.surroundings.size).multiplyScalar(coarse_mm) },
       back_colour: { value: new THREE.Vector3(0.55, 0.5, 0.45) },
     });
-    const still = new THREE.BufferGeometry();
     const surface = this.surface.still();
+    const still = geometry_of(surface);
     this.still = { surface, geometry: still };
-    still.setAttribute("position", new THREE.BufferAttribute(surface.positions, 3));
-    still.setAttribute("normal", new THREE.BufferAttribute(surface.normals, 3));
-    still.setAttribute("tissue_colour", new THREE.BufferAttribute(surface.colours, 3, true));
-    still.setAttribute("marks", new THREE.BufferAttribute(surface.marks, 2));
-    still.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
-    for (const geometry of [still, this.growing.geometry]) {
+    for (const geometry of [still, this.growing.geometry, geometry_of(this.surface.open_pulp())]) {
       const mesh = new THREE.Mesh(geometry, material);
       mesh.frustumCulled = false;
       place(mesh, [0, 0, 0]);
@@ -285,17 +290,16 @@ export class ToothView {
     const size = this.orbit.camera.position.distanceTo(this.marker.position) * 0.014;
     this.marker.scale.setScalar(size);
     this.marker.quaternion.copy(this.orbit.camera.quaternion);
+    this.on_draw?.();
     this.renderer.render(this.scene, this.orbit.camera);
   }
 
   private update_tooth(): void {
-    const begin = performance.now();
     if (!this.field.set_time(this.sampled_s)) return;
     const surface = this.surface.moving();
     if (surface) this.growing.put(surface);
     this.surroundings.update();
     this.density.needsUpdate = true;
-    this.mesh_ms = performance.now() - begin;
   }
 
   private update_section(): void {
