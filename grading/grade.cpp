@@ -20,14 +20,6 @@ namespace {
 
 bool is_kind(const SessionEvent& e, ExamEventKind kind) { return e.kind == event_name(kind); }
 
-/// Ticks that count: up to and with the one in which the exam was over.
-std::int64_t counted_ticks(const GradeInput& input) {
-  auto ticks = static_cast<std::int64_t>(std::min(input.inputs.size(), input.records.size()));
-  for (const auto& e : input.events)
-    if (is_kind(e, ExamEventKind::finished)) ticks = std::min(ticks, e.tick + 1);
-  return ticks;
-}
-
 ProgressMeasures measure_progress(const GradeInput& input) {
   ProgressMeasures p;
   p.steps = static_cast<int>(input.scenario.steps.size());
@@ -105,6 +97,12 @@ void compare_with_final_tooth(const GradeInput& input, const RemovedMap& removed
 
 }  // namespace
 
+std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events) {
+  for (const auto& e : events)
+    if (is_kind(e, ExamEventKind::finished)) recorded = std::min(recorded, e.tick + 1);
+  return recorded;
+}
+
 Result grade(const GradeInput& input, const RubricSpec& rubric) {
   if (input.inputs.size() != input.records.size()) throw Error("grading", "as many inputs as records are needed", "use a whole session");
   Result r;
@@ -118,7 +116,7 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   if (const auto limit = exam_limit_ticks(input.scenario); limit != r.limit_ticks)
     r.notes.push_back("the exam ran under a limit of " + seconds(r.limit_ticks) + "; the scenario it is marked by has " + seconds(limit) +
                       ", which was not applied");
-  const std::int64_t ticks = counted_ticks(input);
+  const std::int64_t ticks = counted_ticks(static_cast<std::int64_t>(input.inputs.size()), input.events);
   // without motion (a cavity handed in for marking) every removed leaf counts
   const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;
   const RemovedMap removed(input.removed, last_tick);

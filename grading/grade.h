@@ -25,6 +25,9 @@ struct GradeInput {
   std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
 };
 
+/// Ticks of `recorded` that count: up to and with the one in which the exam was over.
+[[nodiscard]] std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events);
+
 /// `rubric` may be another than the scenario's own.
 [[nodiscard]] Result grade(const GradeInput& input, const RubricSpec& rubric);
 

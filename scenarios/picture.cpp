@@ -27,6 +27,22 @@ constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0",
 constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#0047ab", "#ff8c00",
                            "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
 
+// For what many did: the tissues recede.
+constexpr Palette k_grey{"#f7f7f7", "#e9e9e9", "#cfcfcf", "#dddddd", "#e0e0e0", "#56b4e9", "#f0b74d",
+                         "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+struct HeatBand {
+  double from_percent;
+  const char *over, *under;
+};
+// Orange against blue, which common colour blindnesses leave apart; lighter = rarer.
+constexpr HeatBand k_heat[] = {{60, "#a63603", "#08519c"}, {40, "#e6550d", "#3182bd"}, {20, "#fd8d3c", "#6baed6"}, {5, "#fdbe85", "#bdd7e7"}};
+
+const char* heat_colour(double percent) {
+  for (const auto& band : k_heat)
+    if (std::fabs(percent) >= band.from_percent) return percent > 0 ? band.over : band.under;
+  return "";
+}
+
 const Palette& palette_of(bool high_contrast) { return high_contrast ? k_strong : k_usual; }
 
 std::string number(double v) {
@@ -142,7 +158,7 @@ const char* finding_colour(const Palette& colours, Zone zone) {
 }  // namespace
 
 std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap& zones, const PictureSpec& spec) {
-  const Palette& colours = palette_of(spec.high_contrast);
+  const Palette& colours = spec.heat_percent ? k_grey : palette_of(spec.high_contrast);
   const Octree& tree = before.octree;
   const double leaf = tree.leaf_mm();
   Window w{spec.view, {0, 0, 0}, tree.size(), 0, 0, 0};
@@ -208,6 +224,16 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
       const int slope = height(column + 3, row - 3) - height(column - 3, row + 3);
       std::string dark = slope < -5 ? "#000000;0.24" : slope < -2 ? "#000000;0.14" : slope < 0 ? "#000000;0.07" : "";
       if (top_after[i] < 0) return {"", colours.overcut, ""};
+      if (spec.heat_percent) {
+        double over = 0, left = 0;
+        for (int z = top[i]; z >= 0; --z) {
+          const double heat = spec.heat_percent({column, row, z});
+          over = std::max(over, heat);
+          left = std::min(left, heat);
+        }
+        return {tissue_colour(colours, tree.tissue({column, row, top[i]})),
+                heat_colour(over >= k_heat[std::size(k_heat) - 1].from_percent ? over : left), dark};
+      }
       std::string found;
       if (top_after[i] < top[i]) {
         Zone worst = Zone::target;  // of the removed leaves of this column
@@ -226,6 +252,7 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
     const auto t = tree.tissue(at);
     if (t == k_air) return {};
     if (after != nullptr && after->tissue(at) == k_air) return {"", finding_colour(colours, zones.zone(at)), ""};
+    if (spec.heat_percent) return {tissue_colour(colours, t), heat_colour(spec.heat_percent(at)), ""};
     return {tissue_colour(colours, t), "", ""};
   };
   for (int row = 0; row < w.height; ++row) {
@@ -344,38 +371,58 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
          "</g>\n</svg>\n";
 }
 
-std::string legend_svg(bool with_removed, bool high_contrast) {
-  const Palette& colours = palette_of(high_contrast);
-  struct Entry {
-    const char *colour, *text;
-    bool is_line;
-  };
-  std::vector<Entry> entries{{colours.enamel, "enamel", false},
-                             {colours.dentin, "dentin", false},
-                             {colours.pulp, "pulp", false},
-                             {colours.periodontium, "periodontium", false},
-                             {colours.target_line, "target", true},
-                             {colours.leeway_line, "leeway", true},
-                             {colours.container_line, "container", true}};
-  if (!with_removed) entries.push_back({colours.guard_line, "protected", true});
-  if (with_removed) {
-    entries.push_back({colours.removed, "removed, target", false});
-    entries.push_back({colours.leeway, "removed, leeway", false});
-    entries.push_back({colours.overcut, "removed, damage", false});
-  }
-  std::string svg, items;
+namespace {
+
+struct KeyEntry {
+  std::string colour, text;
+  bool is_line;
+};
+
+std::string key_svg(const std::vector<KeyEntry>& entries) {
+  std::string items;
   double x = 4;
   for (const auto& e : entries) {
     if (e.is_line)
       items += "<path d='M" + number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
     else
       items += "<rect x='" + number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
-    items += "<text x='" + number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + std::string(e.text) + "</text>";
-    x += 34 + 6.6 * static_cast<double>(std::string(e.text).size());
+    items += "<text x='" + number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + e.text + "</text>";
+    x += 34 + 6.6 * static_cast<double>(e.text.size());
   }
-  svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(x) + "' height='22' viewBox='0 0 " + number(x) + " 22' font-family='sans-serif'>" +
-        items + "</svg>\n";
-  return svg;
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(x) + "' height='22' viewBox='0 0 " + number(x) +
+         " 22' font-family='sans-serif'>" + items + "</svg>\n";
+}
+
+}  // namespace
+
+std::string heat_legend_svg() {
+  std::vector<KeyEntry> entries{{k_grey.target_line, "target", true}};
+  const auto band = [](std::size_t i) {
+    return number(k_heat[i].from_percent) + (i == 0 ? " % or more" : " to " + number(k_heat[i - 1].from_percent) + " %");
+  };
+  for (std::size_t i = std::size(k_heat); i-- > 0;)
+    entries.push_back({k_heat[i].over, (i + 1 == std::size(k_heat) ? "removed, damage: " : "") + band(i), false});
+  for (std::size_t i = std::size(k_heat); i-- > 0;)
+    entries.push_back({k_heat[i].under, (i + 1 == std::size(k_heat) ? "left standing: " : "") + band(i), false});
+  return key_svg(entries);
+}
+
+std::string legend_svg(bool with_removed, bool high_contrast) {
+  const Palette& colours = palette_of(high_contrast);
+  std::vector<KeyEntry> entries{{colours.enamel, "enamel", false},
+                                {colours.dentin, "dentin", false},
+                                {colours.pulp, "pulp", false},
+                                {colours.periodontium, "periodontium", false},
+                                {colours.target_line, "target", true},
+                                {colours.leeway_line, "leeway", true},
+                                {colours.container_line, "container", true}};
+  if (!with_removed) entries.push_back({colours.guard_line, "protected", true});
+  if (with_removed) {
+    entries.push_back({colours.removed, "removed, target", false});
+    entries.push_back({colours.leeway, "removed, leeway", false});
+    entries.push_back({colours.overcut, "removed, damage", false});
+  }
+  return key_svg(entries);
 }
 
 }  // namespace cavum

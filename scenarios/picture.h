@@ -2,6 +2,7 @@
 // Colours keep apart for colour-blind eyes, and removed tissue is also told by its pattern.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "engine/tooth/tooth.h"
@@ -26,6 +27,9 @@ struct PictureSpec {
   std::string title;
   bool high_contrast = false;    ///< stronger colours and lines
   const Shape* guard = nullptr;  ///< what is protected, drawn as a dashed line in sections; may be null
+  /// How often a leaf was cut or left wrongly by many, per cent: + removed outside the target, - left inside it. With it the tissues are drawn in grey
+  /// and the leaves in the colours of heat_legend_svg, and from above each column shows its most frequent overcut, else what was left most often.
+  std::function<double(IVec3 leaf)> heat_percent = {};
 };
 
 /// One picture, a complete `<svg>` element. `after` may be null (nothing was removed yet); then only the zones show.
@@ -39,5 +43,7 @@ struct PictureSpec {
 
 /// The key to the colours, an `<svg>` element. `with_removed` adds what a graded section shows.
 [[nodiscard]] std::string legend_svg(bool with_removed, bool high_contrast = false);
+/// The key to the colours of PictureSpec::heat_percent, an `<svg>` element.
+[[nodiscard]] std::string heat_legend_svg();
 
 }  // namespace cavum

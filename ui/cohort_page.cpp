@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "scenarios/picture.h"
 #include "ui/chart_svg.h"
 
 namespace cavum {
@@ -93,9 +94,54 @@ std::string agreement(const ClassFigures& f) {
   return out + "</table>\n";
 }
 
+/// Middle of the leaves that most of the class cut or left wrongly, weighted by how many did; the target's where nobody did.
+Vec3 hottest_mm(const cohort::ClassTooth& t) {
+  const IVec3 low = t.map->low(), size = t.map->size();
+  Vec3 sum;
+  double all = 0;
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const IVec3 leaf = low + IVec3{x, y, z};
+        const double heat = std::max(0.0, t.map->percent(leaf));
+        sum = sum + t.zones.centre_mm(leaf) * (heat * heat);
+        all += heat * heat;
+      }
+  return all > 0 ? sum * (1 / all) : (t.zones.target_low_mm() + t.zones.target_high_mm()) * 0.5;
+}
+
+std::string places(const ClassFigures& f, const cohort::ClassTooth& t) {
+  std::string out = "<h2>Where on the tooth</h2>\n<p>" + std::to_string(t.map->sessions()) +
+                    " cavities laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
+                    "place inside the target. The sections run through the middle of what was cut too much.</p>\n<div class=pictures>\n";
+  for (const auto& picture : class_pictures(t)) out += picture;
+  out += "</div>\n" + heat_legend_svg();
+  if (t.left_out > 0)
+    out += "<p>" + std::to_string(t.left_out) + " sat it with another text, tooth or leaf size than most; they are not in these pictures.</p>\n";
+  for (const auto& finding : t.findings) out += "<p><b>Not in these pictures:</b> " + xml_text(finding) + "</p>\n";
+  if (f.walls.empty()) return out;
+  out += "<table><tr><th>wall<th>cut by<th>mean, mm<th>95th percentile, mm<th>largest of all, mm</tr>\n";
+  for (const auto& w : f.walls)
+    out += "<tr><td>" + w.wall + "</td><td class=n>" + std::to_string(w.n) + "</td><td class=n>" + fixed(w.mean_mm, 2) + "</td><td class=n>" +
+           fixed(w.p95_mm, 2) + "</td><td class=n>" + fixed(w.worst_mm, 2) + "</td></tr>\n";
+  return out + "</table>\n<p><small>Signed distance of the cut surface from the target's wall, + = overcut, averaged over the class.</small></p>\n";
+}
+
 }  // namespace
 
-std::string class_html(const ClassFigures& f) {
+std::vector<std::string> class_pictures(const cohort::ClassTooth& t) {
+  const Vec3 at = hottest_mm(t);
+  const auto draw = [&](View view, double at_mm, const std::string& title) {
+    PictureSpec spec{view, at_mm, 30, title};
+    spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
+    return section_svg(t.tooth, nullptr, t.zones, spec);
+  };
+  return {draw(View::occlusal, 0, "from above"), draw(View::mesio_distal, at.y, "mesial-distal, y = " + fixed(at.y, 2) + " mm"),
+          draw(View::bucco_lingual, at.x, "buccal-lingual, x = " + fixed(at.x, 2) + " mm"),
+          draw(View::horizontal, at.z, "across, z = " + fixed(at.z, 2) + " mm")};
+}
+
+std::string class_html(const ClassFigures& f, const cohort::ClassTooth& tooth) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
       xml_text(f.exam) +
@@ -103,7 +149,7 @@ std::string class_html(const ClassFigures& f) {
       "1em}h1{margin-bottom:0}table{border-collapse:collapse;margin:.6em 0}"
       "th,td{text-align:left;vertical-align:top;padding:.25em .9em .25em 0;border-bottom:1px solid #ccc}.n{text-align:right;white-space:nowrap}"
       ".bar{display:inline-block;height:.7em;background:#0072b2}.key{display:flex;gap:2.5em;flex-wrap:wrap;margin:1em 0}.key "
-      "b{font-size:1.7em;display:block}svg{max-width:100%;height:auto}"
+      "b{font-size:1.7em;display:block}svg{max-width:100%;height:auto}.pictures{display:flex;flex-wrap:wrap;gap:1em;align-items:flex-end}"
       "small{color:#555}</style></head><body>\n<h1>" +
       xml_text(f.exam) + "</h1>\n<p>" + std::to_string(f.n) + " candidates; the last attempt of each counts, sessions filed with findings do not." +
       (f.simulated > 0 ? " <b>" + std::to_string(f.simulated) + " were sat by simulated operators.</b>" : "") + "</p>\n<div class=key>";
@@ -113,8 +159,8 @@ std::string class_html(const ClassFigures& f) {
   key(std::to_string(f.pass) + " / " + std::to_string(f.review) + " / " + std::to_string(f.fail), "pass / review / fail");
   key(number(f.alpha, 2), "Cronbach's alpha");
   key(number(f.sem, 1), "standard error, points");
-  out += "</div>\n" + distribution(f) + "\n<h2>Criteria</h2>\n<table><tr><th>criterion<th>measure<th>share of points<th>discrimination<th></tr>\n" +
-         criteria_rows(f) +
+  out += "</div>\n" + distribution(f) + "\n" + places(f, tooth) +
+         "<h2>Criteria</h2>\n<table><tr><th>criterion<th>measure<th>share of points<th>discrimination<th></tr>\n" + criteria_rows(f) +
          "</table>\n<p><small>Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha = k/(k−1)·(1 − "
          "Σ variances of criteria / variance of the sum), "
          "Cronbach 1951; it takes criteria for parts of one skill, and a rubric of few and different ones has a low one without being unfair. "

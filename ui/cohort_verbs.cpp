@@ -61,13 +61,12 @@ void report(const Options& o) {
   const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
   if (!o.out.empty()) {
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
-    write_text_file(o.out, class_html(figures));
+    write_text_file(o.out, class_html(figures, *cohort::class_tooth(registry, places, o.exam)));
   }
   if (o.as_json) {
     print_json(to_json(figures));
   } else {
-    std::printf("%s: %zu candidates, %.1f points on average (sd %.1f), %zu pass, %zu review, %zu fail\n", figures.exam.c_str(), figures.n,
-                figures.mean, figures.sd, figures.pass, figures.review, figures.fail);
+    std::cout << cohort::to_text(figures);
     if (!o.out.empty()) std::cout << "written: " << o.out << "\n";
   }
 }

@@ -159,6 +159,17 @@ struct SurfacePatches::Maker {
   }
 };
 
+namespace {
+
+/// A cut passes through a patch and leaves less behind than there was meanwhile: that room is given back.
+template <class Item>
+void keep(const std::vector<Item>& made, std::vector<Item>& kept) {
+  if (made.size() * 2 < kept.capacity()) std::vector<Item>().swap(kept);
+  kept.assign(made.begin(), made.end());
+}
+
+}  // namespace
+
 SurfacePatches::SurfacePatches(const LeafBlocks& leaves, std::uint8_t tissue)
     : size_{patches_along(leaves.size().x), patches_along(leaves.size().y), patches_along(leaves.size().z)},
       maker_(std::make_unique<Maker>()),
@@ -190,8 +201,8 @@ void SurfacePatches::update(const LeafBlocks& leaves, std::span<const LeafBox> c
         reached_[number] = 0;
         maker_->make(leaves, {x, y, z});
         if (maker_->made == patches_[number]) continue;
-        patches_[number].vertices.assign(maker_->made.vertices.begin(), maker_->made.vertices.end());
-        patches_[number].triangles.assign(maker_->made.triangles.begin(), maker_->made.triangles.end());
+        keep(maker_->made.vertices, patches_[number].vertices);
+        keep(maker_->made.triangles, patches_[number].triangles);
         touched.push_back(static_cast<std::uint32_t>(number));
       }
 }

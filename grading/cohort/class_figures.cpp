@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "grading/ledger/csv.h"
+#include "scenarios/zone_map.h"
 
 namespace cavum::cohort {
 namespace {
@@ -84,6 +85,27 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
   }
 }
 
+std::vector<WallFigures> walls_of(const std::map<std::string, const FiledSession*>& sat) {
+  std::vector<WallFigures> out;
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    WallFigures f;
+    f.wall = wall_name(static_cast<Wall>(w));
+    for (const auto& [candidate, s] : sat) {
+      const json wall = s->result.value("walls", json::object()).value(f.wall, json::object());
+      if (!wall.value("mean_mm", json()).is_number() || !wall.value("p95_mm", json()).is_number()) continue;
+      ++f.n;
+      f.mean_mm += wall["mean_mm"].get<double>();
+      f.p95_mm += wall["p95_mm"].get<double>();
+      f.worst_mm = std::max(f.worst_mm, wall.value("max_over_mm", 0.0));
+    }
+    if (f.n == 0) continue;
+    f.mean_mm /= static_cast<double>(f.n);
+    f.p95_mm /= static_cast<double>(f.n);
+    out.push_back(f);
+  }
+  return out;
+}
+
 json optional(const std::optional<double>& v) { return v ? json(*v) : json(); }
 
 }  // namespace
@@ -118,13 +140,18 @@ std::vector<HumanMark> parse_marks(const std::string& text, Identities& identiti
   return out;
 }
 
-ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
-  ClassFigures f;
-  f.exam = exam;
+std::map<std::string, const FiledSession*> counting_sessions(const Registry& registry, const std::string& exam) {
   std::map<std::string, const FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
     if (s.scenario_id == exam && s.findings.empty() && s.result.is_object()) sat[s.candidate] = &s;
   if (sat.empty()) throw Error("exam '" + one_line(exam) + "'", "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
+  return sat;
+}
+
+ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
+  ClassFigures f;
+  f.exam = exam;
+  const auto sat = counting_sessions(registry, exam);
   const json& any = sat.begin()->second->result;
   const auto ids = [](const json& result) {
     std::vector<std::string> out;
@@ -183,6 +210,7 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
     groups.push_back(points);
   }
   if (groups.size() >= 2 && f.n > groups.size()) f.station_effect = group_effect(groups, k_shuffles, 1);
+  f.walls = walls_of(sat);
   agree(f, sat, marks, band, borderline);
   std::sort(f.to_look_at.begin(), f.to_look_at.end(),
             [](const ToLookAt& a, const ToLookAt& b) { return a.session != b.session ? a.session < b.session : a.why < b.why; });
@@ -190,7 +218,8 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
 }
 
 json to_json(const ClassFigures& f) {
-  json criteria = json::array(), stations = json::array(), look = json::array();
+  json criteria = json::array(), stations = json::array(), look = json::array(), walls = json::object();
+  for (const auto& w : f.walls) walls[w.wall] = {{"n", w.n}, {"mean_mm", w.mean_mm}, {"p95_mm", w.p95_mm}, {"max_over_mm", w.worst_mm}};
   for (const auto& c : f.criteria)
     criteria.push_back({{"id", c.id}, {"metric", c.metric}, {"difficulty", c.difficulty}, {"discrimination", optional(c.discrimination)}});
   for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"n", s.n}, {"mean_points", s.mean}});
@@ -215,11 +244,46 @@ json to_json(const ClassFigures& f) {
           {"criteria", criteria},
           {"alpha", optional(f.alpha)},
           {"standard_error_points", optional(f.sem)},
+          {"walls", walls},
           {"stations", stations},
           {"station_effect",
            f.station_effect ? json{{"f", f.station_effect->f}, {"chance", f.station_effect->chance}, {"share", f.station_effect->share}} : json()},
           {"agreement", agreement},
           {"to_look_at", look}};
+}
+
+std::string to_text(const ClassFigures& f) {
+  const auto number = [](const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : std::string("-"); };
+  const auto padded = [](std::string s, std::size_t width) {
+    s.resize(std::max(width, s.size() + 1), ' ');
+    return s;
+  };
+  std::string s = f.exam + ": " + std::to_string(f.n) + (f.n == 1 ? " candidate" : " candidates") +
+                  (f.simulated > 0 ? ", " + std::to_string(f.simulated) + " of them simulated" : "") + "\n" + std::to_string(f.pass) + " pass, " +
+                  std::to_string(f.review) + " review, " + std::to_string(f.fail) + " fail\npoints " + fixed(f.mean, 1) + " on average of " +
+                  plain_number(f.max_points) + ", standard deviation " + fixed(f.sd, 1) + ", pass mark " + fixed(f.pass_points, 1) +
+                  "\nCronbach's alpha " + number(f.alpha, 2) + ", standard error " + number(f.sem, 1) + " points\n\n" + padded("criterion", 28) +
+                  "share of points  discrimination\n";
+  for (const auto& c : f.criteria) s += padded(c.id, 28) + padded(fixed(c.difficulty, 2), 17) + number(c.discrimination, 2) + "\n";
+  if (!f.walls.empty()) s += "\n" + padded("wall, mm (+ = overcut)", 28) + "mean   p95    largest of all\n";
+  for (const auto& w : f.walls)
+    s += padded(w.wall, 28) + padded(fixed(w.mean_mm, 2), 7) + padded(fixed(w.p95_mm, 2), 7) + fixed(w.worst_mm, 2) + "\n";
+  if (f.station_effect)
+    s += "\nstations " + std::to_string(f.stations.size()) + ": they hold " + fixed(100 * f.station_effect->share, 1) +
+         " % of the variance; as much by chance in a share of " + fixed(f.station_effect->chance, 3) + " of shuffles\n";
+  const Agreement& a = f.agreement;
+  if (a.n > 0) {
+    s +=
+        "\nmarked by people too: " + std::to_string(a.n) + " candidates, " + std::to_string(a.judges) + (a.judges == 1 ? " judge" : " judges") + "\n";
+    if (a.icc) s += "ICC(2,1) " + fixed(a.icc->single_random, 2) + ", ICC(3,1) " + fixed(a.icc->single_fixed, 2) + "\n";
+    if (a.limits)
+      s += "program less people " + fixed(a.limits->bias, 1) + " points, " + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) + "\n";
+    s += "weighted kappa " + number(a.kappa, 2) + ", cut by borderline regression " + number(a.cut, 1) + " points\n";
+  }
+  if (!f.to_look_at.empty()) s += "\nto look at\n";
+  for (const auto& t : f.to_look_at)
+    s += padded(t.session > 0 ? "  entry " + std::to_string(t.session) : "  no entry", 14) + padded(t.candidate, 18) + t.why + "\n";
+  return s;
 }
 
 }  // namespace cavum::cohort

@@ -1,6 +1,7 @@
 // One exam as a class sat it: the figures of statistics.h on the results that the ledger holds, with people's marks beside them where there are any.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +27,12 @@ struct CriterionFigures {
   std::string id, metric;
   double difficulty = 0;                 ///< mean share of its points, 0 hard .. 1 easy
   std::optional<double> discrimination;  ///< correlation with the sum of the others
+};
+struct WallFigures {
+  std::string wall;
+  std::size_t n = 0;               ///< candidates who cut it
+  double mean_mm = 0, p95_mm = 0;  ///< over them: signed distance from the target's wall, + = overcut; and its 95th percentile
+  double worst_mm = 0;             ///< the largest overcut of all
 };
 struct StationFigures {
   std::string key;  ///< public
@@ -54,15 +61,20 @@ struct ClassFigures {
   std::vector<double> points;  ///< ascending
   std::vector<CriterionFigures> criteria;
   std::optional<double> alpha, sem;
+  std::vector<WallFigures> walls;  ///< that anybody cut
   std::vector<StationFigures> stations;
   std::optional<GroupEffect> station_effect;
   Agreement agreement;
   std::vector<ToLookAt> to_look_at;
 };
 
-/// Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody sat the exam. `borderline`: the
-/// rating that means so.
+/// Who sat an exam, by candidate. Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody
+/// sat it.
+[[nodiscard]] std::map<std::string, const FiledSession*> counting_sessions(const Registry& registry, const std::string& exam);
+/// Over the sessions that count. `borderline`: the rating that means so. Throws Error when nobody sat the exam.
 [[nodiscard]] ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline);
 [[nodiscard]] nlohmann::json to_json(const ClassFigures& figures);
+/// The same for people to read.
+[[nodiscard]] std::string to_text(const ClassFigures& figures);
 
 }  // namespace cavum::cohort

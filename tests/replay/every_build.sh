@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # every_build.sh CAVUM SOURCE_DIR REPLAYER...
-# Records the three simulated candidates with CAVUM, takes the recorded exams in tests/replay/sessions too, and
+# Records three simulated candidates at three tasks with CAVUM, takes the recorded exams in tests/replay/sessions too, and
 # lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All must verify and
 # print the same lines.
 set -euo pipefail
@@ -9,8 +9,8 @@ shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
-for who in expert novice perforator; do
-  "$cavum" exam "$source/data/scenarios/molar_access.toml" --candidate replay --operator "$who" --out "$work/$who.cavum" --quiet >/dev/null
+for sitting in perforator:class_2 novice:class_1 expert:slot; do
+  "$cavum" exam "$source/data/scenarios/${sitting#*:}.toml" --candidate replay --operator "${sitting%:*}" --out "$work/${sitting%:*}.cavum" --quiet >/dev/null
 done
 cp "$source"/tests/replay/sessions/*.cavum "$work/"
 cd "$work"

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <map>
 #include <vector>
 
 #include "tests/scenarios/test_teeth.h"
@@ -53,6 +55,54 @@ TEST(Picture, TheCrownIsShownToItsTipAlsoFarAboveTheTarget) {
   };
   // the target lies in the block's side, its own top 0.5 or 1 mm below the block's; 4 mm below it are shown, and a little air above the block
   EXPECT_NEAR(drawn("-1.5") - drawn("-1"), 0.5 * k_scale, 0.11 * k_scale);
+}
+
+/// Leaves that a section draws in a colour: its runs added up.
+std::size_t drawn_in(const std::string& svg, const std::string& colour) {
+  const auto at = svg.find("fill='" + colour + "' d='");
+  if (at == std::string::npos) return 0;
+  const auto end = svg.find("'/>", at);
+  std::size_t leaves = 0;
+  for (auto run = svg.find('h', svg.find("d='", at)); run < end; run = svg.find('h', run + 1))
+    if (svg[run + 1] != '-') leaves += std::strtoul(svg.c_str() + run + 1, nullptr, 10);
+  return leaves;
+}
+
+TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
+  const Tooth block = testing::dentin_block(3, 5, 0.1);
+  const Scenario s =
+      parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"), "s.toml");
+  const ZoneMap zones = build_zones(s, block);
+  const Octree& tree = block.octree;
+  const int low_z = tree.leaf_at({0.01, 0.01, -4.9}).z;
+  // ever more of the class from one side to the other, on both sides of none
+  const auto heat = [&](IVec3 leaf) { return -80.0 + 160.0 * leaf.x / (tree.size().x - 1); };
+  PictureSpec spec{View::mesio_distal, 0.01, k_scale, ""};
+  spec.heat_percent = heat;
+  const std::string svg = section_svg(block, nullptr, zones, spec);
+  const std::vector<std::pair<double, std::pair<std::string, std::string>>> bands{
+      {60, {"#a63603", "#08519c"}}, {40, {"#e6550d", "#3182bd"}}, {20, {"#fd8d3c", "#6baed6"}}, {5, {"#fdbe85", "#bdd7e7"}}};
+  std::map<std::string, std::size_t> expected;
+  const int y = tree.leaf_at({0.01, 0.01, 0.01}).y;
+  for (int z = low_z; z < tree.size().z; ++z)
+    for (int x = 0; x < tree.size().x; ++x) {
+      if (tree.tissue({x, y, z}) == k_air) continue;
+      const double h = heat({x, y, z});
+      for (const auto& [from, colours] : bands)
+        if (std::fabs(h) >= from) {
+          ++expected[h > 0 ? colours.first : colours.second];
+          break;
+        }
+    }
+  ASSERT_EQ(expected.size(), 8u) << "every band is there";
+  const std::string key = heat_legend_svg();
+  for (const auto& [colour, leaves] : expected) {
+    // the section's window may begin a few rows higher than the block
+    EXPECT_GT(drawn_in(svg, colour), 0u) << colour;
+    EXPECT_LE(drawn_in(svg, colour), leaves) << colour;
+    EXPECT_EQ(drawn_in(svg, colour) * expected.begin()->second, leaves * drawn_in(svg, expected.begin()->first)) << "the same share of each column";
+    EXPECT_NE(key.find(colour), std::string::npos) << "the key names it";
+  }
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ Picture picture_from_above(const GradeInput& input) {
       if (was[index(x, y)] >= 0) {
         Colour c{0.15, 0.15, 0.15};  // cut right through
         if (top >= 0) {
-          const bool cut = top < was[index(x, y)], left = input.zones.zone({x, y, top}) == Zone::target;
+          // the natural wall of a hollow is no cut
+          const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = input.zones.zone({x, y, top}) == Zone::target;
           c = cut || left ? of_deviation(input.zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()})) : k_tooth;
           // light from the upper left: slopes that face away from it are darker
           const auto height = [&](int dx, int dy) {

@@ -117,7 +117,7 @@ void add_work(Document& d, const ReportSource& s) {
                                    std::to_string(r.progress.steps) + " completed, " + std::to_string(r.progress.violations) +
                                    " violations; the exam ended: " + r.progress.finish + ".",
                                ""});
-  ReportTable t{{{"What", false, 3}, {"", false, 7}}, {}, "Accommodations, pauses, late work"};
+  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Accommodations, pauses, late work"};
   const std::string granted = accommodations_text(r.accommodations);
   t.rows.push_back({{{"accommodations"}, {granted.empty() ? "none" : granted}}});
   t.rows.push_back({{{"time limit"}, {fixed(static_cast<double>(r.limit_ticks) * k_tick_s, 1) + " s"}}});
@@ -152,7 +152,7 @@ void add_servo(ReportTable& t, const SessionEvent& e) {
 
 void add_device(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{"Device and calibration"});
-  ReportTable t{{{"What", false, 3}, {"", false, 7}}, {}, "Device and calibration"};
+  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Device and calibration"};
   t.rows.push_back({{{"device"}, {s.facts.device}}});
   t.rows.push_back({{{"calibration"}, {s.facts.calibration.empty() ? "none recorded" : s.facts.calibration}}});
   for (const auto& [key, value] : s.facts.notes)

@@ -36,7 +36,11 @@ Picture chart(const std::string& title, const std::string& unit, const std::stri
   c.y_label = unit;
   c.width_px = k_width_px;
   c.height_px = k_height_px;
-  c.x_range = {0.0, std::max(duration_s, 1e-3)};
+  constexpr double k_room = 1.045;  // for the number of the last event
+  c.x_range = {0.0, k_room * std::max(duration_s, 1e-3)};
+  double most = 0;
+  for (const auto& p : points) most = std::max(most, p.y);
+  c.y_range = {0.0, most > 0 ? 1.15 * most : 1.0};
   c.series.push_back({"", colour, ChartSeries::Style::line, std::move(points), 1.2});
   c.marks = marks;
   return {svg_page(k_width_px, k_height_px, chart_group(c, 0, 0)), ""};

@@ -10,7 +10,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_text_pt = 9.5, k_small_pt = 8, k_cell_pt = 7.8, k_padding_pt = 3, k_gap_pt = 6;
-constexpr double k_pt_per_px = 0.75;
+constexpr double k_pt_per_px = 0.75, k_most_of_page = 0.42;
 
 PdfColour verdict_colour(const std::string& verdict) {
   if (verdict == "pass") return {0.0, 0.447, 0.698};
@@ -28,10 +28,22 @@ class Printer {
     s_.lines({d.subtitle, k_small_pt, false, {0.3, 0.3, 0.3}}, s_.width_pt());
     s_.space(k_gap_pt);
   }
+  /// So much of what comes next stands on the page of a heading.
+  void with_next(double height_pt) { with_next_pt_ = height_pt; }
+  /// Height of what of a block cannot be parted.
+  [[nodiscard]] double least_height(const Block& block) {
+    if (const auto* heading = std::get_if<Heading>(&block)) return heading->level > 2 ? 14 : 20;
+    if (const auto* pictures = std::get_if<Pictures>(&block)) return row_of(*pictures, 0).height();
+    if (const auto* live = std::get_if<LiveFigure>(&block)) return live->on_paper.empty() ? 0 : row_of({live->on_paper, 1}, 0).height();
+    if (const auto* table = std::get_if<ReportTable>(&block)) {
+      const std::vector<double> widths = widths_of(*table);
+      return height_of(*table, head_of(*table), widths, true) + (table->rows.empty() ? 0 : height_of(*table, table->rows.front(), widths, false));
+    }
+    return 40;
+  }
   void operator()(const Heading& b) {
-    constexpr double k_with_next_pt = 70;  // a heading does not stand alone at the foot of a page
     s_.space(b.level > 2 ? 5 : 9);
-    s_.need((b.level > 2 ? 14 : 20) + k_with_next_pt);
+    s_.need((b.level > 2 ? 14 : 20) + with_next_pt_);
     s_.lines({b.text, b.level > 2 ? 10.0 : 12.5, true}, s_.width_pt());
     if (b.level <= 2) s_.rule({0.75, 0.75, 0.75});
     s_.space(3);
@@ -71,8 +83,7 @@ class Printer {
   }
   void operator()(const ReportTable& b) {
     const std::vector<double> widths = widths_of(b);
-    TableRow head;
-    for (const auto& c : b.columns) head.cells.push_back({c.title});
+    const TableRow head = head_of(b);
     const double head_height = height_of(b, head, widths, true);
     const bool has_head = std::any_of(b.columns.begin(), b.columns.end(), [](const TableColumn& c) { return !c.title.empty(); });
     const auto print_head = [&] {
@@ -100,35 +111,18 @@ class Printer {
     s_.space(k_gap_pt);
   }
   void operator()(const Pictures& b) {
-    const auto columns = static_cast<std::size_t>(std::max(1, b.columns));
-    constexpr double k_between_pt = 12;
-    const double width = (s_.width_pt() - k_between_pt * static_cast<double>(columns - 1)) / static_cast<double>(columns);
-    for (std::size_t first = 0; first < b.list.size(); first += columns) {
-      const std::size_t end = std::min(b.list.size(), first + columns);
-      struct Placed {
-        PdfPicture picture;
-        double width, height, title;
-      };
-      std::vector<Placed> placed;
-      double tallest = 0, titles = 0;
-      for (std::size_t i = first; i < end; ++i) {
-        PdfPicture p(b.list[i].svg);
-        const double scale = std::min({k_pt_per_px, width / p.width_px(), 0.6 * s_.page_height_pt() / p.height_px()});
-        const double title = b.list[i].title.empty() ? 0 : s_.height({b.list[i].title, k_small_pt, false}, width) + 2;
-        tallest = std::max(tallest, p.height_px() * scale);
-        titles = std::max(titles, title);
-        placed.push_back({std::move(p), 0, 0, title});
-        placed.back().width = placed.back().picture.width_px() * scale;
-        placed.back().height = placed.back().picture.height_px() * scale;
+    for (std::size_t first = 0; first < b.list.size(); first += columns_of(b)) {
+      const PictureRow row = row_of(b, first);
+      s_.need(row.height());
+      double x = 0;
+      for (std::size_t i = 0; i < row.placed.size(); ++i) {
+        const PictureRow::Placed& p = row.placed[i];
+        const Picture& picture = b.list[first + i];
+        s_.draw(p.picture, x, row.tallest - p.height, p.width, p.height, picture.raster);
+        if (!picture.title.empty()) s_.at({picture.title, k_small_pt, false}, x, row.tallest + 2, row.width);
+        x += row.width + k_between_pt;
       }
-      s_.need(tallest + titles + k_gap_pt);
-      for (std::size_t i = first; i < end; ++i) {
-        const Placed& p = placed[i - first];
-        const double x = static_cast<double>(i - first) * (width + k_between_pt);
-        s_.draw(p.picture, x, tallest - p.height, p.width, p.height, b.list[i].raster);
-        if (p.title > 0) s_.at({b.list[i].title, k_small_pt, false}, x, tallest + 2, width);
-      }
-      s_.space(tallest + titles + k_gap_pt);
+      s_.space(row.height());
     }
   }
   void operator()(const LiveFigure& b) {
@@ -136,6 +130,36 @@ class Printer {
   }
 
  private:
+  static constexpr double k_between_pt = 12;
+  /// Pictures side by side, standing on one line.
+  struct PictureRow {
+    struct Placed {
+      PdfPicture picture;
+      double width, height;
+    };
+    std::vector<Placed> placed;
+    double width = 0, tallest = 0, titles = 0;
+    [[nodiscard]] double height() const { return tallest + titles + k_gap_pt; }
+  };
+  static std::size_t columns_of(const Pictures& b) { return static_cast<std::size_t>(std::max(1, b.columns)); }
+  [[nodiscard]] PictureRow row_of(const Pictures& b, std::size_t first) {
+    const std::size_t columns = columns_of(b), end = std::min(b.list.size(), first + columns);
+    PictureRow row;
+    row.width = (s_.width_pt() - k_between_pt * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+    for (std::size_t i = first; i < end; ++i) {
+      const PdfPicture p(b.list[i].svg);
+      const double scale = std::min({k_pt_per_px, row.width / p.width_px(), k_most_of_page * s_.page_height_pt() / p.height_px()});
+      row.placed.push_back({p, p.width_px() * scale, p.height_px() * scale});
+      row.tallest = std::max(row.tallest, row.placed.back().height);
+      if (!b.list[i].title.empty()) row.titles = std::max(row.titles, s_.height({b.list[i].title, k_small_pt, false}, row.width) + 2);
+    }
+    return row;
+  }
+  static TableRow head_of(const ReportTable& t) {
+    TableRow head;
+    for (const auto& c : t.columns) head.cells.push_back({c.title});
+    return head;
+  }
   [[nodiscard]] std::vector<double> widths_of(const ReportTable& t) const {
     double sum = 0;
     for (const auto& c : t.columns) sum += c.width;
@@ -164,6 +188,7 @@ class Printer {
     }
   }
   PdfSheet& s_;
+  double with_next_pt_ = 0;
 };
 
 /// Prints everything; `pages`: how many there will be, 0 when not known yet. Returns how many there were.
@@ -171,7 +196,15 @@ int print(const Document& d, int pages, std::string& out) {
   PdfSheet sheet(d, pages, out);
   Printer printer(sheet);
   printer.title(d);
-  for (const auto& block : d.blocks) std::visit(printer, block);
+  for (std::size_t i = 0; i < d.blocks.size(); ++i) {
+    double next = 0;  // headings stand together with what they head
+    for (std::size_t j = i + 1; j < d.blocks.size() && std::holds_alternative<Heading>(d.blocks[i]); ++j) {
+      next += printer.least_height(d.blocks[j]);
+      if (next > 0 && !std::holds_alternative<Heading>(d.blocks[j])) break;
+    }
+    printer.with_next(next);
+    std::visit(printer, d.blocks[i]);
+  }
   for (const auto& line : d.footer) sheet.lines({line, 7, false, {0.35, 0.35, 0.35}}, sheet.width_pt());
   return sheet.finish();
 }

@@ -52,7 +52,8 @@ std::string limits_text(const CriterionSpec& c, const std::string& unit) {
 
 void add_criteria(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{"Criteria"});
-  ReportTable t{{{"Criterion", false, 2.2}, {"Value", true, 1.6}, {"Limits", false, 2.4}, {"Points", true, 1.5}, {"Why", false, 4}}, {}, "Criteria"};
+  ReportTable t{
+      {{"Criterion", false, 2.2}, {"Value", true, 1.9}, {"Limits", false, 2.4}, {"Points", true, 1.8}, {"Why", false, 3.8}}, {}, "Criteria"};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const CriterionResult& c = s.result.criteria[i];
     const std::string value = c.value ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit) : k_dash;

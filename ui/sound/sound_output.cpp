@@ -3,6 +3,7 @@
 #include <AL/al.h>
 #include <AL/alc.h>
 #include <AL/alext.h>
+#include <dlfcn.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -48,10 +49,22 @@ void ask_for_short_periods() noexcept {
   setenv("ALSOFT_CONF", ("/proc/self/fd/" + std::to_string(file)).c_str(), 0);  // kept open: OpenAL may read it again
 }
 
+extern "C" void ignore_alsa(const char*, int, const char*, int, const char*, ...) {}  // NOLINT(cert-dcl50-cpp): what ALSA calls
+
+/// A computer without loudspeakers is said once, in our words (Player::failed): ALSA and OpenAL write a dozen lines to standard error otherwise.
+void hush_libraries() noexcept {
+  setenv("ALSOFT_LOGLEVEL", "0", 0);
+  void* const alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_NODELETE);  // the one that OpenAL loads too
+  if (alsa == nullptr) return;
+  using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
+  if (const auto set = reinterpret_cast<int (*)(Handler)>(dlsym(alsa, "snd_lib_error_set_handler"))) set(&ignore_alsa);
+}
+
 /// An open device with a source that plays what is queued.
 class Player {
  public:
   Player() {
+    hush_libraries();
     device_ = alcOpenDevice(nullptr);
     if (device_ == nullptr) {
       failed_ = "no sound device could be opened; plug in loudspeakers or headphones, or go on without sound";

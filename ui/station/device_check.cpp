@@ -32,7 +32,7 @@ CheckItem pedal_item(const DeviceSight& s) {
   if (!s.pedal_known) return {State::waiting, "Pedal", "not heard of yet: move it once"};
   if (s.pedal_came_back) return {State::good, "Pedal", "reaches both ends"};
   if (!s.pedal_released) return {State::waiting, "Pedal", number("take the foot off it (%.0f %%)", 100.0 * s.pedal)};
-  if (!s.pedal_pressed) return {State::waiting, "Pedal", number("press it to the floor (%.0f %%)", 100.0 * s.pedal)};
+  if (!s.pedal_pressed) return {State::waiting, "Pedal", number("press it down all the way (%.0f %%)", 100.0 * s.pedal)};
   return {State::waiting, "Pedal", number("and release it (%.0f %%)", 100.0 * s.pedal)};
 }
 

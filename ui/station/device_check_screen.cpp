@@ -49,7 +49,7 @@ void device_check_screen(const ScreenContext& c) {
       PointerIntent still;
       still.tip_mm = s.wanted_mm;
       still.rotation = s.wanted_rotation;
-      still.pedal = key_held(GLFW_KEY_SPACE) ? 1.0 : 0.0;
+      still.pedal = key_held(GLFW_KEY_SPACE) || (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) ? 1.0 : 0.0;
       pointer->want(still);
       quiet_text(t, "Mouse and keyboard: the pedal is the space bar or the left button.");
     }

@@ -23,6 +23,12 @@ namespace {
 constexpr std::array<const char*, 16> k_words{"mouse", "wait",  "go",   "until", "type",    "key",    "hold", "release",
                                               "sleep", "stall", "hide", "show",  "picture", "memory", "fail", "close"};
 
+std::string all_words() {
+  std::string list;
+  for (const char* word : k_words) list += (list.empty() ? "" : ", ") + std::string(word);
+  return list;
+}
+
 int key_of(const std::string& name) {
   if (name == "enter") return GLFW_KEY_ENTER;
   if (name == "escape") return GLFW_KEY_ESCAPE;
@@ -70,7 +76,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     if (!(words >> c.word) || c.word[0] == '#') continue;
     const std::string where = path + ":" + std::to_string(number);
     if (std::find(k_words.begin(), k_words.end(), c.word) == k_words.end())
-      throw Error(where, "'" + c.word + "' is no command of a script", "see the head of ui/station/script.h");
+      throw Error(where, "'" + c.word + "' is no command of a script", "use one of: " + all_words());
     words >> c.text;
     if (c.word == "until" || c.word == "sleep" || c.word == "stall") {
       std::istringstream value(c.text);
@@ -84,7 +90,9 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     }
     if (c.word == "key" || c.word == "hold" || c.word == "release") {
       c.key = key_of(c.text);
-      if (c.key == 0) throw Error(where, "'" + c.text + "' is no key", "see the head of ui/station/script.h");
+      if (c.key == 0)
+        throw Error(where, "'" + c.text + "' is no key",
+                    "use enter, escape, space, tab, an arrow's name, pageup, pagedown, home, end, ctrl, shift, f1 to f12, a letter or a digit");
       words >> c.number;
     }
     commands_.push_back(c);
@@ -105,7 +113,11 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
       throw Error(where, "the screen '" + c.text + "' did not come, '" + screen_name(screen) + "' shows", "correct the script");
     return there;
   }
-  if (c.word == "until") return exam_s >= c.number;
+  if (c.word == "until") {
+    if (exam_s < c.number && (screen == Screen::result || screen == Screen::trouble))
+      throw Error(where, "the exam was over before its clock came to " + c.text + " s", "correct the script");
+    return exam_s >= c.number;
+  }
   if (c.word == "type") {
     if (!window.wants_text()) return false;
     window.type(c.text);

@@ -1,0 +1,123 @@
+#include "grading/cohort/class_map.h"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/text.h"
+#include "engine/session/session_reader.h"
+#include "grading/cohort/class_figures.h"
+#include "grading/grade.h"
+#include "scenarios/parse.h"
+#include "scenarios/surface_files.h"
+
+namespace cavum::cohort {
+
+std::size_t ClassMap::index(IVec3 leaf) const noexcept {
+  const IVec3 l = leaf - low_;
+  return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
+         static_cast<std::size_t>(l.x);
+}
+
+void ClassMap::reach(IVec3 low, IVec3 high) {
+  const IVec3 end = low_ + size_;
+  if (!count_.empty()) {
+    if (low.x >= low_.x && low.y >= low_.y && low.z >= low_.z && high.x <= end.x && high.y <= end.y && high.z <= end.z) return;
+    low = {std::min(low.x, low_.x), std::min(low.y, low_.y), std::min(low.z, low_.z)};
+    high = {std::max(high.x, end.x), std::max(high.y, end.y), std::max(high.z, end.z)};
+  }
+  ClassMap wider(*zones_);
+  wider.low_ = low;
+  wider.size_ = high - low;
+  wider.count_.assign(static_cast<std::size_t>(wider.size_.x) * static_cast<std::size_t>(wider.size_.y) * static_cast<std::size_t>(wider.size_.z), 0);
+  for (int z = low_.z; z < end.z; ++z)
+    for (int y = low_.y; y < end.y; ++y)
+      for (int x = low_.x; x < end.x; ++x) wider.count_[wider.index({x, y, z})] = count_[index({x, y, z})];
+  low_ = wider.low_;
+  size_ = wider.size_;
+  count_ = std::move(wider.count_);
+}
+
+void ClassMap::add(const std::vector<IVec3>& removed) {
+  if (sessions_ == 0) reach(zones_->low(), zones_->low() + zones_->size());
+  if (!removed.empty()) {
+    IVec3 low = removed.front(), high = low;
+    for (const IVec3 l : removed) {
+      low = {std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)};
+      high = {std::max(high.x, l.x), std::max(high.y, l.y), std::max(high.z, l.z)};
+    }
+    reach(low, high + IVec3{1, 1, 1});
+  }
+  for (const IVec3 l : removed) ++count_[index(l)];
+  ++sessions_;
+}
+
+double ClassMap::percent(IVec3 leaf) const noexcept {
+  const IVec3 l = leaf - low_;
+  if (sessions_ == 0 || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return 0;
+  const double removed = 100.0 * count_[index(leaf)] / static_cast<double>(sessions_);
+  const Zone zone = zones_->zone(leaf);
+  if (zone == Zone::target) return removed - 100;
+  return zone == Zone::leeway_sides || zone == Zone::leeway_bottom ? 0 : removed;
+}
+
+namespace {
+
+/// What two sessions must share so that their leaves mean the same places.
+std::string task_of(const SessionReader& reader) {
+  const SessionSetup setup = reader.setup();
+  return to_hex(sha256(setup.scenario_toml)) + to_hex(sha256(setup.tooth));
+}
+
+std::vector<IVec3> counted_leaves(const SessionReader& reader) {
+  const auto ticks = counted_ticks(reader.ticks(), reader.events());
+  std::vector<IVec3> out;
+  for (const auto& r : reader.removed())
+    if (r.tick < ticks) out.push_back(r.leaf.leaf());
+  return out;
+}
+
+}  // namespace
+
+std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPlaces& places, const std::string& exam) {
+  auto out = std::make_unique<ClassTooth>();
+  struct Task {
+    std::string path;  // of one of its sessions
+    std::vector<std::vector<IVec3>> cavities;
+  };
+  std::map<std::string, Task> tasks;
+  for (const auto& [candidate, session] : counting_sessions(registry, exam)) {
+    const std::string path = places.session(session->file_sha256);
+    try {
+      if (to_hex(sha256(read_file(path))) != session->file_sha256) throw Error(path, "was changed since it was filed", "put an intact copy back");
+      const SessionReader reader(path);
+      reader.require_readable();
+      Task& task = tasks[task_of(reader)];
+      task.path = path;
+      task.cavities.push_back(counted_leaves(reader));
+    } catch (const Error& e) {
+      out->findings.push_back("entry " + std::to_string(session->seq) + ": " + e.what());
+    }
+  }
+  const auto most =
+      std::max_element(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) { return a.second.cavities.size() < b.second.cavities.size(); });
+  if (most == tasks.end())
+    throw Error(places.folder,
+                "no session of '" + one_line(exam) + "' can be read" + (out->findings.empty() ? "" : " (" + out->findings.front() + ")"),
+                "see `cavum ledger verify " + places.folder + "`");
+  const SessionReader reader(most->second.path);
+  const SessionSetup setup = reader.setup();
+  out->scenario = parse_scenario(setup.scenario_toml, most->second.path + ": scenario", Reading::recorded);
+  use_surfaces(out->scenario, setup.attachments);
+  out->tooth = load_tooth(setup.tooth, most->second.path + ": tooth");
+  out->zones = build_zones(out->scenario, out->tooth);
+  out->map = std::make_unique<ClassMap>(out->zones);
+  for (const auto& cavity : most->second.cavities) out->map->add(cavity);
+  for (const auto& [key, task] : tasks)
+    if (key != most->first) out->left_out += task.cavities.size();
+  return out;
+}
+
+}  // namespace cavum::cohort

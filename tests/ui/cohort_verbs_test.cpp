@@ -1,0 +1,58 @@
+// A simulated class by the commands of the README: it sits, is filed, and its figures and pictures are those of its sessions.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/ui/program.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+class CohortVerbs : public testing_ui::Program {};
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST_F(CohortVerbs, AClassIsReportedInWordsFiguresAndPictures) {
+  ASSERT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 0);
+  const std::string task = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+  const auto sat = run("cohort simulate " + task + " --ledger " + path("L") + " --sessions " + path("S") + " --n 5 --json");
+  ASSERT_EQ(sat.exit_code, 0) << sat.err;
+  EXPECT_EQ(json::parse(sat.out)["filed"], 5);
+
+  const auto told = run("cohort report " + path("L") + " --exam block_cavity --out " + path("class.html"));
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  const auto figures = json::parse(run("cohort report " + path("L") + " --exam block_cavity --json").out);
+  // the figures again, from the sessions themselves
+  double points = 0, floor_mm = 0;
+  int passed = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(path("S"))) {
+    const auto graded = json::parse(run("grade " + entry.path().string() + " --json").out);
+    points += graded["score"]["points"].get<double>() / 5;
+    floor_mm += graded["walls"]["floor"]["p95_mm"].get<double>() / 5;
+    passed += graded["verdict"] == "pass" ? 1 : 0;
+  }
+  EXPECT_EQ(figures["n"], 5);
+  EXPECT_NEAR(figures["points"]["mean"].get<double>(), points, 1e-9);
+  EXPECT_EQ(figures["verdicts"]["pass"], passed);
+  EXPECT_NEAR(figures["walls"]["floor"]["p95_mm"].get<double>(), floor_mm, 1e-9);
+  EXPECT_NE(told.out.find("block_cavity: 5 candidates, 5 of them simulated"), std::string::npos) << told.out;
+  for (const auto& criterion : figures["criteria"]) EXPECT_NE(told.out.find(criterion["id"].get<std::string>()), std::string::npos) << told.out;
+
+  const std::string page = read_text_file(path("class.html"));
+  EXPECT_NE(page.find("5 cavities laid over each other"), std::string::npos);
+  EXPECT_GE(count(page, "<svg"), 6u) << "distribution, four pictures of the tooth and their key";
+  EXPECT_EQ(count(page, "http"), count(page, "http://www.w3.org/2000/svg")) << "nothing from a network";
+  EXPECT_EQ(page.find("simulated-1-"), std::string::npos) << "no number of the school";
+
+  const auto nobody = run("cohort report " + path("L") + " --exam unknown");
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_NE(nobody.err.find("was sat by nobody"), std::string::npos) << nobody.err;
+}
+
+}  // namespace
+}  // namespace cavum

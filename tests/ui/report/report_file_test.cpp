@@ -1,0 +1,288 @@
+// The files of a report: the same words and figures in HTML, in PDF and in `grade --json`; nothing in a scenario's or a candidate's text can become
+// markup or script; the same session gives the same bytes.
+#include <cmath>
+#include <random>
+#include <regex>
+
+#include "engine/base/text.h"
+#include "tests/ui/program.h"
+#include "tests/ui/report/unpack.h"
+#include "ui/report/html_writer.h"
+#include "ui/report/pdf_writer.h"
+#include "ui/report/report.h"
+#include "ui/report/report_document.h"
+#include "ui/report/section_pictures.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+using testing_report::data_in;
+
+const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+
+std::size_t times(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+/// Without white space, which wrapping puts anywhere.
+std::string packed(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return c <= ' '; });
+  return text;
+}
+
+class ReportFile : public testing_ui::Program {
+ protected:
+  /// The moments behind the points that a criterion lost.
+  [[nodiscard]] json moments(const std::string& session, const json& criterion) const {
+    return run_json("grade " + session + " --why " + criterion["id"].get<std::string>())["moments"];
+  }
+  /// A session of the block, sat by a simulated operator.
+  std::string sit(const std::string& by) const {
+    const auto r = run("exam " + k_block + " --candidate A17 --operator " + by + " --quiet --out " + path(by + ".cavum"));
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return path(by + ".cavum");
+  }
+  /// What a PDF says, page by page between form feeds.
+  [[nodiscard]] std::string pdf_text(const std::string& file, const std::string& how = "") const {
+    EXPECT_EQ(std::system(("pdftotext " + how + " " + file + " " + path("pdf.txt")).c_str()), 0);
+    return read_text_file(path("pdf.txt"));
+  }
+  /// A session's report as a document, after `change` did what it does to facts and scenario.
+  template <class Change>
+  std::string html_with(const Change& change) const {
+    const auto session = load_for_grading(sit("expert"));
+    change(*session);
+    const GradeInput input = session->input();
+    const Result result = grade(input, session->rubric);
+    return report_html(report_source(result, input, session->facts, session->rubric));
+  }
+};
+
+TEST_F(ReportFile, SaysTheSameFiguresAsHtmlAsPdfAndAsJson) {
+  const std::string session = sit("perforator");
+  const json g = run_json("grade " + session);
+  for (const std::string reader : {"student", "instructor"}) {
+    for (const char* ending : {".html", ".pdf"})
+      ASSERT_EQ(run("report " + session + " --for " + reader + " --out " + path(reader + ending)).exit_code, 0);
+    const std::string html = read_text_file(path(reader + ".html"));
+    const std::string as_html = packed(html), as_pdf = packed(pdf_text(path(reader + ".pdf"), "-raw"));
+    const auto both = [&](const std::string& words) {
+      EXPECT_NE(as_html.find(packed(xml_text(words))), std::string::npos) << reader << ": HTML lacks " << words;
+      EXPECT_NE(as_pdf.find(packed(words)), std::string::npos) << reader << ": PDF lacks " << words;
+    };
+    both(g["scenario"]["title"]);
+    both(g["verdict"]);
+    both(fixed(g["score"]["points"], 1) + " of " + fixed(g["score"]["max"], 1) + " points");
+    for (const auto& c : g["criteria"]) {
+      both(c["title"]);
+      both(fixed(c["points"], 1));
+      both("/ " + fixed(c["max"], 1));
+      if (!c["value"].is_null()) both(fixed(c["value"], 2));
+      if (reader == "instructor" || !(c["points"] < c["max"])) continue;
+      for (const json all = moments(session, c); const auto& m : all)
+        if (!m["t_s"].is_null()) both(fixed(m["t_s"], 3) + " s");
+    }
+    const double mark = g["score"]["pass_percent"].get<double>() / 100 * g["score"]["max"].get<double>();
+    both(fixed(std::fabs(g["score"]["points"].get<double>() - mark), 1) + " points " + (g["score"]["points"] < mark ? "below" : "above"));
+    both("tamper-evident and replay-verified");
+    both("Attempts over time");
+    const bool all = reader == "instructor";
+    for (const char* figure : {"agreement (Dice)", "wall taper", "late work", "accommodations", "lateness of the servo", "What else is to be known"}) {
+      EXPECT_EQ(html.find(figure) != std::string::npos, all) << figure;
+      EXPECT_EQ(as_pdf.find(packed(figure)) != std::string::npos, all) << figure;
+    }
+    if (!all) continue;
+    both(fixed(g["volumes"]["removed_mm3"], 2) + " ± " + fixed(g["volumes"]["bounds"]["removed_mm3"], 2));
+    both(fixed(g["volumes"]["dice"], 3));
+    both(fixed(g["walls"]["floor"]["max_over_mm"], 2) + " ± ");
+    both(fixed(g["perforation"]["truth"]["first_t_s"], 3) + " s");
+    both(fixed(g["force"]["peak_n"], 2) + " N at most");
+    for (const auto& e : g["perforation"]["events"]) both(fixed(e["force_before_n"], 2) + " N to " + fixed(e["force_after_n"], 2) + " N");
+  }
+}
+
+TEST_F(ReportFile, EveryWordOfTheDocumentIsInBothFiles) {
+  const auto session = load_for_grading(sit("novice"));
+  const GradeInput input = session->input();
+  const Result result = grade(input, session->rubric);
+  const ReportSource source = report_source(result, input, session->facts, session->rubric);
+  const Document d = report_document(source);
+  write_text_file(path("d.pdf"), pdf_of(d));
+  const std::string html = packed(html_of(d, json::object())), pdf = packed(pdf_text(path("d.pdf"), "-raw"));
+  std::size_t checked = 0;
+  const auto both = [&](const std::string& words) {
+    ++checked;
+    EXPECT_NE(html.find(packed(xml_text(words))), std::string::npos) << "HTML lacks " << words;
+    // a word that stands alone is searched; rows of cells are wrapped side by side
+    std::istringstream in(words);
+    for (std::string word; in >> word;) EXPECT_NE(pdf.find(word), std::string::npos) << "PDF lacks '" << word << "' of " << words;
+  };
+  for (const auto& b : d.blocks) {
+    if (const auto* h = std::get_if<Heading>(&b)) both(h->text);
+    if (const auto* p = std::get_if<Paragraph>(&b)) both(p->text);
+    if (const auto* l = std::get_if<Bullets>(&b))
+      for (const auto& i : l->items) both(i);
+    if (const auto* v = std::get_if<VerdictBox>(&b))
+      for (const auto& r : v->reasons) both(r);
+    if (const auto* p = std::get_if<Pictures>(&b))
+      for (const auto& i : p->list) both(i.title);
+    if (const auto* t = std::get_if<ReportTable>(&b))
+      for (const auto& r : t->rows) {
+        ASSERT_EQ(r.cells.size(), t->columns.size());
+        for (const auto& c : r.cells)
+          if (c.text.size() < 20) both(c.text);  // longer ones break within words
+      }
+  }
+  EXPECT_GT(checked, 100u);
+}
+
+TEST_F(ReportFile, ShowsEightSectionsWithTheirPlacesAndOneThroughAPerforation) {
+  const std::string session = sit("perforator");
+  const json g = run_json("grade " + session);
+  ASSERT_TRUE(g["perforation"]["truth"]["perforated"]);
+  ASSERT_EQ(run("report " + session + " --for student --no-replay --out " + path("r.html")).exit_code, 0);
+  const std::string html = read_text_file(path("r.html"));
+  const auto from = html.find("<div class='sections'>");
+  ASSERT_NE(from, std::string::npos);
+  const std::string sections = html.substr(from, html.find("</div>", from) - from);
+  EXPECT_EQ(times(sections, "<svg "), 8u);
+  std::vector<std::string> titles;
+  const std::regex title("<figcaption>((Mesio-distal, y|Bucco-lingual, x|Horizontal, z) = (-?[0-9]+\\.[0-9]{2}) mm: [^<]+)</figcaption>");
+  for (std::sregex_iterator i(sections.begin(), sections.end(), title), end; i != end; ++i) titles.push_back((*i)[1]);
+  ASSERT_EQ(titles.size(), 8u) << sections.substr(0, 400);
+  std::sort(titles.begin(), titles.end());
+  EXPECT_EQ(std::unique(titles.begin(), titles.end()), titles.end()) << "no section twice";
+  const json& site = g["perforation"]["truth"]["site_mm"];
+  EXPECT_NE(sections.find("Mesio-distal, y = " + fixed(site[1], 2) + " mm: pulp broken into here"), std::string::npos) << site;
+  EXPECT_NE(sections.find("Bucco-lingual, x = " + fixed(site[0], 2) + " mm: pulp broken into here"), std::string::npos) << site;
+  EXPECT_NE(sections.find("through the middle of the target"), std::string::npos);
+  EXPECT_NE(sections.find("worst overcut, " + fixed(g["walls"]["floor"]["max_over_mm"], 2) + " mm at the floor"), std::string::npos) << g["walls"];
+}
+
+TEST_F(ReportFile, JumpsLeadToTheMomentsOfEachPointLost) {
+  const std::string session = sit("perforator");
+  ASSERT_EQ(run("report " + session + " --for student --no-replay --out " + path("r.html")).exit_code, 0);
+  const std::string html = read_text_file(path("r.html"));
+  std::size_t found = 0;
+  const json g = run_json("grade " + session);
+  for (const auto& c : g["criteria"]) {
+    if (!(c["points"] < c["max"])) continue;
+    for (const json all = moments(session, c); const auto& m : all) {
+      if (m["t_s"].is_null()) continue;
+      std::string button = "<button class='jump' type='button' data-t='" + fixed(m["t_s"], 4) + "'";
+      if (!m["site_mm"].is_null())
+        button += " data-x='" + fixed(m["site_mm"][0], 4) + "' data-y='" + fixed(m["site_mm"][1], 4) + "' data-z='" + fixed(m["site_mm"][2], 4) + "'";
+      EXPECT_NE(html.find(button + ">" + fixed(m["t_s"], 3) + " s</button>"), std::string::npos) << button;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 2u);
+}
+
+TEST_F(ReportFile, NothingThatPeopleWroteBecomesMarkupOrScript) {
+  const std::string evil = "</script><script>alert(1)</script><!-- <b>'\"& \x01\x7f ]]> \\u003c/script>";
+  const std::string html = html_with([&](GradedSession& s) {
+    s.facts.candidate = s.facts.device = s.facts.calibration = s.facts.created = evil;
+    s.facts.notes.emplace_back(evil, evil);
+    s.scenario.title = evil;
+    s.before.name = evil;
+    for (auto& c : s.rubric.criteria) c.title = evil;
+    for (auto& e : s.events)
+      if (e.kind == "step_started") e.detail_json = json{{"step", evil}}.dump();
+    s.events.push_back({5, evil, evil});
+  });
+  EXPECT_EQ(times(html, "<script"), 2u) << "the data and the page's own";
+  EXPECT_EQ(times(html, "</script"), 2u);
+  EXPECT_EQ(html.find("<b>'"), std::string::npos);
+  EXPECT_EQ(html.find('\x01'), std::string::npos);
+  const json data = data_in(html);
+  ASSERT_TRUE(data.is_object());
+  EXPECT_EQ(data["title"], evil) << "unchanged for the page, which writes it as text";
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+  for (const char* reach : {"src='http", "src=\"http", "href='http", "href=\"http", "url(http", "@import"})
+    EXPECT_EQ(html.find(reach), std::string::npos) << reach;
+}
+
+TEST_F(ReportFile, TheSameSessionGivesTheSameBytes) {
+  const std::string session = sit("novice");
+  for (const char* ending : {".html", ".pdf"}) {
+    for (const char* name : {"a", "b"}) ASSERT_EQ(run("report " + session + " --no-replay --out " + path(std::string(name) + ending)).exit_code, 0);
+    EXPECT_TRUE(read_file(path(std::string("a") + ending)) == read_file(path(std::string("b") + ending))) << ending;
+  }
+  EXPECT_NE(pdf_text(path("a.pdf")).find("not replayed for this report"), std::string::npos);
+}
+
+TEST_F(ReportFile, ATableOverManyPagesRepeatsItsHeadAndNumbersItsPages) {
+  Document d;
+  d.title = "A long one";
+  d.subtitle = "for a test";
+  d.footer = {"the foot"};
+  ReportTable t{{{"Number", true}, {"Square of it", true, 2}, {"Words", false, 3}}, {}, "squares"};
+  for (int i = 0; i < 300; ++i)
+    t.rows.push_back({{{std::to_string(i)}, {std::to_string(i * i)}, {i % 7 == 0 ? std::string(300, 'w') : "row " + std::to_string(i) + " end"}}});
+  d.blocks = {Heading{"Squares"}, t, Heading{"After"}, Paragraph{"last words", ""}};
+  write_text_file(path("t.pdf"), pdf_of(d));
+  std::istringstream pages(pdf_text(path("t.pdf"), "-layout"));
+  std::vector<std::string> list;
+  for (std::string page; std::getline(pages, page, '\f');)
+    if (!page.empty()) list.push_back(page);
+  ASSERT_GT(list.size(), 5u);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_NE(list[i].find("page " + std::to_string(i + 1) + " of " + std::to_string(list.size())), std::string::npos) << list[i];
+    EXPECT_NE(list[i].find("the foot"), std::string::npos);
+    if (i + 1 < list.size()) {
+      EXPECT_NE(list[i].find("Square of it"), std::string::npos) << "page " << i + 1;
+    }
+  }
+  std::string all;
+  for (const auto& p : list) all += p;
+  for (int i = 0; i < 300; ++i)
+    if (i % 7 != 0) {
+      EXPECT_EQ(times(all, "row " + std::to_string(i) + " end"), 1u) << i;
+    }
+}
+
+TEST_F(ReportFile, ADocumentOfAnyLengthFitsItsPages) {
+  std::mt19937_64 random(testing_basics::drawn_seed("ADocumentOfAnyLengthFitsItsPages"));
+  Document d;
+  d.title = std::string(500, 'T');
+  d.subtitle = std::string(3000, 's');
+  std::string text;
+  for (int i = 0; i < 6000; ++i) text += "w" + std::to_string(random() % 1000) + (random() % 9 == 0 ? "<&'\x02\xff" : " ");
+  d.blocks = {Heading{text.substr(0, 900)},
+              Paragraph{text, "Lead"},
+              Bullets{{text, "short"}, true},
+              VerdictBox{"review", "1 of 2", {text.substr(0, 300)}, {text.substr(0, 1500)}},
+              ReportTable{{{"a"}, {"b", true}}, {{{{text}, {"number"}}}, {{{"x"}, {"y"}}}}, "huge"},
+              Paragraph{"the end is here", ""}};
+  write_text_file(path("t.pdf"), pdf_of(d));
+  EXPECT_NE(pdf_text(path("t.pdf")).find("the end is here"), std::string::npos);
+}
+
+TEST_F(ReportFile, TenMinutesOnTheMolarStayBelowThreeMegabytes) {
+  std::mt19937_64 random(testing_basics::drawn_seed("TenMinutesOnTheMolarStayBelowThreeMegabytes"));
+  const auto r =
+      run("exam " + std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml --candidate A --operator novice --quiet --out " + path("m.cavum"));
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const auto session = load_for_grading(path("m.cavum"));
+  // as long as ten minutes: the exam again and again, with a hand that trembles differently each time
+  const std::size_t once = session->inputs.size();
+  for (std::size_t i = once; i < 600'000; ++i) {
+    TickInput in = session->inputs[i % once];
+    for (auto& v : in.tip_nm) v += static_cast<std::int32_t>(random() % 40'000) - 20'000;
+    session->inputs.push_back(in);
+    session->records.push_back(session->records[i % once]);
+  }
+  const GradeInput input = session->input();
+  const Result result = grade(input, session->rubric);
+  const std::string html = report_html(report_source(result, input, session->facts, session->rubric));
+  EXPECT_LE(html.size(), 3'000'000u);
+  EXPECT_GT(data_in(html)["motion"]["n"], 29'000);
+  std::printf("ten minutes: %.2f MB\n", static_cast<double>(html.size()) * 1e-6);
+}
+
+}  // namespace
+}  // namespace cavum

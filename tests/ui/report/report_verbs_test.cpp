@@ -1,0 +1,141 @@
+// `cavum report` with a ledger: who may see what, and when; attempts over time; names only when released and asked for.
+#include <filesystem>
+
+#include "engine/base/text.h"
+#include "tests/ui/program.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class ReportVerbs : public testing_ui::Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    ASSERT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 0);
+  }
+  std::string scenario() const { return std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml"; }
+  /// A candidate sits the exam; returns the session, filed.
+  std::string sit(const std::string& id, const std::string& name, const std::string& by, const std::string& file) {
+    const auto ticket = run("ledger ticket " + path("L") + " " + scenario() + " --candidate " + id + " --name '" + name +
+                            "' --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --json --out " + path(file + ".ticket"));
+    EXPECT_EQ(ticket.exit_code, 0) << ticket.err;
+    pseudonym_ = json::parse(ticket.out)["tickets"][0]["candidate"];
+    EXPECT_EQ(
+        run("exam " + scenario() + " --ticket " + path(file + ".ticket") + " --operator " + by + " --quiet --out " + path(file + ".cavum")).exit_code,
+        0);
+    const auto added = run("ledger add " + path("L") + " " + path(file + ".cavum") + " --simulated");
+    EXPECT_EQ(added.exit_code, 0) << added.out << added.err;
+    return path(file + ".cavum");
+  }
+  /// Text of a report that must be written.
+  std::string report(const std::string& session, const std::string& more) {
+    const auto r = run("report " + session + " --out " + path("r.html") + " " + more);
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return read_text_file(path("r.html"));
+  }
+  std::string pseudonym_;
+};
+
+TEST_F(ReportVerbs, AStudentSeesWhatIsReleasedAndNothingElse) {
+  const std::string first = sit("4711", "Ann Lee", "novice", "e1"), second = sit("4711", "Ann Lee", "expert", "e2");
+  const std::string ledger = "--ledger " + path("L"), student = " --for student " + ledger;
+  expect_refused("report " + first + " --out " + path("r.html") + student, {"is not released", "cavum ledger release", "--candidate " + pseudonym_});
+  expect_refused("report " + first + " --out " + path("r.html") + " " + ledger + " --with-name", {"--with-name", "not released"});
+  EXPECT_FALSE(fs::exists(path("r.html")));
+
+  const std::string pending = report(first, ledger);
+  EXPECT_NE(pending.find("not released"), std::string::npos) << "an instructor sees it, marked as that";
+  ASSERT_EQ(run("ledger release " + path("L") + " --candidate 4711").exit_code, 0);
+  const std::string third = sit("4711", "Ann Lee", "perforator", "e3");
+
+  const std::string seen = report(first, student);
+  const std::string attempts = seen.substr(seen.find("Attempts over time"));
+  for (const std::string& session : {first, second}) {
+    const json g = run_json("grade " + session);
+    EXPECT_NE(attempts.find("<td class='n'>" + fixed(g["score"]["points"], 1) + " / " + fixed(g["score"]["max"], 1) + "</td>"), std::string::npos)
+        << session;
+  }
+  const auto rows = [](const std::string& html) {
+    const auto from = html.find("aria-label='Attempts'");
+    const std::string table = html.substr(from, html.find("</table>", from) - from);
+    std::size_t n = 0;
+    for (auto at = table.find("<tr"); at != std::string::npos; at = table.find("<tr", at + 1)) ++n;
+    return n - 1;  // its head
+  };
+  EXPECT_EQ(rows(seen), 2u) << "the third is not released";
+  EXPECT_EQ(rows(report(first, ledger)), 3u) << "an instructor sees all";
+  expect_refused("report " + third + " --out " + path("r3.html") + student, {"is not released"});
+
+  for (const auto& html : {seen, report(first, ledger), report(first, "--for student")}) {
+    EXPECT_EQ(html.find("Ann Lee"), std::string::npos);
+    EXPECT_EQ(html.find("4711"), std::string::npos);
+    EXPECT_NE(html.find(pseudonym_), std::string::npos);
+  }
+  EXPECT_NE(report(first, student + " --with-name").find("Ann Lee"), std::string::npos);
+  const json shown = run_json("ledger show " + path("L"));
+  EXPECT_NE(seen.find("entry " + shown["sessions"][0]["seq"].dump() + ", filed 20"), std::string::npos);
+  EXPECT_NE(seen.find("tamper-evident and replay-verified (when it was filed)"), std::string::npos);
+}
+
+TEST_F(ReportVerbs, WhatIsNotInTheLedgerOrNotTheReleasedResultIsRefused) {
+  const std::string session = sit("4711", "Ann Lee", "novice", "e1");
+  ASSERT_EQ(run("exam " + scenario() + " --candidate B --operator expert --quiet --out " + path("other.cavum")).exit_code, 0);
+  expect_refused("report " + path("other.cavum") + " --out " + path("r.html") + " --ledger " + path("L"),
+                 {"other.cavum: was never filed", "cavum ledger add"});
+  expect_refused("report " + session + " --out " + path("r.html") + " --with-name", {"--with-name", "--ledger"});
+  expect_refused("report " + session + " --out " + path("r.html") + " --ledger " + path("none"), {"none"});
+  expect_refused("report " + session + " --out " + path("r.txt"), {"r.txt", ".html or .pdf"});
+  write_text_file(path("r.pdf"), "%PDF-1.4 another program's");
+  expect_refused("report " + session + " --out " + path("r.pdf"), {"r.pdf: exists already and is no report of Cavum", "--overwrite"});
+  ASSERT_EQ(run("report " + session + " --out " + path("r.pdf") + " --overwrite --no-replay").exit_code, 0);
+  EXPECT_EQ(run("report " + session + " --out " + path("r.pdf") + " --no-replay").exit_code, 0) << "a report may be written anew";
+
+  // released after a regrade: the report by the session's own rubric would show another result
+  write_text_file(path("kind.toml"),
+                  "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
+                  "\"target_removed_percent\"\nfull = 50\nzero = 0\npoints = 10\n");
+  const std::string entry = run_json("ledger show " + path("L"))["sessions"][0]["seq"].dump();
+  ASSERT_EQ(run("ledger regrade " + path("L") + " --session " + entry + " --rubric " + path("kind.toml") + " --reason appeal").exit_code, 0);
+  ASSERT_EQ(run("ledger release " + path("L") + " --all").exit_code, 0);
+  const std::string student = " --for student --ledger " + path("L");
+  expect_refused("report " + session + " --out " + path("r.html") + student, {"the released result is", "--rubric"});
+  const std::string html = report(session, student + " --rubric " + path("kind.toml"));
+  const json kind = run_json("grade " + session + " --rubric " + path("kind.toml"));
+  EXPECT_NE(html.find(fixed(kind["score"]["points"], 1) + " of 10.0 points"), std::string::npos);
+  EXPECT_NE(html.find("<b>Regrade</b>: "), std::string::npos);
+}
+
+TEST_F(ReportVerbs, AWholeLedgersReleasedResultsEachGiveAStudentsReport) {
+  sit("4711", "Ann Lee", "expert", "e1");
+  const std::string ann = pseudonym_;
+  sit("4712", "Bob Ray", "novice", "e2");
+  const std::string bob = pseudonym_;
+  ASSERT_EQ(run("ledger release " + path("L") + " --candidate 4711").exit_code, 0);
+  const auto r = run("ledger report " + path("L") + " --out " + path("reports"));
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  std::vector<std::string> names;
+  for (const auto& f : fs::directory_iterator(path("reports"))) names.push_back(f.path().filename().string());
+  ASSERT_EQ(names.size(), 1u);
+  EXPECT_TRUE(names[0].starts_with(ann + "-")) << names[0];
+  const std::string html = read_text_file(path("reports/" + names[0]));
+  EXPECT_EQ(html.find(bob), std::string::npos);
+  EXPECT_EQ(html.find("Ann Lee"), std::string::npos);
+  EXPECT_EQ(html.find("agreement (Dice)"), std::string::npos) << "it is a student's";
+}
+
+TEST_F(ReportVerbs, AnExamsOwnReportComesAsHtmlOrPdf) {
+  ASSERT_EQ(run("exam " + scenario() + " --candidate A --operator expert --quiet --report " + path("x.pdf") + " --out " + path("x.cavum")).exit_code,
+            0);
+  EXPECT_TRUE(read_text_file(path("x.pdf")).starts_with("%PDF-"));
+  ASSERT_EQ(run("exam " + scenario() + " --candidate A --operator expert --quiet --report " + path("y.html") + " --out " + path("y.cavum")).exit_code,
+            0);
+  const std::string html = read_text_file(path("y.html"));
+  EXPECT_NE(html.find("signed by station "), std::string::npos) << "the session is closed by then";
+  EXPECT_NE(html.find("not done for this report"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cavum
