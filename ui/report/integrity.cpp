@@ -83,7 +83,7 @@ void add_integrity(Document& d, const ReportSource& s) {
   list("What does not hold", i.findings);
   if (s.reader == ReportReader::instructor) {
     list("How that is known", i.proved);
-    list("What nobody can know from the file", i.remarks);
+    list("What else is to be known", i.remarks);
   }
   d.footer.push_back("Session " + (named ? i.file + ", " : std::string()) + "SHA-256 " + i.file_sha256.substr(0, 16) + "…: " +
                      (!i.findings.empty() || i.replay == Replay::differs ? "does not hold"

@@ -11,6 +11,12 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 
+#ifdef __SANITIZE_ADDRESS__
+// Fontconfig keeps what it once read until the program ends: that is no leak of ours.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+#endif
+
 namespace cavum {
 namespace {
 

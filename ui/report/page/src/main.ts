@@ -52,7 +52,26 @@ function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): 
   }
 }
 
+/** Tables wider than a narrow screen scroll by themselves, by keyboard too. */
+function hold_wide_tables(): void {
+  for (const table of document.querySelectorAll("table")) {
+    if (table.parentElement?.classList.contains("wide")) continue;
+    const holder = make("div", { class: "wide" });
+    table.before(holder);
+    holder.append(table);
+    const name = table.getAttribute("aria-label") ?? table.caption?.textContent ?? "Table";
+    new ResizeObserver(() => {
+      const wide = holder.scrollWidth > holder.clientWidth + 1;
+      for (const [attribute, value] of [["tabindex", "0"], ["role", "region"], ["aria-label", name]]) {
+        if (wide) holder.setAttribute(attribute, value);
+        else holder.removeAttribute(attribute);
+      }
+    }).observe(holder);
+  }
+}
+
 function start(): void {
+  hold_wide_tables();
   const data = read_data(document);
   document.documentElement.classList.add("scripted");
   document.documentElement.classList.toggle("high-contrast", data.high_contrast === true);
