@@ -13,8 +13,9 @@ void save_screen(const ScreenContext& c) {
   begin_card(t, "The disk is full", 680);
   wrapped_text("Your work is safe as long as this window stays open: do not close it, do not switch the computer off. Call the supervisor.");
   ImGui::Dummy({0, t.px(6)});
-  char waiting[96];
-  std::snprintf(waiting, sizeof waiting, "%.1f s of the exam and its end are in memory only.", c.sitting->unwritten_s());
+  char waiting[96] = "The end of the exam, tooth and result, is in memory only.";
+  if (const double s_waiting = c.sitting->unwritten_s(); s_waiting > 0)
+    std::snprintf(waiting, sizeof waiting, "%.1f s of the exam and its end are in memory only.", s_waiting);
   wrapped_text(waiting);
   quiet_text(t, c.sitting->trouble());
   ImGui::Dummy({0, t.px(8)});
