@@ -7,10 +7,10 @@
 
 namespace cavum {
 
-ClosedExam grade_and_close(Exam& exam, const std::string& path) {
+ClosedExam grade_and_close(Exam& exam) {
   exam.recorder().flush();
   ClosedExam closed;
-  closed.graded = load_for_grading(SessionReader(path), exam.tooth_now());
+  closed.graded = load_for_grading(SessionReader(exam.recorder().image(), exam.recorder().path()), exam.tooth_now());
   closed.result = grade(closed.graded->input(), closed.graded->rubric);
   exam.close(to_json(closed.result).dump());
   return closed;

@@ -16,7 +16,8 @@ struct ClosedExam {
   Result result;
 };
 
-/// `exam` is over, and recorded at `path`. Throws Error when it cannot be read, graded or sealed; the session then stays open and can be resumed.
-[[nodiscard]] ClosedExam grade_and_close(Exam& exam, const std::string& path);
+/// `exam` is over. Throws Error when it cannot be graded or sealed (DatabaseError: the disk refuses; make room or move the recorder, and call again);
+/// the session then stays open and can be resumed.
+[[nodiscard]] ClosedExam grade_and_close(Exam& exam);
 
 }  // namespace cavum

@@ -206,8 +206,25 @@ const TickOutput& Exam::follow(const TickInput& input) {
   last_ = step(simulation_.model, simulation_.state, input);
   runner_.advance(*runner_state_, input, last_, simulation_.state.removed);
   record_events();  // before the tick, so that both are written in one transaction
-  recorder_->append(input, make_tick_record(last_), simulation_.state.removed, state_hash(simulation_.state));
+  try {
+    recorder_->append(input, make_tick_record(last_), simulation_.state.removed, state_hash(simulation_.state));
+  } catch (const DatabaseError& refusal) {
+    keep(refusal);
+  }
+  if (!problem_.empty() && recorder_->ticks() - recorder_->ticks_on_disk() < k_chunk_ticks)
+    problem_.clear();  // all but the running second is on disk
   return last_;
+}
+
+/// The tick is in the recorder's memory. Without a second place it is tried again with the next second.
+void Exam::keep(const DatabaseError& refusal) {
+  problem_ = refusal.what();
+  if (second_place_.empty() || recorder_->path() == second_place_) return;
+  try {
+    recorder_->move_to(second_place_, refusal.what());
+  } catch (const Error& also) {
+    problem_ += "; and elsewhere: " + std::string(also.what());
+  }
 }
 
 void Exam::end() {

@@ -67,12 +67,16 @@ class Exam {
   /// `source` is noted in the gap: what gives the input from now on.
   [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source = {});
 
-  /// One tick, in a pause with the pedal released, whatever the foot does; throws Error when it cannot be recorded (the tick is kept, go on after
-  /// making room).
+  /// One tick, in a pause with the pedal released, whatever the foot does. When the disk refuses it, it is kept in memory, the exam goes on, and
+  /// `recording_problem` says so; it is written with a later second, or at the second place.
   const TickOutput& tick(const TickInput& input);
   /// The same with what another servo consumed already, exactly as it is.
   const TickOutput& follow(const TickInput& consumed);
   [[nodiscard]] bool over() const noexcept { return runner_state_->finish != Finish::running; }
+  /// Why the recording cannot be written at the moment; empty while all but the running second is on disk.
+  [[nodiscard]] const std::string& recording_problem() const noexcept { return problem_; }
+  /// Where to go on at once when the disk refuses: a session file that does not exist yet. The recorder's path says where it stands.
+  void set_second_place(const std::string& path) { second_place_ = path; }
   /// The candidate stops: the exam is over.
   void end();
   /// Records that the candidate went on for so many ticks after time was up, in `pedal_ticks` of them with the pedal pressed.
@@ -91,10 +95,12 @@ class Exam {
   [[nodiscard]] const ServoState& state() const noexcept { return simulation_.state; }
   [[nodiscard]] Tooth tooth_now() const { return drilled_tooth(simulation_); }
   [[nodiscard]] Recorder& recorder() noexcept { return *recorder_; }
+  [[nodiscard]] const Recorder& recorder() const noexcept { return *recorder_; }
 
  private:
   Exam(const ExamSetup& setup, Simulation simulation);
   void record_events();
+  void keep(const DatabaseError& refusal);
 
   const ExamSetup& setup_;
   Runner runner_;
@@ -104,6 +110,7 @@ class Exam {
   Simulation simulation_;
   TickOutput last_;
   TickInput last_input_;
+  std::string problem_, second_place_;
 };
 
 }  // namespace cavum

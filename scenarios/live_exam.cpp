@@ -33,12 +33,9 @@ void LiveExam::take(const ServoTick& tick) {
     ++report_.late_ticks;
     return;
   }
-  std::string error;
-  try {
+  {
     const std::lock_guard lock(tooth_mutex_);
     exam_->follow(tick.input);
-  } catch (const Error& e) {  // full disk …: the tick is kept, and written with a later one
-    error = e.what();
   }
   if (report_.first_disagreement < 0 && state_hash(exam_->state()) != tick.state_hash) {
     report_.first_disagreement = tick.tick;
@@ -68,9 +65,9 @@ void LiveExam::take(const ServoTick& tick) {
     view_.dentin_share = share_of(k_dentin);
   }
   view_.edit_hash = exam_->state().tooth.edit_hash();
-  if (!error.empty()) view_.recording_error = error;
-  if (exam_->recorder().ticks() - exam_->recorder().ticks_on_disk() < k_chunk_ticks)
-    view_.recording_error.clear();  // all but the running second is on disk
+  view_.recording_error = exam_->recording_problem();
+  view_.unwritten_ticks = exam_->recorder().ticks() - exam_->recorder().ticks_on_disk();
+  if (view_.session != exam_->recorder().path()) view_.session = exam_->recorder().path();
 }
 
 void LiveExam::look_at_tooth(const std::function<void(const Octree&)>& look) const {

@@ -18,6 +18,7 @@
 #include "grading/result_json.h"
 #include "scenarios/live_exam.h"
 #include "scenarios/simulated_exam.h"
+#include "ui/full_disk.h"
 #include "ui/grant_options.h"
 #include "ui/interrupt.h"
 #include "ui/live_source.h"
@@ -31,7 +32,7 @@ namespace cavum {
 namespace {
 
 struct Options {
-  std::string scenario, candidate, motion, operator_name, device, point, out, ticket, tooth, model = "consistent", rubric, report;
+  std::string scenario, candidate, motion, operator_name, device, point, out, out_if_full, ticket, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
   bool json = false, quiet = false, resume = false, end = false, model_given = false;
@@ -124,24 +125,35 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
   options.grant = o.grant;
   if (o.ticket.empty()) return prepare_exam(o.scenario, options);
   const HeldTicket held = read_ticket(o.ticket);
+  require_unused(held);
   use_ticket(held, options);
   auto setup = prepare_exam(o.scenario, options);
   require_promised(held, setup->session);
   return setup;
 }
 
+/// Begins to record, and uses the ticket up.
+std::unique_ptr<Exam> begin_exam(const Options& o, const ExamSetup& setup, Vec3 first_tip_mm) {
+  const auto begin = [&] { return Exam::start(setup, o.out, first_tip_mm); };
+  if (o.ticket.empty()) return begin();
+  const HeldTicket held = read_ticket(o.ticket);
+  return begin_with_ticket(&held, o.out, begin);
+}
+
 /// Grades what was recorded, seals the session with it, prints it.
 void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
-  const ClosedExam closed = grade_and_close(exam, o.out);
+  ClosedExam closed;
+  write_somewhere(exam, o.out_if_full, [&] { closed = grade_and_close(exam); });
+  const std::string& session = exam.recorder().path();
   const Result& result = closed.result;
   if (!o.report.empty()) write_closing_report(o.report, o.out, result, *closed.graded);
   if (o.json) {
     auto j = to_json(result);
-    j["session"] = o.out;
+    j["session"] = session;
     if (!servo.is_null()) j["servo"] = servo;
     print_json(j);
   } else {
-    std::cout << to_text(result) << "recorded: " << o.out << "\n";
+    std::cout << to_text(result) << "recorded: " << session << "\n";
     if (!o.report.empty()) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
   }
 }
@@ -149,7 +161,7 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
 /// What would spoil the end of an exam is said before it begins.
 void require_places(const Options& o) {
   const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
-  require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}},
+  require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}, {"--out-if-full " + o.out_if_full, o.out_if_full}},
                      {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
 }
 
@@ -163,7 +175,9 @@ nlohmann::json servo_json(const LiveReport& report) {
 /// An exam with a hand on it, until it is over, the operator is done, a signal comes or the device fails. Returns 0 when it is over and sealed, 1
 /// when it was only stopped: such a session can be resumed.
 int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::unique_ptr<Exam> begun) {
-  LiveExam live(setup, begun ? std::move(begun) : Exam::start(setup, o.out, source.first_tip_mm()), source.device());
+  LiveExam live(setup, begun ? std::move(begun) : begin_exam(o, setup, source.first_tip_mm()), source.device());
+  live.exam().set_second_place(o.out_if_full);  // before its threads run
+  RecordingWatch recording(o.out);
   live.start();
   {
     ProgressBar bar(!o.json && !o.quiet);
@@ -175,6 +189,7 @@ int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::
       const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
       const auto step = std::min(static_cast<std::size_t>(std::max(0, view.step)), setup.scenario.steps.size() - 1);
       bar.show(view.ticks, std::min(1.0, share), setup.scenario.steps[step].instruction);
+      if (view.ticks > 0) recording.look(view.recording_error, view.session);
       if (const std::string problem = source.problem(); problem != told) {
         if (!problem.empty()) std::fprintf(stderr, "\ncavum: %s\n", one_line(problem).c_str());
         told = problem;
@@ -193,10 +208,11 @@ int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::
     finish(o, exam, servo);
     return 0;
   }
-  exam.recorder().flush();
+  write_somewhere(exam, o.out_if_full, [&exam] { exam.recorder().flush(); });
+  const std::string& session = exam.recorder().path();
   const std::string why = report.servo.error.empty() ? "was stopped" : "was stopped: " + report.servo.error;
-  if (o.json) print_json(nlohmann::json{{"session", o.out}, {"stopped", why}, {"servo", servo}});
-  std::fprintf(stderr, "cavum: %s: %s; go on with --resume --device, or close it as it stands with --resume --end\n", o.out.c_str(),
+  if (o.json) print_json(nlohmann::json{{"session", session}, {"stopped", why}, {"servo", servo}});
+  std::fprintf(stderr, "cavum: %s: %s; go on with --resume --device, or close it as it stands with --resume --end\n", session.c_str(),
                one_line(why).c_str());
   return 1;
 }
@@ -222,10 +238,15 @@ int run_new(const Options& o) {
   require_places(o);
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
-  const auto exam = Exam::start(*setup, o.out, source->start_mm());
+  const auto exam = begin_exam(o, *setup, source->start_mm());
+  exam->set_second_place(o.out_if_full);
   {
     ProgressBar bar(!o.json && !o.quiet);
-    run_exam(*exam, *source, [&bar](const Exam& e, double progress) { bar.show(e, progress); });
+    RecordingWatch recording(o.out);
+    run_exam(*exam, *source, [&](const Exam& e, double progress) {
+      bar.show(e, progress);
+      recording.look(e.recording_problem(), e.recorder().path());
+    });
   }
   finish(o, *exam);
   return 0;
@@ -276,6 +297,7 @@ int run_resumed(const Options& o) {
     notes.emplace_back("device", source_name(o));
   }
   const auto exam = Exam::resume(*setup, o.out, notes);
+  exam->set_second_place(o.out_if_full);
   if (source) {
     run_exam(*exam, *source);
   } else if (!exam->over()) {
@@ -302,6 +324,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   device->excludes(motion);
   exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);
   exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
+  exam->add_option("--out-if-full", o->out_if_full, "session file to go on with, on another disk, when --out cannot be written any more");
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");

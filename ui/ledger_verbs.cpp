@@ -41,7 +41,7 @@ void init(const Options& o) {
   if (o.folder.empty()) throw Error("cavum ledger init", "names no folder", "name one for the ledger");
   const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
   Ledger::create(o.folder, o.school, key);
-  Identities(LedgerPlaces{o.folder}.identities(), true);
+  static_cast<void>(Identities(LedgerPlaces{o.folder}.identities(), true));
   const std::string known = school_public_key_path();
   if (!std::filesystem::exists(known)) write_text_file(known, to_hex(key.public_key) + "\n");
   const LedgerContent content = read_ledger({o.folder});

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_fields.h"
+
 namespace cavum {
 namespace {
 
@@ -14,6 +16,11 @@ std::string seconds(double s) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f s", s);
   return text;
+}
+
+/// From one reading to another; whatever a file says, the difference wraps around instead of overflowing.
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) - static_cast<std::uint64_t>(from_ns))) * 1e-9;
 }
 
 }  // namespace
@@ -27,19 +34,18 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     if (e.kind != "gap") continue;
     gaps.push_back(e.tick);
     const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
-    const bool told = detail.is_object() && detail.contains("gap_utc_s") && detail["gap_utc_s"].is_number();
-    std::string source;
-    if (told && detail.contains("source") && detail["source"].is_object()) source = detail["source"].value("device", "");
+    const auto& gap_s = member_of(detail, "gap_utc_s");
+    const bool told = gap_s.is_number();
+    const std::string source = told ? text_in(member_of(detail, "source"), "device") : "";
     out.push_back({e.tick, 0,
-                   "interrupted" + (told ? " for " + seconds(detail["gap_utc_s"].get<double>()) : std::string()) + " and taken up again" +
+                   "interrupted" + (told ? " for " + seconds(gap_s.get<double>()) : std::string()) + " and taken up again" +
                        (source.empty() ? "" : " with " + source)});
   }
   Clocks before = session.created();
   double real_s = 0.0, told_s = 0.0;
   for (const auto& c : session.chunks()) {
-    const double monotonic_s = static_cast<double>(c.clocks.monotonic_ns - before.monotonic_ns) * 1e-9;
-    const double boot_s = static_cast<double>(c.clocks.boot_ns - before.boot_ns) * 1e-9,
-                 utc_s = static_cast<double>(c.clocks.utc_ns - before.utc_ns) * 1e-9;
+    const double monotonic_s = seconds_between(before.monotonic_ns, c.clocks.monotonic_ns);
+    const double boot_s = seconds_between(before.boot_ns, c.clocks.boot_ns), utc_s = seconds_between(before.utc_ns, c.clocks.utc_ns);
     const double ticks_s = static_cast<double>(c.ticks) * tick_s;
     before = c.clocks;
     bool gap = false;

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/base/text.h"
 #include "engine/servo/servo.h"
 #include "engine/session/chain.h"
 #include "engine/session/schema.h"
@@ -115,6 +116,13 @@ void remove_leftovers(const std::string& path) {
   for (const auto& leftover : gone) std::filesystem::remove(leftover, none);
 }
 
+/// No session, and no log of one, lies at `path`.
+void require_free(const std::string& path) {
+  for (const char* suffix : {"", "-wal", "-journal"})
+    if (struct stat info{}; ::lstat((path + suffix).c_str(), &info) == 0)
+      throw Error(path + suffix, "exists already", "choose another name; an existing session is never overwritten");
+}
+
 }  // namespace
 
 void make_single_file(Database& database) {
@@ -136,9 +144,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
     if (!attached.insert(name).second) throw Error(path, "two attachments are named '" + name + "'", "give each its own name");
-  for (const char* suffix : {"", "-wal", "-journal"})
-    if (struct stat info{}; ::lstat((path + suffix).c_str(), &info) == 0)
-      throw Error(path + suffix, "exists already", "choose another name; an existing session is never overwritten");
+  require_free(path);
 
   Recorder recorder(path, load_station_key(station_key_path()));
   const auto meta = meta_of(setup);
@@ -174,9 +180,15 @@ void Recorder::open_for_recording() {
 
 Recorder::~Recorder() {
   try {
-    if (database_ && database_->is_open() && !sealed_) flush();
-  } catch (const std::exception&) {  // everything written so far stands; the rest is lost with the process
+    if (database_ && !sealed_ && !pending_.empty()) flush();  // a recorder that was moved from has nothing, not even the running second
+  } catch (const std::exception&) {                           // everything written so far stands; the rest is lost with the process
   }
+}
+
+/// A move that could not open its new file may have left none.
+void Recorder::require_database() {
+  if (sealed_ && database_ && database_->is_open()) return;
+  if (!database_ || !database_->is_open() || !insert_chunk_ || !insert_event_) open_for_recording();
 }
 
 void Recorder::require_open() const {
@@ -221,7 +233,38 @@ void Recorder::flush() {
   write_pending();
 }
 
+void Recorder::move_to(const std::string& path, const std::string& why) {
+  if (database_ && !database_->is_open() && sealed_) throw Error(path_, "the session is closed", "copy its file");
+  require_database();
+  require_free(path);
+  const std::string made = path + k_being_made + std::to_string(::getpid());
+  remove_leftovers(path);
+  ::unlink(made.c_str());
+  ::unlink((made + "-journal").c_str());
+  try {
+    Database copy = Database::open(made, true);
+    copy.run("PRAGMA synchronous = FULL");
+    database_->copy_to(copy);
+  } catch (const Error&) {
+    for (const char* end : {"", "-journal", "-wal", "-shm"}) ::unlink((made + end).c_str());
+    throw;
+  }
+  for (const char* end : {"-wal", "-shm"}) ::unlink((made + end).c_str());
+  put_in_place(made, path);
+  sync_folder_of(path);
+  const nlohmann::json detail{{"from", std::filesystem::path(path_).filename().string()}, {"ticks", ticks_on_disk_}, {"why", one_line(why)}};
+  insert_chunk_.reset();
+  insert_event_.reset();
+  database_->close();
+  path_ = path;
+  open_for_recording();
+  if (sealed_) return;
+  pending_.back().events.push_back({ticks_, "moved", detail.dump()});
+  flush();
+}
+
 void Recorder::write_pending() {
+  require_database();
   while (pending_.size() > 1) {
     write_chunk(pending_.front());
     pending_.pop_front();
@@ -291,6 +334,7 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
 void Recorder::close(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
   if (final_tooth.empty()) throw Error(path_, "the final tooth is missing", "give save_tooth of the drilled tooth");
   if (!nlohmann::json::accept(result_json)) throw Error(path_, "the result is not JSON", "give one JSON value");
+  require_database();
   if (!sealed_) write_seal(final_tooth, result_json);
   insert_chunk_.reset();
   insert_event_.reset();

@@ -43,6 +43,17 @@ class Recorder {
   /// Throws Error when it cannot; nothing is lost, call again. After success only `ticks` may be called.
   void close(std::span<const std::uint8_t> final_tooth, const std::string& result_json);
 
+  /// Goes on in a new file at another place, for a disk that stays full: all that was written so far is copied there, an event `moved` is noted
+  /// ({"from","ticks","why"}), what waits is written, and what comes goes there. The first file stays as it is: a session that was never closed.
+  /// Throws Error when `path` exists, or cannot be written either; before the copy is whole nothing has changed then, afterwards what waits goes on
+  /// waiting for the new place.
+  void move_to(const std::string& path, const std::string& why);
+
+  /// Where it records.
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// What is on disk, as the bytes of a single file; for reading without a place to copy it to.
+  [[nodiscard]] Bytes image() { return database_->image(); }
+
   [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }
   [[nodiscard]] std::int64_t ticks_on_disk() const noexcept { return ticks_on_disk_; }
   /// Longest time one second of motion took to be written, s.
@@ -60,6 +71,7 @@ class Recorder {
   };
   Recorder(std::string path, SigningKey key);
   void open_for_recording();
+  void require_database();
   void require_open() const;
   void write_pending();
   void write_chunk(const Pending& pending);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
@@ -58,8 +59,8 @@ std::string gap_detail(const SessionReader& session, const SourceNotes& source) 
   Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
-    if (const auto detail = nlohmann::json::parse(e.event.detail_json, nullptr, false); e.event.kind == "gap" && detail.is_object())
-      last_boot = detail.value("boot_id", last_boot);
+    if (e.event.kind == "gap")
+      if (const auto boot = text_in(nlohmann::json::parse(e.event.detail_json, nullptr, false), "boot_id"); !boot.empty()) last_boot = boot;
   const Clocks now = read_clocks();
   const std::string this_boot = boot_id();
   nlohmann::json detail;

@@ -55,7 +55,7 @@ struct Clocks {
 /// Something that happened in an exam: a step completed, a violation, a gap in the recording.
 struct SessionEvent {
   std::int64_t tick = 0;    ///< of the exam, from 0
-  std::string kind;         ///< `gap` is the recorder's own; the others belong to scenario and station
+  std::string kind;         ///< `gap` and `moved` are the recorder's own; the others belong to scenario and station
   std::string detail_json;  ///< one JSON value
   friend bool operator==(const SessionEvent&, const SessionEvent&) = default;
 };

@@ -62,6 +62,12 @@ Bytes apply(const Bytes& file, const std::optional<Bytes>& log, const std::optio
 
 }  // namespace
 
+void require_session_image(const Bytes& file, const std::string& path) {
+  if (file.empty()) throw Error(path, "is empty", "name a session file");
+  if (file.size() < 100 || std::memcmp(file.data(), k_magic, sizeof k_magic) != 0)
+    throw Error(path, "is not a session file (no SQLite header)", "name a .cavum file that an exam wrote, or use an intact copy");
+}
+
 Bytes read_session_image(const std::string& path, std::vector<std::string>& findings) {
   check_file(path);
   Bytes file;
@@ -74,9 +80,7 @@ Bytes read_session_image(const std::string& path, std::vector<std::string>& find
     file = read_file(path);
     if (log == read_beside(path + "-wal") && journal == read_beside(path + "-journal")) break;
   }
-  if (file.empty()) throw Error(path, "is empty", "name a session file");
-  if (file.size() < 100 || std::memcmp(file.data(), k_magic, sizeof k_magic) != 0)
-    throw Error(path, "is not a session file (no SQLite header)", "name a .cavum file that an exam wrote, or use an intact copy");
+  require_session_image(file, path);
   if (!log && !journal) return file;
   try {
     return apply(file, log, journal);

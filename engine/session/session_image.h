@@ -14,4 +14,7 @@ namespace cavum {
 /// be applied is left out, and `findings` says so.
 [[nodiscard]] Bytes read_session_image(const std::string& path, std::vector<std::string>& findings);
 
+/// Throws Error(`name`, ...) unless the bytes begin as an SQLite file does.
+void require_session_image(const Bytes& file, const std::string& name);
+
 }  // namespace cavum

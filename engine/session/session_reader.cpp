@@ -67,8 +67,15 @@ Clocks clocks_at(const Statement& s, int column) { return {s.integer(column), s.
 
 }  // namespace
 
-SessionReader::SessionReader(const std::string& path) : path_(path) {
-  Bytes image = read_session_image(path, findings_);
+SessionReader::SessionReader(const std::string& path) : path_(path) { read(read_session_image(path, findings_)); }
+
+SessionReader::SessionReader(Bytes file, const std::string& name) : path_(name) {
+  require_session_image(file, name);
+  read(std::move(file));
+}
+
+void SessionReader::read(Bytes image) {
+  const std::string& path = path_;
   const bool marked = header_number(image, 68) == k_session_application_id;
   Database database = Database::from_image(std::move(image), path);
   try {

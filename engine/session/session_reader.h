@@ -23,6 +23,8 @@ class SessionReader {
   /// Reads a closed session, one that was killed (its log beside it), or one being recorded. Throws Error only
   /// when the file cannot be a session at all: missing, not SQLite, or another program's database.
   explicit SessionReader(const std::string& path);
+  /// The same from a file's bytes, which have no log beside them; `name` stands for the file in errors.
+  SessionReader(Bytes file, const std::string& name);
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Damage found while reading, each naming its table and row; empty for a sound file.
@@ -62,6 +64,8 @@ class SessionReader {
   [[nodiscard]] std::vector<RemovedAt> removed() const;
 
  private:
+  void read(Bytes image);
+
   std::string path_;
   std::vector<std::string> findings_;
   std::map<std::string, std::string> meta_;

@@ -152,6 +152,20 @@ Statement Database::prepare(const char* sql) {
   return {db_.get(), statement, where_};
 }
 
+void Database::copy_to(Database& other) {
+  sqlite3_backup* copying = sqlite3_backup_init(other.db_.get(), "main", db_.get(), "main");
+  if (copying == nullptr) fail(other.db_.get(), other.where_, sqlite3_errcode(other.db_.get()));
+  sqlite3_backup_step(copying, -1);
+  if (const int code = sqlite3_backup_finish(copying); code != SQLITE_OK) fail(other.db_.get(), other.where_, code);
+}
+
+Bytes Database::image() {
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, void (*)(void*)> bytes(sqlite3_serialize(db_.get(), "main", &size, 0), sqlite3_free);
+  if (bytes == nullptr) fail(db_.get(), where_, SQLITE_NOMEM);
+  return {bytes.get(), bytes.get() + size};
+}
+
 std::int64_t Database::integer(const char* sql) {
   Statement s = prepare(sql);
   return s.step() ? s.integer(0) : 0;

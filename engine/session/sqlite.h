@@ -76,6 +76,10 @@ class Database {
   [[nodiscard]] std::int64_t integer(const char* sql);
   [[nodiscard]] std::string text(const char* sql);
   [[nodiscard]] bool in_transaction() const noexcept { return sqlite3_get_autocommit(db_.get()) == 0; }
+  /// The whole database, a log's content included, page by page into an empty one. Throws DatabaseError of whichever refuses.
+  void copy_to(Database& other);
+  /// The same as the bytes of a single file.
+  [[nodiscard]] Bytes image();
   /// Closes; statements must be gone. Throws nothing: what was committed is on disk already.
   void close() noexcept { db_.reset(); }
   [[nodiscard]] bool is_open() const noexcept { return db_ != nullptr; }

@@ -122,9 +122,12 @@ void simulate_and_compare(const SessionReader& session, VerifyReport& report) {
 }  // namespace
 
 VerifyReport verify_session(const std::string& path, const std::string& expected_station_key) {
-  const SessionReader session(path);
+  return verify_session(SessionReader(path), expected_station_key);
+}
+
+VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key) {
   VerifyReport report;
-  report.file = path;
+  report.file = session.path();
   report.closed = session.closed();
   report.ticks = session.ticks();
   report.findings = session.findings();

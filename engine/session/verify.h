@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/session/session_reader.h"
+
 namespace cavum {
 
 /// Where the replay first differs from the record.
@@ -36,5 +38,7 @@ struct VerifyReport {
 /// `expected_station_key` (hexadecimal) a session closed by any other station is not verified: whoever can
 /// simulate can also forge a whole new session, but not sign it with a key that is not theirs.
 [[nodiscard]] VerifyReport verify_session(const std::string& path, const std::string& expected_station_key = "");
+/// The same of a session that was read already.
+[[nodiscard]] VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key = "");
 
 }  // namespace cavum

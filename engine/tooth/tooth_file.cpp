@@ -10,6 +10,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
 
 #include "engine/base/error.h"
@@ -48,13 +49,29 @@ Tooth read_all_but_octree(ByteReader& in) {
   return tooth;
 }
 
+/// A zstd frame of `size` bytes, unpacked step by step: a size that is only claimed takes no memory.
+Bytes unpack(std::span<const std::uint8_t> packed, std::uint64_t size, const ByteReader& in) {
+  constexpr std::size_t k_step = 1 << 20;
+  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
+  Bytes out;
+  ZSTD_inBuffer from{packed.data(), packed.size(), 0};
+  for (std::size_t more = 1; more != 0;) {
+    const std::size_t had = out.size();
+    out.resize(had + std::min<std::uint64_t>(k_step, size - had));
+    ZSTD_outBuffer to{out.data() + had, out.size() - had, 0};
+    more = ZSTD_decompressStream(stream.get(), &to, &from);
+    out.resize(had + to.pos);
+    if (ZSTD_isError(more) != 0 || (to.pos == 0 && more != 0)) in.fail("the compressed data are damaged");
+  }
+  if (out.size() != size || from.pos != from.size) in.fail("the compressed data are damaged");
+  return out;
+}
+
 Tooth read_body_1(ByteReader& in, const std::string& where) {
   const auto body_size = in.get<std::uint64_t>();
   const auto packed = in.get_bytes(in.get<std::uint64_t>());
   if (body_size > k_largest_body_1) in.fail("the sizes in the header do not fit the file");
-  Bytes body(body_size);
-  const auto n = ZSTD_decompress(body.data(), body.size(), packed.data(), packed.size());
-  if (ZSTD_isError(n) || n != body_size) in.fail("the compressed data are damaged");
+  const Bytes body = unpack(packed, body_size, in);
   ByteReader from(body, where);
   Tooth tooth = read_all_but_octree(from);
   tooth.octree = Octree::read(from, tooth.tissues);

@@ -34,7 +34,7 @@ void sit(const Student& student, const std::string& scenario) {
   auto hands = make_simulated_candidate(*setup, student.skill, student.seed, OmniModel{});
   const auto exam = Exam::start(*setup, student.path, hands.start_mm());
   run_exam(*exam, hands);
-  static_cast<void>(grade_and_close(*exam, student.path));
+  static_cast<void>(grade_and_close(*exam));
 }
 
 }  // namespace

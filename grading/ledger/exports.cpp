@@ -15,11 +15,38 @@ using nlohmann::json;
 /// A number in full, or nothing.
 std::string number_in(const json& j) { return j.is_number() ? j.dump() : ""; }
 
-double points_of(const json& result) { return result.at("score").at("points").get<double>(); }
+/// Criteria that fail the exam by themselves, whatever the sum.
+std::vector<std::string> critical_in(const json& result) {
+  std::vector<std::string> out;
+  for (const auto& c : result.at("criteria"))
+    if (c.contains("critical_failed") && c["critical_failed"] == json(true)) out.push_back(c.value("id", ""));
+  return out;
+}
+
+/// "fail (critical: perforation)"
+std::string verdict_of(const json& result) {
+  std::string out = result.value("verdict", "");
+  std::string critical;
+  for (const auto& id : critical_in(result)) critical += (critical.empty() ? "" : ", ") + id;
+  return critical.empty() ? out : out + " (critical: " + critical + ")";
+}
+
+/// The exam was failed although the sum alone might pass: by a critical criterion, or by one below the pass mark where none makes up for another.
+bool is_failed_beside_points(const json& result) {
+  const json& score = result.at("score");
+  const double pass_points = 0.01 * score.value("pass_percent", 0.0) * score.at("max").get<double>();
+  return result.value("verdict", "") == "fail" && (!critical_in(result).empty() || score.at("points").get<double>() >= pass_points);
+}
+
+/// What a gradebook may add up and compare with its own pass mark: the points, but none where they do not decide.
+json grade_of(const json& result) { return is_failed_beside_points(result) ? json(0) : result.at("score").at("points"); }
 
 /// "Verdict: pass. floor_depth 8 of 10: deepest place 0.2 mm over ..."
 std::string feedback_of(const json& result) {
-  std::string out = "Verdict: " + result.value("verdict", "") + ".";
+  std::string out = "Verdict: " + verdict_of(result) + ".";
+  if (is_failed_beside_points(result))
+    out += std::string(" Failed by ") + (critical_in(result).empty() ? "a criterion below the pass mark" : "what is critical") + ": the " +
+           plain_number(result.at("score").at("points")) + " of " + plain_number(result.at("score").at("max")) + " points do not count.";
   for (const auto& c : result.at("criteria"))
     if (c.at("points").get<double>() < c.at("max").get<double>())
       out += " " + c.value("id", "") + " " + plain_number(c.at("points")) + " of " + plain_number(c.at("max")) + ": " + c.value("reason", "") + ".";
@@ -73,6 +100,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   std::string out = "ID number";
   for (const auto& [id, exam] : exams) {
     out += "," + csv_field(id);
+    out += "," + csv_field(id + " verdict") + "," + csv_field(id + " points");
     for (const auto& c : exam.criteria) out += "," + csv_field(id + " " + c);
     out += "," + csv_field(id + " feedback");
   }
@@ -95,11 +123,11 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
     for (const auto& [id, exam] : exams) {
       const auto found = exam.by_candidate.find(candidate);
       if (found == exam.by_candidate.end()) {
-        row += std::string(exam.criteria.size() + 2, ',');
+        row += std::string(exam.criteria.size() + 4, ',');
         continue;
       }
       const json& result = found->second->shown;
-      row += "," + number_in(result.at("score").at("points"));
+      row += "," + number_in(grade_of(result)) + "," + csv_field(verdict_of(result)) + "," + number_in(result.at("score").at("points"));
       for (const auto& wanted : exam.criteria) {
         row += ",";
         for (const auto& c : result.at("criteria"))
@@ -128,7 +156,7 @@ json lti_scores(const Registry& registry, Identities& identities) {
                                       : review ? "PendingManual"
                                                : "Pending"}};
     if (shown) {
-      score["scoreGiven"] = points_of(s->shown);
+      score["scoreGiven"] = grade_of(s->shown);
       score["scoreMaximum"] = s->shown.at("score").at("max");
       score["comment"] = feedback_of(s->shown);
     }

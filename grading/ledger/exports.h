@@ -10,7 +10,9 @@
 
 namespace cavum {
 
-/// Moodle's grade import (CSV, first row names): "ID number", for each exam its points, one column for each criterion, and feedback. One row for each
+/// Moodle's grade import (CSV, first row names): "ID number", for each exam the grade that counts, verdict, points, one column
+/// for each criterion, and feedback. The grade is the points, and 0 where the exam was failed whatever the points are (by a critical criterion, or by
+/// one below the mark where none makes up for another): a gradebook that adds up and compares must not make a pass of it. One row for each
 /// candidate with a released result; of several attempts at one exam the last counts. `left_out` receives how many results had no known candidate.
 [[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out);
 

@@ -1,10 +1,12 @@
 #include "grading/ledger/filing.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "engine/base/file.h"
+#include "engine/base/json_fields.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
 #include "scenarios/parse.h"
@@ -27,9 +29,9 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
   for (const auto& [key, value] : setup.notes)
     if (key == "operator") return value;
   for (const auto& e : session.events()) {
-    const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
-    if (detail.is_object() && detail.contains("source") && detail["source"].is_object() && detail["source"].contains("operator"))
-      return detail["source"].value("operator", "");
+    if (e.kind != "gap") continue;
+    const json detail = json::parse(e.detail_json, nullptr, false);
+    if (const auto& by = member_of(member_of(detail, "source"), "operator"); !by.is_null()) return by.is_string() ? by.get<std::string>() : by.dump();
   }
   return {};
 }
@@ -45,10 +47,10 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
   for (const auto& e : session.events()) {
     const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
     if (!detail.is_object()) continue;
-    const std::int64_t resumed = detail.value("resumed_utc_ns", std::int64_t{0});
+    const std::int64_t resumed = whole_in(detail, "resumed_utc_ns");
     if (ticket && resumed > ticket->ticket.not_after_utc_ns)
       findings.push_back("the exam was taken up again on " + utc_text(resumed) + ", when its ticket was no longer good");
-    const std::string source = detail.contains("source") && detail["source"].is_object() ? detail["source"].value("device", "") : "";
+    const std::string source = text_in(member_of(detail, "source"), "device");
     if (!source.empty() && source != setup.device)
       findings.push_back("the exam was begun with " + setup.device + ", and taken up again with " + source);
   }
@@ -58,10 +60,24 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
 /// True for what looks like a pseudonym of ours.
 bool is_pseudonym(const std::string& name) { return name.size() == 16 && name.starts_with("C-") && name[6] == '-' && name[11] == '-'; }
 
+/// True for a result as grading writes it: everything that exports and figures of a class read is there, each of its type.
+bool is_result(const json& r) {
+  const auto number = [](const json& j, const char* key) { return member_of(j, key).is_number(); };
+  const auto text = [](const json& j, const char* key) { return member_of(j, key).is_string(); };
+  const json& score = member_of(r, "score");
+  const json& criteria = member_of(r, "criteria");
+  if (!text(r, "verdict") || !number(score, "points") || !number(score, "max") || !criteria.is_array()) return false;
+  return std::all_of(criteria.begin(), criteria.end(), [&](const json& c) {
+    return text(c, "id") && text(c, "metric") && text(c, "unit") && text(c, "reason") && number(c, "points") && number(c, "max") &&
+           c.contains("value");
+  });
+}
+
 /// Ticket and claims of a session against the entries so far.
 std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const SessionSetup& setup,
                                       const std::string& chain_sha256, const std::string& nonce, const FilingOptions& options) {
   std::vector<std::string> findings;
+  if (!is_result(json::parse(session.result_json(), nullptr, false))) findings.emplace_back("the session's result is none that grading writes");
   const Registry registry = read_registry(content);
   for (const auto& s : registry.sessions)
     if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));
@@ -96,7 +112,7 @@ std::string nonce_in(const SessionSetup& setup) {
   const std::string text = ticket_text_in(setup);
   if (text.empty()) return {};
   const json j = json::parse(text, nullptr, false);
-  return j.is_object() && j.contains("ticket") && j["ticket"].is_object() ? j["ticket"].value("nonce", "") : "";
+  return text_in(member_of(j, "ticket"), "nonce");
 }
 
 }  // namespace
@@ -139,7 +155,7 @@ Registry read_registry(const LedgerContent& content) {
         by_seq[e.seq] = r.sessions.size();
         r.sessions.push_back(std::move(s));
       } else if (e.kind == "regrade") {
-        FiledSession& s = r.sessions.at(by_seq.at(e.body.at("session").get<std::uint64_t>()));
+        FiledSession& s = r.sessions.at(by_seq.at(require_whole<std::uint64_t>(e.body, "session", "regrade")));
         s.result = e.body.at("result");
         s.result_seq = e.seq;
         s.released = false;  // a new result waits for its own release, and the old one stands until then
@@ -160,6 +176,12 @@ Registry read_registry(const LedgerContent& content) {
     }
   }
   return r;
+}
+
+std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const FilingOptions& options) {
+  if (!session.closed()) return {"the session was never closed"};
+  const SessionSetup setup = session.setup();
+  return check_claims(content, session, setup, to_hex(session.seal()->chain_sha256), nonce_in(setup), options);
 }
 
 Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options) {
@@ -206,7 +228,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
                                     {"closed_utc_ns", session.seal()->clocks.utc_ns},
                                     {"nonce", nonce},
                                     {"simulated", simulated_by(session, setup)},
-                                    {"result", result.is_discarded() ? json(nullptr) : result},
+                                    {"result", is_result(result) ? result : json(nullptr)},
                                     {"scenario_id", scenario_id},
                                     {"station_key", report.station_key},
                                     {"ticks", report.ticks}};

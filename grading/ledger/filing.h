@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/session/session_reader.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
 
@@ -49,6 +50,10 @@ struct Filing {
 /// Verifies `session` tick by tick, checks its ticket, copies the file into the ledger's folder and enters it. The entry is written after the copy is
 /// on disk. Throws Error when the file cannot be read as a session, DatabaseError when the disk refuses.
 [[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options = {});
+
+/// What a closed session's ticket, result and events claim and the entries so far contradict, in words: what filing asks beside the recording's
+/// truth.
+[[nodiscard]] std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const FilingOptions& options = {});
 
 struct LedgerCheck {
   std::vector<std::string> findings;  ///< what does not hold

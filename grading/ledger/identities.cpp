@@ -41,7 +41,7 @@ std::string Identities::enrol(const std::string& id, const std::string& name, co
     throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
   if (const auto known = of_id(id)) return known->pseudonym;
   const Bytes salt = from_hex(random_hex(16), 16, "salt");
-  const std::string pseudonym = pseudonym_of(school, salt, id);
+  std::string pseudonym = pseudonym_of(school, salt, id);
   database_.prepare("INSERT INTO identity (pseudonym, id, name, salt) VALUES (?, ?, ?, ?)")
       .bind(1, pseudonym)
       .bind(2, id)

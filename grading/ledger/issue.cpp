@@ -23,7 +23,7 @@ Ticket promise(const ExamSetup& setup, const LedgerContent& ledger, std::int64_t
 std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate) {
   ticket.candidate = candidate;
   ticket.nonce = random_hex(16);
-  const std::string text = sign_ticket(ticket, ledger.key());
+  std::string text = sign_ticket(ticket, ledger.key());
   ledger.append("ticket", [&](const LedgerContent&) { return nlohmann::json::parse(text); });
   return text;
 }

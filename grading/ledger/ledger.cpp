@@ -3,12 +3,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/json_fields.h"
 #include "engine/session/session.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/ledger_schema.h"
@@ -71,15 +74,16 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     const json j = json::parse(e.text);
     e.kind = j.at("kind").get<std::string>();
     e.body = j.at("body");
-    e.utc_ns = j.at("utc_ns").get<std::int64_t>();
+    e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", name);
     e.attachment = std::move(attachment);
-    const std::string bound = e.body.is_object() ? e.body.value("result_sha256", "") : "";
+    const std::string bound = text_in(e.body, "result_sha256");
     if (bound != (e.attachment.empty() ? "" : to_hex(sha256(e.attachment))))
       findings.push_back(name + ": its result was changed, added or removed after it was entered");
     else if (!bound.empty())
       e.body["result"] = json::parse(e.attachment);
-    if (j.at("seq").get<std::uint64_t>() != seq) findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
-  } catch (const json::exception&) {
+    if (require_whole<std::uint64_t>(j, "seq", name) != seq)
+      findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
+  } catch (const std::exception&) {
     findings.push_back(name + ": is no JSON object with kind, seq, utc_ns and body");
   }
   return e;
@@ -167,14 +171,40 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
                 "make the folder writable; the next entry tells it again");
 }
 
+/// What a database defines, by name: "table entry" and its SQL. What SQLite keeps for itself is left out.
+std::map<std::string, std::string> schema_of(Database& db) {
+  std::map<std::string, std::string> out;
+  auto rows = db.prepare("SELECT type, name, coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' ORDER BY rowid");
+  while (rows.step()) out[rows.text(0) + " " + rows.text(1)] = rows.text(2);
+  return out;
+}
+
+/// Tables, triggers, views and indexes that are not those that this version made: a view that shows people other figures, a trigger that is gone.
+void check_schema(Database& db, std::vector<std::string>& findings) {
+  Database fresh = Database::open(":memory:", true);
+  const auto format = std::min<std::int64_t>(db.integer("PRAGMA user_version"), k_ledger_format);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(std::max<std::int64_t>(format, 0)); ++i) fresh.run(k_ledger_migrations[i]);
+  const auto wanted = schema_of(fresh), found = schema_of(db);
+  for (const auto& [name, sql] : wanted) {
+    const auto is = found.find(name);
+    if (is == found.end())
+      findings.push_back(name + ": was taken out of the ledger's file");
+    else if (is->second != sql)
+      findings.push_back(name + ": is not as this program made it; it was altered");
+  }
+  for (const auto& [name, sql] : found)
+    if (!wanted.contains(name)) findings.push_back(name + ": does not belong to a ledger; it was put into its file");
+}
+
 LedgerContent read_content(Database& db, const std::string& where) {
   if (db.integer("PRAGMA application_id") != k_ledger_application_id) throw Error(where, "is no ledger", "make one with `cavum ledger init FOLDER`");
   LedgerContent c;
+  check_schema(db, c.findings);
   // The witness first: it is told after each entry, so what it knows by now is in the database by then. One snapshot of the tables for the same
   // reason.
   const std::string first = db.text("SELECT text FROM entry WHERE seq = 0");
   const json begin = json::parse(first, nullptr, false);
-  const std::string id = begin.is_object() && begin.contains("body") && begin["body"].is_object() ? begin["body"].value("ledger", "") : "";
+  const std::string id = text_in(member_of(begin, "body"), "ledger");
   const auto witnessed = id.size() == 32 && id.find('/') == std::string::npos ? read_witness(id, c.findings) : std::vector<Checkpoint>();
   const bool alone = !db.in_transaction();
   if (alone) db.run("BEGIN");
@@ -193,9 +223,9 @@ LedgerContent read_content(Database& db, const std::string& where) {
     c.findings.emplace_back("entry 0: does not begin a ledger");
     return c;
   }
-  c.id = c.entries[0].body.value("ledger", "");
-  c.public_key = c.entries[0].body.value("public_key", "");
-  c.school = c.entries[0].body.value("school", "");
+  c.id = text_in(c.entries[0].body, "ledger");
+  c.public_key = text_in(c.entries[0].body, "public_key");
+  c.school = text_in(c.entries[0].body, "school");
   check_tree(c);
   check_witness(c, witnessed);
   std::int64_t before = 0;
@@ -367,14 +397,14 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
   try {
     const std::string id = receipt.at("ledger"), key = receipt.at("public_key"), entry = receipt.at("entry");
     const json& c = receipt.at("checkpoint");
-    const Checkpoint p{c.at("size").get<std::uint64_t>(), fixed_from_hex<32>(c.at("root"), "receipt: root"), c.at("utc_ns").get<std::int64_t>(),
-                       fixed_from_hex<64>(c.at("signature"), "receipt: signature")};
+    const Checkpoint p{require_whole<std::uint64_t>(c, "size", "receipt"), fixed_from_hex<32>(c.at("root"), "receipt: root"),
+                       require_whole<std::int64_t>(c, "utc_ns", "receipt"), fixed_from_hex<64>(c.at("signature"), "receipt: signature")};
     std::vector<Sha256> path;
     for (const auto& h : receipt.at("inclusion")) path.push_back(fixed_from_hex<32>(h, "receipt: inclusion"));
     if (!public_key.empty() && key != public_key) findings.emplace_back("the receipt is of another school's key");
     if (!is_signed_by(fixed_from_hex<32>(key, "receipt: public_key"), checkpoint_message(id, p), p.signature))
       findings.emplace_back("the school's signature on the receipt does not hold");
-    if (!is_included(leaf_hash(bytes_of(entry)), receipt.at("seq").get<std::uint64_t>(), p.size, path, p.root))
+    if (!is_included(leaf_hash(bytes_of(entry)), require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
       findings.emplace_back("the entry on the receipt is not the one that the school signed");
     if (ledger != nullptr) {
       if (ledger->id != id) {

@@ -1,8 +1,16 @@
 #include "grading/ledger/station_ticket.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/text.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum {
@@ -36,6 +44,76 @@ void require_promised(const HeldTicket& held, const SessionSetup& setup) {
   std::string all;
   for (const auto& w : wrong) all += (all.empty() ? "" : ", ") + w;
   throw Error(held.path, all, "ask the school for another ticket, or name the files that it promises");
+}
+
+std::string used_tickets_path() { return station_path("used_tickets"); }
+
+namespace {
+
+/// The file of used tickets, locked while this lives: two programs of a station cannot both begin with one ticket.
+class UsedTickets {
+ public:
+  UsedTickets() {
+    std::error_code none;
+    std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), none);
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    if (file_ < 0 || ::flock(file_, LOCK_EX) != 0) fail();
+  }
+  ~UsedTickets() { ::close(file_); }
+  UsedTickets(const UsedTickets&) = delete;
+  UsedTickets& operator=(const UsedTickets&) = delete;
+
+  /// "on 2026-… by exam.cavum" when the last line about the ticket says that it was used; else nothing. A line that a power cut left short is none.
+  [[nodiscard]] std::string use_of(const std::string& nonce) const {
+    std::istringstream lines(read_text_file(path_));
+    std::string said;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string what, of, when, session;
+      words >> what >> of >> when;
+      if (of != nonce) continue;
+      std::getline(words >> std::ws, session);
+      said = what == "used" ? "on " + when + " for " + one_line(session) : "";
+    }
+    return said;
+  }
+  void add(const std::string& line) {
+    const std::string whole = line + "\n";
+    if (::write(file_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size()) || ::fsync(file_) != 0) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    const std::string why = std::strerror(errno);
+    if (file_ >= 0) ::close(file_);
+    throw Error(path_, "cannot remember which tickets were used (" + why + ")", "make the folder writable, and room on its disk");
+  }
+
+  std::string path_ = used_tickets_path();
+  int file_ = -1;
+};
+
+void refuse_used(const HeldTicket& held, const std::string& use) {
+  if (!use.empty()) throw Error(held.path, "was used at this station " + use, "go on with that exam (--resume), or ask the school for a new ticket");
+}
+
+}  // namespace
+
+void require_unused(const HeldTicket& held) {
+  if (std::filesystem::exists(used_tickets_path())) refuse_used(held, UsedTickets().use_of(held.ticket.nonce));
+}
+
+void remember_use(const HeldTicket& held, const std::string& session) {
+  UsedTickets used;
+  refuse_used(held, used.use_of(held.ticket.nonce));
+  used.add("used " + held.ticket.nonce + " " + utc_text(read_clocks().utc_ns) + " " + one_line(session));
+}
+
+void forget_use(const HeldTicket& held) noexcept {
+  try {
+    UsedTickets().add("not-begun " + held.ticket.nonce + " " + utc_text(read_clocks().utc_ns));
+  } catch (const std::exception&) {  // the ticket then counts as used here: the school gives another
+  }
 }
 
 }  // namespace cavum

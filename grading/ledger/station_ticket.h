@@ -22,4 +22,27 @@ void use_ticket(const HeldTicket& held, ExamOptions& options);
 /// Throws Error, all reasons in it, when what was prepared is not what the ticket promises, or this is not its time.
 void require_promised(const HeldTicket& held, const SessionSetup& setup);
 
+/// $CAVUM_HOME/used_tickets, or below ~/.config/cavum: a line for each exam that was begun here with a ticket.
+[[nodiscard]] std::string used_tickets_path();
+/// Throws Error when an exam was begun on this station with the ticket: it goes on by resuming, and is not begun again.
+void require_unused(const HeldTicket& held);
+/// Remembers that the exam recorded at `session` uses the ticket; throws Error as `require_unused` does, and when nothing can be remembered. Before
+/// the exam begins: a station that is killed between the two has used the ticket up rather than given it twice.
+void remember_use(const HeldTicket& held, const std::string& session);
+/// The exam could not be begun: the ticket is good as before.
+void forget_use(const HeldTicket& held) noexcept;
+
+/// What `begin` returns, with the ticket used up unless it throws. `held` may be null: nobody asked for a ticket.
+template <class Begin>
+[[nodiscard]] auto begin_with_ticket(const HeldTicket* held, const std::string& session, const Begin& begin) {
+  if (held == nullptr) return begin();
+  remember_use(*held, session);
+  try {
+    return begin();
+  } catch (...) {
+    forget_use(*held);
+    throw;
+  }
+}
+
 }  // namespace cavum

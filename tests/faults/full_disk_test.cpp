@@ -1,9 +1,9 @@
 // A disk that is full: writes beyond a limit fail (RLIMIT_FSIZE). The recorder says so, keeps what it has,
 // and goes on without a loss once there is room.
-#include <gtest/gtest.h>
-#include <sys/resource.h>
+#include "tests/faults/full_disk.h"
 
-#include <csignal>
+#include <gtest/gtest.h>
+
 #include <filesystem>
 
 #include "engine/base/error.h"
@@ -14,27 +14,7 @@
 namespace cavum {
 namespace {
 
-/// No file may grow beyond `bytes` while this lives.
-class FullDisk {
- public:
-  explicit FullDisk(std::uintmax_t bytes) {
-    old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    rlimit now = old_;
-    now.rlim_cur = bytes;
-    ::setrlimit(RLIMIT_FSIZE, &now);
-  }
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int) = nullptr;
-};
+using test::FullDisk;
 
 class FullDiskTest : public testing::Test {
  protected:
@@ -83,6 +63,58 @@ TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
   ASSERT_EQ(inputs.size(), 5200u);
   for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
   EXPECT_EQ(SessionReader(path_).events().size(), 1u);
+}
+
+TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
+  const std::string elsewhere = folder_.file("elsewhere.cavum");
+  for (std::int64_t tick = 0; tick < 6500; ++tick) ASSERT_FALSE(drill_tick(tick));
+  {
+    const FullDisk full(std::filesystem::file_size(path_ + "-wal") + 1500);
+    for (std::int64_t tick = 6500; tick < 8300; ++tick) static_cast<void>(drill_tick(tick));
+    ASSERT_EQ(recorder_.ticks_on_disk(), 6000);
+    EXPECT_THROW(recorder_.move_to(path_, "full"), Error) << "what is there is never overwritten";
+    EXPECT_THROW(recorder_.move_to(folder_.file("no/such/folder.cavum"), "full"), Error);
+    EXPECT_THROW(recorder_.move_to(elsewhere, "full"), Error) << "it is as full there";
+    EXPECT_EQ(recorder_.path(), path_);
+    EXPECT_FALSE(std::filesystem::exists(elsewhere));
+  }
+  recorder_.move_to(elsewhere, complaint_);  // where there is room
+  EXPECT_EQ(recorder_.path(), elsewhere);
+  EXPECT_EQ(recorder_.ticks_on_disk(), 8300);
+  for (std::int64_t tick = 8300; tick < 8600; ++tick) ASSERT_FALSE(drill_tick(tick));
+  recorder_.close(tooth(), "{}");
+  const VerifyReport report = verify_session(elsewhere);
+  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_EQ(report.ticks_replayed, 8600);
+  const SessionReader moved(elsewhere);
+  const auto inputs = moved.inputs();
+  ASSERT_EQ(inputs.size(), 8600u);
+  for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
+  ASSERT_EQ(moved.events().size(), 1u);
+  EXPECT_EQ(moved.events()[0].kind, "moved");
+  EXPECT_EQ(moved.events()[0].tick, 8300);
+  EXPECT_FALSE(std::filesystem::exists(elsewhere + "-wal"));
+
+  const VerifyReport first = verify_session(path_);
+  EXPECT_TRUE(first.intact) << "what was committed before stays true where it was";
+  EXPECT_FALSE(first.closed);
+  EXPECT_EQ(first.ticks, 6000);
+}
+
+TEST_F(FullDiskTest, ASealThatDoesNotFitIsSetElsewhere) {
+  const std::string elsewhere = folder_.file("elsewhere.cavum");
+  for (std::int64_t tick = 0; tick < 5200; ++tick) ASSERT_FALSE(drill_tick(tick));
+  const Bytes last = tooth();
+  {
+    const FullDisk full(std::filesystem::file_size(path_ + "-wal") + 1500);
+    EXPECT_THROW(recorder_.close(last, R"({"verdict":"pass"})"), DatabaseError);
+  }
+  recorder_.move_to(elsewhere, "full");
+  recorder_.close(last, R"({"verdict":"pass"})");
+  const VerifyReport report = verify_session(elsewhere);
+  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_EQ(report.ticks, 5200);
+  EXPECT_EQ(SessionReader(elsewhere).result_json(), R"({"verdict":"pass"})");
 }
 
 TEST_F(FullDiskTest, WhileClosingCanBeRepeated) {

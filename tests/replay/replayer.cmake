@@ -3,7 +3,8 @@
 function(add_replayer name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/engine/*.cpp ${CMAKE_SOURCE_DIR}/scenarios/*.cpp ${CMAKE_SOURCE_DIR}/grading/*.cpp)
   list(FILTER sources EXCLUDE REGEX "${CAVUM_APART}|/rig/|/engine/device/|/servo/(real_time|real_time_json|scheduling)\\.cpp|/tooth/(surface_patches|plant_lesion|periodontium|formula_tooth|make_[a-z]*)\\.cpp|/scenarios/(advice|candidate_device|check|cut_plan|edit_text|expert_time|live_exam|operator|picture|simulated_exam|template)\\.cpp|/grading/(close_exam|report)\\.cpp")
-  add_executable(${name} ${CMAKE_SOURCE_DIR}/tests/replay/replayer.cpp ${sources} ${CMAKE_SOURCE_DIR}/engine/tooth/import/read_mesh.cpp)
+  add_executable(${name} ${CMAKE_SOURCE_DIR}/tests/replay/replayer.cpp ${sources} ${CMAKE_SOURCE_DIR}/engine/tooth/import/read_mesh.cpp
+                 ${CMAKE_SOURCE_DIR}/engine/tooth/import/polygon_files.cpp)
   target_link_libraries(${name} PRIVATE cavum_flags PkgConfig::SODIUM PkgConfig::ZSTD PkgConfig::XXHASH PkgConfig::TOMLPP SQLite::SQLite3
                                         nlohmann_json::nlohmann_json muparser::muparser OpenMeshCore)
   target_include_directories(${name} SYSTEM PRIVATE ${OPENMESH_INCLUDE_DIRS})

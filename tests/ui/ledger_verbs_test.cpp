@@ -33,6 +33,10 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   const json issued = tickets(" --extra-time-percent 25");
   ASSERT_EQ(issued.size(), 2u);
   for (int i = 0; i < 2; ++i) ASSERT_EQ(sit(issued[static_cast<std::size_t>(i)]["file"], "e" + std::to_string(i) + ".cavum").exit_code, 0);
+  const auto twice = sit(issued[0]["file"], "twice.cavum");
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_NE(twice.err.find("was used at this station on "), std::string::npos) << twice.err;
+  EXPECT_FALSE(fs::exists(path("twice.cavum")));
   const auto graded = json::parse(run("grade " + path("e0.cavum") + " --json").out);
   EXPECT_EQ(graded["accommodations"]["extra_time_percent"], 25.0) << graded["accommodations"];
 

@@ -30,6 +30,7 @@ void exam_screen(const ScreenContext& c);
 void grading_screen(const ScreenContext& c);
 void result_screen(const ScreenContext& c);
 void trouble_screen(const ScreenContext& c);
+void save_screen(const ScreenContext& c);
 void replay_screen(const ScreenContext& c);
 
 /// The picture of the tooth, in the rest of the running window; turned with the mouse and by keys: A D W S round the tooth, + and - nearer and

@@ -1,10 +1,8 @@
 // Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. One command a
 // line, # begins a comment:
-//   wait SCREEN      until that screen shows, 300 s at most: sign-in, device-check, briefing, exam, grading, result, trouble, author, author-busy
-//   go SCREEN        presses enter now and then until that screen shows
-//   until SECONDS    until the exam's clock has come so far
-//   type TEXT        letters
-//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, ctrl, shift,
+//   wait SCREEN      until that screen shows, 300 s at most: sign-in, device-check, briefing, exam, grading, result, trouble, save, author,
+//   author-busy go SCREEN        presses enter now and then until that screen shows until SECONDS    until the exam's clock has come so far type TEXT
+//   letters key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, ctrl, shift,
 //                    a letter, a digit, [ ] + - , . ; a second word holds it so many seconds
 //   hold NAME        a key, while other commands go on
 //   release NAME     lets it go

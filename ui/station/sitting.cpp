@@ -33,6 +33,14 @@ HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   return read_ticket(path);
 }
 
+/// Enough on its disk for the end of any exam.
+bool has_room(const std::string& path) {
+  constexpr std::uintmax_t k_room_bytes = 8'000'000;
+  std::error_code none;
+  const auto space = std::filesystem::space(std::filesystem::absolute(path).parent_path(), none);
+  return !none && space.available > k_room_bytes;
+}
+
 void require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
   const SessionReader session(path);
   session.require_readable();
@@ -65,6 +73,10 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     held = ticket_of(options_.tickets, candidate_);
     candidate_ = exam.candidate = held->ticket.candidate;
     use_ticket(*held, exam);
+    if (options_.resume.empty() && !options_.practice) {
+      require_unused(*held);
+      ticket_ = held;
+    }
   }
   if (!options_.resume.empty()) {
     require_resumable(options_.resume, candidate_, *device_);
@@ -96,8 +108,21 @@ void Sitting::advance() {
     if (!live_->running()) end_running();
   }
   if (stage_ == Stage::grading && is_ready(grading_)) {
-    closed_ = grading_.get();
-    stage_ = Stage::done;
+    try {
+      closed_ = grading_.get();
+      stage_ = Stage::done;
+    } catch (const DatabaseError& refusal) {
+      trouble_ = refusal.what();
+      stage_ = Stage::unsaved;
+    }
+  } else if (stage_ == Stage::unsaved && std::chrono::steady_clock::now() - last_try_ > std::chrono::seconds(2)) {
+    last_try_ = std::chrono::steady_clock::now();
+    if (!has_room(path_)) return;
+    try {
+      save("");
+    } catch (const DatabaseError& refusal) {
+      trouble_ = refusal.what();
+    }
   }
 }
 
@@ -122,7 +147,8 @@ void Sitting::begin() {
     path_ = options_.resume.empty() ? new_path() : options_.resume;
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
     if (options_.resume.empty()) {
-      live_ = std::make_unique<LiveExam>(*setup_, path_, *with_desk_, tip);
+      auto exam = begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path_, [&] { return Exam::start(*setup_, path_, tip); });
+      live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
       SourceNotes notes = device_->notes();
       notes.emplace_back("device", device_->name());
@@ -143,13 +169,38 @@ void Sitting::ask_to_end() {
 
 void Sitting::end_running() {
   report_ = live_->finish();
-  if (!live_->exam().over()) {
-    trouble_ = report_.servo.error.empty() ? "the servo was stopped" : report_.servo.error;
-    stage_ = Stage::interrupted;
-    return;
-  }
-  grading_ = std::async(std::launch::async, [this] { return grade_and_close(live_->exam(), path_); });
+  path_ = live_->exam().recorder().path();
+  if (live_->exam().over()) return close_exam();
+  trouble_ = report_.servo.error.empty() ? "the servo was stopped" : report_.servo.error;
+  stage_ = Stage::interrupted;
+  if (unwritten_s() <= 0.0) return;
+  trouble_ = report_.writer.error;
+  stage_ = Stage::unsaved;
+}
+
+void Sitting::close_exam() {
+  grading_ = std::async(std::launch::async, [this] { return grade_and_close(live_->exam()); });
   stage_ = Stage::grading;
+}
+
+double Sitting::unwritten_s() const {
+  const Recorder& recorder = live_->exam().recorder();
+  return static_cast<double>(recorder.ticks() - recorder.ticks_on_disk()) * k_tick_s;
+}
+
+void Sitting::save(const std::string& place) {
+  Exam& exam = live_->exam();
+  if (!place.empty()) {
+    const std::filesystem::path wanted(place);
+    const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
+    if (file.extension() != ".cavum") throw Error(place, "is neither a folder nor a session file", "name a folder, or a new file ending in .cavum");
+    exam.recorder().move_to(file.string(), trouble_);
+  }
+  exam.recorder().flush();
+  path_ = exam.recorder().path();
+  if (exam.over()) return close_exam();
+  trouble_ = report_.servo.error.empty() ? "the servo was stopped" : report_.servo.error;
+  stage_ = Stage::interrupted;
 }
 
 }  // namespace cavum

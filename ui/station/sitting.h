@@ -2,6 +2,7 @@
 // window: the screens show it and press its buttons, and whatever becomes of them, the session is closed or can be resumed.
 #pragma once
 
+#include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "engine/device/with_desk.h"
 #include "grading/close_exam.h"
+#include "grading/ledger/station_ticket.h"
 #include "scenarios/live_exam.h"
 #include "ui/station/device_check.h"
 #include "ui/station/station_device.h"
@@ -30,6 +32,7 @@ enum class Stage {
   checking,     ///< the device is watched
   running,      ///< the exam
   grading,      ///< it is over, and being marked
+  unsaved,      ///< it is over or was interrupted, and the disk refuses: all is in memory until `save`
   done,         ///< sealed, with its result
   interrupted,  ///< the device failed: the session is open and can be resumed
 };
@@ -67,11 +70,18 @@ class Sitting {
   [[nodiscard]] const LiveReport& report() const { return report_; }
   /// Of the session, from `running` on.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  /// When `interrupted`: why.
+  /// When `unsaved`: tries again, in another place unless that is empty: a session file that does not exist yet, or a folder. Throws Error when that
+  /// is refused, too; the stage stays. By itself it tries again once there is room.
+  void save(const std::string& place);
+  /// How much of the exam is in memory only, s.
+  [[nodiscard]] double unwritten_s() const;
+
+  /// When `interrupted` or `unsaved`: why.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
 
  private:
   void end_running();
+  void close_exam();
   [[nodiscard]] std::string new_path() const;
 
   SittingOptions options_;
@@ -80,6 +90,7 @@ class Sitting {
   std::unique_ptr<StationDevice> device_;
   std::future<std::unique_ptr<ExamSetup>> preparing_;
   std::unique_ptr<ExamSetup> setup_;
+  std::optional<HeldTicket> ticket_;  ///< that this exam will use up
   std::unique_ptr<DeviceCheck> check_;
   DeviceSight last_sight_;
   Desk desk_;
@@ -89,6 +100,7 @@ class Sitting {
   std::optional<ClosedExam> closed_;
   LiveReport report_;
   std::string path_, trouble_;
+  std::chrono::steady_clock::time_point last_try_;  ///< to save by itself
 };
 
 }  // namespace cavum

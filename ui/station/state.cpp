@@ -20,6 +20,8 @@ const char* screen_name(Screen screen) noexcept {
       return "replay";
     case Screen::trouble:
       return "trouble";
+    case Screen::save:
+      return "save";
     case Screen::author:
       return "author";
     case Screen::author_busy:

@@ -8,17 +8,19 @@
 
 namespace cavum {
 
-enum class Screen { sign_in, device_check, briefing, exam, grading, result, replay, trouble, author, author_busy };
+enum class Screen { sign_in, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
 
 /// What a button or a key asked for; the station does it after the frame.
-enum class Wish { none, sign_in, to_briefing, to_check, begin, end, report, next_candidate, quit };
+enum class Wish { none, sign_in, to_briefing, to_check, begin, end, save, report, next_candidate, quit };
 
 struct StationState {
   Screen screen = Screen::sign_in;
   Wish wish = Wish::none;
-  std::array<char, 48> code{};  ///< typed at sign-in
-  std::string message;          ///< shown with the screen: what went wrong, what was written
+  std::array<char, 48> code{};    ///< typed at sign-in
+  std::array<char, 512> place{};  ///< typed where a session is to be saved
+  bool focus_place = true;
+  std::string message;  ///< shown with the screen: what went wrong, what was written
   SceneView view;
   bool left_handed = false;
   bool high_contrast = false;

@@ -85,7 +85,8 @@ class Station {
  private:
   /// Path of the session that would stay open if the window closed now.
   [[nodiscard]] std::string open_session() const {
-    const bool open = sitting_ && (sitting_->stage() == Stage::running || sitting_->stage() == Stage::interrupted);
+    const bool open =
+        sitting_ && (sitting_->stage() == Stage::running || sitting_->stage() == Stage::interrupted || sitting_->stage() == Stage::unsaved);
     return open ? sitting_->path() : std::string();
   }
 
@@ -155,6 +156,8 @@ class Station {
         return result_screen(context);
       case Screen::trouble:
         return trouble_screen(context);
+      case Screen::save:
+        return save_screen(context);
       case Screen::replay:
         return replay_screen(context);
       case Screen::author:  // in a window of its own, author.h
@@ -193,6 +196,9 @@ class Station {
           break;
         case Wish::end:
           sitting_->ask_to_end();
+          break;
+        case Wish::save:
+          sitting_->save(state_.place.data());
           break;
         case Wish::report:
           write_report();
@@ -276,6 +282,7 @@ class Station {
       scene_->tooth().update();
     }
     if (now == Stage::grading) go_to(Screen::grading);
+    if (now == Stage::unsaved) go_to(Screen::save);
     if (now == Stage::done) go_to(Screen::result);
     if (now == Stage::interrupted) {
       go_to(Screen::trouble);

@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/tooth/import/polygon_files.h"
 
 namespace cavum {
 namespace {
@@ -104,10 +105,10 @@ void require_numbers_in_stl(const Bytes& file, const std::string& name) {
   }
 }
 
-bool is_stl(const std::string& path) {
+std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension == ".stl";
+  return extension;
 }
 
 /// OpenMesh reports on the console; our errors say the same with the file's name.
@@ -117,13 +118,50 @@ void quieten_openmesh() {
   omerr().disable();
 }
 
-Surface load(const std::string& path) {
-  require_mesh_file(path);
-  if (is_stl(path)) require_numbers_in_stl(read_file(path), path);
+/// The bytes of an STL as OpenMesh joins them, once they are known to be sound.
+Surface surface_of_stl(const Bytes& file, const std::string& name) {
+  require_numbers_in_stl(file, name);
+  quieten_openmesh();
+  std::istringstream bytes(std::string(file.begin(), file.end()));
+  OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
+  Surface surface;
+  if (!OpenMesh::IO::read_mesh(surface, bytes, ".stl", options) || surface.n_faces() == 0)
+    throw Error(name, "holds no triangle of an STL surface", "export the surface again as STL, text or binary");
+  return surface;
+}
+
+/// Polygons as triangles. One that does not fit among its neighbours gets corners of its own, and so shows as open.
+Surface surface_of(const Polygons& polygons) {
   quieten_openmesh();
   Surface surface;
-  if (!OpenMesh::IO::read_mesh(surface, path) || surface.n_faces() == 0)
-    throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
+  for (const Vec3& p : polygons.corners_mm) surface.add_vertex({p.x, p.y, p.z});
+  for (const auto& polygon : polygons.polygons) {
+    std::vector<Surface::VertexHandle> corners;
+    for (const auto i : polygon) corners.emplace_back(static_cast<int>(i));
+    std::vector<std::uint32_t> once = polygon;
+    std::sort(once.begin(), once.end());
+    if (std::adjacent_find(once.begin(), once.end()) != once.end()) continue;  // a corner twice: it encloses nothing
+    if (surface.add_face(corners).is_valid()) continue;
+    for (auto& c : corners) c = surface.add_vertex(Surface::Point(surface.point(c)));
+    surface.add_face(corners);
+  }
+  return surface;
+}
+
+Surface load(const std::string& path) {
+  require_mesh_file(path);
+  const std::string extension = extension_of(path);
+  const Bytes file = read_file(path);
+  Surface surface;
+  if (extension == ".stl")
+    surface = surface_of_stl(file, path);
+  else if (extension == ".ply")
+    surface = surface_of(read_ply(file, path));
+  else if (extension == ".obj")
+    surface = surface_of(read_obj(file, path));
+  else if (extension == ".off")
+    surface = surface_of(read_off(file, path));
+  if (surface.n_faces() == 0) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
   return surface;
 }
 
@@ -171,16 +209,7 @@ std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
 
 ReadMesh read_closed_mesh(const std::string& path) { return closed(load(path), path); }
 
-ReadMesh read_closed_stl(const Bytes& file, const std::string& name) {
-  require_numbers_in_stl(file, name);
-  quieten_openmesh();
-  std::istringstream bytes(std::string(file.begin(), file.end()));
-  OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
-  Surface surface;
-  if (!OpenMesh::IO::read_mesh(surface, bytes, ".stl", options) || surface.n_faces() == 0)
-    throw Error(name, "holds no triangle of an STL surface", "export the surface again as STL, text or binary");
-  return closed(surface, name);
-}
+ReadMesh read_closed_stl(const Bytes& file, const std::string& name) { return closed(surface_of_stl(file, name), name); }
 
 namespace {
 

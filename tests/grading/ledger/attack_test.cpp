@@ -4,6 +4,7 @@
 #include "engine/session/chain.h"
 #include "engine/session/chunk_codec.h"
 #include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_schema.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum {
@@ -41,10 +42,12 @@ class Attack : public testing::Test {
     test::tamper(session_, sql);
     expect_refused(session_, words);
   }
-  /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him.
+  /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him, he puts them back afterwards.
   void edit_ledger(const std::string& sql) {
+    const std::string tables = k_ledger_migrations[0];
     test::tamper(school_.places().database(),
-                 "DROP TRIGGER entry_stays; DROP TRIGGER entry_is_kept; DROP TRIGGER checkpoint_stays; DROP TRIGGER checkpoint_is_kept; " + sql);
+                 "DROP TRIGGER entry_stays; DROP TRIGGER entry_is_kept; DROP TRIGGER checkpoint_stays; DROP TRIGGER checkpoint_is_kept; " + sql +
+                     ";" + tables.substr(tables.find("CREATE TRIGGER")));
   }
   void expect_ledger_finding(const std::vector<std::string>& words) {
     expect_finding(check_ledger(school_.places(), false).findings, words);
@@ -166,6 +169,17 @@ TEST_F(Attack, NamesExchangedAmongTheIdentities) {
                "WHERE id = 'x'");
   EXPECT_EQ(Identities(school_.places().identities()).check(School::key()).size(), 2u);
 }
+TEST_F(Attack, AResultThatIsNone) {
+  // a station with a key of its own may seal anything as its result
+  for (const char* result : {R"("pass")", R"({"verdict":"pass"})", R"({"verdict":"pass","score":{"points":"all","max":1},"criteria":[]})"}) {
+    const auto setup = SessionReader(session_).setup();
+    const std::string path = school_.file("sealed.cavum");
+    std::filesystem::remove(path);
+    const Simulation simulation = make_simulation(setup, "test");
+    Recorder::create(path, setup).close(save_tooth(drilled_tooth(simulation)), result);
+    expect_refused(path, {"result is none that grading writes"});
+  }
+}
 TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {"holds no ticket"}); }
 
 TEST_F(Attack, AnEntryEditedInTheLedger) {
@@ -205,6 +219,27 @@ TEST_F(Attack, AnEntryTakenOutWithItsSignature) {
 TEST_F(Attack, AnEntrySlippedIn) {
   edit_ledger("INSERT INTO entry VALUES (2, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":2,\"utc_ns\":1}', zeroblob(32), NULL)");
   expect_ledger_finding({"entry 2", "signed nothing"});
+}
+/// One entry is in the ledger, so that a change counts as one.
+TEST_F(Attack, ATriggerTakenOutOfTheLedger) {
+  test::tamper(school_.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq");
+  expect_ledger_finding({"trigger entry_stays", "taken out"});
+}
+TEST_F(Attack, ATriggerThatNoLongerRefuses) {
+  test::tamper(school_.places().database(),
+               "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END");
+  expect_ledger_finding({"trigger entry_stays", "altered"});
+}
+TEST_F(Attack, AViewThatShowsOtherFigures) {
+  test::tamper(
+      school_.places().database(),
+      "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry");
+  expect_ledger_finding({"view session", "altered"});
+}
+TEST_F(Attack, AnIndexAndATableOfSomebodysOwn) {
+  test::tamper(school_.places().database(), "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)");
+  expect_ledger_finding({"table notes", "does not belong"});
+  expect_ledger_finding({"index by_text", "does not belong"});
 }
 TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
   const Bytes old = read_file(school_.places().database());

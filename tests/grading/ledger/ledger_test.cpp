@@ -167,6 +167,43 @@ TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
   }
 }
 
+TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
+  Identities identities(school_.places().identities());
+  const auto export_of = [&](const std::function<void(json&)>& change) {
+    Registry registry = registry_;
+    json& shown = registry.sessions.at(0).shown;
+    shown["score"] = {{"points", 86.0}, {"max", 100.0}, {"pass_percent", 60.0}};
+    change(shown);
+    int left_out = 0;
+    const std::string csv = moodle_csv(registry, identities, left_out);
+    const json scores = lti_scores(registry, identities);
+    const auto mine = std::find_if(scores.begin(), scores.end(), [](const json& s) { return s["score"]["userId"] == "4711"; });
+    return std::pair(csv, (*mine)["score"]);
+  };
+  const auto [critical_csv, critical_lti] = export_of([](json& r) {
+    r["verdict"] = "fail";
+    r["criteria"][0]["critical_failed"] = true;
+  });
+  const std::string id = registry_.sessions.at(0).shown["criteria"][0]["id"];
+  EXPECT_NE(critical_csv.find("\n4711,0,fail (critical: " + id + "),86"), std::string::npos) << critical_csv;
+  EXPECT_NE(critical_csv.find("86 of 100 points do not count"), std::string::npos) << critical_csv;
+  EXPECT_EQ(critical_lti["scoreGiven"], 0);
+  EXPECT_NE(critical_lti["comment"].get<std::string>().find("Verdict: fail (critical: " + id + ")"), std::string::npos);
+
+  const auto [single_csv, single_lti] = export_of([](json& r) { r["verdict"] = "fail"; });
+  EXPECT_NE(single_csv.find("\n4711,0,fail,86"), std::string::npos) << "one criterion below the mark, none makes up for it: " << single_csv;
+  EXPECT_EQ(single_lti["scoreGiven"], 0);
+  const auto [passed_csv, passed_lti] = export_of([](json& r) { r["verdict"] = "pass"; });
+  EXPECT_NE(passed_csv.find("\n4711,86.0,pass,86.0"), std::string::npos) << passed_csv;
+  EXPECT_EQ(passed_lti["scoreGiven"], 86.0);
+  const auto [low_csv, low_lti] = export_of([](json& r) {
+    r["verdict"] = "fail";
+    r["score"]["points"] = 41.5;
+  });
+  EXPECT_NE(low_csv.find("\n4711,41.5,fail,41.5"), std::string::npos) << "too few points stay what they are: " << low_csv;
+  EXPECT_EQ(low_lti["scoreGiven"], 41.5);
+}
+
 TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   Ledger ledger = school_.ledger();
   json better = registry_.sessions.at(0).result;

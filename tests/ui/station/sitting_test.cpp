@@ -12,6 +12,7 @@
 #include "engine/session/verify.h"
 #include "engine/tooth/surface_patches.h"
 #include "tests/engine/support/basics.h"
+#include "tests/faults/full_disk.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum {
@@ -73,6 +74,56 @@ TEST_F(SittingTest, LeadsFromTheCodeToASealedResult) {
   EXPECT_EQ(sitting.report().first_disagreement, -1);
   EXPECT_GT(sitting.closed().result.volumes.removed.mm3, 0.1);
   EXPECT_TRUE(verify_session(sitting.path()).verified);
+}
+
+/// Sits for a few seconds on a disk that is full from the second one on, and ends the exam.
+class FullDiskSitting : public SittingTest {
+ protected:
+  void sit() {
+    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.stage() == Stage::checking; }));
+    sitting_.begin();
+    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.live().view().ticks > 1300; }));
+    full_.emplace(std::filesystem::file_size(options_.out + "-wal") + 1500);
+    ASSERT_TRUE(goes_on(sitting_, [&] { return !sitting_.live().view().recording_error.empty(); })) << "the candidate is told";
+    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.live().view().unwritten_ticks > 1500; })) << "and goes on working";
+    sitting_.ask_to_end();
+    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.stage() == Stage::unsaved; }));
+    EXPECT_GT(sitting_.unwritten_s(), 1.5);
+    EXPECT_FALSE(sitting_.trouble().empty());
+  }
+  void expect_whole() {
+    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.stage() == Stage::done; }));
+    const VerifyReport report = verify_session(sitting_.path());
+    EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+    EXPECT_EQ(report.ticks, sitting_.live().view().ticks);
+  }
+  Sitting sitting_{(SetUp(), options_), "K1"};
+  std::optional<test::FullDisk> full_;
+};
+
+TEST_F(FullDiskSitting, IsSavedByItselfOnceThereIsRoom) {
+  sit();
+  if (HasFatalFailure()) return;
+  full_.reset();
+  expect_whole();
+  EXPECT_EQ(sitting_.path(), options_.out);
+}
+
+TEST_F(FullDiskSitting, IsSavedInAnotherFolderThatSomebodyTypes) {
+  sit();
+  if (HasFatalFailure()) return;
+  const std::string folder = folder_.file("stick");
+  std::filesystem::create_directories(folder);
+  EXPECT_THROW(sitting_.save(folder_.file("no/such/folder/x.cavum")), Error);
+  EXPECT_THROW(sitting_.save(folder_.file("notes.txt")), Error);
+  EXPECT_EQ(sitting_.stage(), Stage::unsaved);
+  full_.reset();
+  sitting_.save(folder);
+  expect_whole();
+  EXPECT_EQ(sitting_.path(), folder + "/s.cavum");
+  const VerifyReport first = verify_session(options_.out);
+  EXPECT_TRUE(first.intact);
+  EXPECT_FALSE(first.closed);
 }
 
 TEST_F(SittingTest, LeftInTheMiddleItCanBeResumed) {

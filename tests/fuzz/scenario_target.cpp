@@ -1,0 +1,35 @@
+// A scenario's text, checked as `cavum scenario check` does before it asks for the tooth, read as an exam and as a recording do, and as a rubric.
+#include <filesystem>
+
+#include "engine/base/file.h"
+#include "scenarios/parse.h"
+#include "tests/fuzz/material.h"
+#include "tests/fuzz/targets.h"
+
+namespace cavum::fuzz {
+
+void fuzz_scenario(Data data) {
+  const std::string text = text_of(data);
+  const Tooth tooth;
+  for (const Reading reading : {Reading::to_be_run, Reading::recorded}) {
+    const ReadScenario read = read_scenario(text, "scenario.toml", reading);
+    for (const auto& problem : read.problems) static_cast<void>(problem.text());
+    static_cast<void>(missing_tissues(read.scenario, tooth));
+    if (!read.problems.empty() && read.scenario.places.empty()) break;  // no TOML
+  }
+  try {
+    static_cast<void>(parse_rubric(text, "rubric.toml"));
+  } catch (const Error&) {
+  }
+}
+
+std::vector<Bytes> scenario_seeds() {
+  std::vector<Bytes> seeds;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios"))
+    if (entry.path().extension() == ".toml") seeds.push_back(read_file(entry.path().string()));
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/tests/scenarios/broken"))
+    if (entry.path().extension() == ".toml") seeds.push_back(read_file(entry.path().string()));
+  return seeds;
+}
+
+}  // namespace cavum::fuzz

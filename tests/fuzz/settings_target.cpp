@@ -1,0 +1,37 @@
+// The small texts that a session holds beside its motion: force model, servo settings and diamond point, by the first byte.
+#include "engine/servo/servo.h"
+#include "tests/fuzz/material.h"
+#include "tests/fuzz/targets.h"
+
+namespace cavum::fuzz {
+
+void fuzz_settings(Data data) {
+  if (data.empty()) return;
+  const std::string text = text_of(data.subspan(1));
+  try {
+    switch (data[0] % 3) {
+      case 0:
+        static_cast<void>(parse_force_model(text, "force_model.toml"));
+        break;
+      case 1:
+        static_cast<void>(parse_servo_config(text, "servo.toml"));
+        break;
+      default:
+        static_cast<void>(parse_diamond_point(text, "point.toml"));
+    }
+  } catch (const Error&) {
+  }
+}
+
+std::vector<Bytes> settings_seeds() {
+  const auto with = [](char kind, const std::string& text) { return bytes_of(kind + text); };
+  return {with(0, data_text("materials/paper.toml")),
+          with(0, data_text("materials/consistent.toml")),
+          with(1, to_toml(ServoConfig{})),
+          with(2, data_text("points/round-1.0.toml")),
+          with(2, data_text("points/flame-1.0.toml")),
+          with(2, data_text("points/cylinder-flat-1.0.toml")),
+          with(2, data_text("points/endo-access-1.0.toml"))};
+}
+
+}  // namespace cavum::fuzz

@@ -1,0 +1,23 @@
+#include "tests/fuzz/targets.h"
+
+namespace cavum::fuzz {
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> k_all{
+      {"session", fuzz_session, session_seeds},
+      {"recording", fuzz_recording, recording_seeds},
+      {"replay", fuzz_replay, replay_seeds},
+      {"settings", fuzz_settings, settings_seeds},
+      {"ticket", fuzz_ticket, ticket_seeds},
+      {"receipt", fuzz_receipt, receipt_seeds},
+      {"candidates", fuzz_candidates, candidates_seeds},
+      {"marks", fuzz_marks, marks_seeds},
+      {"scenario", fuzz_scenario, scenario_seeds},
+      {"motion", fuzz_motion, motion_seeds},
+      {"tooth", fuzz_tooth, tooth_seeds},
+      {"mesh", fuzz_mesh, mesh_seeds},
+  };
+  return k_all;
+}
+
+}  // namespace cavum::fuzz

@@ -1,0 +1,125 @@
+// A tooth file. Its checksum would turn away nearly all that a fuzzer makes, so the first byte says how the rest is wrapped: 0 as it is, 1 as all
+// of version 2 but magic and checksum, which are put right, 2 as the unpacked body of version 1, 3 as the unpacked octree's bytes behind a sound
+// head, 4 as all of either version but the checksum.
+#include <zstd.h>
+
+#include <cstdlib>
+
+#include "engine/tooth/tooth.h"
+#include "tests/fuzz/material.h"
+#include "tests/fuzz/targets.h"
+
+namespace cavum::fuzz {
+namespace {
+
+constexpr std::size_t k_magic = 8, k_sum = 32;
+
+/// Two bricks of 0.8 mm: one of dentin and enamel in air, one of air and pulp.
+Tooth smallest_tooth() {
+  Tooth tooth;
+  tooth.name = "small";
+  tooth.tissues = standard_tissues();
+  TissueGrid grid;
+  grid.allocate({16, 8, 8}, 0.1, {-0.8, -0.4, -0.4});
+  for (int z = 0; z < 8; ++z)
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 16; ++x) {
+        const Vec3 c = grid.centre_mm({x, y, z});
+        const auto i = grid.index({x, y, z});
+        const double outside = length(c - Vec3{-0.3, 0, 0}) - 0.4;
+        if (outside < 0) grid.tissue[i] = c.z > 0.1 ? k_enamel : k_dentin;
+        if (x > 13) grid.tissue[i] = k_pulp;
+        grid.distance[i] = encode_distance(outside / grid.leaf_mm);
+      }
+  grid.make_consistent(tooth.tissues);
+  tooth.octree = Octree(grid, tooth.tissues);
+  return tooth;
+}
+
+Bytes sealed(Bytes file) {
+  const Sha256 sum = sha256(file);
+  file.insert(file.end(), sum.begin(), sum.end());
+  return file;
+}
+
+Bytes version_1(Data body) {
+  Bytes packed(ZSTD_compressBound(body.size()));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), body.data(), body.size(), 1));
+  ByteWriter out;
+  for (const char c : std::string("CVTOOTH1")) out.put(c);
+  out.put(static_cast<std::uint64_t>(body.size()));
+  out.put(static_cast<std::uint64_t>(packed.size()));
+  out.put_bytes(packed);
+  return sealed(out.take());
+}
+
+/// What stands before the octree: name, source and tissues, as in version 2.
+Bytes head(const Tooth& tooth) {
+  ByteWriter out;
+  out.put_string(tooth.name);
+  out.put_string(tooth.source);
+  out.put(static_cast<std::uint8_t>(tooth.tissues.size()));
+  for (const auto& t : tooth.tissues) {
+    out.put(t.id);
+    out.put(static_cast<std::uint8_t>(t.solid));
+    out.put_string(t.name);
+  }
+  return out.take();
+}
+
+Bytes unwrapped(std::uint8_t how, Data rest) {
+  Bytes file(rest.begin(), rest.end());
+  switch (how % 5) {
+    case 4:
+      return sealed(file);
+    case 0:
+      return file;
+    case 1:
+      file.insert(file.begin(), {'C', 'V', 'T', 'O', 'O', 'T', 'H', '2'});
+      return sealed(file);
+    case 2:
+      return version_1(rest);
+    default: {
+      static const Bytes k_head = head(smallest_tooth());
+      file.insert(file.begin(), k_head.begin(), k_head.end());
+      return version_1(file);
+    }
+  }
+}
+
+Bytes with(std::uint8_t how, Data rest) {
+  Bytes out;
+  out.reserve(rest.size() + 1);
+  out.push_back(how);
+  out.insert(out.end(), rest.begin(), rest.end());
+  return out;
+}
+
+}  // namespace
+
+void fuzz_tooth(Data data) {
+  if (data.empty()) return;
+  try {
+    const Tooth tooth = load_tooth(unwrapped(data[0], data.subspan(1)), "tooth.cvt");
+    if (tooth_hash(load_tooth(save_tooth(tooth), "saved again")) != tooth_hash(tooth)) std::abort();
+  } catch (const Error&) {
+  }
+}
+
+std::vector<Bytes> tooth_seeds() {
+  const Tooth tooth = smallest_tooth();
+  const Bytes file = save_tooth(tooth);
+  ByteWriter octree;
+  tooth.octree.write(octree);
+  Bytes body = head(tooth);
+  body.insert(body.end(), octree.bytes().begin(), octree.bytes().end());
+  const Bytes old = version_1(body);
+  return {with(0, file),
+          with(4, Data(file).first(file.size() - k_sum)),
+          with(4, Data(old).first(old.size() - k_sum)),
+          with(1, Data(file).subspan(k_magic, file.size() - k_magic - k_sum)),
+          with(2, body),
+          with(3, octree.bytes())};
+}
+
+}  // namespace cavum::fuzz
