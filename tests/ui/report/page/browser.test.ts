@@ -118,7 +118,7 @@ test("a button that jumps sets the time, marks the place, and brings the tooth o
   await page.close();
 });
 
-test("the address names a moment, and events are stepped through", { skip }, async () => {
+test("the address names a moment, and events and points lost are stepped through", { skip }, async () => {
   const opened = await open(browser, session_file, "#t=4.2");
   const { page } = opened;
   assert.equal(await scrubber_s(page), 4.2);
@@ -130,7 +130,14 @@ test("the address names a moment, and events are stepped through", { skip }, asy
   await press(page, "Previous event");
   await press(page, "Previous event");
   assert.equal(await scrubber_s(page), 2);
-  const ticks = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".ticks span")].map((e) => `${e.style.left} ${e.title}`));
+  await press(page, "Next point lost");
+  assert.equal(await scrubber_s(page), 9);
+  await press(page, "Next point lost");
+  assert.equal(await scrubber_s(page), 11);
+  assert.equal(await page.evaluate(() => document.querySelector(".player .event")!.textContent), "0:11.0 Overcut, walls: 0.30 mm beyond the distal wall (−28.5 points)");
+  const losses = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".losses span")].map((e) => `${e.style.left} ${e.style.width}`));
+  assert.deepEqual(losses, ["45% max(3px, 5%)", "55% max(3px, 17.5%)"]);
+  const ticks = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".ticks:not(.losses) span")].map((e) => `${e.style.left} ${e.title}`));
   assert.deepEqual(ticks, ["10% 0:02.0 Outline begun", "45% 0:09.0 Pause of 1.0 s", "62.5% 0:12.5 Force above 1.5 N", "90% 0:18.0 Floor reached"]);
   nothing_wrong(opened);
   await page.close();
