@@ -128,6 +128,10 @@ test("the target's outline lies on its walls and floor and has no lid", () => {
   assert.ok(highest > 2.9 && highest < 3.6, `up to ${highest}, where the tooth ends`);
 });
 
+test("pulp that the tooth encloses has no surface of its own", () => {
+  assert.equal(surface.open_pulp().triangles.length, 0);
+});
+
 test("a class shows at each place of the ideal cavity the share that overcut it or left it standing", () => {
   const of_class = fixture("class");
   const class_field = new ToothField(of_class);

@@ -61,13 +61,19 @@ export class Player {
     this.note = make("output", { class: "event", "aria-live": "polite" });
     const speeds = dropdown("Speed", [["1", "1×"], ["4", "4×"], ["16", "16×"]], "1", (v) => clock.set_speed(Number(v)));
     const buttons = make("div", { class: "buttons" }, play, speeds);
-    if (stops.length > 0) buttons.append(button("Previous event", {}, () => this.step(stops, -1)), button("Next event", {}, () => this.step(stops, 1)));
-    if (losses.length > 0) buttons.append(button("Previous point lost", {}, () => this.step(losses, -1)), button("Next point lost", {}, () => this.step(losses, 1)));
+    if (stops.length > 0) buttons.append(this.stepping("event", "Event", stops));
+    if (losses.length > 0) buttons.append(this.stepping("point lost", "Point lost", losses));
     this.measured = make("span", { class: "measured" });
     buttons.append(this.measured, this.note);
     this.element = make("div", { class: "player", role: "group", "aria-label": "Replay of the drilling" }, make("div", { class: "track" }, this.range, this.lane("ticks", stops), this.lane("ticks losses", losses), this.time), buttons);
     clock.on_time(() => this.show());
     this.show();
+  }
+
+  private stepping(name: string, title: string, stops: Stop[]): HTMLElement {
+    const back = button("◂", { "aria-label": `Previous ${name}`, title: `Previous ${name}` }, () => this.step(stops, -1));
+    const on = button("▸", { "aria-label": `Next ${name}`, title: `Next ${name}` }, () => this.step(stops, 1));
+    return make("span", { class: "stepping" }, back, title, on);
   }
 
   /** Ticks and bars under the range; the buttons do for the keyboard what a click on them does. */
