@@ -274,6 +274,53 @@ test("everything is reached and worked by keyboard alone, with a visible focus",
   await page.close();
 });
 
+test("fingers turn and zoom the tooth, and the wheel zooms only a view that has the focus", { skip }, async () => {
+  const opened = await open(browser, session_file);
+  const { page } = opened;
+  const box = await view_box(page);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const still = await pixels(page);
+  const top = await page.evaluate(() => window.scrollY);
+  await page.mouse.move(x, y);
+  await page.mouse.wheel({ deltaY: 120 });
+  await until(() => page.evaluate((before) => window.scrollY > before, top), "the page scrolls");
+  assert.equal(different(still, await pixels(page)), 0, "and the view stays");
+  await page.evaluate((before) => window.scrollTo(0, before), top);
+  await page.mouse.click(x, y);
+  await page.mouse.wheel({ deltaY: -240 });
+  await until(async () => different(still, await pixels(page)) > 1000, "a click, and it zooms");
+  assert.equal(await page.evaluate(() => window.scrollY), top);
+
+  const zoomed = await pixels(page);
+  const session = await page.createCDPSession();
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...points: number[][]): Promise<unknown> => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([px, py], id) => ({ x: px, y: py, id })) });
+  await touch("touchStart", [x, y]);
+  await touch("touchMove", [x + 40, y]);
+  await touch("touchEnd");
+  const turned = await pixels(page);
+  assert.ok(different(zoomed, turned) > 1000, "one finger turns");
+  await touch("touchStart", [x - 80, y], [x + 80, y]);
+  await touch("touchMove", [x - 30, y], [x + 30, y]);
+  await touch("touchEnd");
+  assert.ok(different(turned, await pixels(page)) > 1000, "two fingers zoom");
+  nothing_wrong(opened);
+  await page.close();
+});
+
+test("whoever asks for less motion gets none that was not asked for", { skip }, async () => {
+  const opened = await open(browser, session_file, "#t=3", 860, 420);
+  const { page } = opened;
+  await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
+  const top = await page.evaluate(() => {
+    window.scrollTo(0, 0);
+    document.querySelector<HTMLElement>(".jump")!.click();
+    return document.getElementById("tooth-3d")!.getBoundingClientRect().top; // at once, in the same turn
+  });
+  assert.ok(Math.abs(top) < 20, `${top} px`);
+  nothing_wrong(opened);
+  await page.close();
+});
+
 test("charts zoom by dragging, and a click moves the time", { skip }, async () => {
   const opened = await open(browser, session_file);
   const { page } = opened;
