@@ -11,7 +11,7 @@ const k_limits = { u8: [0, 255], i8: [-128, 127], u16: [0, 65535], i16: [-32768,
 
 test("raw frames give back every type, with and without differences", (t) => {
   const seed = new_seed();
-  t.diagnostic(`CAVUM_SEED=${seed}`);
+  t.diagnostic(`CAVUM_TEST_SEED=${seed}`);
   const random = random_of(seed);
   for (const type of ["u8", "i8", "u16", "i16"] as const)
     for (const delta of [false, true])

@@ -18,7 +18,7 @@ const mm = (positions: ArrayLike<number>, i: number): [number, number, number] =
 
 test("still and moving part together are one closed surface of the tooth's volume, at any time", (t) => {
   const seed = new_seed();
-  t.diagnostic(`CAVUM_SEED=${seed}`);
+  t.diagnostic(`CAVUM_TEST_SEED=${seed}`);
   const random = random_of(seed);
   for (const t_s of [0, k_duration_s, 20 * random(), 3 + 15 * random(), 3 + 15 * random()]) {
     field.set_time(t_s);
