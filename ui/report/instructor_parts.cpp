@@ -17,7 +17,7 @@ std::string bounded(double v, double bound, int digits, const std::string& unit)
 
 void add_volumes(Document& d, const Result& r) {
   d.blocks.push_back(Heading{"Volumes"});
-  ReportTable t{{{"What", false, 4}, {"Volume", true, 3}, {"First at", true, 1.4}, {"Place x, y, z, mm", false, 2.2}}, {}, "Volumes"};
+  ReportTable t{{{"What", false, 4}, {"Volume", true, 3}, {"First at", true, 1.4}, {"Place x, y, z, mm", true, 2.2}}, {}, "Volumes"};
   const auto volume = [&](const std::string& name, const Volume& v, const Trace& first = {}) {
     t.rows.push_back({{{name},
                        {bounded(v.mm3, v.bound_mm3, 2, "mm³")},
@@ -85,7 +85,7 @@ void add_perforation(Document& d, const Result& r) {
         p.detected() ? "the force shows a faulty breakthrough, the tissue does not" : "the tissue shows a faulty breakthrough, the force does not",
         "Force and tissue disagree", Paragraph::Kind::note});
   ReportTable t{
-      {{"Source", false, 1}, {"Kind", false, 0.9}, {"Time", true, 1.3}, {"Place x, y, z, mm", false, 2}, {"What", false, 5}}, {}, "Perforation"};
+      {{"Source", false, 1}, {"Kind", false, 0.9}, {"Time", true, 1.3}, {"Place x, y, z, mm", true, 2}, {"What", false, 5}}, {}, "Perforation"};
   for (const auto& e : p.events)
     t.rows.push_back({{{"force"},
                        {e.fault ? "fault" : "aim"},

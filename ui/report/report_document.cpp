@@ -82,7 +82,7 @@ void add_moments(Document& d, const ReportSource& s) {
   for (const auto& w : s.lost) {
     const auto& c = w.criterion;
     d.blocks.push_back(Heading{c.title + ": " + fixed(c.max - c.points, 1) + " of " + fixed(c.max, 1) + " points lost", 3});
-    ReportTable t{{{"Time", true, 1.2}, {"Place x, y, z, mm", false, 2}, {"What", false, 6}, {"How much", true, 1.7}, {"Points lost", true, 1.2}},
+    ReportTable t{{{"Time", true, 1.2}, {"Place x, y, z, mm", true, 2}, {"What", false, 6}, {"How much", true, 1.7}, {"Points lost", true, 1.2}},
                   {},
                   "Moments behind " + c.title};
     for (const auto& m : w.items) t.rows.push_back(moment_row(m));
@@ -118,7 +118,7 @@ void add_course(Document& d, const ReportSource& s) {
       LiveFigure{"charts", "Force, depth and handpiece speed over time", "The charts that move need a browser with scripts.", motion_charts(s)});
   if (s.events.empty()) return;
   d.blocks.push_back(Heading{"Events", 3});
-  ReportTable t{{{"No.", true, 0.6}, {"Time", true, 1.2}, {"Kind", false, 1.4}, {"What", false, 6}, {"Place x, y, z, mm", false, 2}}, {}, "Events"};
+  ReportTable t{{{"No.", true, 0.6}, {"Time", true, 1.2}, {"Kind", false, 1.4}, {"What", false, 6}, {"Place x, y, z, mm", true, 2}}, {}, "Events"};
   for (std::size_t i = 0; i < s.events.size(); ++i) {
     const ReportEvent& e = s.events[i];
     t.rows.push_back({{{std::to_string(i + 1)}, {fixed(e.t_s, 3) + " s", Jump{e.t_s, e.site_mm}}, {e.kind}, {e.text}, {place_text(e.site_mm)}},

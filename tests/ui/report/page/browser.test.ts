@@ -118,7 +118,7 @@ test("a button that jumps sets the time, marks the place, and brings the tooth o
   await page.close();
 });
 
-test("the address names a moment, and events are stepped through", { skip }, async () => {
+test("the address names a moment, and events and points lost are stepped through", { skip }, async () => {
   const opened = await open(browser, session_file, "#t=4.2");
   const { page } = opened;
   assert.equal(await scrubber_s(page), 4.2);
@@ -130,7 +130,14 @@ test("the address names a moment, and events are stepped through", { skip }, asy
   await press(page, "Previous event");
   await press(page, "Previous event");
   assert.equal(await scrubber_s(page), 2);
-  const ticks = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".ticks span")].map((e) => `${e.style.left} ${e.title}`));
+  await press(page, "Next point lost");
+  assert.equal(await scrubber_s(page), 9);
+  await press(page, "Next point lost");
+  assert.equal(await scrubber_s(page), 11);
+  assert.equal(await page.evaluate(() => document.querySelector(".player .event")!.textContent), "0:11.0 Overcut, walls: 0.30 mm beyond the distal wall (−28.5 points)");
+  const losses = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".losses span")].map((e) => `${e.style.left} ${e.style.width}`));
+  assert.deepEqual(losses, ["45% max(3px, 5%)", "55% max(3px, 17.5%)"]);
+  const ticks = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".ticks:not(.losses) span")].map((e) => `${e.style.left} ${e.title}`));
   assert.deepEqual(ticks, ["10% 0:02.0 Outline begun", "45% 0:09.0 Pause of 1.0 s", "62.5% 0:12.5 Force above 1.5 N", "90% 0:18.0 Floor reached"]);
   nothing_wrong(opened);
   await page.close();
@@ -263,6 +270,53 @@ test("everything is reached and worked by keyboard alone, with a visible focus",
   await focus("#charts .plot");
   await page.keyboard.press("ArrowRight");
   assert.ok(Math.abs((await scrubber_s(page)) - 12.6) < 0.011);
+  nothing_wrong(opened);
+  await page.close();
+});
+
+test("fingers turn and zoom the tooth, and the wheel zooms only a view that has the focus", { skip }, async () => {
+  const opened = await open(browser, session_file);
+  const { page } = opened;
+  const box = await view_box(page);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const still = await pixels(page);
+  const top = await page.evaluate(() => window.scrollY);
+  await page.mouse.move(x, y);
+  await page.mouse.wheel({ deltaY: 120 });
+  await until(() => page.evaluate((before) => window.scrollY > before, top), "the page scrolls");
+  assert.equal(different(still, await pixels(page)), 0, "and the view stays");
+  await page.evaluate((before) => window.scrollTo(0, before), top);
+  await page.mouse.click(x, y);
+  await page.mouse.wheel({ deltaY: -240 });
+  await until(async () => different(still, await pixels(page)) > 1000, "a click, and it zooms");
+  assert.equal(await page.evaluate(() => window.scrollY), top);
+
+  const zoomed = await pixels(page);
+  const session = await page.createCDPSession();
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...points: number[][]): Promise<unknown> => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([px, py], id) => ({ x: px, y: py, id })) });
+  await touch("touchStart", [x, y]);
+  await touch("touchMove", [x + 40, y]);
+  await touch("touchEnd");
+  const turned = await pixels(page);
+  assert.ok(different(zoomed, turned) > 1000, "one finger turns");
+  await touch("touchStart", [x - 80, y], [x + 80, y]);
+  await touch("touchMove", [x - 30, y], [x + 30, y]);
+  await touch("touchEnd");
+  assert.ok(different(turned, await pixels(page)) > 1000, "two fingers zoom");
+  nothing_wrong(opened);
+  await page.close();
+});
+
+test("whoever asks for less motion gets none that was not asked for", { skip }, async () => {
+  const opened = await open(browser, session_file, "#t=3", 860, 420);
+  const { page } = opened;
+  await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
+  const top = await page.evaluate(() => {
+    window.scrollTo(0, 0);
+    document.querySelector<HTMLElement>(".jump")!.click();
+    return document.getElementById("tooth-3d")!.getBoundingClientRect().top; // at once, in the same turn
+  });
+  assert.ok(Math.abs(top) < 20, `${top} px`);
   nothing_wrong(opened);
   await page.close();
 });

@@ -1,6 +1,7 @@
 // Packed arrays: what the page unpacks is what was packed, by a compressor that is not ours and by frames written by hand.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { type Packed, unpack } from "../src/data.ts";
 import { pack } from "./fixture.ts";
@@ -10,7 +11,7 @@ const k_limits = { u8: [0, 255], i8: [-128, 127], u16: [0, 65535], i16: [-32768,
 
 test("raw frames give back every type, with and without differences", (t) => {
   const seed = new_seed();
-  t.diagnostic(`CAVUM_SEED=${seed}`);
+  t.diagnostic(`CAVUM_TEST_SEED=${seed}`);
   const random = random_of(seed);
   for (const type of ["u8", "i8", "u16", "i16"] as const)
     for (const delta of [false, true])
@@ -45,4 +46,17 @@ test("an array of another length than announced is refused", () => {
   const packed: Packed = pack("u16", [1, 2, 3]);
   assert.throws(() => unpack({ ...packed, n: 2 }), /2 values of u16 announced, 6 bytes found/);
   assert.throws(() => unpack({ ...packed, type: "u8" }), /announced/);
+});
+
+test("the bundle holds the licences of what is in it, and nothing that ends its element or needs more than the page may do", () => {
+  const script = readFileSync("page.js", "utf8");
+  const style = readFileSync("page.css", "utf8");
+  const licences = script.slice(script.lastIndexOf("\n/*"));
+  for (const name of ["three", "uplot", "fzstd"]) assert.match(licences, new RegExp(`^${name} \\d+\\.\\d+\\.\\d+\\n[\\s\\S]*?MIT`, "m"));
+  assert.match(licences, /Permission is hereby granted, free of charge/);
+  assert.match(style, /uplot \d+\.\d+\.\d+\n/);
+  assert.doesNotMatch(script + style, /<\/(script|style)|<!--/i);
+  assert.doesNotMatch(style, /@import|url\((?!['"]?data:)/);
+  assert.doesNotMatch(script.slice(0, script.lastIndexOf("\n/*")), /[^.\w]eval\(|new Function\(/);
+  assert.ok(script.length < 1_000_000, `${script.length} bytes`);
 });

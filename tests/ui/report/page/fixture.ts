@@ -194,6 +194,10 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
     { t_s: 12.5, kind: "limit", text: "Force above 1.5 N", site_mm: [-1.5, 0, 1.8] },
     { t_s: 18, kind: "step", text: "Floor reached", site_mm: [0, 0, 0.9] },
   ];
+  data.moments = [
+    { criterion: "Overcut, walls", t_s: 11, to_t_s: 14.5, site_mm: [-1.5, 0, 1.8], what: "0.30 mm beyond the distal wall", points_lost: 28.5 },
+    { criterion: "Idle", t_s: 9, to_t_s: 10, site_mm: null, what: "nothing was done", points_lost: null },
+  ];
   return data;
 }
 

@@ -79,7 +79,7 @@ export function random_of(seed: number): () => number {
   };
 }
 
-/** A new seed each run, or the one of CAVUM_SEED. */
+/** A new seed each run, or the one of CAVUM_TEST_SEED. */
 export function new_seed(): number {
-  return process.env.CAVUM_SEED ? Number(process.env.CAVUM_SEED) : Math.floor(Math.random() * 4294967296);
+  return process.env.CAVUM_TEST_SEED ? Number(process.env.CAVUM_TEST_SEED) : Math.floor(Math.random() * 4294967296);
 }

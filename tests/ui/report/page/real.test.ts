@@ -78,6 +78,19 @@ test("the packed tooth loses in the page what the grading says was removed", () 
   assert.ok(Math.abs(lost - graded.volumes.removed_mm3) < 0.05 * graded.volumes.removed_mm3 + 0.1, `${lost} for ${graded.volumes.removed_mm3} mm³`);
 });
 
+test("the pulp of a layered block is seen on its sides, where it lies open", () => {
+  const data = data_of(readFileSync(file, "utf8"));
+  const { positions: p, triangles } = new ToothSurface(new ToothField(data), data).open_pulp();
+  let area_mm2 = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => [0, 1, 2].map((axis) => p[3 * triangles[i + k] + axis] * data.grid.cell_mm));
+    const [u, v] = [b, c].map((q) => q.map((x, axis) => x - a[axis]));
+    area_mm2 += 0.5 * Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+  }
+  // 1.5 mm of pulp around a block of 10 mm by 10 mm; up to a cell more above and below
+  assert.ok(area_mm2 > 55 && area_mm2 < 70, `${area_mm2} mm²`);
+});
+
 test("the motion ends with the exam, and its force is that of the grading", () => {
   const data = data_of(readFileSync(file, "utf8"));
   const recording = new Recording(data.motion!);

@@ -13,7 +13,7 @@ const whole = (n: number): Region => ({ low: [0, 0, 0], high: [n, n, n] });
 
 test("a sphere is closed, has its volume, and normals that point out of it", (t) => {
   const seed = new_seed();
-  t.diagnostic(`CAVUM_SEED=${seed}`);
+  t.diagnostic(`CAVUM_TEST_SEED=${seed}`);
   const random = random_of(seed);
   for (let trial = 0; trial < 5; ++trial) {
     const n = 40;
@@ -34,7 +34,7 @@ test("a sphere is closed, has its volume, and normals that point out of it", (t)
 
 test("any field that is empty at its border gives a closed surface, whole or in parts, and the parts are the whole", (t) => {
   const seed = new_seed();
-  t.diagnostic(`CAVUM_SEED=${seed}`);
+  t.diagnostic(`CAVUM_TEST_SEED=${seed}`);
   const random = random_of(seed);
   const n = 24;
   for (let trial = 0; trial < 6; ++trial) {

@@ -18,7 +18,7 @@ const mm = (positions: ArrayLike<number>, i: number): [number, number, number] =
 
 test("still and moving part together are one closed surface of the tooth's volume, at any time", (t) => {
   const seed = new_seed();
-  t.diagnostic(`CAVUM_SEED=${seed}`);
+  t.diagnostic(`CAVUM_TEST_SEED=${seed}`);
   const random = random_of(seed);
   for (const t_s of [0, k_duration_s, 20 * random(), 3 + 15 * random(), 3 + 15 * random()]) {
     field.set_time(t_s);
@@ -126,6 +126,10 @@ test("the target's outline lies on its walls and floor and has no lid", () => {
     highest = Math.max(highest, p[2]);
   }
   assert.ok(highest > 2.9 && highest < 3.6, `up to ${highest}, where the tooth ends`);
+});
+
+test("pulp that the tooth encloses has no surface of its own", () => {
+  assert.equal(surface.open_pulp().triangles.length, 0);
 });
 
 test("a class shows at each place of the ideal cavity the share that overcut it or left it standing", () => {

@@ -59,6 +59,16 @@ export interface ExamEvent {
   site_mm: Vec3 | null;
 }
 
+/** Where points went. */
+export interface Moment {
+  criterion: string;
+  t_s: number | null;
+  to_t_s: number | null;
+  site_mm: Vec3 | null;
+  what: string;
+  points_lost: number | null;
+}
+
 export interface ReportData {
   schema: number;
   kind: "session" | "class";
@@ -71,6 +81,7 @@ export interface ReportData {
   motion?: Motion;
   instruments?: Instrument[];
   events?: ExamEvent[];
+  moments?: Moment[];
 }
 
 export type Numbers = Uint8Array | Int8Array | Uint16Array | Int16Array;

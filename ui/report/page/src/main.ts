@@ -91,7 +91,7 @@ function start(): void {
     const at = recording.at(t);
     return `${at.force_n.toFixed(2)} N · ${Math.abs(at.depth_mm).toFixed(2)} mm ${at.depth_mm < 0 ? "above the opening" : "deep"} · ${number_text(at.rpm, 0)} rpm`;
   };
-  const player = new Player(clock, events, (event) => view?.mark(event.site_mm), measured);
+  const player = new Player(clock, events, data.moments ?? [], (site_mm) => view?.mark(site_mm), measured);
   if (tooth) {
     const frame = tooth.querySelector(".view");
     if (frame) frame.after(player.element);

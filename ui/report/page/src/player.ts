@@ -1,6 +1,7 @@
-// The scrubber: a range over the exam's time with its events as ticks, playing at three speeds, and stepping from event to event.
+// The scrubber: a range over the exam's time with its events as ticks and the points lost as bars, playing at three speeds, and stepping from event
+// to event and from one point lost to the next.
 import { type Clock, time_text } from "./clock.ts";
-import type { ExamEvent } from "./data.ts";
+import type { ExamEvent, Moment, Vec3 } from "./data.ts";
 import { button, dropdown, make } from "./dom.ts";
 
 const k_step_s = 0.1;
@@ -13,6 +14,27 @@ export function event_colour(kind: string): string {
   return "#3d4a7a";
 }
 
+/** A moment that the scrubber can be put to. */
+interface Stop {
+  t_s: number;
+  to_s: number;
+  colour: string;
+  text: string;
+  site_mm: Vec3 | null;
+}
+
+const k_lost_colour = "#c65600";
+
+function of_event(event: ExamEvent): Stop {
+  return { t_s: event.t_s, to_s: event.t_s, colour: event_colour(event.kind), text: event.text, site_mm: event.site_mm };
+}
+
+function of_moment(moment: Moment): Stop {
+  const t_s = moment.t_s ?? 0;
+  const points = moment.points_lost ? ` (−${moment.points_lost.toFixed(1)} points)` : "";
+  return { t_s, to_s: moment.to_t_s ?? t_s, colour: k_lost_colour, text: `${moment.criterion}: ${moment.what}${points}`, site_mm: moment.site_mm };
+}
+
 export class Player {
   readonly element: HTMLElement;
   private readonly range: HTMLInputElement;
@@ -20,8 +42,10 @@ export class Player {
   private readonly note: HTMLOutputElement;
   private readonly measured: HTMLElement;
 
-  /** `chosen` is called with an event that was stepped to; `values` says in words what was measured at a time. */
-  constructor(private readonly clock: Clock, private readonly events: ExamEvent[], private readonly chosen: (event: ExamEvent) => void, private readonly values: (t_s: number) => string) {
+  /** `chosen` is called with the place of what was stepped to; `values` says in words what was measured at a time. */
+  constructor(private readonly clock: Clock, events: ExamEvent[], moments: Moment[], private readonly chosen: (site_mm: Vec3 | null) => void, private readonly values: (t_s: number) => string) {
+    const stops = events.map(of_event);
+    const losses = moments.filter((m) => m.t_s !== null).map(of_moment).sort((a, b) => a.t_s - b.t_s);
     const play = button("Play", { class: "play" }, () => (clock.is_playing ? clock.pause() : clock.play()));
     clock.on_play((playing) => {
       play.textContent = playing ? "Pause" : "Play";
@@ -35,35 +59,50 @@ export class Player {
     this.range.addEventListener("keydown", (e) => this.key(e));
     this.time = make("output", { class: "time" });
     this.note = make("output", { class: "event", "aria-live": "polite" });
-    const ticks = make("div", { class: "ticks", "aria-hidden": "true" });
-    for (const event of events) {
-      const tick = make("span", { title: `${time_text(event.t_s)} ${event.text}` });
-      tick.style.left = `${clock.duration_s > 0 ? (100 * event.t_s) / clock.duration_s : 0}%`;
-      tick.style.backgroundColor = event_colour(event.kind);
-      tick.addEventListener("click", () => this.go_to(event));
-      ticks.append(tick);
-    }
     const speeds = dropdown("Speed", [["1", "1×"], ["4", "4×"], ["16", "16×"]], "1", (v) => clock.set_speed(Number(v)));
     const buttons = make("div", { class: "buttons" }, play, speeds);
-    if (events.length > 0) buttons.append(button("Previous event", {}, () => this.step(-1)), button("Next event", {}, () => this.step(1)));
+    if (stops.length > 0) buttons.append(this.stepping("event", "Event", stops));
+    if (losses.length > 0) buttons.append(this.stepping("point lost", "Point lost", losses));
     this.measured = make("span", { class: "measured" });
     buttons.append(this.measured, this.note);
-    this.element = make("div", { class: "player", role: "group", "aria-label": "Replay of the drilling" }, make("div", { class: "track" }, this.range, ticks, this.time), buttons);
+    this.element = make("div", { class: "player", role: "group", "aria-label": "Replay of the drilling" }, make("div", { class: "track" }, this.range, this.lane("ticks", stops), this.lane("ticks losses", losses), this.time), buttons);
     clock.on_time(() => this.show());
     this.show();
   }
 
-  private go_to(event: ExamEvent): void {
-    this.clock.pause();
-    this.clock.set(event.t_s);
-    this.note.textContent = `${time_text(event.t_s)} ${event.text}`;
-    this.chosen(event);
+  private stepping(name: string, title: string, stops: Stop[]): HTMLElement {
+    const back = button("◂", { "aria-label": `Previous ${name}`, title: `Previous ${name}` }, () => this.step(stops, -1));
+    const on = button("▸", { "aria-label": `Next ${name}`, title: `Next ${name}` }, () => this.step(stops, 1));
+    return make("span", { class: "stepping" }, back, title, on);
   }
 
-  private step(by: 1 | -1): void {
+  /** Ticks and bars under the range; the buttons do for the keyboard what a click on them does. */
+  private lane(kind: string, stops: Stop[]): HTMLElement {
+    const lane = make("div", { class: kind, "aria-hidden": "true" });
+    const percent = (t_s: number): number => (this.clock.duration_s > 0 ? (100 * t_s) / this.clock.duration_s : 0);
+    for (const stop of stops) {
+      const tick = make("span", { title: `${time_text(stop.t_s)} ${stop.text}` });
+      tick.style.left = `${percent(stop.t_s)}%`;
+      if (stop.to_s > stop.t_s) tick.style.width = `max(3px, ${percent(stop.to_s - stop.t_s).toFixed(2)}%)`;
+      tick.style.backgroundColor = stop.colour;
+      tick.addEventListener("click", () => this.go_to(stop));
+      lane.append(tick);
+    }
+    lane.hidden = stops.length === 0;
+    return lane;
+  }
+
+  private go_to(stop: Stop): void {
+    this.clock.pause();
+    this.clock.set(stop.t_s);
+    this.note.textContent = `${time_text(stop.t_s)} ${stop.text}`;
+    this.chosen(stop.site_mm);
+  }
+
+  private step(stops: Stop[], by: 1 | -1): void {
     const now = this.clock.t_s;
-    const later = this.events.filter((e) => (by > 0 ? e.t_s > now + 0.01 : e.t_s < now - 0.01));
-    if (later.length > 0) this.go_to(by > 0 ? later[0] : later[later.length - 1]);
+    const beyond = stops.filter((s) => (by > 0 ? s.t_s > now + 0.01 : s.t_s < now - 0.01));
+    if (beyond.length > 0) this.go_to(by > 0 ? beyond[0] : beyond[beyond.length - 1]);
   }
 
   private key(e: KeyboardEvent): void {

@@ -62,13 +62,13 @@ export class ToothField implements Field {
       throw new Error("the tooth's fields do not have the size of its grid");
 
     const whole: Block = { low: [0, 0, 0], size: grid.size };
-    const share = Float32Array.from(this.before, (v) => v / 255);
+    const share = shares(this.before);
     const scratch = new Float32Array(cells);
     blur(share, scratch, grid.size);
     this.untouched = share;
     if (!grid.first || !grid.last) {
-      this.values = Float32Array.from(this.before, (v) => v / 255);
-      for_each_row(whole, this.box, (at, inner, n) => { for (let i = 0; i < n; ++i) this.values[at + i] = after[inner + i] / 255; });
+      this.values = shares(this.before);
+      for_each_row(whole, this.box, (at, inner, n) => { for (let i = 0; i < n; ++i) this.values[at + i] = after[inner + i] * (1 / 255); });
       blur(this.values, scratch, grid.size);
       return;
     }
@@ -87,7 +87,7 @@ export class ToothField implements Field {
     this.work = [new Float32Array(n), new Float32Array(n)];
     for_each_row(whole, this.padded, (at, inner, count) => this.start_share.set(this.before.subarray(at, at + count), inner));
     this.end_share.set(this.start_share);
-    this.share = Float32Array.from(this.start_share, (v) => v * (1 / 255));
+    this.share = shares(this.start_share);
     const shared = overlap(this.padded, this.box);
     if (shared) for_each_row(this.box, shared, (at, _inner, count, x, y, z) => {
       const to = offset(this.padded!, x, y, z);
@@ -186,6 +186,12 @@ export class ToothField implements Field {
 /** Index in a block's arrays of the lattice's cell x, y, z. */
 export function offset(block: Block, x: number, y: number, z: number): number {
   return ((z - block.low[2]) * block.size[1] + (y - block.low[1])) * block.size[0] + (x - block.low[0]);
+}
+
+function shares(bytes: Uint8Array): Float32Array {
+  const values = new Float32Array(bytes.length);
+  for (let i = 0; i < bytes.length; ++i) values[i] = bytes[i] * (1 / 255);
+  return values;
 }
 
 function grown(block: Block, by: number, size: Vec3): Block {

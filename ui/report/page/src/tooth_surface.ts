@@ -46,7 +46,8 @@ export class ToothSurface {
   /** Where pulp lies open on the outside, as on the sides of a layered block; empty for a tooth, which encloses it. */
   open_pulp(): Surface {
     const { field, fills } = this;
-    const values = Float32Array.from(field.tissue, (id, i) => (fills[id] === 1 ? 1 : field.untouched[i]));
+    const values = field.untouched.slice();
+    if (this.fill_pulp(values) === 0) return { positions: new Float32Array(0), normals: new Float32Array(0), cubes: new Uint32Array(0), triangles: new Uint32Array(0), colours: new Uint8Array(0), marks: new Float32Array(0) };
     const mesh = this.dressed(this.nets.mesh({ size: field.size, values }, k_level, field.whole_edges()));
     const [nx, ny] = field.size;
     const step = [0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1];
@@ -60,6 +61,19 @@ export class ToothSurface {
     });
     const triangles = mesh.triangles.filter((_, i, all) => [0, 1, 2].every((k) => of_pulp[all[i - (i % 3) + k]]));
     return kept({ ...mesh, triangles });
+  }
+
+  /** Makes pulp as full as solid tissue, and counts its cells that have neither tissue nor pulp beside them. */
+  private fill_pulp(values: Float32Array): number {
+    const { tissue, size } = this.field;
+    const [nx, ny] = size;
+    let open = 0;
+    for (let i = nx * ny; i < tissue.length - nx * ny; ++i) {
+      if (this.fills[tissue[i]] !== 1) continue;
+      values[i] = 1;
+      for (const by of [1, -1, nx, -nx, nx * ny, -nx * ny]) if (this.fills[tissue[i + by]] !== 1 && this.field.untouched[i + by] < 0.1) ++open;
+    }
+    return open;
   }
 
   /** For a class: marks of a surface where each place shows the share of the class (-1..1) that deviated there by more than `deeper_mm`. */
