@@ -156,3 +156,25 @@ test("the report draws, moves, jumps to where points went, and is accessible", {
   await narrow.page.screenshot({ path: "report_real_narrow.png", fullPage: true });
   await narrow.page.close();
 });
+
+test("the report of a class draws where it deviated, and is accessible", { skip: k_skip }, async () => {
+  const ledger = join(folder, "ledger");
+  const report = join(folder, "class.html");
+  cavum("ledger", "init", ledger, "--school", "Dentistry");
+  cavum("cohort", "simulate", join(process.env.CAVUM_SOURCE_DIR!, "tests/replay/block_cavity.toml"), "--ledger", ledger, "--sessions", join(folder, "class"), "--n", "2");
+  cavum("cohort", "report", ledger, "--exam", "block_cavity", "--out", report);
+  assert.ok(statSync(report).size <= 3e6);
+  const opened = await open(browser, report, "", 1200, 900);
+  const { page } = opened;
+  await page.evaluate(() => document.getElementById("tooth-3d")!.scrollIntoView());
+  await settled(page);
+  const by_class = await pixels(page);
+  await page.screenshot({ path: "report_real_class.png", fullPage: true });
+  await page.evaluate(() => (document.querySelector("input[type=radio][value=tissue]") as HTMLInputElement).click());
+  await settled(page);
+  assert.ok(different(by_class, await pixels(page)) > 200, "colours tell of the class");
+  assert.equal(await page.evaluate(() => document.querySelectorAll("input[type=range]").length > 0 && document.querySelector("#charts") !== null), false, "nothing to play");
+  assert.deepEqual(await violations(page, axe_source), []);
+  assert.deepEqual([...opened.requests, ...opened.complaints], []);
+  await page.close();
+});
