@@ -83,7 +83,7 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
                                    "The tooth in 3D needs a browser with scripts and WebGL; the sections below show the same.",
                                    {}});
   Pictures pictures{{}, 2, false};
-  for (auto& svg : class_pictures(t)) pictures.list.push_back({std::move(svg), ""});
+  pictures.list = class_pictures(t);
   d.blocks.emplace_back(std::move(pictures));
   d.blocks.emplace_back(Pictures{{{heat_legend_svg(), ""}}, 1, false});
   d.blocks.emplace_back(Paragraph{"The sections run through the middle of what was cut too much.", "", Paragraph::Kind::small});
@@ -183,12 +183,12 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
 
 }  // namespace
 
-std::vector<std::string> class_pictures(const ClassTooth& t) {
+std::vector<Picture> class_pictures(const ClassTooth& t) {
   const Vec3 at = hottest_mm(t);
   const auto draw = [&](View view, double at_mm, const std::string& title) {
-    PictureSpec spec{view, at_mm, 30, title};
+    PictureSpec spec{view, at_mm, 30, ""};
     spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
-    return section_svg(t.tooth, nullptr, t.zones, spec);
+    return Picture{section_svg(t.tooth, nullptr, t.zones, spec), title};
   };
   return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, "Mesio-distal, y = " + fixed(at.y, 2) + " mm"),
           draw(View::bucco_lingual, at.x, "Bucco-lingual, x = " + fixed(at.x, 2) + " mm"),
