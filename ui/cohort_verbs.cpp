@@ -14,6 +14,7 @@
 #include "ui/own_places.h"
 #include "ui/print_json.h"
 #include "ui/report/class_report.h"
+#include "ui/report/report.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -62,8 +63,12 @@ void report(const Options& o) {
   if (!o.out.empty()) {
     if (!o.out.ends_with(".pdf") && !o.out.ends_with(".html"))
       throw Error("--out " + o.out, "is no kind of report", "use a name ending in .html or .pdf");
+    require_report_place(o.out);
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
     const auto tooth = cohort::class_tooth(registry, places, o.exam);
+    for (const auto& finding : tooth->findings) std::cerr << "cavum: notice: not in the pictures: " << finding << "\n";
+    if (tooth->left_out > 0)
+      std::cerr << "cavum: notice: not in the pictures: " << tooth->left_out << " who sat it with another text, tooth or leaf size than most\n";
     write_text_file(o.out, o.out.ends_with(".pdf") ? class_pdf(figures, *tooth) : class_html(figures, *tooth));
   }
   if (o.as_json) {

@@ -145,6 +145,7 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
   ClosedExam closed;
   write_somewhere(exam, o.out_if_full, [&] { closed = grade_and_close(exam); });
   const std::string& session = exam.recorder().path();
+  remember_closed(closed.graded->notes, session);
   const Result& result = closed.result;
   if (!o.report.empty()) write_closing_report(o.report, o.out, result, *closed.graded);
   if (o.json) {
@@ -161,6 +162,7 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
 /// What would spoil the end of an exam is said before it begins.
 void require_places(const Options& o) {
   const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
+  if (!o.report.empty()) require_report_place(o.report);
   require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}, {"--out-if-full " + o.out_if_full, o.out_if_full}},
                      {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
 }
@@ -277,6 +279,7 @@ int run_resumed(const Options& o) {
   reader.require_readable();
   if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
   const auto setup = prepare_exam(reader.setup());
+  if (!reader.closed()) require_not_closed(setup->session.notes, o.out);
   if (!o.device.empty()) {
     const Interrupt interrupt;
     const auto live = open_source(o);

@@ -57,6 +57,12 @@ void init(const Options& o) {
 /// A file that is not there yet, unless --overwrite allows it.
 void require_new(const Options& o, const std::string& path) {
   require_writable(path);
+  const LedgerPlaces places{o.folder};
+  std::error_code none;
+  for (const std::string& kept : {places.database(), places.identities(), school_key_path(), school_public_key_path(), o.key,
+                                  station_path("station.key"), station_path("used_tickets")})
+    if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
+      throw Error("--out " + path, "holds a key, identities or entries", "name another file: it is never written over");
   if (!o.overwrite && std::filesystem::exists(path)) throw Error("--out " + path, "is there already", "name another file, or add --overwrite");
 }
 

@@ -25,17 +25,6 @@ struct Options {
   [[nodiscard]] ReportReader for_whom() const { return reader == "student" ? ReportReader::student : ReportReader::instructor; }
 };
 
-/// An earlier report may be written anew, any other file not.
-void require_report_place(const Options& o) {
-  require_writable(o.out);
-  if (!std::filesystem::exists(o.out) || std::filesystem::file_size(o.out) == 0 || o.overwrite) return;
-  const std::string text = read_text_file(o.out), head = text.substr(0, 200);
-  const bool report = o.out.ends_with(".svg")   ? head.starts_with("<svg") && text.find("of the target removed") != std::string::npos
-                      : o.out.ends_with(".pdf") ? head.starts_with("%PDF") && text.find("(Cavum ") != std::string::npos
-                                                : head.starts_with("<!doctype html>") && text.find("grading/README.md of Cavum") != std::string::npos;
-  if (!report) throw Error(o.out, "exists already and is no report of Cavum", "choose another name, or overwrite it with --overwrite");
-}
-
 /// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
 ReportIntegrity integrity_of(const std::string& path, const Options& o, const FiledSession* filed) {
   const bool replayed_then = filed != nullptr && filed->findings.empty();
@@ -68,7 +57,7 @@ void run_report(const Options& o) {
   if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
     throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
   if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
-  require_report_place(o);
+  require_report_place(o.out, o.overwrite);
   require_sound_marking(o.marking);
   if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr);
   const ReportLedger ledger(o.ledger);
@@ -88,7 +77,7 @@ int run_all(const Options& o) {
     if (s.shown.is_null()) continue;
     each.out = o.out + "/" + s.candidate + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
     try {
-      require_report_place(each);
+      require_report_place(each.out, each.overwrite);
       write_report(ledger.places.session(s.file_sha256), each.out, each, &ledger, &s);
       ++written;
     } catch (const Error& e) {

@@ -19,7 +19,17 @@ using nlohmann::json;
 constexpr double k_far = 2.5;  // standard deviations from the class, or from the judges
 constexpr int k_shuffles = 9999;
 
-double points_in(const json& result) { return result.at("score").at("points").get<double>(); }
+double max_in(const json& result) { return result.at("score").at("max").get<double>(); }
+
+/// What most of them were marked out of: a regrade by another rubric may have another maximum.
+double scale_of(const std::map<std::string, const FiledSession*>& sat) {
+  std::map<double, std::size_t> of;
+  for (const auto& [candidate, s] : sat) ++of[max_in(s->result)];
+  return std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+}
+
+/// On the scale of the class.
+double points_in(const json& result, double max_points) { return result.at("score").at("points").get<double>() / max_in(result) * max_points; }
 
 /// 0 fail, 1 borderline, 2 pass.
 std::size_t band_of(double points, double pass_points, double band) { return points < pass_points - band ? 0 : points > pass_points + band ? 2 : 1; }
@@ -40,7 +50,7 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
     judges.insert(m.judge);
     if (m.rating) {
       ratings.push_back(*m.rating);
-      rated.push_back(points_in(s->second->result));
+      rated.push_back(points_in(s->second->result, f.max_points));
     }
   }
   Agreement& a = f.agreement;
@@ -49,7 +59,7 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
   Matrix table, bands(3, std::vector<double>(3));
   std::vector<double> program, people;
   for (const auto& [candidate, given] : by_candidate) {
-    const double own = points_in(sat.at(candidate)->result);
+    const double own = points_in(sat.at(candidate)->result, f.max_points);
     double sum = 0;
     for (const auto& [judge, points] : given) sum += points;
     program.push_back(own);
@@ -152,20 +162,20 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
   ClassFigures f;
   f.exam = exam;
   const auto sat = counting_sessions(registry, exam);
-  const json& any = sat.begin()->second->result;
   const auto ids = [](const json& result) {
     std::vector<std::string> out;
     for (const auto& c : result.at("criteria")) out.push_back(c.at("id"));
     return out;
   };
-  f.max_points = any.at("score").at("max");
+  f.max_points = scale_of(sat);
+  const json& any = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return max_in(s.second->result) == f.max_points; })->second->result;
   f.pass_points = f.max_points * any.at("score").value("pass_percent", 0.0) / 100;
   const double band = f.max_points * any.at("score").value("borderline_percent", 0.0) / 100;
   Matrix table;
   std::map<std::string, std::vector<double>> by_station;
   std::vector<double> in_order;
   for (const auto& [candidate, s] : sat) {
-    const double points = points_in(s->result);
+    const double points = points_in(s->result, f.max_points);
     in_order.push_back(points);
     const std::string verdict = s->result.value("verdict", "");
     (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;

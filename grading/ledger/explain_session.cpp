@@ -43,6 +43,8 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
     } catch (const Error& damage) {
       e.findings.emplace_back(damage.what());
     }
+  } else if (!session.findings().empty()) {
+    e.remarks.emplace_back("whether the session holds a ticket could not be read for certain");
   } else if (!school_key.empty()) {
     e.findings.emplace_back("the session holds no ticket: nobody promised this exam");
   } else {

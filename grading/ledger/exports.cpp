@@ -87,6 +87,12 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   struct Exam {
     std::vector<std::string> criteria;
     std::map<std::string, const FiledSession*> by_candidate;
+    /// What most were marked out of. A gradebook has one scale an exam; a regrade by another rubric may have another.
+    [[nodiscard]] double scale() const {
+      std::map<double, std::size_t> of;
+      for (const auto& [candidate, s] : by_candidate) ++of[s->shown.at("score").at("max").get<double>()];
+      return std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    }
   };
   std::map<std::string, Exam> exams;
   for (const auto& s : registry.sessions) {
@@ -127,7 +133,9 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
         continue;
       }
       const json& result = found->second->shown;
-      row += "," + number_in(grade_of(result)) + "," + csv_field(verdict_of(result)) + "," + number_in(result.at("score").at("points"));
+      const double own = result.at("score").at("max").get<double>(), scale = exam.scale();
+      const json grade = own == scale ? grade_of(result) : json(grade_of(result).get<double>() / own * scale);
+      row += "," + number_in(grade) + "," + csv_field(verdict_of(result)) + "," + number_in(result.at("score").at("points"));
       for (const auto& wanted : exam.criteria) {
         row += ",";
         for (const auto& c : result.at("criteria"))

@@ -64,7 +64,8 @@ class UsedTickets {
   UsedTickets& operator=(const UsedTickets&) = delete;
 
   /// "on 2026-… by exam.cavum" when the last line about the ticket says that it was used; else nothing. A line that a power cut left short is none.
-  [[nodiscard]] std::string use_of(const std::string& nonce) const {
+  [[nodiscard]] std::string use_of(const std::string& nonce) {
+    closed_ = false;
     std::istringstream lines(read_text_file(path_));
     std::string said;
     for (std::string line; std::getline(lines, line);) {
@@ -73,10 +74,13 @@ class UsedTickets {
       words >> what >> of >> when;
       if (of != nonce) continue;
       std::getline(words >> std::ws, session);
-      said = what == "used" ? "on " + when + " for " + one_line(session) : "";
+      said = what == "used" || what == "closed" ? "on " + when + " for " + one_line(session) : "";
+      closed_ = what == "closed";
     }
     return said;
   }
+  /// Of the ticket that was asked about last: its exam was closed.
+  [[nodiscard]] bool closed() const noexcept { return closed_; }
   void add(const std::string& line) {
     const std::string whole = line + "\n";
     if (::write(file_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size()) || ::fsync(file_) != 0) fail();
@@ -91,7 +95,15 @@ class UsedTickets {
 
   std::string path_ = used_tickets_path();
   int file_ = -1;
+  bool closed_ = false;
 };
+
+/// Of the ticket in a session's notes; empty without one.
+std::string nonce_in(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
+  for (const auto& [key, value] : notes)
+    if (key == k_ticket_note) return parse_ticket(value, "", session + ": ticket").nonce;
+  return "";
+}
 
 void refuse_used(const HeldTicket& held, const std::string& use) {
   if (!use.empty()) throw Error(held.path, "was used at this station " + use, "go on with that exam (--resume), or ask the school for a new ticket");
@@ -107,6 +119,23 @@ void remember_use(const HeldTicket& held, const std::string& session) {
   UsedTickets used;
   refuse_used(held, used.use_of(held.ticket.nonce));
   used.add("used " + held.ticket.nonce + " " + utc_text(read_clocks().utc_ns) + " " + one_line(session));
+}
+
+void remember_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) noexcept {
+  try {
+    const std::string nonce = nonce_in(notes, session);
+    if (!nonce.empty()) UsedTickets().add("closed " + nonce + " " + utc_text(read_clocks().utc_ns) + " " + one_line(session));
+  } catch (const std::exception&) {  // the exam is sealed all the same, and the ledger takes the first that is handed in
+  }
+}
+
+void require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
+  const std::string nonce = nonce_in(notes, session);
+  if (nonce.empty() || !std::filesystem::exists(used_tickets_path())) return;
+  UsedTickets used;
+  if (const std::string use = used.use_of(nonce); used.closed())
+    throw Error(session, "the exam of its ticket was closed at this station " + use,
+                "hand that one in: an exam that was closed is not taken up again");
 }
 
 void forget_use(const HeldTicket& held) noexcept {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "grading/ledger/ticket.h"
 #include "scenarios/exam.h"
@@ -31,6 +33,11 @@ void require_unused(const HeldTicket& held);
 void remember_use(const HeldTicket& held, const std::string& session);
 /// The exam could not be begun: the ticket is good as before.
 void forget_use(const HeldTicket& held) noexcept;
+
+/// Remembers that the exam of the ticket in these notes of a session was closed and sealed, or nothing when they hold none.
+void remember_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) noexcept;
+/// Throws Error when that exam was closed at this station: a copy that was left or cut back to before its end is not taken up again.
+void require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session);
 
 /// What `begin` returns, with the ticket used up unless it throws. `held` may be null: nobody asked for a ticket.
 template <class Begin>

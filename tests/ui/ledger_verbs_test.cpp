@@ -136,5 +136,30 @@ TEST_F(LedgerVerbs, VerifySaysWhatIsProvedAndWhatIsNot) {
   EXPECT_NE(other.out.find("ticket of another school"), std::string::npos);
 }
 
+TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
+  const json issued = tickets();
+  const std::string out = path("a.cavum"), cut = path("cut.cavum");
+  ASSERT_EQ(sit(issued[0]["file"], "a.cavum").exit_code, 0);
+  std::filesystem::copy(out, cut);
+  write_text_file(path("cut.py"),
+                  "import sqlite3, sys\nd = sqlite3.connect(sys.argv[1])\nfor t in ('seal', 'result'): d.execute('delete from ' + t)\n"
+                  "d.execute('delete from event where chunk > 3')\nd.execute('delete from chunk where seq > 3')\n"
+                  "d.execute(\"delete from artifact where name = 'final_tooth.cvt'\")\nd.commit()\n");
+  ASSERT_EQ(std::system(("python3 " + path("cut.py") + " " + cut).c_str()), 0);
+  const auto again = run("exam --resume --end --quiet --out " + cut);
+  EXPECT_EQ(again.exit_code, 2) << again.out;
+  EXPECT_NE(again.err.find("was closed at this station"), std::string::npos) << again.err;
+  EXPECT_EQ(run("ledger add " + path("L") + " " + out + " --simulated").exit_code, 0) << "the one that was sat";
+}
+
+TEST_F(LedgerVerbs, NoExportIsWrittenOverAKeyOrIdentities) {
+  for (const std::string& kept : {path("home/school.key"), path("L/identities.db"), path("L/ledger.db")}) {
+    const std::string before = read_text_file(kept);
+    const auto r = run("ledger export " + path("L") + " --format moodle --overwrite --out " + kept);
+    EXPECT_EQ(r.exit_code, 2) << kept << r.out;
+    EXPECT_EQ(read_text_file(kept), before) << kept;
+  }
+}
+
 }  // namespace
 }  // namespace cavum

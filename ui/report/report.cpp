@@ -1,7 +1,9 @@
 #include "ui/report/report.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "ui/report/html_writer.h"
 #include "ui/report/integrity.h"
@@ -13,6 +15,16 @@ namespace cavum {
 
 std::string report_html(const ReportSource& source) { return html_of(report_document(source), report_data(source)); }
 std::string report_pdf(const ReportSource& source) { return pdf_of(report_document(source)); }
+
+void require_report_place(const std::string& path, bool overwrite) {
+  require_writable(path);
+  if (!std::filesystem::exists(path) || std::filesystem::file_size(path) == 0 || overwrite) return;
+  const std::string text = read_text_file(path), head = text.substr(0, 200);
+  const bool report = path.ends_with(".svg")   ? head.starts_with("<svg") && text.find("of the target removed") != std::string::npos
+                      : path.ends_with(".pdf") ? head.starts_with("%PDF") && text.find("(Cavum ") != std::string::npos
+                                               : head.starts_with("<!doctype html>") && text.find("README.md of Cavum") != std::string::npos;
+  if (!report) throw Error(path, "exists already and is no report of Cavum", "choose another name, or overwrite it with --overwrite");
+}
 
 void write_closing_report(const std::string& path, const std::string& session_path, const Result& result, const GradedSession& graded) {
   const GradeInput input = graded.input();

@@ -12,6 +12,9 @@ namespace cavum {
 /// A4 pages. The same source gives the same bytes.
 [[nodiscard]] std::string report_pdf(const ReportSource& source);
 
+/// Throws Error when no report can be put at `path`: an earlier report may be written anew, any other file only with `overwrite`.
+void require_report_place(const std::string& path, bool overwrite = false);
+
 /// The instructor's report of an exam that has just been closed, without a replay, as `path` ends: .pdf or else HTML.
 void write_closing_report(const std::string& path, const std::string& session_path, const Result& result, const GradedSession& graded);
 

@@ -152,6 +152,7 @@ void Sitting::begin() {
     } else {
       SourceNotes notes = device_->notes();
       notes.emplace_back("device", device_->name());
+      require_not_closed(setup_->session.notes, path_);
       live_ = std::make_unique<LiveExam>(*setup_, Exam::resume(*setup_, path_, notes), *with_desk_);
     }
     live_->start();
@@ -179,7 +180,11 @@ void Sitting::end_running() {
 }
 
 void Sitting::close_exam() {
-  grading_ = std::async(std::launch::async, [this] { return grade_and_close(live_->exam()); });
+  grading_ = std::async(std::launch::async, [this] {
+    ClosedExam closed = grade_and_close(live_->exam());
+    remember_closed(closed.graded->notes, live_->exam().recorder().path());
+    return closed;
+  });
   stage_ = Stage::grading;
 }
 

@@ -64,6 +64,15 @@ TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
   EXPECT_THROW(static_cast<void>(class_figures(r, "nobody's", {}, 3)), Error);
 }
 
+TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
+  Registry r = four();
+  r.sessions[0].result["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
+  const ClassFigures f = class_figures(r, "exam", {}, 3);
+  EXPECT_EQ(f.max_points, 100.0);
+  EXPECT_EQ(f.pass_points, 60.0);
+  EXPECT_EQ(f.points, (std::vector<double>{25, 50, 50, 75})) << "15 of 30 are 50 of 100";
+}
+
 TEST(ClassFigures, AHarderStationIsFound) {
   Registry r;
   for (int i = 0; i < 40; ++i)
