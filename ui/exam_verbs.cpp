@@ -147,24 +147,30 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
   const std::string& session = exam.recorder().path();
   remember_closed(closed.graded->notes, session);
   const Result& result = closed.result;
-  if (!o.report.empty()) write_closing_report(o.report, o.out, result, *closed.graded);
   if (o.json) {
     auto j = to_json(result);
     j["session"] = session;
     if (!servo.is_null()) j["servo"] = servo;
     print_json(j);
   } else {
-    std::cout << to_text(result) << "recorded: " << session << "\n";
-    if (!o.report.empty()) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
+    std::cout << to_text(result) << "recorded: " << session << std::endl;
   }
+  if (o.report.empty()) return;
+  try {  // the exam is sealed by now, whatever becomes of its report
+    write_closing_report(o.report, session, result, *closed.graded);
+  } catch (const Error& e) {
+    throw Error(o.report, "the exam is graded and sealed in " + session + ", its report is not written (" + e.what() + ")",
+                "write it later: `cavum report " + session + " --out FILE`");
+  }
+  if (!o.json) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
 }
 
 /// What would spoil the end of an exam is said before it begins.
 void require_places(const Options& o) {
   const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
-  if (!o.report.empty()) require_report_place(o.report);
   require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}, {"--out-if-full " + o.out_if_full, o.out_if_full}},
                      {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
+  if (!o.report.empty()) require_report_place(o.report);
 }
 
 /// How punctual the servo was: kept as an event of the session, and shown.

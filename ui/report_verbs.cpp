@@ -69,7 +69,9 @@ void run_report(const Options& o) {
 /// A student's report for each released session.
 int run_all(const Options& o) {
   const ReportLedger ledger(o.ledger);
-  std::filesystem::create_directories(o.out);
+  std::error_code failed_to_make;
+  std::filesystem::create_directories(o.out, failed_to_make);
+  if (failed_to_make) throw Error("--out " + o.out, "cannot be made (" + failed_to_make.message() + ")", "name a folder that you may write to");
   Options each = o;
   each.reader = "student";
   int written = 0, failed = 0;
@@ -85,7 +87,7 @@ int run_all(const Options& o) {
       std::cerr << "cavum: " << one_line(e.what()) << "\n";
     }
   }
-  std::cout << written << " reports written" << (failed > 0 ? ", " + std::to_string(failed) + " not" : "") << "\n";
+  std::cout << written << (written == 1 ? " report" : " reports") << " written" << (failed > 0 ? ", " + std::to_string(failed) + " not" : "") << "\n";
   return failed > 0 ? 1 : 0;
 }
 

@@ -47,6 +47,16 @@ std::vector<int> tops(const Octree& tree) {
   return top;
 }
 
+/// Where hard tissue was cut through into a hollow: how far beyond the target that went, mm, at least 0.
+double through_mm(const GradeInput& input, int x, int y, int top, int was) {
+  double beyond = 0;
+  for (int z = top + 1; z <= was; ++z) {
+    const Octree& before = input.before.octree;
+    if (before.is_solid(before.tissue({x, y, z}))) beyond = std::max(beyond, input.zones.distance_mm(IVec3{x, y, z}));
+  }
+  return beyond;
+}
+
 Bytes png_of(cairo_surface_t* surface) {
   Bytes bytes;
   const auto write = [](void* to, const unsigned char* data, unsigned n) {
@@ -83,7 +93,10 @@ Picture picture_from_above(const GradeInput& input) {
         if (top >= 0) {
           // the natural wall of a hollow is no cut
           const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = input.zones.zone({x, y, top}) == Zone::target;
-          c = cut || left ? of_deviation(input.zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()})) : k_tooth;
+          if (cut || left)
+            c = of_deviation(input.zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()}));
+          else
+            c = top < was[index(x, y)] ? of_deviation(through_mm(input, x, y, top, was[index(x, y)])) : k_tooth;
           // light from the upper left: slopes that face away from it are darker
           const auto height = [&](int dx, int dy) {
             const int z = is[index(x + dx, y + dy)];
@@ -123,7 +136,7 @@ Picture picture_from_above(const GradeInput& input) {
   label(50 + k_steps * k_bar_px, fixed(k_colours_end_mm, 1) + " mm beyond");
   svg += "\n<path d='M4 " + fixed(key + 46, 0) + "h" + fixed(px / before.leaf_mm(), 1) + "' stroke='#222222' stroke-width='2'/><text x='" +
          fixed(10 + px / before.leaf_mm(), 0) + "' y='" + fixed(key + 50, 0) + "' font-size='12'>1 mm</text>\n</svg>\n";
-  return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor"};
+  return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut"};
 }
 
 }  // namespace cavum

@@ -79,6 +79,7 @@ void add_moments(Document& d, const ReportSource& s) {
     d.blocks.push_back(Paragraph{"No points were lost.", ""});
     return;
   }
+  d.blocks.push_back(Paragraph{"Each moment begins at its time; its place is where it went furthest.", "", Paragraph::Kind::small});
   for (const auto& w : s.lost) {
     const auto& c = w.criterion;
     d.blocks.push_back(Heading{c.title + ": " + fixed(c.max - c.points, 1) + " of " + fixed(c.max, 1) + " points lost", 3});

@@ -7,7 +7,7 @@ import { ToothField } from "../src/tooth_field.ts";
 import { heat_at, k_no_distance_mm, target_surface, ToothSurface } from "../src/tooth_surface.ts";
 import type { ReportData } from "../src/data.ts";
 import { distance_mm, drilled_mm3, fixture, front_mm, k_cut, k_duration_s, k_target, pack, whole_mm3 } from "./fixture.ts";
-import { new_seed, open_edges, random_of, unbalanced_edges, volume } from "./mesh_checks.ts";
+import { new_seed, random_of, unbalanced_edges, volume } from "./mesh_checks.ts";
 
 const data = fixture();
 const field = new ToothField(data);
@@ -23,8 +23,9 @@ test("still and moving part together are one closed surface of the tooth's volum
   for (const t_s of [0, k_duration_s, 20 * random(), 3 + 15 * random(), 3 + 15 * random()]) {
     field.set_time(t_s);
     const moving = surface.moving()!;
-    assert.equal(open_edges(still, moving), 0, `at ${t_s} s`);
-    assert.ok(open_edges(still) > 0 && open_edges(moving) > 0, "there is a seam at all");
+    // balanced, not two triangles each: where a surface touches itself in a cube's diagonal, surface nets let four triangles meet at an edge
+    assert.equal(unbalanced_edges(still, moving), 0, `at ${t_s} s`);
+    assert.ok(unbalanced_edges(still) > 0 && unbalanced_edges(moving) > 0, "there is a seam at all");
     const measured = volume(still, moving) * cell ** 3;
     const exact = whole_mm3() - drilled_mm3(t_s);
     t.diagnostic(`at ${t_s.toFixed(2)} s: ${measured.toFixed(2)} mm³ for ${exact.toFixed(2)} mm³`);
