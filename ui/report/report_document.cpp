@@ -204,6 +204,11 @@ Document report_document(const ReportSource& s) {
   d.blocks.push_back(
       VerdictBox{verdict_name(r.verdict), fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points", margin(r), r.verdict_reasons});
   if (s.regrade != nullptr && s.reader == ReportReader::instructor) add_regrade(d, *s.regrade);
+  // whether or not the rubric takes points for it
+  if (const PerforationTruth& p = r.perforation.fault; p.perforated)
+    d.blocks.push_back(Paragraph{p.tissue + " was opened at " + fixed(p.first.t_s(), 3) +
+                                     " s, which this task asks to spare: " + fixed(p.volume_mm3, 3) + " mm³ of it were removed",
+                                 "Perforation", Paragraph::Kind::note});
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
   add_criteria(d, s);
   add_pictures(d, s);

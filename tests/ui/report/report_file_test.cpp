@@ -90,7 +90,8 @@ TEST_F(ReportFile, SaysTheSameFiguresAsHtmlAsPdfAndAsJson) {
     both("tamper-evident and replay-verified");
     both("Attempts over time");
     const bool all = reader == "instructor";
-    for (const char* figure : {"agreement (Dice)", "wall taper", "late work", "accommodations", "lateness of the servo", "What else is to be known"}) {
+    for (const char* figure :
+         {"agreement (Dice)", "wall taper", "late work", "accommodations", "lateness of the servo", "What else is to be known"}) {
       EXPECT_EQ(html.find(figure) != std::string::npos, all) << figure;
       EXPECT_EQ(as_pdf.find(packed(figure)) != std::string::npos, all) << figure;
     }
@@ -99,6 +100,7 @@ TEST_F(ReportFile, SaysTheSameFiguresAsHtmlAsPdfAndAsJson) {
     both(fixed(g["volumes"]["dice"], 3));
     both(fixed(g["walls"]["floor"]["max_over_mm"], 2) + " ± ");
     both(fixed(g["perforation"]["truth"]["first_t_s"], 3) + " s");
+    both("was opened at " + fixed(g["perforation"]["truth"]["first_t_s"], 3) + " s, which this task asks to spare");
     both(fixed(g["force"]["peak_n"], 2) + " N at most");
     for (const auto& e : g["perforation"]["events"]) both(fixed(e["force_before_n"], 2) + " N to " + fixed(e["force_after_n"], 2) + " N");
   }
