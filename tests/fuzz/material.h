@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/session/session.h"
+#include "engine/session/session_reader.h"
 #include "engine/tooth/tooth.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
@@ -15,6 +16,8 @@ namespace cavum::fuzz {
 [[nodiscard]] SessionSetup small_setup();
 /// Bytes of a closed session: two chunks, five events, a ticket among its notes. Made once.
 [[nodiscard]] const Bytes& small_session();
+/// Reads the ticks of each second by itself, then all that was removed. Throws Error when the session is damaged.
+void read_all_ticks(const SessionReader& session);
 /// The station that closed it.
 [[nodiscard]] const SigningKey& station_key();
 /// The school that issued the ticket, and what its ledger holds.

@@ -186,14 +186,7 @@ void question(const SessionReader& session, int what) {
   if (what != 1 && what != 3) static_cast<void>(check_claims(school_ledger(), session, {}));
   static_cast<void>(session.setup());
   if (what > 1) return;
-  for (std::size_t i = 0; i < session.chunks().size(); ++i) {
-    try {
-      static_cast<void>(session.motion(i));
-    } catch (const Error&) {
-    }
-  }
-  session.require_readable();
-  static_cast<void>(session.removed());
+  read_all_ticks(session);
 }
 
 }  // namespace

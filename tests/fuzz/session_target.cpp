@@ -14,14 +14,7 @@ void fuzz_session(Data data) {
     static_cast<void>(check_chain(session));
     static_cast<void>(check_clocks(session));
     static_cast<void>(session.setup());
-    for (std::size_t i = 0; i < session.chunks().size(); ++i) {
-      try {
-        static_cast<void>(session.motion(i));
-      } catch (const Error&) {
-      }
-    }
-    session.require_readable();
-    static_cast<void>(session.removed());
+    read_all_ticks(session);
   } catch (const Error&) {
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "engine/base/text.h"
 #include "scenarios/picture.h"
@@ -69,6 +70,19 @@ Vec3 hottest_mm(const ClassTooth& t) {
         all += heat * heat;
       }
   return all > 0 ? sum * (1 / all) : (t.zones.target_low_mm() + t.zones.target_high_mm()) * 0.5;
+}
+
+/// Where the class cuts too much or too little: from above, and three sections.
+std::vector<Picture> class_pictures(const ClassTooth& t) {
+  const Vec3 at = hottest_mm(t);
+  const auto draw = [&](View view, double at_mm, const std::string& title) {
+    PictureSpec spec{view, at_mm, 30, ""};
+    spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
+    return Picture{section_svg(t.tooth, nullptr, t.zones, spec), title};
+  };
+  return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, "Mesio-distal, y = " + fixed(at.y, 2) + " mm"),
+          draw(View::bucco_lingual, at.x, "Bucco-lingual, x = " + fixed(at.x, 2) + " mm"),
+          draw(View::horizontal, at.z, "Horizontal, z = " + fixed(at.z, 2) + " mm")};
 }
 
 void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
@@ -182,18 +196,6 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
 }
 
 }  // namespace
-
-std::vector<Picture> class_pictures(const ClassTooth& t) {
-  const Vec3 at = hottest_mm(t);
-  const auto draw = [&](View view, double at_mm, const std::string& title) {
-    PictureSpec spec{view, at_mm, 30, ""};
-    spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
-    return Picture{section_svg(t.tooth, nullptr, t.zones, spec), title};
-  };
-  return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, "Mesio-distal, y = " + fixed(at.y, 2) + " mm"),
-          draw(View::bucco_lingual, at.x, "Bucco-lingual, x = " + fixed(at.x, 2) + " mm"),
-          draw(View::horizontal, at.z, "Horizontal, z = " + fixed(at.z, 2) + " mm")};
-}
 
 Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   Document d;

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 #include "grading/cohort/class_figures.h"
 #include "grading/cohort/class_map.h"
@@ -16,8 +15,6 @@ namespace cavum {
 /// What the page draws: as report_data.h says, with "kind":"class"; `after` is the tooth with exactly the target removed, and "heat" of each cell in
 /// the box says how many per cent of the class removed it although it lies outside the target (+), or left it although it lies inside (-).
 [[nodiscard]] nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::ClassTooth& tooth);
-/// The four pictures of where the class cuts too much or too little: from above and three sections.
-[[nodiscard]] std::vector<Picture> class_pictures(const cohort::ClassTooth& tooth);
 
 /// One HTML file that needs nothing else, and A4 pages.
 [[nodiscard]] std::string class_html(const cohort::ClassFigures& figures, const cohort::ClassTooth& tooth);

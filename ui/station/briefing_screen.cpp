@@ -63,11 +63,7 @@ void briefing_screen(const ScreenContext& c) {
   ImGui::EndChild();
   if (main_button(t, c.practice ? "Begin to practise  (Enter)" : "Begin the exam  (Enter)", true)) s.wish = Wish::begin;
   quiet_text(t, "The clock runs from then on.");
-  if (!s.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, t.bad);
-    wrapped_text(s.message);
-    ImGui::PopStyleColor();
-  }
+  bad_text(t, s.message);
   end_area();
 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});

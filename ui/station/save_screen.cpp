@@ -27,11 +27,7 @@ void save_screen(const ScreenContext& c) {
   ImGui::Dummy({0, t.px(8)});
   if (main_button(t, "Save  (Enter)", true, false) || entered) s.wish = Wish::save;
   if (entered) s.focus_place = true;
-  if (!s.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, t.bad);
-    wrapped_text(s.message);
-    ImGui::PopStyleColor();
-  }
+  bad_text(t, s.message);
   end_area();
 }
 

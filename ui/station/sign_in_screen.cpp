@@ -39,11 +39,7 @@ void sign_in_screen(const ScreenContext& c) {
     s.focus_code = true;  // Enter would take it away
     s.message = "Type your candidate code first.";
   }
-  if (!s.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, t.bad);
-    wrapped_text(s.message);
-    ImGui::PopStyleColor();
-  }
+  bad_text(t, s.message);
   end_area();
 }
 

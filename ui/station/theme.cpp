@@ -135,6 +135,13 @@ void begin_card(const Theme& theme, const char* heading, float width) {
   ImGui::Dummy({0, theme.px(4)});
 }
 
+void bad_text(const Theme& theme, const std::string& text) {
+  if (text.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, theme.bad);
+  wrapped_text(text);
+  ImGui::PopStyleColor();
+}
+
 void quiet_text(const Theme& theme, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, theme.quiet);
   push_font(Font::small);

@@ -27,6 +27,8 @@ void end_area();
 /// The same in the middle of the screen, with a heading, as high as what it holds.
 void begin_card(const Theme& theme, const char* heading, float width);
 void quiet_text(const Theme& theme, const std::string& text);
+/// What went wrong, in the colour for that; nothing for an empty text.
+void bad_text(const Theme& theme, const std::string& text);
 void heading_text(const std::string& text);
 void wrapped_text(const std::string& text);
 /// What goes on; also by Enter, unless `by_enter` is false.

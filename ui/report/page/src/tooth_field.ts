@@ -213,7 +213,7 @@ function for_each_row(outer: Block, inner: Block, row: (at: number, inner_at: nu
 }
 
 /** The smallest block within `box` that holds every cell for which `wanted` (index in the box, index in the lattice) is true. */
-function bounds(box: Block, wanted: (i: number, at: number) => boolean, size: Vec3): Block | null {
+export function bounds(box: Block, wanted: (i: number, at: number) => boolean, size: Vec3): Block | null {
   const low: Vec3 = [Infinity, Infinity, Infinity];
   const high: Vec3 = [-1, -1, -1];
   let i = 0;

@@ -6,7 +6,7 @@ import { instrument_mesh, pose_instrument } from "./instrument.ts";
 import type { Sample } from "./motion.ts";
 import { k_views, Orbit } from "./orbit.ts";
 import { type Clip, in_sight, outward_at, probe, type Reading } from "./probe.ts";
-import type { Block, ToothField } from "./tooth_field.ts";
+import { type Block, bounds, type ToothField } from "./tooth_field.ts";
 import { section_material, shared_uniforms, type SharedUniforms, tooth_material } from "./tooth_material.ts";
 import { heat_at, type Surface, target_surface, ToothSurface } from "./tooth_surface.ts";
 import { Surroundings } from "./surroundings.ts";
@@ -356,21 +356,9 @@ function tissue_kind(tissue: Tissue | undefined): number {
 
 /** The sphere around all solid tissue, and the one that the view begins with: the tooth's breadth around the height of what was to be done. */
 function spheres(field: ToothField): { whole: { centre: THREE.Vector3; radius: number }; home: { centre: THREE.Vector3; radius: number } } {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  const [nx, ny, nz] = field.size;
-  let at = 0;
-  for (let z = 0; z < nz; ++z)
-    for (let y = 0; y < ny; ++y)
-      for (let x = 0; x < nx; ++x, ++at)
-        if (field.untouched[at] > 0.5) {
-          if (x < low[0]) low[0] = x;
-          if (y < low[1]) low[1] = y;
-          if (z < low[2]) low[2] = z;
-          if (x > high[0]) high[0] = x;
-          if (y > high[1]) high[1] = y;
-          if (z > high[2]) high[2] = z;
-        }
+  const tooth = bounds({ low: [0, 0, 0], size: field.size }, (i) => field.untouched[i] > 0.5, field.size)!;
+  const low = tooth.low;
+  const high = low.map((v, a) => v + tooth.size[a] - 1);
   const span = [0, 1, 2].map((a) => (high[a] - low[a]) * field.cell_mm);
   const mm = (cells: number[]): THREE.Vector3 => new THREE.Vector3(...(cells.map((v, a) => field.origin_mm[a] + v * field.cell_mm) as Vec3));
   const middle = [0, 1, 2].map((a) => (low[a] + high[a]) / 2);
