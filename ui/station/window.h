@@ -32,7 +32,6 @@ class Window {
   void set_visible(bool visible);
   [[nodiscard]] int width() const;   ///< pixels
   [[nodiscard]] int height() const;  ///< pixels
-  [[nodiscard]] std::string renderer() const;
   /// The computer's processor draws: slow, and every core it takes is one less for the servo.
   [[nodiscard]] bool software() const noexcept { return software_; }
 
