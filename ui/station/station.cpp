@@ -326,7 +326,10 @@ class Station {
 
 }  // namespace
 
-int run_station(const StationOptions& options) { return Station(options).run(); }
+int run_station(const StationOptions& options) {
+  spare_the_processor();  // before the sound's thread reads the environment
+  return Station(options).run();
+}
 
 void print_frame_times(const StationOptions& options, int frames) {
   ExamOptions exam;

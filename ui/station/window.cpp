@@ -53,8 +53,10 @@ void load_fonts(double scale) {
 void push_font(Font font) { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[static_cast<int>(font)]); }
 void pop_font() { ImGui::PopFont(); }
 
+void spare_the_processor() noexcept { ::setenv("LP_NUM_THREADS", "1", 0); }
+
 Window::Window(const std::string& title, int width, int height) {
-  ::setenv("LP_NUM_THREADS", "1", 0);  // a software renderer leaves the other cores to the servo
+  spare_the_processor();
   if (glfwInit() != GLFW_TRUE)
     throw Error("window", "cannot be opened (" + glfw_reason() + ")", "start the station from a desktop, or under xvfb-run");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);

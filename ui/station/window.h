@@ -11,6 +11,10 @@ struct GLFWwindow;
 
 namespace cavum {
 
+/// A renderer on the computer's processor takes one core and leaves the others to the servo, unless LP_NUM_THREADS says otherwise. Changes the
+/// environment, so before there are other threads; a Window asks for it too.
+void spare_the_processor() noexcept;
+
 class Window {
  public:
   /// Throws Error when there is no display or no OpenGL 3.3. `width`, `height` in pixels.
