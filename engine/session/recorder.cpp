@@ -172,6 +172,7 @@ void Recorder::open_for_recording() {
   database_ = Database::open(path_, false);
   // exclusive: no second recorder, and the index of the log stays in memory
   database_->run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 4000");
+  database_->run("PRAGMA cache_size = -512");  // KiB: what is written is not read again, and an exam's memory stays the same for its whole length
   if (database_->text("PRAGMA journal_mode = WAL") != "wal")
     throw Error(path_, "the file system does not allow a write-ahead log", "record to a local disk");
   insert_chunk_ = database_->prepare(k_insert_chunk);

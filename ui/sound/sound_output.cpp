@@ -51,9 +51,8 @@ void ask_for_short_periods() noexcept {
 
 extern "C" void ignore_alsa(const char*, int, const char*, int, const char*, ...) {}  // NOLINT(cert-dcl50-cpp): what ALSA calls
 
-/// A computer without loudspeakers is said once, in our words (Player::failed): ALSA and OpenAL write a dozen lines to standard error otherwise.
-void hush_libraries() noexcept {
-  setenv("ALSOFT_LOGLEVEL", "0", 0);
+/// A computer without loudspeakers is said once, in our words (Player::failed): ALSA writes a dozen lines to standard error otherwise.
+void hush_alsa() noexcept {
   void* const alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_NODELETE);  // the one that OpenAL loads too
   if (alsa == nullptr) return;
   using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
@@ -64,7 +63,7 @@ void hush_libraries() noexcept {
 class Player {
  public:
   Player() {
-    hush_libraries();
+    hush_alsa();
     device_ = alcOpenDevice(nullptr);
     if (device_ == nullptr) {
       failed_ = "no sound device could be opened; plug in loudspeakers or headphones, or go on without sound";
@@ -189,6 +188,7 @@ struct SoundOutput::Shared {
 
 SoundOutput::SoundOutput() : shared_(std::make_shared<Shared>()) {
   ask_for_short_periods();
+  setenv("ALSOFT_LOGLEVEL", "0", 0);  // OpenAL's complaints, as with ALSA's; here, for the environment is no thread's own
   try {
     thread_ = std::thread([shared = shared_] { run(shared); });
   } catch (const std::exception& e) {

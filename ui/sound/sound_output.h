@@ -27,8 +27,8 @@ class SoundOutput {
   static constexpr int k_sample_rate_hz = 48000;
   static constexpr int k_block_samples = 256;  ///< 5.3 ms
 
-  /// Begins to open the device, on its own thread, and returns at once. Never throws for want of sound. Sets ALSOFT_CONF when it is not set (short
-  /// periods), so make it before other threads read the environment.
+  /// Begins to open the device, on its own thread, and returns at once. Never throws for want of sound. Sets ALSOFT_CONF (short
+  /// periods) and ALSOFT_LOGLEVEL when they are not set, so make it before other threads read the environment.
   SoundOutput();
   /// Fades out and closes the device. One that hangs is left behind after a second.
   ~SoundOutput();

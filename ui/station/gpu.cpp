@@ -30,6 +30,16 @@ unsigned compile(unsigned kind, const char* source) {
 
 }  // namespace
 
+std::string renderer_name() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name != nullptr ? name : "";
+}
+
+bool drawn_by_processor() {
+  const std::string name = renderer_name();
+  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos || name.find("swrast") != std::string::npos;
+}
+
 GpuVertex gpu_vertex(const glm::vec3& at_mm, const glm::vec3& normal, const std::array<std::uint8_t, 4>& colour) {
   const auto part = [](float v) { return static_cast<std::int8_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 127.0F)); };
   return {{at_mm.x, at_mm.y, at_mm.z}, {part(normal.x), part(normal.y), part(normal.z), 0}, colour};

@@ -12,6 +12,11 @@
 
 namespace cavum {
 
+/// Who draws, in the words of the current context; empty when it does not say.
+[[nodiscard]] std::string renderer_name();
+/// True when that is a program on the computer's processor instead of a graphics card.
+[[nodiscard]] bool drawn_by_processor();
+
 /// A corner of a triangle: place in mm, normal in 1/127, colour and opacity 0..255.
 struct GpuVertex {
   std::array<float, 3> at_mm{};

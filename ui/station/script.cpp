@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <thread>
 #include <utility>
@@ -57,12 +58,21 @@ int key_of(const std::string& name) {
   return 0;
 }
 
+std::string seconds(double s) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(s < 10 && s > 0 ? 1 : 0) << s << " s";
+  return text.str();
+}
+
 double memory_mb() {
   std::ifstream statm("/proc/self/statm");
   long all = 0, resident = 0;
   statm >> all >> resident;
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
+
+constexpr double k_patience_s = 300;
+constexpr double k_silence_s = 10;  // longer than that, who watches is told what is awaited
 
 }  // namespace
 
@@ -101,6 +111,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
 
 bool Script::run(const Command& c, Window& window, Screen screen, double exam_s, double now_s) {
   const std::string where = path_ + ":" + std::to_string(c.line);
+  const double waited_s = now_s - since_s_;
   if (c.word == "wait" || c.word == "go") {
     constexpr double k_again_s = 0.5;
     const bool there = c.text == screen_name(screen);
@@ -108,18 +119,23 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
       window.press(GLFW_KEY_ENTER);
       pressed_s_ = now_s;
     }
-    constexpr double k_patience_s = 300;
-    if (now_s - since_s_ > k_patience_s)
+    if (!there && waited_s > k_patience_s)
       throw Error(where, "the screen '" + c.text + "' did not come, '" + screen_name(screen) + "' shows", "correct the script");
     return there;
   }
   if (c.word == "until") {
     if (exam_s < c.number && (screen == Screen::result || screen == Screen::trouble))
       throw Error(where, "the exam was over before its clock came to " + c.text + " s", "correct the script");
+    if (exam_s <= 0 && screen != Screen::exam && waited_s > k_patience_s)
+      throw Error(where, std::string("no exam began, '") + screen_name(screen) + "' shows", "correct the script");
     return exam_s >= c.number;
   }
   if (c.word == "type") {
-    if (!window.wants_text()) return false;
+    if (!window.wants_text()) {
+      if (waited_s > k_patience_s)
+        throw Error(where, std::string("the screen '") + screen_name(screen) + "' has no field for letters", "correct the script");
+      return false;
+    }
     window.type(c.text);
   }
   if (c.word == "key") {
@@ -143,11 +159,27 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
   return true;
 }
 
+void Script::tell(const Command& c, Screen screen, double exam_s) const {
+  std::string what;
+  if (c.word == "wait" || c.word == "go") what = "the screen '" + c.text + "'";
+  if (c.word == "until") what = "the exam's clock to show " + seconds(c.number) + " (now " + seconds(exam_s) + ")";
+  if (c.word == "type") what = "a field to type '" + c.text + "' into";
+  if (c.word == "sleep" || c.word == "key") what = seconds(c.number) + " to pass";
+  std::fprintf(stderr, "cavum: notice: %s:%d: waits for %s; '%s' shows\n", path_.c_str(), c.line, what.c_str(), screen_name(screen));
+}
+
 void Script::step(Window& window, Screen screen, double exam_s, double now_s) {
   if (done()) return;
   if (since_s_ < 0) since_s_ = now_s;
   if (std::exchange(let_go_, false)) return;  // a frame without the key, so that the same one can be pressed again
-  if (!run(commands_[next_], window, screen, exam_s, now_s)) return;
+  if (!run(commands_[next_], window, screen, exam_s, now_s)) {
+    if (!told_ && now_s - since_s_ > k_silence_s) {
+      tell(commands_[next_], screen, exam_s);
+      told_ = true;
+    }
+    return;
+  }
+  told_ = false;
   let_go_ = commands_[next_].word == "key";
   ++next_;
   since_s_ = -1.0;

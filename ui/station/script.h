@@ -1,8 +1,11 @@
-// Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. One command a
-// line, # begins a comment:
-//   wait SCREEN      until that screen shows, 300 s at most: sign-in, device-check, briefing, exam, grading, result, trouble, save, author,
-//   author-busy go SCREEN        presses enter now and then until that screen shows until SECONDS    until the exam's clock has come so far type TEXT
-//   letters key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, ctrl, shift,
+// Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. What takes
+// longer than 10 s says on standard error what it waits for; no screen, field or exam is awaited for more than 300 s. One command a line, # begins a
+// comment:
+//   wait SCREEN      until that screen shows: sign-in, device-check, briefing, exam, grading, result, trouble, save, author, author-busy
+//   go SCREEN        presses enter now and then until that screen shows
+//   until SECONDS    until the exam's clock has come so far
+//   type TEXT        letters, once there is a field for them
+//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, ctrl, shift,
 //                    a letter, a digit, [ ] + - , . ; a second word holds it so many seconds
 //   hold NAME        a key, while other commands go on
 //   release NAME     lets it go
@@ -45,11 +48,14 @@ class Script {
   };
   /// False: not yet done, look again in the next frame.
   bool run(const Command& command, Window& window, Screen screen, double exam_s, double now_s);
+  /// On standard error, what `command` waits for.
+  void tell(const Command& command, Screen screen, double exam_s) const;
 
   std::string path_, pictures_;
   std::vector<Command> commands_;
   std::size_t next_ = 0;
   bool let_go_ = false;
+  bool told_ = false;        // what the running command waits for
   double since_s_ = -1.0;    // when the running command began
   double pressed_s_ = -1.0;  // when `go` last pressed enter
 };

@@ -326,7 +326,10 @@ class Station {
 
 }  // namespace
 
-int run_station(const StationOptions& options) { return Station(options).run(); }
+int run_station(const StationOptions& options) {
+  spare_the_processor();  // before the sound's thread reads the environment
+  return Station(options).run();
+}
 
 void print_frame_times(const StationOptions& options, int frames) {
   ExamOptions exam;
@@ -351,7 +354,7 @@ void print_frame_times(const StationOptions& options, int frames) {
   std::sort(times_ms.begin(), times_ms.end());
   const auto at = [&](double share) { return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))]; };
   std::printf("%s, %d x %d, %zu triangles: first mesh %.2f s; a picture takes %.1f ms (median of %d), 95 %% within %.1f ms\n",
-              window.renderer().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
+              renderer_name().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
 }
 
 }  // namespace cavum

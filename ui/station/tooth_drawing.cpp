@@ -1,5 +1,7 @@
 #include "ui/station/tooth_drawing.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,7 +51,7 @@ ToothDrawing::Extent ToothDrawing::extent_of(const SurfacePatch& patch) {
 }
 
 ToothDrawing::ToothDrawing(const Octree& tooth)
-    : leaves_(tooth), hard_(made(SurfacePatches(leaves_))), pulp_(made(SurfacePatches(leaves_, k_pulp))) {}
+    : by_processor_(drawn_by_processor()), leaves_(tooth), hard_(made(SurfacePatches(leaves_))), pulp_(made(SurfacePatches(leaves_, k_pulp))) {}
 
 std::size_t ToothDrawing::update(Drawn& drawn) {
   touched_.clear();
@@ -69,7 +71,7 @@ std::size_t ToothDrawing::update() {
   return patches;
 }
 
-void ToothDrawing::draw(const Drawn& drawn, const Sight& sight) {
+void ToothDrawing::draw(const Drawn& drawn, const Sight& sight, bool by_processor) {
   // planes of the picture's sides, unit, inwards
   std::array<glm::vec4, 4> sides;
   const glm::mat4 rows = glm::transpose(sight.to_picture);
@@ -88,7 +90,17 @@ void ToothDrawing::draw(const Drawn& drawn, const Sight& sight) {
     seen.emplace_back(glm::length(there), i);
   }
   std::sort(seen.begin(), seen.end());
-  for (const auto& [far_mm, i] : seen) drawn.meshes[i].draw();
+  // A renderer on the processor keeps some 400 bytes a triangle until it is told to draw them, and the program never gives the peak back: told in
+  // between, its memory stays the same however rich in triangles the cavity becomes.
+  constexpr int k_at_once = 5'000;  // triangles, 2 MB
+  int waiting = 0;
+  for (const auto& [far_mm, i] : seen) {
+    drawn.meshes[i].draw();
+    waiting += drawn.meshes[i].triangles();
+    if (!by_processor || waiting < k_at_once) continue;
+    glFinish();
+    waiting = 0;
+  }
 }
 
 }  // namespace cavum

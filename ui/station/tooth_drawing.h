@@ -23,9 +23,9 @@ class ToothDrawing {
     glm::vec3 eye_mm;
     glm::mat4 to_picture;
   };
-  void draw_hard_tissue(const Sight& sight) const { draw(hard_, sight); }
+  void draw_hard_tissue(const Sight& sight) const { draw(hard_, sight, by_processor_); }
   /// Only its outside: its border with the hard tissue is the same surface as the chamber's wall.
-  void draw_pulp(const Sight& sight) const { draw(pulp_, sight); }
+  void draw_pulp(const Sight& sight) const { draw(pulp_, sight, by_processor_); }
   [[nodiscard]] std::size_t triangles() const noexcept { return hard_.surface.triangle_count(); }
   /// Changes with each update that changed anything.
   [[nodiscard]] std::uint64_t version() const noexcept { return version_; }
@@ -43,9 +43,10 @@ class ToothDrawing {
   };
   [[nodiscard]] static Drawn made(SurfacePatches surface);
   [[nodiscard]] static Extent extent_of(const SurfacePatch& patch);
-  static void draw(const Drawn& drawn, const Sight& sight);
+  static void draw(const Drawn& drawn, const Sight& sight, bool by_processor);
   std::size_t update(Drawn& drawn);
 
+  bool by_processor_;
   LeafBlocks leaves_;
   Drawn hard_, pulp_;
   std::vector<LeafBox> changed_;

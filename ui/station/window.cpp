@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "ui/station/gpu.h"
 #include "ui/station/picture_file.h"
 
 namespace cavum {
@@ -52,8 +53,10 @@ void load_fonts(double scale) {
 void push_font(Font font) { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[static_cast<int>(font)]); }
 void pop_font() { ImGui::PopFont(); }
 
+void spare_the_processor() noexcept { ::setenv("LP_NUM_THREADS", "1", 0); }
+
 Window::Window(const std::string& title, int width, int height) {
-  ::setenv("LP_NUM_THREADS", "1", 0);  // a software renderer leaves the other cores to the servo
+  spare_the_processor();
   if (glfwInit() != GLFW_TRUE)
     throw Error("window", "cannot be opened (" + glfw_reason() + ")", "start the station from a desktop, or under xvfb-run");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -68,8 +71,7 @@ Window::Window(const std::string& title, int width, int height) {
   }
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
-  const std::string name = renderer();
-  software_ = name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos || name.find("swrast") != std::string::npos;
+  software_ = drawn_by_processor();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // every candidate finds the same screen
@@ -143,11 +145,6 @@ int Window::height() const {
   int w = 0, h = 0;
   glfwGetFramebufferSize(window_, &w, &h);
   return h;
-}
-
-std::string Window::renderer() const {
-  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return name != nullptr ? name : "";
 }
 
 void Window::press(int key, bool held) {

@@ -11,6 +11,10 @@ struct GLFWwindow;
 
 namespace cavum {
 
+/// A renderer on the computer's processor takes one core and leaves the others to the servo, unless LP_NUM_THREADS says otherwise. Changes the
+/// environment, so before there are other threads; a Window asks for it too.
+void spare_the_processor() noexcept;
+
 class Window {
  public:
   /// Throws Error when there is no display or no OpenGL 3.3. `width`, `height` in pixels.
@@ -32,7 +36,6 @@ class Window {
   void set_visible(bool visible);
   [[nodiscard]] int width() const;   ///< pixels
   [[nodiscard]] int height() const;  ///< pixels
-  [[nodiscard]] std::string renderer() const;
   /// The computer's processor draws: slow, and every core it takes is one less for the servo.
   [[nodiscard]] bool software() const noexcept { return software_; }
 
