@@ -13,6 +13,7 @@ LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice&
 LiveExam::LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options)
     : exam_(std::move(exam)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
   view_.limit_ticks = exam_->limit_ticks();
+  view_.session = exam_->recorder().path();
   servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
   writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
                                             [this](const ServoTick& tick, std::span<const RemovedLeaf>) {
@@ -78,6 +79,11 @@ void LiveExam::look_at_tooth(const std::function<void(const Octree&)>& look) con
 LiveView LiveExam::view() const {
   const std::lock_guard lock(mutex_);
   return view_;
+}
+
+std::string LiveExam::session() const {
+  const std::lock_guard lock(mutex_);
+  return view_.session;
 }
 
 const LiveReport& LiveExam::finish() {

@@ -59,6 +59,8 @@ class LiveExam {
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
+  /// Where it is recorded.
+  [[nodiscard]] std::string session() const;
   /// Calls `look` with the twin's tooth as it is after the last tick taken. The thread that records waits meanwhile, the servo does not: whoever
   /// draws takes what changed and leaves, within a few milliseconds. Not from within `look`.
   void look_at_tooth(const std::function<void(const Octree&)>& look) const;

@@ -8,64 +8,12 @@
 #include <vector>
 
 #include "engine/base/text.h"
+#include "scenarios/picture_colours.h"
 #include "scenarios/relief.h"
 #include "scenarios/shape.h"
 
 namespace cavum {
 namespace {
-
-struct Palette {
-  const char *enamel, *dentin, *pulp, *periodontium, *other;
-  const char *removed, *leeway, *overcut;
-  const char *target_line, *leeway_line, *container_line, *guard_line;
-  double line_px;
-};
-// Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
-constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0", "#56b4e9", "#f0b74d",
-                          "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
-// For candidates who need stronger contrasts: light and dark alone tell the tissues apart.
-constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#0047ab", "#ff8c00",
-                           "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
-
-// For what many did: the tissues recede.
-constexpr Palette k_grey{"#f7f7f7", "#e9e9e9", "#cfcfcf", "#dddddd", "#e0e0e0", "#56b4e9", "#f0b74d",
-                         "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
-struct HeatBand {
-  double from_percent;
-  const char *over, *under;
-};
-// Orange against blue, which common colour blindnesses leave apart; lighter = rarer.
-constexpr HeatBand k_heat[] = {{60, "#a63603", "#08519c"}, {40, "#e6550d", "#3182bd"}, {20, "#fd8d3c", "#6baed6"}, {5, "#fdbe85", "#bdd7e7"}};
-
-const char* heat_colour(double percent) {
-  for (const auto& band : k_heat)
-    if (std::fabs(percent) >= band.from_percent) return percent > 0 ? band.over : band.under;
-  return "";
-}
-
-const Palette& palette_of(bool high_contrast) { return high_contrast ? k_strong : k_usual; }
-
-std::string number(double v) {
-  std::string s = fixed(v, 2);
-  while (s.back() == '0') s.pop_back();
-  if (s.back() == '.') s.pop_back();
-  return s == "-0" ? "0" : s;
-}
-
-const char* tissue_colour(const Palette& colours, std::uint8_t t) {
-  switch (t) {
-    case k_enamel:
-      return colours.enamel;
-    case k_dentin:
-      return colours.dentin;
-    case k_pulp:
-      return colours.pulp;
-    case k_periodontium:
-      return colours.periodontium;
-    default:
-      return colours.other;
-  }
-}
 
 /// The window of a picture, in leaves, and how it turns into three dimensions.
 struct Window {
@@ -99,7 +47,7 @@ template <class Field>
 std::string contour(int width, int height, const Field& field, double level) {
   std::string path;
   const auto segment = [&](double ax, double ay, double bx, double by) {
-    path += "M" + number(ax + 0.5) + " " + number(height - ay - 0.5) + "L" + number(bx + 0.5) + " " + number(height - by - 0.5);
+    path += "M" + svg_number(ax + 0.5) + " " + svg_number(height - ay - 0.5) + "L" + svg_number(bx + 0.5) + " " + svg_number(height - by - 0.5);
   };
   std::vector<double> now(static_cast<std::size_t>(width)), next(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) next[static_cast<std::size_t>(x)] = field(x, 0) - level;
@@ -130,7 +78,7 @@ std::string contour(int width, int height, const Field& field, double level) {
 
 std::string line(const std::string& path, const char* colour, double leaf_px, double width_px, const char* dash) {
   if (path.empty()) return "";
-  return "<path fill='none' stroke='" + std::string(colour) + "' stroke-width='" + number(width_px / leaf_px) + "' stroke-linecap='round'" +
+  return "<path fill='none' stroke='" + std::string(colour) + "' stroke-width='" + svg_number(width_px / leaf_px) + "' stroke-linecap='round'" +
          (dash[0] != 0 ? " stroke-dasharray='" + std::string(dash) + "'" : "") + " d='" + path + "'/>\n";
 }
 
@@ -143,22 +91,10 @@ int top_of(const Octree& tree, int x, int y) {
   return -1;
 }
 
-const char* finding_colour(const Palette& colours, Zone zone) {
-  switch (zone) {
-    case Zone::target:
-      return colours.removed;
-    case Zone::leeway_sides:
-    case Zone::leeway_bottom:
-      return colours.leeway;
-    default:
-      return colours.overcut;
-  }
-}
-
 }  // namespace
 
 std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap& zones, const PictureSpec& spec) {
-  const Palette& colours = spec.heat_percent ? k_grey : palette_of(spec.high_contrast);
+  const Palette& colours = spec.heat_percent ? grey_palette() : palette_of(spec.high_contrast);
   const Octree& tree = before.octree;
   const double leaf = tree.leaf_mm();
   Window w{spec.view, {0, 0, 0}, tree.size(), 0, 0, 0};
@@ -194,11 +130,11 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   const double px = spec.scale_px_per_mm * leaf;
   constexpr double k_caption_px = 16, k_scale_px = 18;  // bands above and below the picture
   const double title_px = (spec.title.empty() ? 0 : 20) + k_caption_px, width_px = w.width * px, height_px = w.height * px + k_scale_px;
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width_px) + "' height='" + number(height_px + title_px) +
-                    "' viewBox='0 0 " + number(width_px) + " " + number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" +
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + svg_number(width_px) + "' height='" + svg_number(height_px + title_px) +
+                    "' viewBox='0 0 " + svg_number(width_px) + " " + svg_number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" +
                     xml_text(spec.title) + "</title>\n" + "<rect width='100%' height='100%' fill='#ffffff'/>\n";
   if (!spec.title.empty()) svg += "<text x='4' y='15' font-size='13' fill='#222222'>" + xml_text(spec.title) + "</text>\n";
-  svg += "<g transform='translate(0 " + number(title_px) + ") scale(" + number(px) + ")'>\n";
+  svg += "<g transform='translate(0 " + svg_number(title_px) + ") scale(" + svg_number(px) + ")'>\n";
 
   // For the view from above each column shows its highest leaf.
   std::vector<int> top, top_after;
@@ -231,8 +167,7 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
           over = std::max(over, heat);
           left = std::min(left, heat);
         }
-        return {tissue_colour(colours, tree.tissue({column, row, top[i]})),
-                heat_colour(over >= k_heat[std::size(k_heat) - 1].from_percent ? over : left), dark};
+        return {tissue_colour(colours, tree.tissue({column, row, top[i]})), heat_colour(over >= k_least_heat_percent ? over : left), dark};
       }
       std::string found;
       if (top_after[i] < top[i]) {
@@ -313,16 +248,17 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
       const IVec3 at = w.leaf(c, r);
       return tree.tissue(at) == k_air ? 1.0 : spec.guard->distance_mm(tree.centre_mm(at));
     };
-    const std::string dash = number(5 / px) + " " + number(3 / px);
+    const std::string dash = svg_number(5 / px) + " " + svg_number(3 / px);
     svg += line(contour(w.width, w.height, guarded, 0.0), colours.guard_line, px, 1.4 * colours.line_px, dash.c_str());
   }
   svg += "</g>\n";
   // a millimetre, and which way is which
   const auto caption = [&](double x, double y, const std::string& text, const char* anchor) {
-    svg += "<text x='" + number(x) + "' y='" + number(y) + "' font-size='11' fill='#444444' text-anchor='" + anchor + "'>" + text + "</text>\n";
+    svg +=
+        "<text x='" + svg_number(x) + "' y='" + svg_number(y) + "' font-size='11' fill='#444444' text-anchor='" + anchor + "'>" + text + "</text>\n";
   };
   const double bottom = height_px + title_px;
-  svg += "<path d='M6 " + number(bottom - 6) + "h" + number(spec.scale_px_per_mm) + "' stroke='#222222' stroke-width='2'/>\n";
+  svg += "<path d='M6 " + svg_number(bottom - 6) + "h" + svg_number(spec.scale_px_per_mm) + "' stroke='#222222' stroke-width='2'/>\n";
   caption(10 + spec.scale_px_per_mm, bottom - 3, "1 mm", "start");
   const bool from_side = spec.view == View::mesio_distal || spec.view == View::bucco_lingual;
   caption(width_px - 4, title_px - 4, spec.view == View::bucco_lingual ? "buccal &#8594;" : "mesial &#8594;", "end");
@@ -331,18 +267,17 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   return svg;
 }
 
-std::string tissue_colour(std::uint8_t tissue, bool high_contrast) { return tissue_colour(palette_of(high_contrast), tissue); }
-
 std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones) {
   const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
   const double low = zones.target_low_mm().z + 0.3 * (zones.target_high_mm().z - zones.target_low_mm().z);
   const bool strong = scenario.accommodations.high_contrast;
   ShapeMaker maker(tooth, scenario.path);
   const auto guard = scenario.zones.protected_shapes.empty() ? nullptr : maker.make(scenario.zones.protected_shapes);
-  const PictureSpec specs[] = {{View::mesio_distal, middle.y, 30, "section mesial-distal, y = " + number(middle.y) + " mm", strong, guard.get()},
-                               {View::bucco_lingual, middle.x, 30, "section buccal-lingual, x = " + number(middle.x) + " mm", strong, guard.get()},
-                               {View::horizontal, low, 30, "section across, z = " + number(low) + " mm", strong, guard.get()},
-                               {View::occlusal, 0, 30, "from above", strong, guard.get()}};
+  const PictureSpec specs[] = {
+      {View::mesio_distal, middle.y, 30, "section mesial-distal, y = " + svg_number(middle.y) + " mm", strong, guard.get()},
+      {View::bucco_lingual, middle.x, 30, "section buccal-lingual, x = " + svg_number(middle.x) + " mm", strong, guard.get()},
+      {View::horizontal, low, 30, "section across, z = " + svg_number(low) + " mm", strong, guard.get()},
+      {View::occlusal, 0, 30, "from above", strong, guard.get()}};
   const auto size_of = [](const std::string& svg, const char* key) {
     const auto at = svg.find(key);
     return std::stod(svg.substr(at + std::string(key).size()));
@@ -356,7 +291,7 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
       x = 10;
     }
     const std::string svg = section_svg(tooth, nullptr, zones, specs[i]);
-    body += "<g transform='translate(" + number(x) + " " + number(row_y) + ")'>" + svg + "</g>\n";
+    body += "<g transform='translate(" + svg_number(x) + " " + svg_number(row_y) + ")'>" + svg + "</g>\n";
     row_height = std::max(row_height, size_of(svg, "height='"));
     x += size_of(svg, "width='") + 14;
     width = std::max(width, x);
@@ -365,64 +300,10 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
   const double title_px = 9.0 * static_cast<double>(scenario.title.size() + tooth.name.size() + 2);
   width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
   const double height = row_y + row_height + 40;
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width) + "' height='" + number(height) + "' font-family='sans-serif'>\n" +
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + svg_number(width) + "' height='" + svg_number(height) + "' font-family='sans-serif'>\n" +
          "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>" +
-         xml_text(scenario.title + ": " + tooth.name) + "</text>\n" + body + "<g transform='translate(10 " + number(height - 30) + ")'>" + legend +
-         "</g>\n</svg>\n";
-}
-
-namespace {
-
-struct KeyEntry {
-  std::string colour, text;
-  bool is_line;
-};
-
-std::string key_svg(const std::vector<KeyEntry>& entries) {
-  std::string items;
-  double x = 4;
-  for (const auto& e : entries) {
-    if (e.is_line)
-      items += "<path d='M" + number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
-    else
-      items += "<rect x='" + number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
-    items += "<text x='" + number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + e.text + "</text>";
-    x += 34 + 6.6 * static_cast<double>(e.text.size());
-  }
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(x) + "' height='22' viewBox='0 0 " + number(x) +
-         " 22' font-family='sans-serif'>" + items + "</svg>\n";
-}
-
-}  // namespace
-
-std::string heat_legend_svg() {
-  std::vector<KeyEntry> entries{{k_grey.target_line, "target", true}};
-  const auto band = [](std::size_t i) {
-    return number(k_heat[i].from_percent) + (i == 0 ? " % or more" : " to " + number(k_heat[i - 1].from_percent) + " %");
-  };
-  for (std::size_t i = std::size(k_heat); i-- > 0;)
-    entries.push_back({k_heat[i].over, (i + 1 == std::size(k_heat) ? "removed, damage: " : "") + band(i), false});
-  for (std::size_t i = std::size(k_heat); i-- > 0;)
-    entries.push_back({k_heat[i].under, (i + 1 == std::size(k_heat) ? "left standing: " : "") + band(i), false});
-  return key_svg(entries);
-}
-
-std::string legend_svg(bool with_removed, bool high_contrast) {
-  const Palette& colours = palette_of(high_contrast);
-  std::vector<KeyEntry> entries{{colours.enamel, "enamel", false},
-                                {colours.dentin, "dentin", false},
-                                {colours.pulp, "pulp", false},
-                                {colours.periodontium, "periodontium", false},
-                                {colours.target_line, "target", true},
-                                {colours.leeway_line, "leeway", true},
-                                {colours.container_line, "container", true}};
-  if (!with_removed) entries.push_back({colours.guard_line, "protected", true});
-  if (with_removed) {
-    entries.push_back({colours.removed, "removed, target", false});
-    entries.push_back({colours.leeway, "removed, leeway", false});
-    entries.push_back({colours.overcut, "removed, damage", false});
-  }
-  return key_svg(entries);
+         xml_text(scenario.title + ": " + tooth.name) + "</text>\n" + body + "<g transform='translate(10 " + svg_number(height - 30) + ")'>" +
+         legend + "</g>\n</svg>\n";
 }
 
 }  // namespace cavum

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "engine/base/file.h"
@@ -17,6 +18,7 @@
 #include "grading/ledger/station_ticket.h"
 #include "grading/result_json.h"
 #include "scenarios/live_exam.h"
+#include "scenarios/other_place.h"
 #include "scenarios/simulated_exam.h"
 #include "ui/full_disk.h"
 #include "ui/grant_options.h"
@@ -134,10 +136,11 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
 
 /// Begins to record, and uses the ticket up.
 std::unique_ptr<Exam> begin_exam(const Options& o, const ExamSetup& setup, Vec3 first_tip_mm) {
-  const auto begin = [&] { return Exam::start(setup, o.out, first_tip_mm); };
-  if (o.ticket.empty()) return begin();
-  const HeldTicket held = read_ticket(o.ticket);
-  return begin_with_ticket(&held, o.out, begin);
+  std::optional<HeldTicket> held;
+  if (!o.ticket.empty()) held = read_ticket(o.ticket);
+  return begin_somewhere(o.out, o.out_if_full, [&](const std::string& path) {
+    return begin_with_ticket(held ? &*held : nullptr, path, [&] { return Exam::start(setup, path, first_tip_mm); });
+  });
 }
 
 /// Grades what was recorded, seals the session with it, prints it.
@@ -186,6 +189,7 @@ int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::
   LiveExam live(setup, begun ? std::move(begun) : begin_exam(o, setup, source.first_tip_mm()), source.device());
   live.exam().set_second_place(o.out_if_full);  // before its threads run
   RecordingWatch recording(o.out);
+  recording.begun(live.exam().recorder().path());
   live.start();
   {
     ProgressBar bar(!o.json && !o.quiet);
@@ -247,10 +251,10 @@ int run_new(const Options& o) {
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
   const auto exam = begin_exam(o, *setup, source->start_mm());
-  exam->set_second_place(o.out_if_full);
   {
-    ProgressBar bar(!o.json && !o.quiet);
     RecordingWatch recording(o.out);
+    recording.begun(exam->recorder().path());
+    ProgressBar bar(!o.json && !o.quiet);
     run_exam(*exam, *source, [&](const Exam& e, double progress) {
       bar.show(e, progress);
       recording.look(e.recording_problem(), e.recorder().path());
@@ -308,7 +312,8 @@ int run_resumed(const Options& o) {
   const auto exam = Exam::resume(*setup, o.out, notes);
   exam->set_second_place(o.out_if_full);
   if (source) {
-    run_exam(*exam, *source);
+    RecordingWatch recording(o.out);
+    run_exam(*exam, *source, [&](const Exam& e, double) { recording.look(e.recording_problem(), e.recorder().path()); });
   } else if (!exam->over()) {
     exam->end();
   }
@@ -333,7 +338,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   device->excludes(motion);
   exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);
   exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
-  exam->add_option("--out-if-full", o->out_if_full, "session file to go on with, on another disk, when --out cannot be written any more");
+  exam->add_option("--out-if-full", o->out_if_full, "session file, on another disk, to begin or go on with when --out cannot be written");
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");

@@ -1,10 +1,10 @@
 #include "ui/full_disk.h"
 
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 
 #include "engine/base/text.h"
+#include "scenarios/other_place.h"
 
 namespace cavum {
 namespace {
@@ -12,15 +12,6 @@ namespace {
 double waiting_s(Exam& exam) {
   const Recorder& r = exam.recorder();
   return static_cast<double>(r.ticks() - r.ticks_on_disk()) * exam.model().config.tick_s;
-}
-
-/// A place that nobody has used, for when nobody answers.
-std::string last_place(const std::string& path) {
-  const auto folder = std::filesystem::temp_directory_path();
-  const std::string stem = std::filesystem::path(path).stem().string();
-  std::string place = (folder / (stem + "-rescued.cavum")).string();
-  for (int i = 2; std::filesystem::exists(place); ++i) place = (folder / (stem + "-rescued-" + std::to_string(i) + ".cavum")).string();
-  return place;
 }
 
 /// True when the exam is at `place` by now, whole or not.
@@ -34,6 +25,13 @@ bool moved(Exam& exam, const std::string& place, const std::string& why) {
 }
 
 }  // namespace
+
+void RecordingWatch::begun(const std::string& path) {
+  if (path == path_) return;
+  std::fprintf(stderr, "cavum: %s: cannot be written, its disk is full or refuses; the whole exam is recorded at %s\n", one_line(path_).c_str(),
+               one_line(path).c_str());
+  path_ = path;
+}
 
 void RecordingWatch::look(const std::string& problem, const std::string& path) {
   if (path != path_) {
@@ -74,7 +72,7 @@ void write_somewhere(Exam& exam, const std::string& second_place, const std::fun
     if (!std::getline(std::cin, answer)) {
       std::fprintf(stderr, "\n");
       nobody = true;
-      answer = last_place(exam.recorder().path());
+      answer = rescue_place(exam.recorder().path());
     }
     if (!answer.empty()) static_cast<void>(moved(exam, answer, why));
   }

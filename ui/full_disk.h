@@ -13,6 +13,8 @@ namespace cavum {
 class RecordingWatch {
  public:
   explicit RecordingWatch(std::string path) : path_(std::move(path)) {}
+  /// Before the first look: it is recorded at `path`, which is not where it was to be when that disk was full already.
+  void begun(const std::string& path);
   /// `problem` is empty while all is well; `path` is where it is recorded now.
   void look(const std::string& problem, const std::string& path);
 

@@ -1,4 +1,5 @@
 // `station`: the exam window.
+#include <filesystem>
 #include <memory>
 
 #include "engine/base/error.h"
@@ -22,6 +23,18 @@ struct Options {
   int frame_times = 0;
 };
 
+void require_second_place(const SittingOptions& o) {
+  if (o.out_if_full.empty()) return;
+  const std::string named = "--out-if-full " + o.out_if_full;
+  std::error_code none;
+  if (o.resume.empty() && std::filesystem::weakly_canonical(o.out, none) == std::filesystem::weakly_canonical(o.out_if_full, none))
+    throw Error(named, "is the same place as --out", "name another, on another disk");
+  if (o.out_if_full.ends_with(".cavum") && std::filesystem::exists(o.out_if_full)) throw Error(named, "is there already", "name another file");
+  if (!o.out_if_full.ends_with(".cavum") && !std::filesystem::is_directory(o.out_if_full))
+    throw Error(named, "is no folder", "make it, or name a file ending in .cavum");
+  require_writable(o.out_if_full.ends_with(".cavum") ? o.out_if_full : o.out_if_full + "/session.cavum");
+}
+
 void require_sound(const StationOptions& o, const std::string& author) {
   if (!author.empty()) {
     if (!o.replay.empty() || !o.sitting.scenario.empty())
@@ -36,6 +49,7 @@ void require_sound(const StationOptions& o, const std::string& author) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
       throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");
     SessionReader(o.sitting.resume).require_readable();
+    require_second_place(o.sitting);
     return;
   }
   if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
@@ -50,6 +64,7 @@ void require_sound(const StationOptions& o, const std::string& author) {
   } else {
     require_writable(o.sitting.out + "/session.cavum");
   }
+  require_second_place(o.sitting);
   if (o.candidate.size() > k_longest_code)
     throw Error("--candidate", "is longer than a code", "use " + std::to_string(k_longest_code) + " characters at most");
   // what would spoil the exam is said before a candidate sits down
@@ -71,6 +86,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
+  station->add_option("--out-if-full", s.sitting.out_if_full, "the same on another disk: begins or goes on there when --out cannot be written");
   station->add_option("--replay", s.replay, "look at a recorded exam instead");
   station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
   station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");

@@ -164,7 +164,13 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   sync_folder_of(path);
   recorder.chain_ = genesis_hash(meta, artifacts);
   recorder.next_artifact_ = static_cast<std::int64_t>(artifacts.size());
-  recorder.open_for_recording();
+  try {
+    recorder.open_for_recording();
+  } catch (const Error&) {  // the disk took the setup and nothing more: no session is left behind that nobody began
+    recorder.database_.reset();
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) ::unlink((path + end).c_str());
+    throw;
+  }
   return recorder;
 }
 

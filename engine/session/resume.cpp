@@ -84,7 +84,10 @@ ResumedSession resume_session(const std::string& path, const TickVisitor& visit,
   simulate(session, simulation, visit);
   Recorder recorder = Resumption::open(session);
   recorder.add_event(session.ticks(), "gap", gap_detail(session, source));
-  recorder.flush();
+  try {
+    recorder.flush();
+  } catch (const DatabaseError&) {  // a full disk: the gap waits in memory, and is written before anything that comes
+  }
   return {std::move(recorder), std::move(simulation), std::move(setup), session.ticks()};
 }
 

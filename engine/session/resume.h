@@ -29,7 +29,7 @@ using SourceNotes = std::vector<std::pair<std::string, std::string>>;
 
 /// Throws Error when the file cannot be read, is closed, is damaged, replays differently, or is being recorded.
 /// Logs a `gap` event: {"gap_utc_s", "gap_boot_s" (null after a reboot), "last_utc_ns", "resumed_utc_ns", "boot_id"},
-/// and "source", an object of `source` when that is not empty.
+/// and "source", an object of `source` when that is not empty. On a full disk the gap is kept like a tick that was refused (Recorder::append).
 [[nodiscard]] ResumedSession resume_session(const std::string& path, const TickVisitor& visit = {}, const SourceNotes& source = {});
 
 }  // namespace cavum

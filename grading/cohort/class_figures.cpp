@@ -37,7 +37,7 @@ std::size_t band_of(double points, double pass_points, double band) { return poi
 void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<HumanMark>& marks, double band,
            double borderline) {
   std::map<std::string, std::map<std::string, double>> by_candidate;
-  std::set<std::string> judges;
+  std::set<std::string> judges, rated_candidates;
   std::vector<double> ratings, rated;
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
@@ -50,10 +50,12 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
     judges.insert(m.judge);
     if (m.rating) {
       ratings.push_back(*m.rating);
+      rated_candidates.insert(m.candidate);
       rated.push_back(points_in(s->second->result, f.max_points));
     }
   }
   Agreement& a = f.agreement;
+  a.rated = rated_candidates.size();
   a.n = by_candidate.size();
   a.judges = judges.size();
   Matrix table, bands(3, std::vector<double>(3));
@@ -116,7 +118,30 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const FiledSession
   return out;
 }
 
-json optional(const std::optional<double>& v) { return v ? json(*v) : json(); }
+/// Of the sessions that count: what a person should see for himself, whatever the points say; and those that do not count, with the reason.
+void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<std::string, const FiledSession*>& sat) {
+  for (const auto& s : registry.sessions)
+    if (s.scenario_id == f.exam && !s.findings.empty())
+      f.to_look_at.push_back({s.seq, s.candidate,
+                              "was filed with findings and does not count: " + s.findings.front() +
+                                  (s.findings.size() > 1 ? ", and " + std::to_string(s.findings.size() - 1) + " more" : "")});
+  const bool mixed = f.simulated > 0 && f.simulated < f.n;
+  for (const auto& [candidate, s] : sat) {
+    if (s->result.value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
+    if (mixed && !s->simulated.empty())
+      f.to_look_at.push_back({s->seq, candidate, "was sat by the simulated operator " + s->simulated + ", and counts among people"});
+    const json truth = s->result.value("perforation", json::object()).value("truth", json::object());
+    if (!truth.is_object() || !truth.value("perforated", false)) continue;
+    const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());
+    f.to_look_at.push_back({s->seq, candidate,
+                            "perforated the " + (tissue.is_string() ? tissue.get<std::string>() : std::string("pulp")) +
+                                (first_s.is_number() ? " at " + fixed(first_s.get<double>(), 1) + " s" : "")});
+  }
+}
+
+void note_few(ClassFigures& f, bool there, const char* figure, std::size_t n, std::size_t enough) {
+  if (there && n < enough) f.few.push_back({figure, n, enough});
+}
 
 }  // namespace
 
@@ -181,7 +206,6 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
     (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
     by_station[s->station_key].push_back(points);
     if (!s->simulated.empty()) ++f.simulated;
-    if (verdict == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
     if (ids(s->result) != ids(any)) continue;  // regraded by another rubric
     std::vector<double> row;
     for (const auto& c : s->result.at("criteria")) row.push_back(c.at("points").get<double>());
@@ -221,79 +245,18 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
   }
   if (groups.size() >= 2 && f.n > groups.size()) f.station_effect = group_effect(groups, k_shuffles, 1);
   f.walls = walls_of(sat);
+  look_at_sessions(f, registry, sat);
   agree(f, sat, marks, band, borderline);
+  note_few(f, f.alpha.has_value(), "alpha", table.size(), k_enough_for_alpha);
+  note_few(f, f.sem.has_value(), "standard_error", table.size(), k_enough_for_alpha);
+  note_few(f, enough, "discrimination", table.size(), k_enough_for_alpha);
+  note_few(f, f.agreement.icc.has_value(), "icc", f.agreement.n - f.agreement.incomplete, k_enough_for_icc);
+  note_few(f, f.agreement.limits.has_value(), "limits", f.agreement.n, k_enough_for_limits);
+  note_few(f, f.agreement.kappa.has_value(), "weighted_kappa", f.agreement.n, k_enough_for_kappa);
+  note_few(f, f.agreement.cut.has_value(), "borderline_cut", f.agreement.rated, k_enough_for_cut);
   std::sort(f.to_look_at.begin(), f.to_look_at.end(),
             [](const ToLookAt& a, const ToLookAt& b) { return a.session != b.session ? a.session < b.session : a.why < b.why; });
   return f;
-}
-
-json to_json(const ClassFigures& f) {
-  json criteria = json::array(), stations = json::array(), look = json::array(), walls = json::object();
-  for (const auto& w : f.walls) walls[w.wall] = {{"n", w.n}, {"mean_mm", w.mean_mm}, {"p95_mm", w.p95_mm}, {"max_over_mm", w.worst_mm}};
-  for (const auto& c : f.criteria)
-    criteria.push_back({{"id", c.id}, {"metric", c.metric}, {"difficulty", c.difficulty}, {"discrimination", optional(c.discrimination)}});
-  for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"n", s.n}, {"mean_points", s.mean}});
-  for (const auto& t : f.to_look_at) look.push_back({{"session", t.session}, {"candidate", t.candidate}, {"why", t.why}});
-  const Agreement& a = f.agreement;
-  json agreement = {{"n", a.n},
-                    {"judges", a.judges},
-                    {"incomplete", a.incomplete},
-                    {"weighted_kappa", optional(a.kappa)},
-                    {"borderline_cut_points", optional(a.cut)}};
-  agreement["icc"] = a.icc ? json{{"single_random", a.icc->single_random},
-                                  {"single_fixed", a.icc->single_fixed},
-                                  {"average_random", a.icc->average_random},
-                                  {"average_fixed", a.icc->average_fixed}}
-                           : json();
-  agreement["limits"] = a.limits ? json{{"bias", a.limits->bias}, {"sd", a.limits->sd}, {"low", a.limits->low}, {"high", a.limits->high}} : json();
-  return {{"exam", f.exam},
-          {"n", f.n},
-          {"simulated", f.simulated},
-          {"verdicts", {{"pass", f.pass}, {"fail", f.fail}, {"review", f.review}}},
-          {"points", {{"mean", f.mean}, {"sd", f.sd}, {"max", f.max_points}, {"pass", f.pass_points}}},
-          {"criteria", criteria},
-          {"alpha", optional(f.alpha)},
-          {"standard_error_points", optional(f.sem)},
-          {"walls", walls},
-          {"stations", stations},
-          {"station_effect",
-           f.station_effect ? json{{"f", f.station_effect->f}, {"chance", f.station_effect->chance}, {"share", f.station_effect->share}} : json()},
-          {"agreement", agreement},
-          {"to_look_at", look}};
-}
-
-std::string to_text(const ClassFigures& f) {
-  const auto number = [](const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : std::string("-"); };
-  const auto padded = [](std::string s, std::size_t width) {
-    s.resize(std::max(width, s.size() + 1), ' ');
-    return s;
-  };
-  std::string s = f.exam + ": " + std::to_string(f.n) + (f.n == 1 ? " candidate" : " candidates") +
-                  (f.simulated > 0 ? ", " + std::to_string(f.simulated) + " of them simulated" : "") + "\n" + std::to_string(f.pass) + " pass, " +
-                  std::to_string(f.review) + " review, " + std::to_string(f.fail) + " fail\npoints " + fixed(f.mean, 1) + " on average of " +
-                  plain_number(f.max_points) + ", standard deviation " + fixed(f.sd, 1) + ", pass mark " + fixed(f.pass_points, 1) +
-                  "\nCronbach's alpha " + number(f.alpha, 2) + ", standard error " + number(f.sem, 1) + " points\n\n" + padded("criterion", 28) +
-                  "share of points  discrimination\n";
-  for (const auto& c : f.criteria) s += padded(c.id, 28) + padded(fixed(c.difficulty, 2), 17) + number(c.discrimination, 2) + "\n";
-  if (!f.walls.empty()) s += "\n" + padded("wall, mm (+ = overcut)", 28) + "mean   p95    largest of all\n";
-  for (const auto& w : f.walls)
-    s += padded(w.wall, 28) + padded(fixed(w.mean_mm, 2), 7) + padded(fixed(w.p95_mm, 2), 7) + fixed(w.worst_mm, 2) + "\n";
-  if (f.station_effect)
-    s += "\nstations " + std::to_string(f.stations.size()) + ": they hold " + fixed(100 * f.station_effect->share, 1) +
-         " % of the variance; as much by chance in a share of " + fixed(f.station_effect->chance, 3) + " of shuffles\n";
-  const Agreement& a = f.agreement;
-  if (a.n > 0) {
-    s +=
-        "\nmarked by people too: " + std::to_string(a.n) + " candidates, " + std::to_string(a.judges) + (a.judges == 1 ? " judge" : " judges") + "\n";
-    if (a.icc) s += "ICC(2,1) " + fixed(a.icc->single_random, 2) + ", ICC(3,1) " + fixed(a.icc->single_fixed, 2) + "\n";
-    if (a.limits)
-      s += "program less people " + fixed(a.limits->bias, 1) + " points, " + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) + "\n";
-    s += "weighted kappa " + number(a.kappa, 2) + ", cut by borderline regression " + number(a.cut, 1) + " points\n";
-  }
-  if (!f.to_look_at.empty()) s += "\nto look at\n";
-  for (const auto& t : f.to_look_at)
-    s += padded(t.session > 0 ? "  entry " + std::to_string(t.session) : "  no entry", 14) + padded(t.candidate, 18) + t.why + "\n";
-  return s;
 }
 
 }  // namespace cavum::cohort

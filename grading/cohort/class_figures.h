@@ -44,6 +44,7 @@ struct Agreement {
   std::optional<Icc> icc;                   ///< program and judges as judges, candidates that all of them marked
   std::size_t judges = 0;                   ///< people
   std::size_t incomplete = 0;               ///< of the candidates, not marked by all of them: left out of the ICC
+  std::size_t rated = 0;                    ///< of the candidates, that got a global rating
   std::optional<LimitsOfAgreement> limits;  ///< program less the mean of the judges, points
   std::optional<double> kappa;              ///< fail, borderline, pass: quadratic weights
   std::optional<double> cut;                ///< borderline regression, points
@@ -51,6 +52,18 @@ struct Agreement {
 struct ToLookAt {
   std::uint64_t session = 0;  ///< entry
   std::string candidate, why;
+};
+
+// How many candidates a figure should come from at least; with fewer it is shown, and called a rough guess.
+inline constexpr std::size_t k_enough_for_alpha = 30;   ///< also its standard error, discrimination: Yurdugül, Hacettepe J. Educ. 35 (2008) 397
+inline constexpr std::size_t k_enough_for_icc = 30;     ///< Koo and Li, J. Chiropractic Medicine 15 (2016) 155
+inline constexpr std::size_t k_enough_for_limits = 30;  ///< either limit is then known to 0.6 sd: 1.96·sqrt(3/n), Bland and Altman 1986
+inline constexpr std::size_t k_enough_for_kappa = 18;   ///< 2k² for k = 3 bands: Cicchetti, Appl. Psychol. Measurement 5 (1981) 101
+inline constexpr std::size_t k_enough_for_cut = 50;     ///< Homer and others, Medical Teacher 38 (2016) 181: resampled classes of 15 to 300
+/// A figure from too few.
+struct Few {
+  std::string figure;  ///< alpha, standard_error, discrimination, icc, limits, weighted_kappa, borderline_cut
+  std::size_t n = 0, enough = 0;
 };
 
 struct ClassFigures {
@@ -65,8 +78,11 @@ struct ClassFigures {
   std::vector<StationFigures> stations;
   std::optional<GroupEffect> station_effect;
   Agreement agreement;
+  std::vector<Few> few;
   std::vector<ToLookAt> to_look_at;
 };
+/// "few: 12 candidates, under 30 it is a rough guess", or nothing when the figure comes from enough or is not there.
+[[nodiscard]] std::string few_words(const ClassFigures& figures, const std::string& figure);
 
 /// Who sat an exam, by candidate. Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody
 /// sat it.

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "engine/base/error.h"
+#include "engine/session/resume.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
 #include "tests/engine/session/fixture.h"
@@ -99,6 +101,47 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
   EXPECT_TRUE(first.intact) << "what was committed before stays true where it was";
   EXPECT_FALSE(first.closed);
   EXPECT_EQ(first.ticks, 6000);
+}
+
+TEST(FullDisk, AnExamIsResumedOnItAndSavedElsewhere) {
+  const test::Folder folder;
+  const std::string path = folder.file("exam.cavum"), elsewhere = folder.file("elsewhere.cavum");
+  const SessionSetup setup = test::block_setup();
+  Simulation simulation = make_simulation(setup, "test");
+  const auto drill = [&](Recorder& recorder, std::int64_t from, std::int64_t to) {
+    int complaints = 0;
+    for (std::int64_t tick = from; tick < to; ++tick) {
+      const TickInput input = test::motion_at(tick);
+      const TickRecord record = make_tick_record(step(simulation.model, simulation.state, input));
+      try {
+        recorder.append(input, record, simulation.state.removed, state_hash(simulation.state));
+      } catch (const DatabaseError&) {
+        ++complaints;
+      }
+    }
+    return complaints;
+  };
+  {
+    Recorder recorder = Recorder::create(path, setup);
+    ASSERT_EQ(drill(recorder, 0, 2000), 0);
+  }
+  std::optional<ResumedSession> resumed;
+  {
+    const FullDisk full(1024);
+    resumed.emplace(resume_session(path));
+    EXPECT_EQ(drill(resumed->recorder, 2000, 3100), 1) << "the candidate is told with the first second";
+  }
+  resumed->recorder.move_to(elsewhere, "full");
+  EXPECT_EQ(resumed->recorder.ticks_on_disk(), 3100);
+  resumed->recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
+  const VerifyReport report = verify_session(elsewhere);
+  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_EQ(report.ticks, 3100);
+  const auto events = SessionReader(elsewhere).events();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, "gap");
+  EXPECT_EQ(events[0].tick, 2000);
+  EXPECT_EQ(events[1].kind, "moved");
 }
 
 TEST_F(FullDiskTest, ASealThatDoesNotFitIsSetElsewhere) {

@@ -2,6 +2,7 @@
 // told, the exam goes on, and what was recorded is saved elsewhere or when there is room; with the same result as on a large disk.
 #include <filesystem>
 
+#include "engine/session/session_reader.h"
 #include "tests/ui/program.h"
 
 namespace cavum {
@@ -50,6 +51,33 @@ TEST_F(FullDiskExam, GoesOnAtTheSecondPlaceAndTellsSo) {
   const auto first = run("replay " + path("kept/e.cavum") + " --verify");
   EXPECT_EQ(first.exit_code, 1);
   EXPECT_NE((first.out + first.err).find("ticks are intact and can be resumed"), std::string::npos) << first.out << first.err;
+}
+
+TEST_F(FullDiskExam, FullBeforeItBeginsItBeginsAtTheSecondPlaceAndTellsSoAtOnce) {
+  const std::string fill = "cat /dev/zero >" + small() + "/filler; ";
+  const auto r = on_the_small_disk(fill + exam(small() + "/e.cavum") + " --out-if-full " + path("saved.cavum"));
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const auto told = r.err.find("the whole exam is recorded at " + path("saved.cavum"));
+  EXPECT_NE(told, std::string::npos) << r.err;
+  EXPECT_EQ(r.err.find("kept in memory"), std::string::npos) << "there was room from the first second on: " << r.err;
+  EXPECT_NE(r.out.find("recorded: " + path("saved.cavum")), std::string::npos) << r.out;
+  expect_saved(path("saved.cavum"));
+  const auto events = SessionReader(path("saved.cavum")).events();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events[0].kind, "moved") << "the session says itself that it was meant for another disk";
+  EXPECT_NE(events[0].detail_json.find("\"from\":\"e.cavum\""), std::string::npos) << events[0].detail_json;
+  EXPECT_EQ(events[0].tick, 0);
+
+  // without a second place nothing begins, and nothing is left behind that could be taken for a session
+  std::filesystem::remove_all(path("kept"));
+  std::filesystem::create_directories(path("kept"));
+  for (const char* room : {"", "truncate -s -70000 "}) {
+    const std::string give_back = *room == '\0' ? "" : room + small() + "/filler; ";
+    const auto refused = on_the_small_disk(fill + give_back + exam(small() + "/e.cavum") + "; code=$?; ls " + small() + " >&2; (exit $code)");
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("room on the disk"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(path("kept/e.cavum"))) << refused.err;
+  }
 }
 
 TEST_F(FullDiskExam, AsksForAnotherPlaceAtItsEnd) {

@@ -96,7 +96,33 @@ TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   EXPECT_DOUBLE_EQ(c->points, 0) << text_of(careless);
 }
 
+/// The criteria that fail whoever breaks into what is no aim, whatever else he has points for.
+std::vector<const CriterionSpec*> against_perforation(const Scenario& s) {
+  std::vector<const CriterionSpec*> list;
+  for (const auto& c : s.rubric.criteria)
+    if (c.metric == "perforated" && c.critical_above && *c.critical_above < 1) list.push_back(&c);
+  return list;
+}
+
+TEST_P(Library, AnyPerforationThatIsAFaultIsCritical) {
+  const Scenario s = parse_scenario(read_text_file(file()), file());
+  EXPECT_FALSE(s.perforation.faults.empty());
+  EXPECT_FALSE(against_perforation(s).empty()) << "who perforates would pass";
+}
+
 INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(tasks()), [](const auto& test) { return test.param; });
+
+/// Where nobody would look for a pulp.
+class BlockTask : public Library {};
+
+TEST_P(BlockTask, WhoPerforatesFails) {
+  const auto setup = prepared();
+  const Result r = taken_by("perforator", *setup);
+  ASSERT_TRUE(r.perforation.fault.perforated) << text_of(r);
+  EXPECT_EQ(r.verdict, Verdict::fail) << text_of(r);
+  for (const auto& c : r.criteria) EXPECT_TRUE(c.metric != "perforated" || c.critical_failed) << text_of(r);
+}
+INSTANTIATE_TEST_SUITE_P(Tasks, BlockTask, ::testing::Values("slot", "cross"), [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace cavum

@@ -22,6 +22,14 @@ constexpr int k_bins = 20;
 std::string number(const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : "–"; }
 std::string count(std::size_t n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
 
+/// A warning before what a figure says, when it comes from few.
+std::string few_first(const ClassFigures& f, const char* figure) {
+  std::string words = few_words(f, figure);
+  if (words.empty()) return "";
+  words[0] = 'F';
+  return words + ". ";
+}
+
 /// Points of the class in twentieths of the whole, and the cut.
 Picture distribution(const ClassFigures& f) {
   std::vector<double> in_bin(k_bins, 0.0);
@@ -51,8 +59,11 @@ ReportTable key_figures(const ClassFigures& f) {
   row("mean", fixed(f.mean, 1) + " of " + plain_number(f.max_points), "points");
   row("standard deviation", fixed(f.sd, 1), "points");
   row("pass / review / fail", std::to_string(f.pass) + " / " + std::to_string(f.review) + " / " + std::to_string(f.fail), "candidates");
-  row("Cronbach's alpha", number(f.alpha, 2), "how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951");
-  row("standard error", number(f.sem, 1), "points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again");
+  const auto few = [&f](const char* figure) { return few_first(f, figure); };
+  row("Cronbach's alpha", number(f.alpha, 2),
+      few("alpha") + "how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951");
+  row("standard error", number(f.sem, 1),
+      few("standard_error") + "points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again");
   return t;
 }
 
@@ -135,6 +146,8 @@ void add_criteria(Document& d, const ClassFigures& f) {
       Paragraph{"Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
                 "one skill, and a rubric of few and different ones has a low one without being unfair.",
                 "", Paragraph::Kind::small});
+  if (const std::string few = few_words(f, "discrimination"); !few.empty())
+    d.blocks.emplace_back(Paragraph{"Discrimination, " + few + ".", "Few candidates", Paragraph::Kind::note});
 }
 
 void add_stations(Document& d, const ClassFigures& f) {
@@ -167,17 +180,18 @@ void add_agreement(Document& d, const ClassFigures& f) {
   ReportTable t{{{"Figure", false, 3}, {"Value", true, 3}, {"What it says", false, 6}}, {}, "Agreement with people"};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   if (a.icc) {
-    row("ICC(2,1)", fixed(a.icc->single_random, 2), "agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)");
-    row("ICC(3,1)", fixed(a.icc->single_fixed, 2), "the same when a judge may be harder than another throughout");
-    row("ICC(3,k)", fixed(a.icc->average_fixed, 2), "consistency of all judges' mean");
+    row("ICC(2,1)", fixed(a.icc->single_random, 2),
+        few_first(f, "icc") + "agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)");
+    row("ICC(3,1)", fixed(a.icc->single_fixed, 2), few_first(f, "icc") + "the same when a judge may be harder than another throughout");
+    row("ICC(3,k)", fixed(a.icc->average_fixed, 2), few_first(f, "icc") + "consistency of all judges' mean");
   }
   if (a.limits)
     row("program less people", fixed(a.limits->bias, 1) + " (" + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) + ")",
-        "points: mean, and limits within which about 95 % lie (Bland and Altman 1986)");
-  row("weighted kappa", number(a.kappa, 2), "fail, borderline, pass; quadratic weights (Cohen 1968)");
+        few_first(f, "limits") + "points: mean, and limits within which about 95 % lie (Bland and Altman 1986)");
+  row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + "fail, borderline, pass; quadratic weights (Cohen 1968)");
   if (a.cut)
     row("cut by borderline regression", fixed(*a.cut, 1),
-        "points at the rating that means borderline; the rubric's pass mark is " + fixed(f.pass_points, 1));
+        few_first(f, "borderline_cut") + "points at the rating that means borderline; the rubric's pass mark is " + fixed(f.pass_points, 1));
   d.blocks.emplace_back(std::move(t));
   if (a.incomplete > 0)
     d.blocks.emplace_back(Paragraph{count(a.incomplete, "candidate was", "candidates were") + " not marked by all judges, and left out of the ICC.",
@@ -203,7 +217,11 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   d.subtitle =
       count(f.n, "candidate", "candidates") + " of the exam " + f.exam + "; the last attempt of each counts, sessions filed with findings do not";
   if (f.simulated > 0)
-    d.blocks.emplace_back(Paragraph{std::to_string(f.simulated) + " were sat by simulated operators.", "Note", Paragraph::Kind::note});
+    d.blocks.emplace_back(Paragraph{f.simulated == f.n ? "All of them were sat by simulated operators."
+                                                       : std::to_string(f.simulated) +
+                                                             " of them were sat by simulated operators, and every figure below mixes them with "
+                                                             "people: they are listed at the end.",
+                                    "Note", Paragraph::Kind::note});
   d.blocks.emplace_back(key_figures(f));
   d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
   add_places(d, f, tooth);

@@ -114,28 +114,29 @@ Picture picture_from_above(const GradeInput& input) {
   cairo_surface_mark_dirty(image.get());
 
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
-  const double all_width = std::max(width, 420.0), all_height = height + 84;
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
-                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' fill='#222222'>\n" +
-                    "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='4' y='15' font-size='12'>&#8593; buccal</text><text x='" +
-                    fixed(width - 4, 0) + "' y='15' font-size='12' text-anchor='end'>mesial &#8594;</text>\n";
-  svg += "<image x='0' y='22' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
-         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(png_of(image.get())) + "'/>\n";
-  const double key = height + 34;
-  constexpr int k_steps = 20;
-  constexpr double k_bar_px = 15;
-  for (int i = 0; i < k_steps; ++i)
-    svg += "<rect x='" + fixed(60 + i * k_bar_px, 0) + "' y='" + fixed(key, 0) + "' width='" + fixed(k_bar_px + 0.5, 1) + "' height='12' fill='" +
-           hex(of_deviation(k_colours_end_mm * (2.0 * (i + 0.5) / k_steps - 1))) + "'/>";
-  svg += "<rect x='60' y='" + fixed(key, 0) + "' width='" + fixed(k_steps * k_bar_px, 0) + "' height='12' fill='none' stroke='#666666'/>\n";
-  const auto label = [&](double x, const std::string& text) {
-    svg += "<text x='" + fixed(x, 0) + "' y='" + fixed(key + 28, 0) + "' font-size='12' text-anchor='middle'>" + text + "</text>";
+  constexpr double k_font_px = 16, k_top_px = 24, k_key_px = 190, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
+  const double all_width = width + k_key_px, all_height = k_top_px + std::max(height, k_bar_height_px + 60);
+  const auto text = [](double x, double y, const std::string& words, const char* anchor = "start") {
+    return "<text x='" + fixed(x, 0) + "' y='" + fixed(y, 0) + "' text-anchor='" + anchor + "'>" + words + "</text>";
   };
-  label(70, fixed(k_colours_end_mm, 1) + " mm left");
-  label(60 + k_steps * k_bar_px / 2, "as planned");
-  label(50 + k_steps * k_bar_px, fixed(k_colours_end_mm, 1) + " mm beyond");
-  svg += "\n<path d='M4 " + fixed(key + 46, 0) + "h" + fixed(px / before.leaf_mm(), 1) + "' stroke='#222222' stroke-width='2'/><text x='" +
-         fixed(10 + px / before.leaf_mm(), 0) + "' y='" + fixed(key + 50, 0) + "' font-size='12'>1 mm</text>\n</svg>\n";
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
+                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' font-size='" +
+                    fixed(k_font_px, 0) + "' fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n" + text(4, 17, "&#8593; buccal") +
+                    text(width - 4, 17, "mesial &#8594;", "end") + "\n";
+  svg += "<image x='0' y='" + fixed(k_top_px, 0) + "' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
+         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(png_of(image.get())) + "'/>\n";
+  const double left = width + 20, top = k_top_px + 10, words = left + k_bar_px + 8;
+  constexpr int k_steps = 20;
+  constexpr double k_step_px = k_bar_height_px / k_steps;
+  for (int i = 0; i < k_steps; ++i)
+    svg += "<rect x='" + fixed(left, 0) + "' y='" + fixed(top + i * k_step_px, 0) + "' width='" + fixed(k_bar_px, 0) + "' height='" +
+           fixed(k_step_px + 0.5, 1) + "' fill='" + hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))) + "'/>";
+  svg += "<rect x='" + fixed(left, 0) + "' y='" + fixed(top, 0) + "' width='" + fixed(k_bar_px, 0) + "' height='" + fixed(k_bar_height_px, 0) +
+         "' fill='none' stroke='#666666'/>\n";
+  svg += text(words, top + 14, fixed(k_colours_end_mm, 1) + " mm beyond") + text(words, top + k_bar_height_px / 2 + 5, "as planned") +
+         text(words, top + k_bar_height_px - 4, fixed(k_colours_end_mm, 1) + " mm left");
+  svg += "\n<path d='M" + fixed(left, 0) + " " + fixed(top + k_bar_height_px + 34, 0) + "h" + fixed(px / before.leaf_mm(), 1) +
+         "' stroke='#222222' stroke-width='2'/>" + text(left + px / before.leaf_mm() + 8, top + k_bar_height_px + 40, "1 mm") + "\n</svg>\n";
   return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut"};
 }
 

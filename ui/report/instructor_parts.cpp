@@ -56,6 +56,7 @@ void add_walls(Document& d, const Result& r) {
                        time_cell(m.worst_under.tick, m.worst_under.site_mm)}});
   }
   d.blocks.push_back(std::move(t));
+  d.blocks.push_back(Paragraph{k_floor_words, "", Paragraph::Kind::small});
   d.blocks.push_back(Heading{"Cavity"});
   ReportTable c{{{"What", false, 3}, {"Measured", true, 2}, {"Target", true, 2}}, {}, "Cavity"};
   const auto shape = [&](const char* name, const std::optional<double>& v, double target) {
@@ -115,7 +116,7 @@ void add_work(Document& d, const ReportSource& s) {
                                    " N on average while cutting, " + fixed(m.force_peak_n, 2) + " N at most, over the limit for " +
                                    fixed(m.force_over_limit_s, 1) + " s. Steps " + std::to_string(r.progress.steps_completed) + " of " +
                                    std::to_string(r.progress.steps) + " completed, " + std::to_string(r.progress.violations) +
-                                   " violations; the exam ended: " + r.progress.finish + ".",
+                                   " violations; the exam ended: " + finish_words(r.progress.finish) + ".",
                                ""});
   ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Accommodations, pauses, late work"};
   const std::string granted = accommodations_text(r.accommodations);

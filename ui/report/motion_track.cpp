@@ -42,7 +42,7 @@ MotionTrack make_motion_track(const GradeInput& input, std::size_t most) {
     t.rpm10.push_back(whole<std::uint16_t>(input.records[first].rpm * 0.1));
     const std::size_t next = std::min(end, ticks - 1);
     const double way_mm = length(input.inputs[next].tip_mm() - tip), time_s = static_cast<double>(next - first) * k_tick_s;
-    t.tip_um_s.push_back(whole<std::uint16_t>(time_s > 0 ? way_mm / time_s * 1e3 : 0));
+    t.tip_50um_s.push_back(whole<std::uint16_t>(time_s > 0 ? way_mm / time_s * 20 : 0));
   }
   return t;
 }

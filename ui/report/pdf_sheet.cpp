@@ -162,6 +162,8 @@ PdfSheet::~PdfSheet() {
 double PdfSheet::width_pt() const noexcept { return k_page_width - 2 * k_side; }
 double PdfSheet::page_height_pt() const noexcept { return k_page_height - k_top - k_bottom; }
 
+double PdfSheet::left_pt() const noexcept { return s_->left(); }
+
 bool PdfSheet::need(double height_pt) {
   if (height_pt <= s_->left() || s_->y <= k_top) return false;
   s_->new_page();

@@ -49,6 +49,7 @@ class PdfSheet {
 
   [[nodiscard]] double width_pt() const noexcept;
   [[nodiscard]] double page_height_pt() const noexcept;
+  [[nodiscard]] double left_pt() const noexcept;  ///< of the running page
   /// A new page unless so much is left on this one; true when there was one.
   bool need(double height_pt);
   void space(double height_pt);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double k_text_pt = 9.5, k_small_pt = 8, k_cell_pt = 7.8, k_padding_pt = 3, k_gap_pt = 6;
 constexpr double k_pt_per_px = 0.75, k_most_of_page = 0.42;
+// Of their size: pictures that stand on the rest of a page rather than leave it empty; one that has its line for itself, several side by side.
+constexpr double k_least_alone = 0.5, k_least_beside = 0.7;
 
 PdfColour verdict_colour(const std::string& verdict) {
   if (verdict == "pass") return {0.0, 0.447, 0.698};
@@ -33,8 +35,9 @@ class Printer {
   /// Height of what of a block cannot be parted.
   [[nodiscard]] double least_height(const Block& block) {
     if (const auto* heading = std::get_if<Heading>(&block)) return heading->level > 2 ? 14 : 20;
-    if (const auto* pictures = std::get_if<Pictures>(&block)) return row_of(*pictures, 0).height();
-    if (const auto* live = std::get_if<LiveFigure>(&block)) return live->on_paper.empty() ? 0 : row_of({live->on_paper, 1}, 0).height();
+    if (const auto* pictures = std::get_if<Pictures>(&block)) return row_of(*pictures, 0).least_height() + k_gap_pt;
+    if (const auto* live = std::get_if<LiveFigure>(&block))
+      return live->on_paper.empty() ? 0 : row_of({live->on_paper, 1}, 0).least_height() + k_gap_pt;
     if (const auto* table = std::get_if<ReportTable>(&block)) {
       const std::vector<double> widths = widths_of(*table);
       return height_of(*table, head_of(*table), widths, true) + (table->rows.empty() ? 0 : height_of(*table, table->rows.front(), widths, false));
@@ -112,7 +115,8 @@ class Printer {
   }
   void operator()(const Pictures& b) {
     for (std::size_t first = 0; first < b.list.size(); first += columns_of(b)) {
-      const PictureRow row = row_of(b, first);
+      PictureRow row = row_of(b, first);
+      if (row.height() > s_.left_pt() && row.least_height() <= s_.left_pt()) row.shrink_to(s_.left_pt());
       s_.need(row.height());
       double x = 0;
       for (std::size_t i = 0; i < row.placed.size(); ++i) {
@@ -139,7 +143,14 @@ class Printer {
     };
     std::vector<Placed> placed;
     double width = 0, tallest = 0, titles = 0;
-    [[nodiscard]] double height() const { return tallest + titles + k_gap_pt; }
+    /// With its pictures at such a share of their size.
+    [[nodiscard]] double height(double share = 1) const { return share * tallest + titles + k_gap_pt; }
+    [[nodiscard]] double least_height() const { return height(placed.size() > 1 ? k_least_beside : k_least_alone); }
+    void shrink_to(double height_pt) {
+      const double share = (height_pt - titles - k_gap_pt) / tallest;
+      tallest *= share;
+      for (Placed& p : placed) p.width *= share, p.height *= share;
+    }
   };
   static std::size_t columns_of(const Pictures& b) { return static_cast<std::size_t>(std::max(1, b.columns)); }
   [[nodiscard]] PictureRow row_of(const Pictures& b, std::size_t first) {

@@ -44,7 +44,7 @@ json motion_json(const ReportSource& s) {
           {"force_cn", packed_array(m.force_cn)},
           {"depth_um", packed_array(m.depth_um, true)},
           {"rpm10", packed_array(m.rpm10, true)},
-          {"tip_um_s", packed_array(m.tip_um_s)}};
+          {"tip_50um_s", packed_array(m.tip_50um_s)}};
 }
 
 /// Silhouettes of the points that were mounted, from when.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "grading/grade.h"
 #include "scenarios/picture.h"
 #include "ui/report/from_above.h"
 #include "ui/report/motion_charts.h"
@@ -50,6 +51,19 @@ std::string limits_text(const CriterionSpec& c, const std::string& unit) {
   return s;
 }
 
+/// What a reader of the criteria would else have to guess.
+std::vector<std::string> how_to_read(const Result& r) {
+  std::vector<std::string> words{"± after a value: how far the true one may lie from it, because the tooth is known in leaves of " +
+                                 plain_number(r.leaf_mm) + " mm. ± after points: what the value at either end of its ± would give."};
+  const auto any = [&r](const auto& is) { return std::any_of(r.criteria.begin(), r.criteria.end(), is); };
+  if (any([](const CriterionResult& c) { return c.work_share < 1; }))
+    words.push_back("Care counts for as much as was done: where less than " + plain_number(k_care_counts_percent) +
+                    " % of the target at the place in question was removed, points are given in proportion, and their ± holds that share at either "
+                    "end of its own ±, too.");
+  if (any([](const CriterionResult& c) { return c.metric.starts_with("floor_"); })) words.emplace_back(k_floor_words);
+  return words;
+}
+
 void add_criteria(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{"Criteria"});
   ReportTable t{
@@ -62,6 +76,7 @@ void add_criteria(Document& d, const ReportSource& s) {
     t.rows.push_back({{{c.title}, {value}, {limits}, {points}, {c.reason}}, c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
+  for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
 }
 
 /// A row of a moment: time, place, what, how much, points.
@@ -185,6 +200,14 @@ TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
 }
 
 std::string place_text(const std::optional<Vec3>& p) { return p ? fixed(p->x, 2) + ", " + fixed(p->y, 2) + ", " + fixed(p->z, 2) : ""; }
+
+std::string finish_words(const std::string& finish) {
+  if (finish == finish_name(Finish::completed)) return "all its steps were completed";
+  if (finish == finish_name(Finish::failed)) return "a step was failed";
+  if (finish == finish_name(Finish::time)) return "time was up";
+  if (finish == finish_name(Finish::ended)) return "it was handed in before its steps were completed";
+  return "it was not finished";
+}
 
 std::string unit_text(const std::string& unit) {
   if (unit == "mm3") return "mm³";

@@ -6,6 +6,7 @@
 #include "engine/base/text.h"
 #include "engine/instrument/diamond_point.h"
 #include "scenarios/runner.h"
+#include "ui/report/report_document.h"
 
 namespace cavum {
 namespace {
@@ -49,10 +50,11 @@ ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::
   }
   if (is(ExamEventKind::aim_reached)) say("aim", text_of(detail, "tissue") + " reached: the aim");
   if (is(ExamEventKind::perforation)) say("perforation", text_of(detail, "tissue") + " broken into (tissue)");
-  if (is(ExamEventKind::finished)) say("finish", "the exam ended: " + text_of(detail, "how"));
+  if (is(ExamEventKind::finished)) say("finish", "the exam ended: " + finish_words(text_of(detail, "how")));
   if (is(ExamEventKind::pause_started)) say("pause", "pause begins");
   if (is(ExamEventKind::pause_ended)) say("pause", "pause ends");
   if (is(ExamEventKind::pause_refused)) say("pause", "pause refused");
+  if (e.kind == "moved") say("gap", "the disk refused: recorded at another place from here on");
   if (e.kind == "gap") say("gap", "the recording was interrupted here and taken up again");
   return r;
 }

@@ -215,6 +215,8 @@ void exam_screen(const ScreenContext& c) {
   if (!view.recording_error.empty()) {
     const std::string waiting = std::to_string(view.unwritten_ticks / 1000) + " s are kept in memory, nothing is lost. Go on working, and";
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", waiting + " call the supervisor: " + view.recording_error, t.bad);
+  } else if (!c.sitting->moved().empty()) {
+    words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Go on working, nothing is lost. For the supervisor: " + c.sitting->moved(), t.warn);
   } else if (const std::string problem = c.sitting->device().problem(); !problem.empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + problem, t.bad);
   } else if (view.paused) {

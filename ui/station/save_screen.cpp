@@ -1,3 +1,5 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <cstdio>
@@ -6,6 +8,33 @@
 #include "ui/station/window.h"
 
 namespace cavum {
+namespace {
+
+/// The window was asked to close: what would be lost, and how it is not.
+void ask_whether_to_close(const ScreenContext& c) {
+  StationState& s = c.state;
+  const bool fresh = s.confirm_close && !ImGui::IsPopupOpen("Close?");
+  if (fresh) ImGui::OpenPopup("Close?");
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal("Close?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return;
+  heading_text("This exam is not saved yet");
+  ImGui::TextUnformatted("If the window closes now, its end and its result are lost.");
+  ImGui::TextUnformatted("It can be saved to this computer's folder for temporary files first; copy it from there.");
+  if (s.rescue_failed) bad_text(c.theme, "There it cannot be written either: make room, or type another place.");
+  ImGui::Dummy({0, c.theme.px(6)});
+  if (main_button(c.theme, "Save it there and close  (Enter)", true, !fresh)) s.wish = Wish::rescue;
+  ImGui::SameLine();
+  if (ImGui::Button("Back  (Esc)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_close = false;
+  if (s.rescue_failed) {
+    ImGui::SameLine();
+    if (ImGui::Button("Close and lose it", {0, c.theme.px(44)})) s.wish = Wish::abandon;
+  }
+  if (!s.confirm_close) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace
 
 void save_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
@@ -25,10 +54,11 @@ void save_screen(const ScreenContext& c) {
   s.focus_place = false;
   const bool entered = ImGui::InputText("##place", s.place.data(), s.place.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::Dummy({0, t.px(8)});
-  if (main_button(t, "Save  (Enter)", true, false) || entered) s.wish = Wish::save;
+  if (main_button(t, "Save  (Enter)", true, false) || (entered && !s.confirm_close)) s.wish = Wish::save;
   if (entered) s.focus_place = true;
   bad_text(t, s.message);
   end_area();
+  ask_whether_to_close(c);
 }
 
 }  // namespace cavum

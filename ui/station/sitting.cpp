@@ -8,6 +8,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/station_ticket.h"
+#include "scenarios/other_place.h"
 
 namespace cavum {
 namespace {
@@ -105,6 +106,7 @@ void Sitting::advance() {
   }
   if (stage_ == Stage::running) {
     if (device_->done()) live_->ask_to_end();
+    look_where_it_is_recorded();
     if (!live_->running()) end_running();
   }
   if (stage_ == Stage::grading && is_ready(grading_)) {
@@ -128,15 +130,15 @@ void Sitting::advance() {
 
 DeviceSight Sitting::sight() const { return check_ ? check_->sight() : last_sight_; }
 
-std::string Sitting::new_path() const {
-  if (options_.out.ends_with(".cavum")) return options_.out;
+std::string Sitting::new_path(const std::string& out) const {
+  if (out.empty() || out.ends_with(".cavum")) return out;
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
   std::string when(32, '\0');
   when.resize(std::strftime(when.data(), when.size(), "%Y%m%d-%H%M%S", &local));
   const std::string name = setup_->scenario.id + "-" + file_part(candidate_) + "-" + when + ".cavum";
-  return (std::filesystem::path(options_.out) / name).string();
+  return (std::filesystem::path(out) / name).string();
 }
 
 void Sitting::begin() {
@@ -144,17 +146,23 @@ void Sitting::begin() {
   check_.reset();  // from now on the servo alone reads the device
   try {
     const Vec3 tip = device_->tip_mm();
-    path_ = options_.resume.empty() ? new_path() : options_.resume;
+    const std::string first = options_.resume.empty() ? new_path(options_.out) : options_.resume, second = new_path(options_.out_if_full);
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
     if (options_.resume.empty()) {
-      auto exam = begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path_, [&] { return Exam::start(*setup_, path_, tip); });
+      auto exam = begin_somewhere(first, second, [&](const std::string& path) {
+        return begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return Exam::start(*setup_, path, tip); });
+      });
       live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
       SourceNotes notes = device_->notes();
       notes.emplace_back("device", device_->name());
-      require_not_closed(setup_->session.notes, path_);
-      live_ = std::make_unique<LiveExam>(*setup_, Exam::resume(*setup_, path_, notes), *with_desk_);
+      require_not_closed(setup_->session.notes, first);
+      auto exam = Exam::resume(*setup_, first, notes);
+      exam->set_second_place(second);
+      live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);
     }
+    path_ = first;
+    look_where_it_is_recorded();
     live_->start();
   } catch (...) {
     live_.reset();
@@ -162,6 +170,39 @@ void Sitting::begin() {
     throw;
   }
   stage_ = Stage::running;
+}
+
+void Sitting::look_where_it_is_recorded() {
+  constexpr auto k_told_for = std::chrono::seconds(20);
+  const auto now = std::chrono::steady_clock::now();
+  const std::string at = live_->session();
+  if (at != path_) {
+    moved_ = path_ + " cannot be written: its disk is full or refuses. The whole exam is recorded at " + at + ".";
+    moved_at_ = now;
+    path_ = at;
+  }
+  if (!moved_.empty() && now - moved_at_ > k_told_for) moved_.clear();
+}
+
+void Sitting::stop() {
+  if (stage_ == Stage::running) end_running();
+}
+
+void Sitting::rescue() {
+  stop();
+  for (int tries = 0;; ++tries) {
+    while (stage_ == Stage::grading) {
+      grading_.wait();
+      advance();
+    }
+    if (stage_ != Stage::unsaved) return;
+    if (tries == 2) throw Error(path_, "cannot be written, nor can any other place", "what was on disk before can be resumed from there");
+    try {
+      save(tries == 0 ? "" : rescue_place(path_));
+    } catch (const DatabaseError& refusal) {
+      trouble_ = refusal.what();
+    }
+  }
 }
 
 void Sitting::ask_to_end() {

@@ -20,6 +20,7 @@ namespace cavum {
 struct SittingOptions {
   std::string scenario, tooth, model = "consistent", rubric;  ///< files as for an exam
   std::string out;                                            ///< a session file (.cavum), or the folder for one
+  std::string out_if_full;                                    ///< the same, on another disk, for when that one refuses; may be empty
   std::string tickets;                                        ///< folder with CODE.ticket for each candidate; empty: nobody needs one
   std::string resume;  ///< a session to go on with, by the candidate who began it; scenario and all else are its own
   Grant grant;
@@ -57,13 +58,19 @@ class Sitting {
   [[nodiscard]] const ExamSetup& setup() const { return *setup_; }
   [[nodiscard]] StationDevice& device() { return *device_; }
   [[nodiscard]] DeviceSight sight() const;
-  /// From `checking` to `running`: begins to record. Throws Error when that is impossible; the stage stays.
+  /// From `checking` to `running`: begins to record, at the second place when the first refuses. Throws Error when that is impossible; the stage
+  /// stays.
   void begin();
 
   /// While `running`.
   [[nodiscard]] LiveExam& live() { return *live_; }
   [[nodiscard]] Desk& desk() noexcept { return desk_; }
   void ask_to_end();
+  /// The exam is left as it is: `interrupted`, or `unsaved` when the disk refuses its end; nothing while it does not run.
+  void stop();
+  /// For when nobody answers any more: stops what runs, waits until what was graded is sealed, and saves what is in memory only, where it is or else
+  /// at rescue_place(). Throws Error when no place takes it.
+  void rescue();
 
   /// When `done`.
   [[nodiscard]] const ClosedExam& closed() const { return *closed_; }
@@ -73,6 +80,8 @@ class Sitting {
   /// When `unsaved`: tries again, in another place unless that is empty: a session file that does not exist yet, or a folder. Throws Error when that
   /// is refused, too; the stage stays. By itself it tries again once there is room.
   void save(const std::string& place);
+  /// For a while after it began to be recorded at the second place, and why; else empty.
+  [[nodiscard]] const std::string& moved() const noexcept { return moved_; }
   /// How much of the exam is in memory only, s.
   [[nodiscard]] double unwritten_s() const;
 
@@ -82,7 +91,8 @@ class Sitting {
  private:
   void end_running();
   void close_exam();
-  [[nodiscard]] std::string new_path() const;
+  [[nodiscard]] std::string new_path(const std::string& out) const;
+  void look_where_it_is_recorded();
 
   SittingOptions options_;
   std::string candidate_;
@@ -99,7 +109,8 @@ class Sitting {
   std::future<ClosedExam> grading_;
   std::optional<ClosedExam> closed_;
   LiveReport report_;
-  std::string path_, trouble_;
+  std::string path_, trouble_, moved_;
+  std::chrono::steady_clock::time_point moved_at_;
   std::chrono::steady_clock::time_point last_try_;  ///< to save by itself
 };
 

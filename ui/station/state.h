@@ -12,7 +12,7 @@ enum class Screen { sign_in, device_check, briefing, exam, grading, result, repl
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
 
 /// What a button or a key asked for; the station does it after the frame.
-enum class Wish { none, sign_in, to_briefing, to_check, begin, end, save, report, next_candidate, quit };
+enum class Wish { none, sign_in, to_briefing, to_check, begin, end, save, rescue, abandon, report, next_candidate, quit };
 
 struct StationState {
   Screen screen = Screen::sign_in;
@@ -27,6 +27,8 @@ struct StationState {
   double text_scale = 1.0;
   bool muted = false;
   bool confirm_end = false;
+  bool confirm_close = false;    ///< the window was asked to close on what is in memory only
+  bool rescue_failed = false;    ///< no other place took it either
   double replay_at = 0.0;        ///< ticks
   double replay_speed = 1.0;     ///< times real time
   bool playing = false;          ///< the replay

@@ -2,7 +2,6 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/session/session_reader.h"
+#include "scenarios/other_place.h"
 #include "ui/interrupt.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
@@ -64,15 +64,18 @@ class Station {
 
   int run() {
     try {
-      while (!window_.closing() && !Interrupt::asked()) frame();
+      while (!may_close() && !Interrupt::asked()) frame();
     } catch (const std::exception& e) {
+      rescue();
       if (!open_session().empty())
         throw Error("station", std::string("failed during the exam (") + without_advice(e.what()) + ")",
                     "what was done is recorded; go on with: cavum station --resume " + open_session());
       throw;
     }
+    if (!abandoned_) rescue();
     const std::string open = open_session();
     if (open.empty()) return 0;
+    if (abandoned_) std::fprintf(stderr, "cavum: station: the last %.1f s of the exam were given up\n", sitting_->unwritten_s());
     sitting_.reset();
     std::fprintf(stderr,
                  "cavum: station: was closed during the exam; what was done is recorded; go on with: cavum station --resume %s (or close it as it "
@@ -88,6 +91,36 @@ class Station {
     const bool open =
         sitting_ && (sitting_->stage() == Stage::running || sitting_->stage() == Stage::interrupted || sitting_->stage() == Stage::unsaved);
     return open ? sitting_->path() : std::string();
+  }
+
+  /// The window was asked to close, and nothing would be lost. Else it stays open, and asks or waits.
+  bool may_close() {
+    if (!window_.closing()) return false;
+    if (abandoned_ || !sitting_) return true;
+    sitting_->stop();
+    if (sitting_->stage() != Stage::grading && sitting_->stage() != Stage::unsaved) return true;
+    window_.stay_open();
+    seen_ = sitting_->stage();
+    if (seen_ == Stage::grading) {
+      if (state_.screen != Screen::grading) go_to(Screen::grading);
+      close_when_sealed_ = true;
+    } else {
+      if (state_.screen != Screen::save) go_to(Screen::save);
+      state_.confirm_close = true;
+    }
+    return false;
+  }
+
+  /// Nobody may be there to answer: what is in memory only goes wherever there is room, and standard error says where.
+  void rescue() {
+    if (!sitting_) return;
+    const std::string first = sitting_->path();
+    sitting_->rescue();
+    tell_moved(first);
+  }
+  void tell_moved(const std::string& first) const {
+    if (!first.empty() && sitting_->path() != first)
+      std::fprintf(stderr, "cavum: station: %s could not be written; the whole exam is saved at %s\n", first.c_str(), sitting_->path().c_str());
   }
 
   void frame() {
@@ -200,6 +233,19 @@ class Station {
         case Wish::save:
           sitting_->save(state_.place.data());
           break;
+        case Wish::rescue: {
+          state_.rescue_failed = true;  // unless it is saved
+          const std::string first = sitting_->path();
+          sitting_->save(rescue_place(first));
+          tell_moved(first);
+          state_.rescue_failed = false;
+          close_when_sealed_ = true;
+          break;
+        }
+        case Wish::abandon:
+          abandoned_ = true;
+          window_.ask_to_close();
+          break;
         case Wish::report:
           write_report();
           break;
@@ -219,6 +265,7 @@ class Station {
 
   void sign_in() {
     SittingOptions o = options_.sitting;
+    seen_ = Stage::preparing;
     const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
     if (fixed) {
       sitting_ = std::make_unique<Sitting>(o, state_.code.data());
@@ -239,6 +286,7 @@ class Station {
   void write_report() {
     const ClosedExam& closed = sitting_->closed();
     const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
+    require_report_place(path);
     write_closing_report(path, sitting_->path(), closed.result, *closed.graded);
     state_.message = "Report: " + path;
   }
@@ -267,7 +315,8 @@ class Station {
       return;
     }
     const Stage now = sitting_->stage();
-    if (now == before) return;
+    if (now == seen_) return;
+    seen_ = now;
     if (now == Stage::checking) {
       const Accommodations& granted = sitting_->setup().scenario.accommodations;
       state_.left_handed = state_.left_handed || granted.left_handed;
@@ -282,8 +331,12 @@ class Station {
       scene_->tooth().update();
     }
     if (now == Stage::grading) go_to(Screen::grading);
-    if (now == Stage::unsaved) go_to(Screen::save);
+    if (now == Stage::unsaved) {
+      go_to(Screen::save);
+      state_.confirm_close = std::exchange(close_when_sealed_, false);
+    }
     if (now == Stage::done) go_to(Screen::result);
+    if (close_when_sealed_ && (now == Stage::done || now == Stage::interrupted)) window_.ask_to_close();
     if (now == Stage::interrupted) {
       go_to(Screen::trouble);
       state_.message = sitting_->trouble();
@@ -304,7 +357,7 @@ class Station {
   void go_to(Screen screen) {
     state_.screen = screen;
     state_.message.clear();
-    state_.confirm_end = false;
+    state_.confirm_end = state_.confirm_close = state_.rescue_failed = false;
   }
 
   StationOptions options_;
@@ -321,6 +374,8 @@ class Station {
   bool dressed_contrast_ = false;
   std::unique_ptr<Sitting> sitting_;
   std::unique_ptr<Scene> scene_;
+  Stage seen_ = Stage::preparing;  // of the sitting, by the screens
+  bool close_when_sealed_ = false, abandoned_ = false;
   Clock::time_point start_ = Clock::now(), last_frame_ = start_;
 };
 
@@ -329,32 +384,6 @@ class Station {
 int run_station(const StationOptions& options) {
   spare_the_processor();  // before the sound's thread reads the environment
   return Station(options).run();
-}
-
-void print_frame_times(const StationOptions& options, int frames) {
-  ExamOptions exam;
-  exam.candidate = "bench";
-  exam.tooth_file = options.sitting.tooth;
-  const auto setup = prepare_exam(options.sitting.scenario, exam);
-  const Window window("Cavum", options.width, options.height);
-  const auto began = Clock::now();
-  Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->points, nullptr);
-  const double made_s = seconds_since(began);
-  SceneView view;
-  view.point = 0;
-  view.tool.tip_mm = {0, 0, 3};
-  std::vector<double> times_ms;
-  for (int i = 0; i < frames; ++i) {
-    view.camera.orbit(3.0F, 0.0F);
-    const auto start = Clock::now();
-    static_cast<void>(scene.picture(view, options.width, options.height, window.software() ? 1 : 4));
-    glFinish();
-    times_ms.push_back(1e3 * seconds_since(start));
-  }
-  std::sort(times_ms.begin(), times_ms.end());
-  const auto at = [&](double share) { return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))]; };
-  std::printf("%s, %d x %d, %zu triangles: first mesh %.2f s; a picture takes %.1f ms (median of %d), 95 %% within %.1f ms\n",
-              renderer_name().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
 }
 
 }  // namespace cavum

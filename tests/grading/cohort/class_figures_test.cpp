@@ -64,6 +64,62 @@ TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
   EXPECT_THROW(static_cast<void>(class_figures(r, "nobody's", {}, 3)), Error);
 }
 
+TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsToBeLookedAt) {
+  Registry r = four();
+  const auto why_of = [](const ClassFigures& f, std::uint64_t seq) {
+    std::string all;
+    for (const auto& l : f.to_look_at)
+      if (l.session == seq) all += l.why + "; ";
+    return all;
+  };
+  r.sessions[0].result["perforation"] = {{"truth", {{"perforated", true}, {"first_t_s", 12.34}, {"tissue", "pulp"}}},
+                                         {"aim", {{"perforated", false}}}};
+  r.sessions[1].result["perforation"] = {{"truth", {{"perforated", false}, {"tissue", nullptr}}},
+                                         {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
+  r.sessions.push_back(session(5, "C-5", 60, 40));
+  r.sessions.back().findings = {"the chain breaks at second 7", "another"};
+  r.sessions[2].simulated = "expert";
+  const ClassFigures f = class_figures(r, "exam", {}, 3);
+  EXPECT_EQ(f.n, 4u);
+  EXPECT_EQ(why_of(f, 1), "perforated the pulp at 12.3 s; ") << "although it passed";
+  EXPECT_EQ(why_of(f, 2), "") << "what a task aims at is no fault";
+  EXPECT_EQ(why_of(f, 3), "was sat by the simulated operator expert, and counts among people; ");
+  EXPECT_EQ(why_of(f, 4), "verdict is review; ");
+  EXPECT_EQ(why_of(f, 5), "was filed with findings and does not count: the chain breaks at second 7, and 1 more; ");
+  EXPECT_NE(to_text(f).find("entry 1     C-1               perforated the pulp"), std::string::npos) << to_text(f);
+  for (auto& s : r.sessions) s.simulated = "expert";
+  EXPECT_EQ(why_of(class_figures(r, "exam", {}, 3), 3), "") << "a class of simulated ones alone is not mixed";
+}
+
+TEST(ClassFigures, FromFewAreCalledRough) {
+  const auto of_n = [](std::size_t n) {
+    Registry r;
+    std::vector<HumanMark> marks;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto points = static_cast<double>(i % 10);
+      r.sessions.push_back(session(i + 1, "C-" + std::to_string(i), 20 + 4 * points, 10 + 2 * points));
+      marks.push_back({"C-" + std::to_string(i), "x", 31 + 6 * points, 1 + points / 2});
+    }
+    return class_figures(r, "exam", marks, 3);
+  };
+  const auto named = [](const ClassFigures& f) {
+    std::vector<std::string> names;
+    for (const auto& few : f.few) names.push_back(few.figure);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(named(of_n(17)), (Names{"alpha", "standard_error", "discrimination", "icc", "limits", "weighted_kappa", "borderline_cut"}));
+  EXPECT_EQ(named(of_n(18)), (Names{"alpha", "standard_error", "discrimination", "icc", "limits", "borderline_cut"}));
+  EXPECT_EQ(named(of_n(30)), (Names{"borderline_cut"}));
+  EXPECT_EQ(named(of_n(50)), Names{});
+  const ClassFigures f = of_n(17);
+  EXPECT_EQ(few_words(f, "alpha"), "few: 17 candidates, under 30 it is a rough guess");
+  EXPECT_EQ(few_words(of_n(50), "alpha"), "");
+  const std::string text = to_text(f);
+  EXPECT_NE(text.find("weighted kappa 1.00 (few: 17 candidates, under 18 it is a rough guess)"), std::string::npos) << text;
+  EXPECT_EQ(to_json(f)["few"][0], (json{{"figure", "alpha"}, {"n", 17}, {"enough", 30}}));
+}
+
 TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
   Registry r = four();
   r.sessions[0].result["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};

@@ -106,6 +106,34 @@ TEST_F(ReportFile, SaysTheSameFiguresAsHtmlAsPdfAndAsJson) {
   }
 }
 
+TEST_F(ReportFile, SaysHowTheExamEndedAndHowItsBoundsAreMeant) {
+  const std::string session = sit("novice");
+  const json g = run_json("grade " + session);
+  ASSERT_EQ(run("report " + session + " --out " + path("r.html")).exit_code, 0);
+  const std::string html = read_text_file(path("r.html"));
+  EXPECT_EQ(html.find("ended: ended"), std::string::npos);
+  EXPECT_EQ(html.find("ended: completed"), std::string::npos);
+  const std::string how = g["finish"] == "ended" ? "it was handed in before its steps were completed" : "all its steps were completed";
+  EXPECT_EQ(times(html, "the exam ended: " + how), 3u) << "among the events, in their data, and in the work: " << g["finish"];
+  EXPECT_NE(html.find("because the tooth is known in leaves of 0.05 mm"), std::string::npos);
+  EXPECT_EQ(times(html, "the overcut ends at the pulp"), 1u) << "beside the walls";
+  bool by_work = false;
+  for (const auto& c : g["criteria"]) by_work |= c.contains("work_share");
+  EXPECT_EQ(html.find("Care counts for as much as was done: where less than 50 %") != std::string::npos, by_work);
+  const std::string of_the_floor = html_with([](GradedSession& graded) { graded.rubric.criteria[0].metric = "floor_max_over_mm"; });
+  EXPECT_EQ(times(of_the_floor, "the overcut ends at the pulp"), 2u) << "beside the criteria, too";
+  EXPECT_EQ(finish_words("time"), "time was up");
+  EXPECT_EQ(finish_words("failed"), "a step was failed");
+}
+
+TEST_F(ReportFile, NoPageIsLeftHalfEmptyBeforeAPicture) {
+  const std::string session = sit("novice");
+  ASSERT_EQ(run("report " + session + " --for student --out " + path("r.pdf")).exit_code, 0);
+  const std::string first = pdf_text(path("r.pdf"), "-l 1 -raw");
+  EXPECT_NE(first.find("Criteria"), std::string::npos);
+  EXPECT_NE(first.find("From above"), std::string::npos) << "the picture that follows the criteria stands on their page: " << first;
+}
+
 TEST_F(ReportFile, EveryWordOfTheDocumentIsInBothFiles) {
   const auto session = load_for_grading(sit("novice"));
   const GradeInput input = session->input();

@@ -126,6 +126,36 @@ TEST_F(FullDiskSitting, IsSavedInAnotherFolderThatSomebodyTypes) {
   EXPECT_FALSE(first.closed);
 }
 
+TEST_F(FullDiskSitting, WithNobodyToAnswerSaysThatNothingTakesItAndKeepsIt) {
+  sit();
+  if (HasFatalFailure()) return;
+  const std::string temporary = folder_.file("temporary");
+  std::filesystem::create_directories(temporary);
+  ::setenv("TMPDIR", temporary.c_str(), 1);
+  EXPECT_THROW(sitting_.rescue(), Error) << "it is as full there";
+  EXPECT_EQ(sitting_.stage(), Stage::unsaved);
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+  full_.reset();
+  sitting_.rescue();
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(sitting_.stage(), Stage::done) << "it waits until all is sealed";
+  expect_whole();
+  EXPECT_EQ(sitting_.path(), options_.out) << "where there is room it stays";
+}
+
+TEST_F(SittingTest, StoppedByTheWindowItIsInterruptedAndAllOfItOnDisk) {
+  Sitting sitting(options_, "K9");
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+  sitting.stop();
+  EXPECT_EQ(sitting.stage(), Stage::checking) << "nothing runs yet";
+  sitting.begin();
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 1200; }));
+  sitting.rescue();
+  EXPECT_EQ(sitting.stage(), Stage::interrupted);
+  EXPECT_EQ(sitting.unwritten_s(), 0.0);
+  EXPECT_EQ(SessionReader(options_.out).ticks(), sitting.live().view().ticks);
+}
+
 TEST_F(SittingTest, LeftInTheMiddleItCanBeResumed) {
   {
     Sitting sitting(options_, "K2");
@@ -157,6 +187,23 @@ TEST_F(SittingTest, WhereNothingCanBeRecordedNothingBegins) {
   EXPECT_THROW(sitting.begin(), Error);
   EXPECT_EQ(sitting.stage(), Stage::checking);
   EXPECT_TRUE(goes_on(sitting, [&] { return sitting.sight().read_once; })) << "the device is watched on";
+}
+
+TEST_F(SittingTest, BeginsAtTheSecondPlaceWhenTheFirstRefuses) {
+  options_.out = folder_.file("no/such/disk/s.cavum");
+  options_.out_if_full = folder_.file("stick");
+  std::filesystem::create_directories(options_.out_if_full);
+  Sitting sitting(options_, "K6");
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
+  sitting.begin();
+  EXPECT_NE(sitting.moved().find(options_.out + " cannot be written"), std::string::npos) << "told at once: " << sitting.moved();
+  EXPECT_NE(sitting.moved().find(sitting.path()), std::string::npos) << sitting.moved();
+  EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(options_.out_if_full));
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 1200; }));
+  EXPECT_EQ(sitting.live().view().recording_error, "");
+  sitting.ask_to_end();
+  ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done; }));
+  EXPECT_TRUE(verify_session(sitting.path()).verified);
 }
 
 TEST_F(SittingTest, GivesEachCandidateAFileOfHisOwnInAFolder) {

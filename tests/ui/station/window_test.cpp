@@ -48,6 +48,9 @@ class StationWindow : public ::testing::Test {
     write_text_file(folder_.file("script"), script);
     const std::string command = "exec " CAVUM_BINARY " station " + scenario + " --out " + session() + " --script " + folder_.file("script") +
                                 " --pictures " CAVUM_PICTURES " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+    return start_command(command);
+  }
+  static pid_t start_command(const std::string& command) {
     std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
     pid_t child = -1;
     EXPECT_EQ(::posix_spawn(&child, "/bin/sh", nullptr, nullptr, arguments.data(), environ), 0);
@@ -147,6 +150,55 @@ TEST_F(StationWindow, AFailureInItsThreadLeavesASessionToResume) {
   expect_resumable(2000);
 }
 
+/// The station on a disk that is really full: of 120 kB, of a mount that only its own process sees; temporary files have another.
+class StationOnAFullDisk : public StationWindow {
+ protected:
+  void SetUp() override {
+    StationWindow::SetUp();
+    if (IsSkipped()) return;
+    for (const std::string& folder : {small(), temporary()}) std::filesystem::create_directories(folder);
+    if (std::system(("unshare -m mount -t tmpfs -o size=120k none " + small() + " 2>/dev/null").c_str()) != 0)
+      GTEST_SKIP() << "no file system of a limited size can be mounted here (unshare, tmpfs)";
+  }
+  [[nodiscard]] std::string small() const { return folder_.file("small"); }
+  [[nodiscard]] std::string temporary() const { return folder_.file("temporary"); }
+  [[nodiscard]] pid_t start_full(const std::string& script) const {
+    write_text_file(folder_.file("script"), script);
+    for (const char* name : {"out", "err"}) write_text_file(folder_.file(name), "");
+    const std::string command = "TMPDIR=" + temporary() + " exec unshare -m sh -c 'mount -t tmpfs -o size=120k none " + small() +
+                                " && exec " CAVUM_BINARY " station " + k_scenario + " --out " + small() + "/s.cavum --script " +
+                                folder_.file("script") + " --pictures " CAVUM_PICTURES " >" + folder_.file("out") + " 2>" + folder_.file("err") + "'";
+    return start_command(command);
+  }
+  /// Everything that was done is at the rescue's place, whole, and the candidate's own.
+  void expect_rescued(double least_s) const {
+    const std::string saved = temporary() + "/s-rescued.cavum";
+    ASSERT_TRUE(std::filesystem::exists(saved)) << said();
+    EXPECT_NE(said().find("the whole exam is saved at " + saved), std::string::npos) << said();
+    const VerifyReport report = verify_session(saved);
+    EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings[0]);
+    EXPECT_GE(static_cast<double>(report.ticks), 1000.0 * least_s);
+    EXPECT_EQ(SessionReader(saved).setup().candidate, "T5");
+  }
+};
+
+TEST_F(StationOnAFullDisk, ClosingTheWindowAsksFirstAndSavesEverythingElsewhere) {
+  const std::string script = std::string(k_to_exam) +
+                             "until 12\nkey escape\nsleep 0.3\nkey enter\nwait save\nclose\nsleep 0.5\npicture 11-not-saved\nkey escape\nsleep 0.3\n"
+                             "memory still-open\nclose\nsleep 0.5\nkey enter\nsleep 30\nfail\n";
+  EXPECT_EQ(wait(start_full(script)), 0) << said();
+  EXPECT_NE(printed().find("still-open"), std::string::npos) << "it stayed open when it was asked to close: " << printed();
+  expect_rescued(12);
+}
+
+TEST_F(StationOnAFullDisk, ASignalSavesEverythingElsewhereAndSaysWhere) {
+  const pid_t child = start_full(std::string(k_to_exam) + "until 12\nkey escape\nsleep 0.3\nkey enter\nwait save\nmemory unsaved\nsleep 60\nfail\n");
+  for (int i = 0; i < 1200 && printed().find("unsaved") == std::string::npos; ++i) std::this_thread::sleep_for(100ms);
+  ::kill(child, SIGTERM);
+  EXPECT_EQ(wait(child), 0) << said();
+  expect_rescued(12);
+}
+
 class StationSignal : public StationWindow, public ::testing::WithParamInterface<int> {};
 
 TEST_P(StationSignal, LeavesASessionToResume) {
@@ -178,6 +230,32 @@ TEST_F(StationWindow, AnExamEndedByTheCandidateIsGradedAsItIs) {
   EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
   EXPECT_TRUE(verify_session(session()).verified);
   EXPECT_EQ(nlohmann::json::parse(SessionReader(session()).result_json())["verdict"], "fail");
+}
+
+TEST_F(StationWindow, TheReportButtonOfTheResultWritesTheReportOfThisExam) {
+  EXPECT_EQ(
+      run(std::string(k_to_exam) + "until 3\nkey escape\nsleep 0.3\nkey enter\nwait result\nsleep 0.3\nkey f2\nsleep 0.3\npicture 12-report-written\n"
+                                   "key enter\n"),
+      0)
+      << said();
+  const std::string report = folder_.file("s.html");
+  ASSERT_TRUE(std::filesystem::exists(report)) << said();
+  const std::string html = read_text_file(report);
+  const auto result = nlohmann::json::parse(SessionReader(session()).result_json());
+  EXPECT_EQ(result["verdict"], "fail");
+  EXPECT_NE(html.find("<div class='verdict fail'>"), std::string::npos);
+  EXPECT_NE(html.find("Candidate T5"), std::string::npos);
+  for (const auto& c : result["criteria"]) {
+    char points[64];
+    std::snprintf(points, sizeof points, "%.1f", c["points"].get<double>());
+    const auto row = html.find("<td>" + c["title"].get<std::string>() + "</td>");
+    ASSERT_NE(row, std::string::npos) << c["title"];
+    EXPECT_NE(html.substr(row, 400).find(points), std::string::npos) << c["title"] << " " << points;
+  }
+  EXPECT_TRUE(html.ends_with("</html>\n"));
+  // the same file as the command writes of the sealed session
+  ASSERT_EQ(std::system((CAVUM_BINARY " report " + session() + " --out " + folder_.file("again.html") + " >" + folder_.file("out")).c_str()), 0);
+  EXPECT_EQ(html, read_text_file(folder_.file("again.html")));
 }
 
 TEST_F(StationWindow, PracticeSaysSoInTheSession) {

@@ -185,7 +185,7 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
     force_cn: pack("u16", column((t) => (turning(t) ? 90 + 50 * Math.sin(3 * t) + 20 * Math.sin(17 * t) : 0))),
     depth_um: pack("i16", column((t) => Math.max(3400 - 1000 * front_mm(t), 0)), true),
     rpm10: pack("u16", column((t) => (turning(t) ? 20000 - 600 * Math.sin(5 * t) : 0))),
-    tip_um_s: pack("u16", column((t) => 1920 + 300 * Math.sin(11 * t))),
+    tip_50um_s: pack("u16", column((t) => 38 + 6 * Math.sin(11 * t))),
   };
   data.instruments = [{ from_s: 0, name: "round 1.4", profile_mm: [[0, 0], [0.05, 0.26], [0.2, 0.49], [0.45, 0.66], [0.7, 0.7], [0.95, 0.66], [1.2, 0.49], [1.35, 0.3]] }];
   data.events = [

@@ -43,7 +43,7 @@ export interface Motion {
   force_cn: Packed;
   depth_um: Packed;
   rpm10: Packed;
-  tip_um_s: Packed;
+  tip_50um_s: Packed;
 }
 
 export interface Instrument {

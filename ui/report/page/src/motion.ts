@@ -34,7 +34,7 @@ export class Recording {
     this.force_n = scaled(unpack(motion.force_cn), 0.01);
     this.depth_mm = scaled(unpack(motion.depth_um), 1e-3);
     this.rpm = scaled(unpack(motion.rpm10), 10);
-    this.tip_mm_s = scaled(unpack(motion.tip_um_s), 1e-3);
+    this.tip_mm_s = scaled(unpack(motion.tip_50um_s), 0.05);
     for (const column of [...this.tip, ...this.axis, this.force_n, this.depth_mm, this.rpm, this.tip_mm_s])
       if (column.length !== this.n) throw new Error("the motion's columns differ in length");
   }

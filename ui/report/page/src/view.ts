@@ -1,15 +1,17 @@
 // The 3D view: the tooth with its colours, the section where it is cut away, the target's outline, the instrument, the marked place. It draws only
 // when something changed.
 import * as THREE from "three";
-import type { Instrument, ReportData, Tissue, Vec3 } from "./data.ts";
+import type { Instrument, ReportData, Vec3 } from "./data.ts";
+import { bytes_of, geometry_of, Growing, volume_texture } from "./geometry.ts";
 import { instrument_mesh, pose_instrument } from "./instrument.ts";
 import type { Sample } from "./motion.ts";
 import { k_views, Orbit } from "./orbit.ts";
 import { type Clip, in_sight, outward_at, probe, type Reading } from "./probe.ts";
-import { type Block, bounds, type ToothField } from "./tooth_field.ts";
+import type { ToothField } from "./tooth_field.ts";
 import { section_material, shared_uniforms, type SharedUniforms, tooth_material } from "./tooth_material.ts";
 import { heat_at, type Surface, target_surface, ToothSurface } from "./tooth_surface.ts";
 import { Surroundings } from "./surroundings.ts";
+import { marker_of, outline_material, spheres, tissue_kind } from "./view_parts.ts";
 
 export interface ViewOptions {
   edges: readonly number[];
@@ -17,70 +19,6 @@ export interface ViewOptions {
 }
 
 const k_back = 0xf4f5f3;
-
-/** Geometry whose arrays grow with what is put into it. */
-class Growing {
-  readonly geometry = new THREE.BufferGeometry();
-  private capacity = { vertices: 0, indices: 0 };
-
-  put(surface: Surface): void {
-    const vertices = surface.cubes.length;
-    const indices = surface.triangles.length;
-    if (vertices > this.capacity.vertices || indices > this.capacity.indices) {
-      this.geometry.dispose();
-      this.capacity = { vertices: Math.ceil(vertices * 1.3), indices: Math.ceil(indices * 1.3) };
-      const { vertices: v, indices: i } = this.capacity;
-      this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * v), 3));
-      this.geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * v), 3));
-      this.geometry.setAttribute("tissue_colour", new THREE.BufferAttribute(new Uint8Array(3 * v), 3, true));
-      this.geometry.setAttribute("marks", new THREE.BufferAttribute(new Float32Array(2 * v), 2));
-      this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(i), 1));
-    }
-    const fill = (attribute: THREE.BufferAttribute, values: ArrayLike<number>): void => {
-      attribute.array.set(values);
-      attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, values.length);
-      attribute.needsUpdate = true;
-    };
-    const of = (name: string): THREE.BufferAttribute => this.geometry.getAttribute(name) as THREE.BufferAttribute;
-    fill(of("position"), surface.positions);
-    fill(of("normal"), surface.normals);
-    fill(of("tissue_colour"), surface.colours);
-    fill(of("marks"), surface.marks);
-    fill(this.geometry.index!, surface.triangles);
-    this.geometry.setDrawRange(0, indices);
-  }
-}
-
-function geometry_of(surface: Surface): THREE.BufferGeometry {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(surface.positions, 3));
-  geometry.setAttribute("normal", new THREE.BufferAttribute(surface.normals, 3));
-  geometry.setAttribute("tissue_colour", new THREE.BufferAttribute(surface.colours, 3, true));
-  geometry.setAttribute("marks", new THREE.BufferAttribute(surface.marks, 2));
-  geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
-  return geometry;
-}
-
-function volume_texture(data: Uint8Array, size: Vec3, filter: THREE.MagnificationTextureFilter): THREE.Data3DTexture {
-  const texture = new THREE.Data3DTexture(data as Uint8Array<ArrayBuffer>, ...size);
-  texture.format = THREE.RedFormat;
-  texture.type = THREE.UnsignedByteType;
-  texture.minFilter = texture.magFilter = filter;
-  texture.wrapS = texture.wrapT = texture.wrapR = THREE.ClampToEdgeWrapping;
-  texture.unpackAlignment = 1;
-  texture.needsUpdate = true;
-  return texture;
-}
-
-function bytes_of(values: Float32Array, whole: Vec3, block: Block, into: Uint8Array): void {
-  let i = 0;
-  for (let z = block.low[2]; z < block.low[2] + block.size[2]; ++z)
-    for (let y = block.low[1]; y < block.low[1] + block.size[1]; ++y) {
-      const from = (z * whole[1] + y) * whole[0] + block.low[0];
-      for (let x = 0; x < block.size[0]; ++x) into[i++] = values[from + x] * 255 + 0.5;
-    }
-}
 
 export class ToothView {
   readonly orbit: Orbit;
@@ -346,70 +284,4 @@ export class ToothView {
     this.orbit.resize(width, height);
     this.draw();
   }
-}
-
-/** 1 for a solid tissue, 2 for pulp, 3 for what else surrounds the tooth, 0 for air and what is no tissue. */
-function tissue_kind(tissue: Tissue | undefined): number {
-  if (tissue === undefined || tissue.name === "air") return 0;
-  return tissue.solid ? 1 : tissue.name === "pulp" ? 2 : 3;
-}
-
-/** The sphere around all solid tissue, and the one that the view begins with: the tooth's breadth around the height of what was to be done. */
-function spheres(field: ToothField): { whole: { centre: THREE.Vector3; radius: number }; home: { centre: THREE.Vector3; radius: number } } {
-  const tooth = bounds({ low: [0, 0, 0], size: field.size }, (i) => field.untouched[i] > 0.5, field.size)!;
-  const low = tooth.low;
-  const high = low.map((v, a) => v + tooth.size[a] - 1);
-  const span = [0, 1, 2].map((a) => (high[a] - low[a]) * field.cell_mm);
-  const mm = (cells: number[]): THREE.Vector3 => new THREE.Vector3(...(cells.map((v, a) => field.origin_mm[a] + v * field.cell_mm) as Vec3));
-  const middle = [0, 1, 2].map((a) => (low[a] + high[a]) / 2);
-  const worked = field.box.low[2] + field.box.size[2] / 2;
-  const breadth = Math.hypot(span[0], span[1]) / 2;
-  const radius = Math.hypot(...span) / 2;
-  const height = Math.min(Math.max(worked, low[2] + breadth / field.cell_mm), Math.max(high[2] - (0.75 * breadth) / field.cell_mm, middle[2]));
-  return { whole: { centre: mm(middle), radius }, home: { centre: mm([middle[0], middle[1], height]), radius: Math.min(radius, 1.08 * breadth) } };
-}
-
-function outline_material(shared: SharedUniforms, opacity: number, through: boolean): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({
-    uniforms: { clip: shared.clip, opacity: { value: opacity } },
-    vertexShader: /* glsl */ `
-varying vec3 v_world, v_normal, v_view;
-void main() {
-  vec4 world = modelMatrix * vec4(position, 1.0);
-  vec4 view = viewMatrix * world;
-  v_world = world.xyz; v_normal = mat3(viewMatrix) * normal; v_view = view.xyz;
-  gl_Position = projectionMatrix * view;
-}`,
-    fragmentShader: /* glsl */ `
-uniform vec4 clip; uniform float opacity;
-varying vec3 v_world, v_normal, v_view;
-void main() {
-  if (dot(clip.xyz, v_world) > clip.w) discard;
-  float s = v_world.z / 0.5, w = fwidth(s);
-  float line = 1.0 - smoothstep(0.5, 1.5, abs(fract(s + 0.5) - 0.5) / max(w, 1e-5));
-  line *= 1.0 - smoothstep(0.2, 0.6, w);
-  float facing = abs(dot(normalize(v_normal), normalize(v_view)));
-  gl_FragColor = vec4(0.0, 0.36, 0.40, opacity * (0.45 + 0.55 * (1.0 - facing) + 0.9 * line));
-}`,
-    transparent: true,
-    depthWrite: false,
-    depthTest: !through,
-    side: THREE.DoubleSide,
-  });
-}
-
-/** A ring with a point, of one size on the screen, seen through everything. */
-function marker_of(): THREE.Group {
-  const group = new THREE.Group();
-  const part = (geometry: THREE.BufferGeometry, colour: number, order: number): void => {
-    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: colour, depthTest: false, depthWrite: false, transparent: true }));
-    mesh.renderOrder = order;
-    group.add(mesh);
-  };
-  part(new THREE.RingGeometry(0.78, 1.22, 48), 0xffffff, 5);
-  part(new THREE.RingGeometry(0.86, 1.14, 48), 0x8a0064, 6);
-  part(new THREE.CircleGeometry(0.3, 24), 0xffffff, 5);
-  part(new THREE.CircleGeometry(0.22, 24), 0x8a0064, 6);
-  group.visible = false;
-  return group;
 }
