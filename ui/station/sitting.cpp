@@ -152,7 +152,7 @@ void Sitting::begin() {
     } else {
       SourceNotes notes = device_->notes();
       notes.emplace_back("device", device_->name());
-      require_not_closed(setup_->session.notes, path_);
+      for (auto& said : require_not_closed(setup_->session.notes, path_)) notes.push_back(std::move(said));
       live_ = std::make_unique<LiveExam>(*setup_, Exam::resume(*setup_, path_, notes), *with_desk_);
     }
     live_->start();
