@@ -57,7 +57,7 @@ void report(const Options& o) {
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {
     Identities identities(places.identities());
-    marks = cohort::parse_marks(read_text_file(o.marks), identities, o.marks);
+    marks = cohort::parse_marks(read_text_file(o.marks), identities, o.marks, cohort::points_of_exam(registry, o.exam));
   }
   const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
   if (!o.out.empty()) {

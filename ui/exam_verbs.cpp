@@ -15,6 +15,7 @@
 #include "engine/base/text.h"
 #include "engine/servo/real_time_json.h"
 #include "grading/close_exam.h"
+#include "grading/ledger/candidate_id.h"
 #include "grading/ledger/station_ticket.h"
 #include "grading/result_json.h"
 #include "scenarios/live_exam.h"
@@ -243,7 +244,7 @@ int run_new_live(const Options& o) {
 }
 
 int run_new(const Options& o) {
-  if (!is_plain_text(o.candidate)) throw Error("--candidate", "holds a control character or bytes that are no UTF-8", "use letters and digits");
+  require_candidate_id("--candidate", o.candidate);
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
     throw Error("cavum exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
@@ -289,7 +290,9 @@ int run_resumed(const Options& o) {
   reader.require_readable();
   if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
   const auto setup = prepare_exam(reader.setup());
-  if (!reader.closed()) require_not_closed(setup->session.notes, o.out);
+  SourceNotes notes;
+  if (!reader.closed()) notes = require_not_closed(setup->session.notes, o.out);
+  const auto say = [&notes](const SourceNotes& more) { notes.insert(notes.end(), more.begin(), more.end()); };
   if (!o.device.empty()) {
     const Interrupt interrupt;
     const auto live = open_source(o);
@@ -297,17 +300,16 @@ int run_resumed(const Options& o) {
       throw Error("--device " + o.device, "has another encoder than the one that " + o.out + " was begun with",
                   "go on with the same device, or close the exam with --end");
     live->begin(*setup);
-    SourceNotes notes = live->notes();
-    notes.emplace_back("device", live->name());
+    say(live->notes());
+    say({{"device", live->name()}});
     return run_live(o, *setup, *live, Exam::resume(*setup, o.out, notes));
   }
   const bool moves = !o.motion.empty() || !o.operator_name.empty();
   // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
   const auto source = moves ? make_source(o, *setup) : nullptr;
-  SourceNotes notes;
   if (moves) {
-    notes = source_notes(o);
-    notes.emplace_back("device", source_name(o));
+    say(source_notes(o));
+    say({{"device", source_name(o)}});
   }
   const auto exam = Exam::resume(*setup, o.out, notes);
   exam->set_second_place(o.out_if_full);

@@ -17,6 +17,15 @@ struct MarkingOptions {
   [[nodiscard]] bool anew() const { return !rubric.empty() || !scenario.empty(); }
 };
 
+/// The same, read: what is not there is the session's own.
+struct Marking {
+  std::optional<Scenario> scenario;
+  std::optional<RubricSpec> rubric;
+  bool another_task = false;
+  std::string by;  ///< in words: "the rubric r.toml"
+  [[nodiscard]] bool anew() const { return scenario || rubric; }
+};
+
 /// A session marked as asked, and beside it what it was sealed with.
 struct MarkedSession {
   std::unique_ptr<GradedSession> session;
@@ -26,6 +35,7 @@ struct MarkedSession {
   bool regrade = false;  ///< the result is not the sealed one, which stands in `comparison`
 };
 [[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options);
+[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by);
 
 /// A mistake in what is to be marked by is found before any session is opened; what is unwise is said on standard error.
 void require_sound_marking(const MarkingOptions& options);

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "grading/ledger/regrade.h"
 #include "ui/marked_session.h"
 #include "ui/own_places.h"
 #include "ui/report/integrity.h"
@@ -37,16 +38,37 @@ ReportIntegrity integrity_of(const std::string& path, const Options& o, const Fi
   return i;
 }
 
+/// What the ledger kept of a regrade, to mark by. Throws Error when it kept nothing: such a regrade is older than that.
+Marking marking_of(const ReportLedger& ledger, const FiledSession& session, const Regrade& regrade) {
+  const std::string entry = "entry " + std::to_string(regrade.seq);
+  const auto basis = kept_basis(ledger.content, regrade);
+  if (!basis)
+    throw Error(entry, "is a regrade of entry " + std::to_string(session.seq) + " by a rubric that the ledger did not keep then",
+                "name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on");
+  Marking m;
+  m.scenario = scenario_of(*basis, entry + ": scenario.toml");
+  m.rubric = rubric_of(*basis, entry + ": rubric.toml");
+  m.another_task = true;  // was allowed when it was entered
+  m.by = std::string(m.rubric ? "the rubric" : "") + (m.rubric && m.scenario ? " and " : "") + (m.scenario ? "the scenario" : "") +
+         " that the ledger keeps with " + entry;
+  return m;
+}
+
 /// Writes the report of one session; `filed` and `ledger` are null without a ledger.
 void write_report(const std::string& session, const std::string& out, const Options& o, const ReportLedger* ledger, const FiledSession* filed) {
-  const MarkedSession m = marked_session(session, o.marking);
+  const Regrade* regrade = filed != nullptr && !o.marking.anew() ? regrade_for(*filed, o.for_whom()) : nullptr;
+  const MarkedSession m = regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade)) : marked_session(session, o.marking);
   const GradeInput input = m.session->input();
   if (out.ends_with(".svg")) return write_text_file(out, sections_svg(m.result, input));
   if (filed != nullptr && o.for_whom() == ReportReader::student) require_released_result(*filed, m.result);
   ReportSource source = report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
   source.reader = o.for_whom();
-  if (filed != nullptr) source.filing = filing_of(*ledger, *filed, source.reader, o.with_name);
+  if (filed != nullptr) {
+    source.filing = filing_of(*ledger, *filed, source.reader, o.with_name);
+    source.filing->not_filed = not_the_filed_result(*filed, m.result, source.reader);
+    if (!source.filing->not_filed.empty() || o.marking.anew()) source.filing->regrade.reset();  // this report is of something else
+  }
   source.integrity = integrity_of(session, o, filed);
   write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));
   std::cout << "written: " << out << " (" << verdict_name(m.result.verdict) << ")\n";

@@ -32,6 +32,14 @@ Sha256 genesis_hash(const std::map<std::string, std::string>& meta, std::span<co
   return sha256(out.bytes());
 }
 
+Bytes begin_message(std::map<std::string, std::string> meta, std::span<const Artifact> artifacts) {
+  meta.erase(k_begun_fact);
+  ByteWriter out;
+  put_tag(out, "CVBEGIN1");
+  out.put_bytes(genesis_hash(meta, artifacts));
+  return out.take();
+}
+
 Sha256 events_hash(std::span<const EventRow> events) {
   ByteWriter out;
   put_tag(out, "CVEVENT1");

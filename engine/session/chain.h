@@ -15,6 +15,11 @@ namespace cavum {
 /// before the first tick (the final tooth is left out: the seal covers it).
 [[nodiscard]] Sha256 genesis_hash(const std::map<std::string, std::string>& meta, std::span<const Artifact> artifacts);
 
+/// Facts of `meta` that say which station began the session: its public key, and its signature over begin_message (hexadecimal).
+inline constexpr char k_station_fact[] = "station_key", k_begun_fact[] = "begun_signature";
+/// What the station signs on beginning: the hash that the chain would start from without that signature.
+[[nodiscard]] Bytes begin_message(std::map<std::string, std::string> meta, std::span<const Artifact> artifacts);
+
 /// Hash of the events committed with one chunk, in their order.
 [[nodiscard]] Sha256 events_hash(std::span<const EventRow> events);
 

@@ -61,6 +61,14 @@ void check_chunks(const SessionReader& session, Findings& findings) {
   }
 }
 
+/// The station's signature on the beginning, where there is one: older recordings have none.
+void check_beginning(const SessionReader& session, Findings& findings) {
+  const std::string key = session.fact(k_station_fact), signature = session.fact(k_begun_fact);
+  if (key.empty() && signature.empty()) return;
+  if (!is_signed_by(key, begin_message(session.meta(), session.artifacts()), signature))
+    findings.push_back("table meta: the signature of the station that began the session does not hold (a fact, a file or the key was changed)");
+}
+
 void check_seal(const SessionReader& session, Findings& findings) {
   const bool has_result = !session.result_json().empty(), has_tooth = session.artifact(k_final_tooth) != nullptr;
   if (!session.seal()) {
@@ -89,6 +97,7 @@ void check_seal(const SessionReader& session, Findings& findings) {
 std::vector<std::string> check_chain(const SessionReader& session) {
   Findings findings;
   check_artifacts(session, findings);
+  check_beginning(session, findings);
   check_chunks(session, findings);
   check_seal(session, findings);
   return findings;

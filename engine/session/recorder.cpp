@@ -147,8 +147,10 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   require_free(path);
 
   Recorder recorder(path, load_station_key(station_key_path()));
-  const auto meta = meta_of(setup);
   const auto artifacts = artifacts_of(setup);
+  auto meta = meta_of(setup);
+  meta[k_station_fact] = to_hex(recorder.key_.public_key);
+  meta[k_begun_fact] = to_hex(recorder.key_.sign(begin_message(meta, artifacts)));
   remove_leftovers(path);
   const std::string made = path + k_being_made + std::to_string(::getpid());  // of this process alone: two exams may be begun under one name at once
   ::unlink(made.c_str());

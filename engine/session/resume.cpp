@@ -27,6 +27,7 @@ class Resumption {
       throw Error(session.path(), "was written to while it was being resumed", "try again");
     return recorder;
   }
+  static std::string station_of(const Recorder& recorder) { return to_hex(recorder.key_.public_key); }
 };
 
 namespace {
@@ -55,7 +56,7 @@ void simulate(const SessionReader& session, Simulation& simulation, const TickVi
   }
 }
 
-std::string gap_detail(const SessionReader& session, const SourceNotes& source) {
+std::string gap_detail(const SessionReader& session, const SourceNotes& source, const std::string& station_key) {
   Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
@@ -70,6 +71,7 @@ std::string gap_detail(const SessionReader& session, const SourceNotes& source) 
   detail["gap_boot_s"] = nullptr;
   if (!this_boot.empty() && this_boot == last_boot) detail["gap_boot_s"] = static_cast<double>(now.boot_ns - last.boot_ns) * 1e-9;
   detail["boot_id"] = this_boot;
+  detail["station_key"] = station_key;
   for (const auto& [key, value] : source) detail["source"][one_line(key)] = one_line(value);
   return detail.dump();
 }
@@ -83,7 +85,7 @@ ResumedSession resume_session(const std::string& path, const TickVisitor& visit,
   Simulation simulation = make_simulation(setup, path);
   simulate(session, simulation, visit);
   Recorder recorder = Resumption::open(session);
-  recorder.add_event(session.ticks(), "gap", gap_detail(session, source));
+  recorder.add_event(session.ticks(), "gap", gap_detail(session, source, Resumption::station_of(recorder)));
   try {
     recorder.flush();
   } catch (const DatabaseError&) {  // a full disk: the gap waits in memory, and is written before anything that comes

@@ -28,8 +28,9 @@ using TickVisitor = std::function<void(std::int64_t tick, const TickInput& input
 using SourceNotes = std::vector<std::pair<std::string, std::string>>;
 
 /// Throws Error when the file cannot be read, is closed, is damaged, replays differently, or is being recorded.
-/// Logs a `gap` event: {"gap_utc_s", "gap_boot_s" (null after a reboot), "last_utc_ns", "resumed_utc_ns", "boot_id"},
-/// and "source", an object of `source` when that is not empty. On a full disk the gap is kept like a tick that was refused (Recorder::append).
+/// Logs a `gap` event: {"gap_utc_s", "gap_boot_s" (null after a reboot), "last_utc_ns", "resumed_utc_ns", "boot_id",
+/// "station_key" of the station that goes on}, and "source", an object of `source` when that is not empty. On a full disk the gap is kept like a tick
+/// that was refused (Recorder::append).
 [[nodiscard]] ResumedSession resume_session(const std::string& path, const TickVisitor& visit = {}, const SourceNotes& source = {});
 
 }  // namespace cavum

@@ -89,4 +89,15 @@ bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<cons
   return crypto_sign_verify_detached(signature.data(), message.data(), message.size(), public_key.data()) == 0;
 }
 
+bool is_signed_by(const std::string& public_key, std::span<const std::uint8_t> message, const std::string& signature) {
+  std::array<std::uint8_t, 32> key{};
+  std::array<std::uint8_t, 64> sealed{};
+  const auto read = [](auto& bytes, const std::string& hex) {
+    std::size_t n = 0;
+    return hex.size() == 2 * bytes.size() && sodium_hex2bin(bytes.data(), bytes.size(), hex.data(), hex.size(), nullptr, &n, nullptr) == 0 &&
+           n == bytes.size();
+  };
+  return read(key, public_key) && read(sealed, signature) && is_signed_by(key, message, sealed);
+}
+
 }  // namespace cavum

@@ -32,5 +32,7 @@ struct SigningKey {
 /// True when `signature` over `message` was made by the owner of `public_key`.
 [[nodiscard]] bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<const std::uint8_t> message,
                                 const std::array<std::uint8_t, 64>& signature);
+/// The same of a key and a signature in hexadecimal digits; false when they are none.
+[[nodiscard]] bool is_signed_by(const std::string& public_key, std::span<const std::uint8_t> message, const std::string& signature);
 
 }  // namespace cavum

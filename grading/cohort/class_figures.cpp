@@ -45,7 +45,6 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
       f.to_look_at.push_back({0, m.candidate, "was marked by " + m.judge + ", and has no session of this exam"});
       continue;
     }
-    if (m.points > f.max_points) f.to_look_at.push_back({s->second->seq, m.candidate, m.judge + " gave more points than the exam has"});
     by_candidate[m.candidate][m.judge] = m.points;
     judges.insert(m.judge);
     if (m.rating) {
@@ -120,11 +119,15 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const FiledSession
 
 /// Of the sessions that count: what a person should see for himself, whatever the points say; and those that do not count, with the reason.
 void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<std::string, const FiledSession*>& sat) {
-  for (const auto& s : registry.sessions)
-    if (s.scenario_id == f.exam && !s.findings.empty())
+  for (const auto& s : registry.sessions) {
+    if (s.scenario_id != f.exam) continue;
+    if (!s.findings.empty())
       f.to_look_at.push_back({s.seq, s.candidate,
                               "was filed with findings and does not count: " + s.findings.front() +
                                   (s.findings.size() > 1 ? ", and " + std::to_string(s.findings.size() - 1) + " more" : "")});
+    for (const auto other : s.contested_by)
+      f.to_look_at.push_back({s.seq, s.candidate, "does not count: entry " + std::to_string(other) + " ends the same exam otherwise"});
+  }
   const bool mixed = f.simulated > 0 && f.simulated < f.n;
   for (const auto& [candidate, s] : sat) {
     if (s->result.value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
@@ -145,7 +148,7 @@ void note_few(ClassFigures& f, bool there, const char* figure, std::size_t n, st
 
 }  // namespace
 
-std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where) {
+std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where, double max_points) {
   const auto rows = parse_csv(text, where);
   const auto at = [&](const CsvRow& row) { return where + ":" + std::to_string(row.line); };
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
@@ -155,18 +158,22 @@ std::vector<HumanMark> parse_marks(const std::string& text, Identities& identiti
   std::set<std::pair<std::string, std::string>> given;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
-    const auto number_in = [&](const std::string& field, const char* what) {
+    const auto number_in = [&](const std::string& field, const char* column, const char* what) {
       double v = 0;
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
       if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
-        throw Error(at(rows[i]), "'" + one_line(field) + "' is no number of " + what, "write it with a decimal point");
+        throw Error(at(rows[i]) + ": column " + column, "'" + one_line(field) + "' is no number of " + what, "write it with a decimal point");
       return v;
     };
-    HumanMark m{f[0], f[1], number_in(f[2], "points"), {}};
+    HumanMark m{f[0], f[1], number_in(f[2], "3 (points)", "points"), {}};
     if (m.judge.empty()) throw Error(at(rows[i]), "names no judge", "give each judge a name or number");
-    if (m.points < 0) throw Error(at(rows[i]), "has less than no points", "write points of the exam's own scale");
+    if (m.points < 0 || m.points > max_points)
+      throw Error(
+          at(rows[i]) + ": column 3 (points)",
+          plain_number(m.points) + (m.points < 0 ? " is less than no points" : " is more than the exam's " + plain_number(max_points) + " points"),
+          "write points of the exam's own scale, 0 to " + plain_number(max_points) + "; nothing of the file was taken");
     if (const auto enrolled = identities.of_id(m.candidate)) m.candidate = enrolled->pseudonym;
-    if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "a rating");
+    if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "4 (rating)", "a rating");
     if (!given.emplace(m.candidate, m.judge).second)
       throw Error(at(rows[i]), "is a second mark by judge " + m.judge + " for one candidate", "leave one of them");
     out.push_back(std::move(m));
@@ -178,10 +185,12 @@ std::vector<HumanMark> parse_marks(const std::string& text, Identities& identiti
 std::map<std::string, const FiledSession*> counting_sessions(const Registry& registry, const std::string& exam) {
   std::map<std::string, const FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
-    if (s.scenario_id == exam && s.findings.empty() && s.result.is_object()) sat[s.candidate] = &s;
+    if (s.scenario_id == exam && !s.doubtful() && s.result.is_object()) sat[s.candidate] = &s;
   if (sat.empty()) throw Error("exam '" + one_line(exam) + "'", "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
   return sat;
 }
+
+double points_of_exam(const Registry& registry, const std::string& exam) { return scale_of(counting_sessions(registry, exam)); }
 
 ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
   ClassFigures f;

@@ -1,8 +1,10 @@
 #include "grading/ledger/explain_session.h"
 
 #include "engine/base/text.h"
+#include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/session_reader.h"
+#include "engine/session/station_check.h"
 #include "engine/session/verify.h"
 #include "grading/ledger/ticket.h"
 
@@ -20,8 +22,14 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
     e.proved.push_back("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: " + std::to_string(report.ticks_replayed) +
                        " ticks simulated");
   }
+  try {
+    for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
+  } catch (const Error& damage) {
+    e.findings.emplace_back(damage.what());
+  }
   if (report.closed && report.intact)
-    e.proved.push_back("closed on " + utc_text(session.seal()->clocks.utc_ns) + " by station " + report.station_key);
+    e.proved.push_back("closed on " + utc_text(session.seal()->clocks.utc_ns) + " by station " + report.station_key +
+                       (session.fact(k_station_fact) == report.station_key ? ", which signed its beginning, too" : ""));
 
   std::string ticket_text;
   SessionSetup setup;
@@ -53,6 +61,9 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   for (const auto& r : check_clocks(session))
     e.remarks.push_back("from tick " + std::to_string(r.first_tick) + " (" + fixed(static_cast<double>(r.first_tick) * 1e-3, 1) + " s): " + r.what);
   e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");
+  e.remarks.emplace_back(
+      "not shown by any file: that it was not ended before, where the station's memory was put back as it was, or its key was used by another "
+      "program");
   e.remarks.emplace_back("that no other exam was sat with the same ticket is known to the ledger only");
   e.holds = report.verified && e.findings.empty();
   return e;

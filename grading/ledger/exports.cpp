@@ -23,6 +23,16 @@ std::vector<std::string> critical_in(const json& result) {
   return out;
 }
 
+constexpr char k_simulated[] = "SIMULATED";
+
+/// What stands before verdict and feedback of a result that no student sat.
+std::string simulated_mark(const FiledSession& s) {
+  return s.simulated.empty() ? "" : std::string(k_simulated) + " (operator " + one_line(s.simulated) + ", no student sat this): ";
+}
+
+/// Whom a row is for: a candidate, or a simulated operator in a candidate's place, who is somebody else.
+std::string sitter_of(const FiledSession& s) { return s.simulated.empty() ? s.candidate : std::string(k_simulated) + " " + s.candidate; }
+
 /// "fail (critical: perforation)"
 std::string verdict_of(const json& result) {
   std::string out = result.value("verdict", "");
@@ -83,7 +93,7 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out) {
+std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated) {
   struct Exam {
     std::vector<std::string> criteria;
     std::map<std::string, const FiledSession*> by_candidate;
@@ -96,9 +106,9 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   };
   std::map<std::string, Exam> exams;
   for (const auto& s : registry.sessions) {
-    if (s.shown.is_null()) continue;
+    if (s.shown.is_null() || (!s.simulated.empty() && !with_simulated)) continue;
     Exam& exam = exams[s.scenario_id];
-    exam.by_candidate[s.candidate] = &s;
+    exam.by_candidate[sitter_of(s)] = &s;
     for (const auto& c : s.shown.at("criteria"))
       if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
         exam.criteria.push_back(id);
@@ -119,13 +129,17 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   for (const auto& candidate : candidates) {
-    const auto identity = identities.of_pseudonym(candidate);
-    if (!identity) {
-      ++left_out;
-      continue;
+    std::string number = candidate;  // of a simulated operator: none that a gradebook knows
+    if (!candidate.starts_with(k_simulated)) {
+      const auto identity = identities.of_pseudonym(candidate);
+      if (!identity) {
+        ++left_out;
+        continue;
+      }
+      number = identity->id;
     }
-    std::string& row = rows[identity->id];
-    row = csv_field(identity->id);
+    std::string& row = rows[number];
+    row = csv_field(number);
     for (const auto& [id, exam] : exams) {
       const auto found = exam.by_candidate.find(candidate);
       if (found == exam.by_candidate.end()) {
@@ -133,44 +147,56 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
         continue;
       }
       const json& result = found->second->shown;
+      const std::string mark = simulated_mark(*found->second);
       const double own = result.at("score").at("max").get<double>(), scale = exam.scale();
       const json grade = own == scale ? grade_of(result) : json(grade_of(result).get<double>() / own * scale);
-      row += "," + number_in(grade) + "," + csv_field(verdict_of(result)) + "," + number_in(result.at("score").at("points"));
+      row += "," + number_in(grade) + "," + csv_field(mark + verdict_of(result)) + "," + number_in(result.at("score").at("points"));
       for (const auto& wanted : exam.criteria) {
         row += ",";
         for (const auto& c : result.at("criteria"))
           if (c.at("id") == wanted) row += number_in(c.at("points"));
       }
-      row += "," + csv_field(feedback_of(result));
+      row += "," + csv_field(mark + feedback_of(result));
     }
   }
   for (const auto& [id, row] : rows) out += row + "\n";
   return out;
 }
 
-json lti_scores(const Registry& registry, Identities& identities) {
+json lti_scores(const Registry& registry, Identities& identities, bool with_simulated) {
   std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last counts
-  for (const auto& s : registry.sessions) last[{s.scenario_id, s.candidate}] = &s;
+  for (const auto& s : registry.sessions)
+    if (s.simulated.empty() || with_simulated) last[{s.scenario_id, sitter_of(s)}] = &s;
   json out = json::array();
   for (const auto& [key, s] : last) {
-    const auto identity = identities.of_pseudonym(s->candidate);
-    if (!identity) continue;  // the platform knows nobody by a pseudonym
+    std::string user = "simulated:" + s->candidate;
+    if (s->simulated.empty()) {
+      const auto identity = identities.of_pseudonym(s->candidate);
+      if (!identity) continue;  // the platform knows nobody by a pseudonym
+      user = identity->id;
+    }
     const bool shown = s->shown.is_object();
     const bool review = s->result.is_object() && s->result.value("verdict", "") == "review";
-    json score = {{"userId", identity->id},
+    json score = {{"userId", user},
                   {"timestamp", utc_ms(s->received_utc_ns)},
                   {"activityProgress", "Completed"},
                   {"gradingProgress", shown    ? "FullyGraded"
                                       : review ? "PendingManual"
                                                : "Pending"}};
+    if (const std::string mark = simulated_mark(*s); !mark.empty()) score["comment"] = mark;
     if (shown) {
       score["scoreGiven"] = grade_of(s->shown);
       score["scoreMaximum"] = s->shown.at("score").at("max");
-      score["comment"] = feedback_of(s->shown);
+      score["comment"] = simulated_mark(*s) + feedback_of(s->shown);
     }
     out.push_back({{"resourceId", s->scenario_id}, {"score", std::move(score)}});
   }
   return out;
+}
+
+std::size_t released_simulated(const Registry& registry) {
+  return static_cast<std::size_t>(std::count_if(registry.sessions.begin(), registry.sessions.end(),
+                                                [](const FiledSession& s) { return !s.simulated.empty() && !s.shown.is_null(); }));
 }
 
 std::string signed_results(const Registry& registry, const Ledger& ledger) {

@@ -14,12 +14,17 @@ namespace cavum {
 /// for each criterion, and feedback. The grade is the points, and 0 where the exam was failed whatever the points are (by a critical criterion, or by
 /// one below the mark where none makes up for another): a gradebook that adds up and compares must not make a pass of it. One row for each
 /// candidate with a released result; of several attempts at one exam the last counts. `left_out` receives how many results had no known candidate.
-[[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out);
+/// What a simulated operator sat is left out, whoever's ticket it used; `with_simulated` writes it in rows of its own, under no student's number,
+/// verdict and feedback beginning with SIMULATED.
+[[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated = false);
 
 /// Scores as the LTI Advantage Assignment and Grade Services 2.0 take them, one object for each session: userId, timestamp, activityProgress,
 /// gradingProgress, and scoreGiven, scoreMaximum, comment once released. Before that gradingProgress is `Pending`, and `PendingManual` while the
-/// verdict is `review`.
-[[nodiscard]] nlohmann::json lti_scores(const Registry& registry, Identities& identities);
+/// verdict is `review`. Of simulated operators as in moodle_csv: userId is then `simulated:` and the pseudonym, which no platform knows.
+[[nodiscard]] nlohmann::json lti_scores(const Registry& registry, Identities& identities, bool with_simulated = false);
+
+/// How many released results were sat by simulated operators.
+[[nodiscard]] std::size_t released_simulated(const Registry& registry);
 
 /// {"results":[{session, candidate, file_sha256, released, result}], "ledger", "checkpoint", "public_key", "signature"}: keys in order, no spaces,
 /// signed by the school over "CVRESULT" and the text of the object without "signature". Pseudonyms only.

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/base/text.h"
+#include "grading/ledger/candidate_id.h"
 
 namespace cavum {
 namespace {
@@ -37,6 +38,8 @@ Identities::Identities(const std::string& path, bool may_make)
 }
 
 std::string Identities::enrol(const std::string& id, const std::string& name, const SigningKey& school) {
+  require_candidate_id("candidate", id);
+  require_candidate_id("name", name);
   if (id.empty() || !is_plain_text(id) || !is_plain_text(name))
     throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
   if (const auto known = of_id(id)) return known->pseudonym;

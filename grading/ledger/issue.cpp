@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "grading/ledger/candidate_id.h"
 #include "grading/ledger/csv.h"
 
 namespace cavum {
@@ -42,6 +43,8 @@ std::vector<Person> parse_people(const std::string& text, const std::string& whe
     const auto& f = rows[i].fields;
     const std::string at = where + ":" + std::to_string(rows[i].line);
     if (f[id].empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
+    require_candidate_id(at + ": id", f[id]);
+    if (name < f.size()) require_candidate_id(at + ": name", f[name]);
     if (!seen.insert(f[id]).second) throw Error(at, "'" + f[id] + "' stands there a second time", "leave one of them");
     people.push_back({f[id], name < f.size() ? f[name] : ""});
   }

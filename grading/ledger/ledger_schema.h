@@ -5,7 +5,7 @@
 
 namespace cavum {
 
-inline constexpr std::array<const char*, 2> k_ledger_migrations = {
+inline constexpr std::array<const char*, 3> k_ledger_migrations = {
     R"(CREATE TABLE entry (      -- append only
   seq INTEGER PRIMARY KEY,   -- 0, 1, 2 ...
   text TEXT NOT NULL,        -- {"body":...,"kind":...,"seq":...,"utc_ns":...}: the leaf of the tree
@@ -28,6 +28,13 @@ CREATE TRIGGER checkpoint_is_kept BEFORE DELETE ON checkpoint BEGIN SELECT RAISE
   attachment ->> '$.score.max' AS points_max FROM entry WHERE text ->> '$.kind' = 'session';
 CREATE VIEW ticket AS SELECT seq, text ->> '$.body.ticket.candidate' AS candidate, text ->> '$.body.ticket.exam' AS scenario,
   text ->> '$.body.ticket.nonce' AS nonce, text ->> '$.body.ticket.not_before' AS not_before, text ->> '$.body.ticket.not_after' AS not_after
-  FROM entry WHERE text ->> '$.kind' = 'ticket';)"};
+  FROM entry WHERE text ->> '$.kind' = 'ticket';)",
+    // a regrade's result can be made again without any file from elsewhere
+    R"(CREATE TABLE document (   -- what results were marked anew by: rubrics, scenarios and their STL files, each once
+  sha256 BLOB PRIMARY KEY,   -- of its bytes; the regrade's text names it under body.by
+  bytes BLOB NOT NULL
+) STRICT;
+CREATE TRIGGER document_stays BEFORE UPDATE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)"};
 
 }  // namespace cavum

@@ -11,6 +11,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/session/station_check.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum {
@@ -129,13 +130,18 @@ void remember_closed(const std::vector<std::pair<std::string, std::string>>& not
   }
 }
 
-void require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
+SourceNotes require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
   const std::string nonce = nonce_in(notes, session);
-  if (nonce.empty() || !std::filesystem::exists(used_tickets_path())) return;
-  UsedTickets used;
-  if (const std::string use = used.use_of(nonce); used.closed())
-    throw Error(session, "the exam of its ticket was closed at this station " + use,
-                "hand that one in: an exam that was closed is not taken up again");
+  if (nonce.empty()) return {};
+  std::string use;
+  if (std::filesystem::exists(used_tickets_path())) {
+    UsedTickets used;
+    use = used.use_of(nonce);
+    if (used.closed())
+      throw Error(session, "the exam of its ticket was closed at this station " + use,
+                  "hand that one in: an exam that was closed is not taken up again");
+  }
+  return use.empty() ? SourceNotes{{k_memory_note, k_not_remembered}} : SourceNotes{};
 }
 
 void forget_use(const HeldTicket& held) noexcept {

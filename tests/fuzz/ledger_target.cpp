@@ -47,7 +47,7 @@ void fuzz_candidates(Data data) {
 void fuzz_marks(Data data) {
   static Identities identities(work_folder() + "/identities.db", true);
   try {
-    static_cast<void>(cohort::parse_marks(text_of(data), identities, "marks.csv"));
+    static_cast<void>(cohort::parse_marks(text_of(data), identities, "marks.csv", 20));
   } catch (const Error&) {
   }
 }

@@ -53,10 +53,17 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("none.csv")).exit_code, 0);
   EXPECT_EQ(read_text_file(path("none.csv")), "ID number\n") << "nothing is released yet";
   ASSERT_EQ(run("ledger release " + path("L") + " --candidate 4711").exit_code, 0);
-  ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("m.csv")).exit_code, 0);
-  const std::string gradebook = read_text_file(path("m.csv"));
-  EXPECT_NE(gradebook.find("\n4711," + graded["score"]["points"].dump() + ","), std::string::npos) << gradebook;
-  EXPECT_EQ(gradebook.find("4712"), std::string::npos);
+  const auto plain = run("ledger export " + path("L") + " --format moodle --out " + path("plain.csv"));
+  ASSERT_EQ(plain.exit_code, 0);
+  EXPECT_EQ(read_text_file(path("plain.csv")), "ID number\n") << "an operator sat under the candidate's ticket: nobody's grade";
+  EXPECT_NE(plain.out.find("1 released results of simulated operators are left out"), std::string::npos) << plain.out;
+  const std::string moodle = "ledger export " + path("L") + " --format moodle --with-simulated --out ";
+  ASSERT_EQ(run(moodle + path("m.csv")).exit_code, 0);
+  const std::string gradebook = read_text_file(path("m.csv")), sat_by = issued[0]["candidate"];
+  EXPECT_NE(gradebook.find("\nSIMULATED " + sat_by + "," + graded["score"]["points"].dump() + ",\"SIMULATED (operator expert"), std::string::npos)
+      << gradebook;
+  for (const std::string& no : {std::string("4711"), std::string("4712"), issued[1]["candidate"].get<std::string>()})
+    EXPECT_EQ(gradebook.find(no), std::string::npos) << no;
 
   write_text_file(path("kind.toml"),
                   "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
@@ -68,7 +75,7 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   EXPECT_EQ(shown["sessions"][0]["regraded"], true);
   EXPECT_EQ(shown["sessions"][0]["released"], false) << "the new result waits for its release";
 
-  ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("again.csv")).exit_code, 0);
+  ASSERT_EQ(run(moodle + path("again.csv")).exit_code, 0);
   EXPECT_EQ(read_text_file(path("again.csv")), gradebook) << "until then the old one stands";
   expect_refused("ledger export " + path("L") + " --format moodle --out " + path("m.csv"), {"is there already"});
   EXPECT_NE(run("ledger candidates " + path("L")).out.find("4711, Ann Lee"), std::string::npos);
@@ -149,7 +156,78 @@ TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
   const auto again = run("exam --resume --end --quiet --out " + cut);
   EXPECT_EQ(again.exit_code, 2) << again.out;
   EXPECT_NE(again.err.find("was closed at this station"), std::string::npos) << again.err;
+  // without the station's memory it is taken up again, and the file says so
+  std::filesystem::remove(path("home/used_tickets"));
+  ASSERT_EQ(run("exam --resume --end --quiet --out " + cut).exit_code, 0);
+  const auto told = run("verify " + cut);
+  EXPECT_EQ(told.exit_code, 1);
+  EXPECT_NE(told.out.find("did not remember beginning it"), std::string::npos) << told.out;
+  const auto refused = run("ledger add " + path("L") + " " + cut + " --simulated");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.out.find("NOT FILED"), std::string::npos) << refused.out;
+  EXPECT_NE(refused.out.find("did not remember beginning it"), std::string::npos) << refused.out;
   EXPECT_EQ(run("ledger add " + path("L") + " " + out + " --simulated").exit_code, 0) << "the one that was sat";
+  // shown for an appeal, it contests the first: neither is released with the others
+  ASSERT_EQ(run("ledger add " + path("L") + " " + cut + " --simulated --with-findings").exit_code, 1);
+  const auto shown = run_json("ledger show " + path("L"));
+  EXPECT_EQ(shown["sessions"][0]["contested_by"], json::array({shown["sessions"][1]["seq"]}));
+  EXPECT_EQ(run_json("ledger release " + path("L") + " --all"), (json{{"released", 0}, {"kept_back", 2}}));
+}
+
+TEST_F(LedgerVerbs, ALedgerThatWasEditedIsShownWithAWarning) {
+  tickets();
+  const auto sound = run("ledger show " + path("L"));
+  EXPECT_EQ(sound.exit_code, 0);
+  EXPECT_EQ(sound.err, "");
+  write_text_file(path("edit.py"),
+                  "import sqlite3, sys\nd = sqlite3.connect(sys.argv[1])\nd.execute('drop trigger entry_stays')\n"
+                  "d.execute(\"update entry set text = replace(text, 'C-', 'D-') where seq = 1\")\nd.commit()\n");
+  ASSERT_EQ(std::system(("python3 " + path("edit.py") + " " + path("L/ledger.db")).c_str()), 0);
+  for (const char* more : {"", " --json"}) {
+    const auto edited = run("ledger show " + path("L") + more);
+    EXPECT_EQ(edited.exit_code, 1);
+    EXPECT_NE(edited.err.find("WARNING: this ledger does not hold"), std::string::npos) << edited.err;
+    EXPECT_NE(edited.err.find("cavum ledger verify " + path("L")), std::string::npos) << edited.err;
+  }
+  EXPECT_FALSE(json::parse(run("ledger show " + path("L") + " --json").out)["findings"].empty());
+}
+
+TEST_F(LedgerVerbs, VerifyChecksWhatItCanAndNamesWhatItCannot) {
+  tickets();
+  fs::remove(path("L/identities.db"));
+  const auto r = run("ledger verify " + path("L"));
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_NE(r.out.find("verified, 3 entries"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("not checked: whether names were exchanged among the identities: " + path("L/identities.db") + " is not there"),
+            std::string::npos)
+      << r.out;
+  const std::string own = read_text_file(path("home/school.pub"));
+  write_text_file(path("home/school.pub"), std::string(64, 'a') + "\n");
+  const auto other = run("ledger verify " + path("L") + " --json");
+  EXPECT_EQ(other.exit_code, 1);
+  const auto findings = json::parse(other.out)["findings"];
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_NE(findings[0].get<std::string>().find("of another school than " + path("home/school.pub")), std::string::npos) << findings;
+  write_text_file(path("home/school.pub"), own);
+  write_text_file(path("r.json"), "this is no JSON");
+  const auto receipt = run("ledger verify " + path("L") + " --receipt " + path("r.json"));
+  EXPECT_EQ(receipt.exit_code, 1);
+  EXPECT_NE(receipt.out.find("is no receipt, for it is not JSON"), std::string::npos) << receipt.out;
+  EXPECT_EQ(receipt.out.find("json.exception"), std::string::npos) << receipt.out;
+}
+
+TEST_F(LedgerVerbs, ACandidatesNumberIsBounded) {
+  const std::string endless(5000, 'x'), bound = "is longer than a candidate's number or address (5000 bytes)";
+  expect_refused("exam " + scenario() + " --operator expert --out " + path("x.cavum") + " --candidate " + endless, {bound, "254 at most"});
+  expect_refused("ledger ticket " + path("L") + " " + scenario() + " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("t") +
+                     " --candidate " + endless,
+                 {bound});
+  expect_refused("ledger release " + path("L") + " --candidate " + endless, {bound});
+  expect_refused("ledger forget " + path("L") + " --candidate " + endless, {bound});
+  EXPECT_FALSE(fs::exists(path("x.cavum")));
+  const auto help = run("ledger regrade --help");
+  EXPECT_NE(help.out.find("kept for ever"), std::string::npos) << help.out;
+  EXPECT_NE(help.out.find("no names"), std::string::npos) << help.out;
 }
 
 TEST_F(LedgerVerbs, NoExportIsWrittenOverAKeyOrIdentities) {

@@ -10,6 +10,17 @@ namespace cavum {
 
 using nlohmann::json;
 
+namespace {
+
+/// What a session was filed with, and that another ending of it was.
+std::vector<std::string> doubts_of(const FiledSession& s) {
+  std::vector<std::string> out = s.findings;
+  for (const auto other : s.contested_by) out.push_back("another ending of this exam was presented: entry " + std::to_string(other));
+  return out;
+}
+
+}  // namespace
+
 ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(read_ledger(places)) {
   if (!content.findings.empty()) throw Error(folder, "does not hold (" + content.findings.front() + ")", "see `cavum ledger verify " + folder + "`");
   registry = read_registry(content);
@@ -36,7 +47,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
   f.public_key = ledger.content.public_key;
   f.date = utc_text(session.received_utc_ns);
   f.released = shown;
-  f.findings = session.findings;
+  f.findings = doubts_of(session);
+  if (const Regrade* r = regrade_for(session, reader)) f.regrade = ReportRegrade{r->seq, utc_text(r->utc_ns), r->reason};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
       f.root = to_hex(c.root);
@@ -59,6 +71,9 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
     a.date = utc_text(s.received_utc_ns);
     a.released = reader == ReportReader::student ? released : s.released;
     a.this_one = s.seq == session.seq;
+    a.regraded = (reader == ReportReader::student ? s.shown_seq : s.result_seq) != s.seq;
+    a.simulated = !s.simulated.empty();
+    a.doubt = doubts_of(s).empty() ? "" : doubts_of(s).front();
     if (result.is_object() && result.contains("score") && result["score"].is_object()) {
       a.verdict = result.value("verdict", "");
       a.points = result["score"].value("points", 0.0);
@@ -69,20 +84,29 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
   return f;
 }
 
-void require_released_result(const FiledSession& session, const Result& result) {
+const Regrade* regrade_for(const FiledSession& session, ReportReader reader) {
+  return session.regrade(reader == ReportReader::student ? session.shown_seq : session.result_seq);
+}
+
+std::string not_the_filed_result(const FiledSession& session, const Result& result, ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
-  const json& shown = session.shown;
-  const bool same = shown.is_object() && shown.value("verdict", "") == verdict_name(result.verdict) && shown.contains("score") &&
-                    std::fabs(shown["score"].value("points", -1.0) - result.points) < k_rounding &&
-                    std::fabs(shown["score"].value("max", -1.0) - result.max_points) < k_rounding;
-  if (same) return;
-  const std::string released = shown.is_object() && shown.contains("score")
-                                   ? shown.value("verdict", "") + ", " + fixed(shown["score"].value("points", 0.0), 1) + " points"
-                                   : "another";
-  throw Error("entry " + std::to_string(session.seq),
-              "the released result is " + released + ", and this report would show " + verdict_name(result.verdict) + ", " + fixed(result.points, 1) +
-                  " points",
-              "name the rubric or scenario that it was marked by with --rubric or --scenario");
+  const json& filed = reader == ReportReader::student ? session.shown : session.result;
+  const bool same = filed.is_object() && filed.value("verdict", "") == verdict_name(result.verdict) && filed.contains("score") &&
+                    std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&
+                    std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;
+  if (same) return {};
+  const std::string held = filed.is_object() && filed.contains("score")
+                               ? filed.value("verdict", "") + ", " + fixed(filed["score"].value("points", 0.0), 1) + " points"
+                               : "another";
+  return "the " + std::string(reader == ReportReader::student ? "released" : "ledger's") + " result is " + held + ", and this report's is " +
+         verdict_name(result.verdict) + ", " + fixed(result.points, 1) + " points";
+}
+
+void require_released_result(const FiledSession& session, const Result& result) {
+  if (const std::string other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
+    throw Error(
+        "entry " + std::to_string(session.seq), other,
+        "leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark differently");
 }
 
 }  // namespace cavum

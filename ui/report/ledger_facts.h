@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "grading/ledger/filing.h"
+#include "grading/ledger/regrade.h"
 #include "ui/report/report_source.h"
 
 namespace cavum {
@@ -22,7 +22,13 @@ struct ReportLedger {
 /// result that was not released, or a name before that.
 [[nodiscard]] ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, ReportReader reader, bool with_name);
 
-/// Throws Error when a student's report of `result` would not be the released result: that came from a regrade, by a rubric that has to be named.
+/// The regrade whose result a reader's report is of: the last one for an instructor, the released one for a student; null for the sealed result.
+[[nodiscard]] const Regrade* regrade_for(const FiledSession& session, ReportReader reader);
+
+/// Throws Error when a student's report of `result` would not be the released result: it was marked by something else, or by another version of the
+/// program.
 void require_released_result(const FiledSession& session, const Result& result);
+/// What a report says when `result` is not the one that the ledger holds for its reader; empty when it is.
+[[nodiscard]] std::string not_the_filed_result(const FiledSession& session, const Result& result, ReportReader reader);
 
 }  // namespace cavum

@@ -77,12 +77,18 @@ Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_p
   c.width_px = 420;
   c.height_px = 200;
   ChartSeries line{"", "#0072b2", ChartSeries::Style::line, {}, 1.4}, dots{"", "#0072b2", ChartSeries::Style::dots, {}, 1.4};
+  ChartSeries doubtful{"in doubt", "#4d4d4d", ChartSeries::Style::rings, {}, 1.4};
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     const ChartPoint p{static_cast<double>(i + 1), attempts[i].max > 0 ? 100 * attempts[i].points / attempts[i].max : 0};
+    if (!attempts[i].doubt.empty()) {
+      doubtful.points.push_back(p);
+      continue;
+    }
     line.points.push_back(p);
     dots.points.push_back(p);
   }
   c.series = {line, dots};
+  if (!doubtful.points.empty()) c.series.push_back(doubtful);
   c.x_range = {0.5, static_cast<double>(attempts.size()) + 0.5};
   c.y_range = {0, 105};
   c.marks = {{pass_percent, false, "pass mark"}};

@@ -157,13 +157,13 @@ void add_attempts(Document& d, const ReportSource& s) {
   for (const auto& a : s.filing->attempts) {
     if (!all && !a.released) continue;
     shown.push_back(a);
-    t.rows.push_back(
-        {{{std::to_string(shown.size())},
-          {a.date},
-          {a.verdict},
-          {points_of(a.points, a.max)},
-          {std::to_string(a.entry)},
-          {std::string(a.this_one ? "this report" : "") + (a.this_one && !a.released ? ", " : "") + (a.released ? "" : "not released")}}});
+    t.rows.push_back({{{std::to_string(shown.size())},
+                       {a.date},
+                       {attempt_verdict(a)},
+                       {points_of(a.points, a.max)},
+                       {std::to_string(a.entry)},
+                       {attempt_remark(a)}},
+                      !a.doubt.empty()});
   }
   d.blocks.push_back(Pictures{{attempts_chart(shown, s.result.pass_percent)}});
   d.blocks.push_back(std::move(t));
@@ -224,9 +224,10 @@ Document report_document(const ReportSource& s) {
                " · " + s.facts.device + (s.reader == ReportReader::instructor ? " · instructor's report" : "");
   d.created = s.facts.created;
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
+  add_filing_notes(d, s);
   d.blocks.push_back(
       VerdictBox{verdict_name(r.verdict), fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points", margin(r), r.verdict_reasons});
-  if (s.regrade != nullptr && s.reader == ReportReader::instructor) add_regrade(d, *s.regrade);
+  if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const PerforationTruth& p = r.perforation.fault; p.perforated)
     d.blocks.push_back(Paragraph{p.tissue + " was opened at " + fixed(p.first.t_s(), 3) +

@@ -12,6 +12,14 @@ namespace cavum {
 /// The parts that an instructor sees besides: every figure with its bound, perforation, work, device, proof. Appended to `document`.
 void add_instructor_parts(Document& document, const ReportSource& source);
 
+/// What the ledger knows that bears on the result: that a regrade gave it, and when and why; that the session was filed with findings, or is
+/// contested.
+void add_filing_notes(Document& document, const ReportSource& source);
+/// The verdict of an attempt as a table shows it: one that is in doubt, was regraded, or was sat by a simulated operator, says so.
+[[nodiscard]] std::string attempt_verdict(const ReportAttempt& attempt);
+/// "this report, not released", and why it is in doubt.
+[[nodiscard]] std::string attempt_remark(const ReportAttempt& attempt);
+
 /// What is proved of the session: hashes, closing, replay, ticket, entry. Appended as blocks, and in short as the footer.
 void add_integrity(Document& document, const ReportSource& source);
 

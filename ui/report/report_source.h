@@ -33,7 +33,14 @@ struct ReportAttempt {
   std::string date;  ///< when it was filed, UTC
   std::string verdict;
   double points = 0, max = 0;
-  bool released = false, this_one = false;
+  bool released = false, this_one = false, regraded = false, simulated = false;
+  std::string doubt;  ///< why it does not stand as sound; empty when it does
+};
+
+/// The entry that a result came from, where that is no exam's own.
+struct ReportRegrade {
+  std::uint64_t entry = 0;
+  std::string date, reason;
 };
 
 /// What the ledger says of a session.
@@ -41,9 +48,11 @@ struct ReportFiling {
   std::uint64_t entry = 0, entries = 0;  ///< its number, and how many the root below is of
   std::string ledger, school, public_key, root, date;
   bool released = false;
-  std::vector<std::string> findings;    ///< it was filed with
-  std::optional<std::string> name;      ///< of the candidate: only when asked for, and released
-  std::vector<ReportAttempt> attempts;  ///< of this candidate at this exam, the oldest first
+  std::vector<std::string> findings;     ///< it was filed with, and that it is contested
+  std::optional<ReportRegrade> regrade;  ///< that gave the result of this report
+  std::string not_filed;                 ///< the result of this report is not the one that the ledger holds: how it differs
+  std::optional<std::string> name;       ///< of the candidate: only when asked for, and released
+  std::vector<ReportAttempt> attempts;   ///< of this candidate at this exam, the oldest first
 };
 
 /// Something that happened, in words.

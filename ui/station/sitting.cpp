@@ -156,7 +156,7 @@ void Sitting::begin() {
     } else {
       SourceNotes notes = device_->notes();
       notes.emplace_back("device", device_->name());
-      require_not_closed(setup_->session.notes, first);
+      for (auto& said : require_not_closed(setup_->session.notes, first)) notes.push_back(std::move(said));
       auto exam = Exam::resume(*setup_, first, notes);
       exam->set_second_place(second);
       live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);

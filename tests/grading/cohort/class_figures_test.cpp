@@ -148,7 +148,7 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   r.sessions[0].candidate = by_number;
   const auto marks = parse_marks(
       "candidate,judge,points,rating\n4711,x,98,5\nC-2,x,48,3\nC-3,x,73,4\nC-4,x,23,1\n4711,y,102,\nC-2,y,52,\nC-3,y,77,\nC-4,y,27,\nunknown,x,5,\n",
-      identities, "marks.csv");
+      identities, "marks.csv", 200);
   ASSERT_EQ(marks.size(), 9u);
   EXPECT_EQ(marks[0].candidate, by_number);
   const ClassFigures f = class_figures(r, "exam", marks, 3);
@@ -168,7 +168,7 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   Identities identities(school.places().identities());
   const auto says = [&](const std::string& text, const std::string& what) {
     try {
-      static_cast<void>(parse_marks(text, identities, "m.csv"));
+      static_cast<void>(parse_marks(text, identities, "m.csv", 20));
       ADD_FAILURE() << text;
     } catch (const Error& e) {
       EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();
@@ -176,11 +176,13 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   };
   says("name,points\n", "m.csv:1: is no heading");
   says("candidate,judge,points\nC-1,x,12,5\n", "m.csv:2: has 4 fields");
-  says("candidate,judge,points\nC-1,x,\"12,5\"\n", "m.csv:2: '12,5' is no number");
+  says("candidate,judge,points\nC-1,x,\"12,5\"\n", "m.csv:2: column 3 (points): '12,5' is no number");
   says("candidate,judge,points\nC-1,x,12\nC-1,x,13\n", "m.csv:3: is a second mark by judge x");
   says("candidate,judge,points\nC-1,,12\n", "m.csv:2: names no judge");
-  says("candidate,judge,points\nC-1,x,-1\n", "m.csv:2: has less than no points");
-  says("candidate,judge,points\nC-1,x,nan\n", "m.csv:2: 'nan' is no number");
+  says("candidate,judge,points\nC-1,x,-1\n", "m.csv:2: column 3 (points): -1 is less than no points; write points of the exam's own scale, 0 to 20");
+  says("candidate,judge,points\nC-1,x,20\nC-2,x,20.5\n", "m.csv:3: column 3 (points): 20.5 is more than the exam's 20 points");
+  says("candidate,judge,points,rating\nC-1,x,20,?\n", "m.csv:2: column 4 (rating): '?' is no number");
+  says("candidate,judge,points\nC-1,x,nan\n", "m.csv:2: column 3 (points): 'nan' is no number");
   says("candidate,judge,points\n", "holds no mark");
 }
 

@@ -2,9 +2,13 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/session/chain.h"
+#include "engine/session/chain_check.h"
 #include "engine/session/chunk_codec.h"
+#include "grading/close_exam.h"
+#include "grading/ledger/explain_session.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/ledger_schema.h"
+#include "grading/ledger/station_ticket.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum {
@@ -295,6 +299,93 @@ TEST_F(Attack, ExportedResultsThatWereImproved) {
   EXPECT_TRUE(results_hold(text));
   text.replace(text.find("\"pass\""), 6, "\"fail\"");
   EXPECT_FALSE(results_hold(text));
+}
+/// A copy of a closed session as somebody makes it who wants a better end: without the end, and not closed.
+std::string cut_back(const School& school, const std::string& session, const std::string& name) {
+  const std::string cut = school.file(name);
+  std::filesystem::copy_file(session, cut);
+  test::tamper(cut,
+               "DELETE FROM seal; DELETE FROM result; DELETE FROM event WHERE chunk > 3; DELETE FROM chunk WHERE seq > 3; DELETE FROM artifact WHERE "
+               "name = 'final_tooth.cvt'");
+  return cut;
+}
+/// Takes it up as `exam --resume --end` does at the station of the present CAVUM_HOME, and closes it.
+void close_again(const std::string& session) {
+  const auto setup = prepare_exam(SessionReader(session).setup());
+  const auto exam = Exam::resume(*setup, session, require_not_closed(setup->session.notes, session));
+  if (!exam->over()) exam->end();
+  static_cast<void>(grade_and_close(*exam));
+}
+
+TEST_F(Attack, AnExamCutBackAndEndedAgainAtAnotherStation) {
+  const std::string cut = cut_back(school_, session_, "cut.cavum");
+  const std::string home = getenv("CAVUM_HOME");
+  setenv("CAVUM_HOME", school_.file("another_station").c_str(), 1);
+  close_again(cut);
+  setenv("CAVUM_HOME", home.c_str(), 1);
+  const SessionExplanation told = explain_session(cut, "");
+  EXPECT_FALSE(told.holds);
+  expect_finding(told.findings, {"ended by another station than began it"});
+  expect_finding(told.findings, {"taken up again at tick 4000 by another station"});
+  expect_refused(cut, {"ended by another station than began it"});
+}
+TEST_F(Attack, AnExamTakenUpAgainWhereTheMemoryOfUsedTicketsIsGone) {
+  const std::string cut = cut_back(school_, session_, "cut.cavum");
+  std::filesystem::remove(used_tickets_path());
+  close_again(cut);
+  expect_finding(explain_session(cut, "").findings, {"did not remember beginning it"});
+  expect_refused(cut, {"did not remember beginning it", "memory of used tickets was removed"});
+}
+TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
+  // the same file, at a station that began it and did not close it: what a crash leaves. A memory that was put back to that looks alike.
+  remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
+  const std::string cut = cut_back(school_, session_, "cut.cavum");
+  close_again(cut);
+  const Filing f = file(cut);
+  EXPECT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
+  EXPECT_TRUE(f.findings.empty());
+  const SessionExplanation told = explain_session(cut, "");
+  EXPECT_TRUE(told.holds);
+  expect_finding(told.remarks, {"interrupted for", "taken up again"});
+}
+TEST_F(Attack, TwoEndingsOfOneExam) {
+  remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
+  const std::string cut = cut_back(school_, session_, "cut.cavum");
+  close_again(cut);
+  const Filing first = file(cut);
+  ASSERT_TRUE(first.seq);
+  // whoever holds the other ending can show it
+  const Filing other = file(session_);
+  EXPECT_FALSE(other.seq);
+  expect_finding(other.findings, {"ticket was used before", "entry 2 holds another ending of the same recording", "the same up to tick 4000",
+                                  "taken up again at tick 4000, this one at tick"});
+  EXPECT_FALSE(read_registry(read_ledger(school_.places())).sessions.at(0).doubtful());
+  Ledger ledger = school_.ledger();
+  const Filing contest = file_session(ledger, session_, {.with_findings = true});
+  ASSERT_TRUE(contest.seq);
+  const Registry registry = read_registry(ledger.content());
+  ASSERT_EQ(registry.sessions.size(), 2u);
+  EXPECT_EQ(registry.sessions[0].contested_by, std::vector<std::uint64_t>{*contest.seq});
+  EXPECT_TRUE(registry.sessions[0].doubtful()) << "what was filed as sound goes to a person, too";
+  expect_finding(check_ledger(school_.places(), false).remarks, {"is contested by entry 3"});
+}
+TEST_F(Attack, ABeginningThatIsSaidToBeAnotherStations) {
+  const std::string cut = cut_back(school_, session_, "cut.cavum");
+  EXPECT_TRUE(check_chain(SessionReader(cut)).empty());
+  test::tamper(cut, "UPDATE meta SET value = '" + std::string(64, 'b') + "' WHERE key = 'station_key'");
+  // and the chain is made anew, as anybody can who reads how its hashes are made
+  const SessionReader changed(cut);
+  Sha256 before = genesis_hash(changed.meta(), changed.artifacts());
+  std::string sql;
+  for (ChunkRow c : changed.chunks()) {
+    c.prev_sha256 = before;
+    before = chunk_hash(c);
+    sql += "UPDATE chunk SET prev_sha256 = " + blob(c.prev_sha256) + ", sha256 = " + blob(before) + " WHERE seq = " + std::to_string(c.seq) + ";";
+  }
+  test::tamper(cut, sql);
+  const auto findings = check_chain(SessionReader(cut));
+  ASSERT_EQ(findings.size(), 1u);
+  expect_finding(findings, {"signature of the station that began the session does not hold"});
 }
 TEST_F(Attack, AnAppealFilesWhatDoesNotHoldAndNeverReleasesItUnseen) {
   test::tamper(session_, "UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2");

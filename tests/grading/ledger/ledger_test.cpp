@@ -6,8 +6,10 @@
 #include <iostream>
 #include <random>
 
+#include "grading/ledger/candidate_id.h"
 #include "grading/ledger/csv.h"
 #include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_file.h"
 #include "grading/ledger/ledger_schema.h"
 #include "tests/grading/ledger/school.h"
 
@@ -66,7 +68,7 @@ TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
   const School school;
   {
     Database old = Database::open(school.places().database(), false);
-    old.run("DROP VIEW session; DROP VIEW ticket; PRAGMA user_version = 1");
+    old.run("DROP VIEW session; DROP VIEW ticket; DROP TABLE document; PRAGMA user_version = 1");
   }
   school.ticket("1");
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
@@ -78,6 +80,7 @@ TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
   db.run("PRAGMA user_version = 99");
   db.close();
   EXPECT_THROW(school.ledger(), Error);
+  EXPECT_NE(testing_basics::error_of([&] { static_cast<void>(read_ledger(school.places())); }).find("newer version"), std::string::npos);
 }
 
 TEST(Ledger, TheTablesRefuseChanges) {
@@ -204,6 +207,40 @@ TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
   EXPECT_EQ(low_lti["scoreGiven"], 41.5);
 }
 
+TEST_F(Released, WhatASimulatedOperatorSatIsNobodysGrade) {
+  // the same candidate has sat it, and afterwards an operator sat under the ticket
+  FiledSession operated = registry_.sessions.at(0);
+  operated.seq = operated.shown_seq = operated.result_seq = 90;
+  operated.simulated = "expert";
+  operated.shown["score"]["points"] = operated.result["score"]["points"] = 99.5;
+  registry_.sessions.push_back(operated);
+  EXPECT_EQ(released_simulated(registry_), 1u);
+  Identities identities(school_.places().identities());
+  int left_out = 0;
+  const std::string own = registry_.sessions.at(0).shown["score"]["points"].dump();
+  const std::string plain = moodle_csv(registry_, identities, left_out);
+  EXPECT_NE(plain.find("\n4711," + own + ","), std::string::npos) << "the candidate's own attempt counts, though it is older: " << plain;
+  EXPECT_EQ(plain.find("99.5"), std::string::npos);
+  EXPECT_EQ(lti_scores(registry_, identities).dump().find("99.5"), std::string::npos);
+
+  const std::string marked = moodle_csv(registry_, identities, left_out, true);
+  EXPECT_NE(marked.find("\n4711," + own + ","), std::string::npos) << marked;
+  EXPECT_NE(marked.find("\nSIMULATED " + operated.candidate + ",99.5,\"SIMULATED (operator expert, no student sat this): "), std::string::npos)
+      << marked;
+  int users = 0;
+  for (const auto& entry : lti_scores(registry_, identities, true)) {
+    const json& score = entry["score"];
+    const bool student = score["userId"] == "4711" || score["userId"] == "4712";
+    users += student ? 1 : 0;
+    EXPECT_NE(student, score.value("comment", "").starts_with("SIMULATED")) << score;
+    if (!student) {
+      EXPECT_EQ(score["userId"], "simulated:" + operated.candidate);
+      EXPECT_EQ(score["scoreGiven"], 99.5);
+    }
+  }
+  EXPECT_EQ(users, 2);
+}
+
 TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   Ledger ledger = school_.ledger();
   json better = registry_.sessions.at(0).result;
@@ -224,6 +261,71 @@ TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   EXPECT_TRUE(read_registry(ledger.content()).sessions.at(0).released);
   ledger.append("release", [&](const LedgerContent&) { return json{{"results", {99}}}; });
   expect_finding(check_ledger(school_.places(), false).findings, {"releases a result that does not count"});
+}
+
+/// What is said of `check` of a school's ledger, with what is at hand.
+LedgerCheck check_all(const School& school) {
+  LedgerCheck check = check_ledger(school.places(), false);
+  check_owner(check, school.places(), read_ledger(school.places()), school_key_path(), school_public_key_path());
+  return check;
+}
+bool says(const std::vector<std::string>& lines, const std::string& words) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& l) { return l.find(words) != std::string::npos; });
+}
+
+TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
+  const School school;
+  school.ticket("4711");
+  EXPECT_TRUE(check_all(school).findings.empty());
+  EXPECT_TRUE(check_all(school).not_checked.empty()) << "with the key, the identities and the witness at hand";
+  const std::string identities = school.places().identities(), key = school_key_path(), known = school_public_key_path();
+  std::filesystem::rename(identities, identities + ".away");
+  LedgerCheck check = check_all(school);
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0];
+  EXPECT_TRUE(says(check.not_checked, "identities.db is not there"));
+  test::tamper(school.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq");
+  expect_finding(check_all(school).findings, {"trigger entry_stays"});  // the rest is checked all the same
+  write_text_file(identities, "no database");
+  expect_finding(check_all(school).findings, {"identities.db"});
+  std::filesystem::remove(identities);
+  std::filesystem::rename(identities + ".away", identities);
+
+  std::filesystem::rename(key, key + ".away");
+  EXPECT_TRUE(says(check_all(school).not_checked, "the key that made the pseudonyms is not here"));
+  EXPECT_FALSE(says(check_all(school).not_checked, "whether the ledger is this school's")) << "school.pub says it";
+  std::filesystem::remove(known);
+  EXPECT_TRUE(says(check_all(school).not_checked, "whether the ledger is this school's"));
+  std::filesystem::remove_all(std::filesystem::path(witness_path(read_ledger(school.places()).id)).parent_path());
+  EXPECT_TRUE(says(check_all(school).not_checked, "no witness"));
+}
+
+TEST(CheckLedger, ASchoolsPublicKeyThatIsAnothersIsAFinding) {
+  const School school;
+  write_text_file(school_public_key_path(), std::string(64, 'a') + "\n");
+  expect_finding(check_all(school).findings, {"of another school than", "school.pub", std::string(64, 'a')});
+  write_text_file(school_public_key_path(), "not a key\n");
+  expect_finding(check_all(school).findings, {"school.pub", "64 hexadecimal digits"});
+}
+
+TEST(Receipt, ThatIsNoneIsNamedInOurWords) {
+  for (const json& none : {json::parse("not json", nullptr, false), json("text"), json::array(), json::object(), json{{"ledger", 7}}}) {
+    const auto findings = check_receipt(none, "", nullptr);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_TRUE(findings[0].starts_with("is no receipt")) << findings[0];
+    EXPECT_EQ(findings[0].find("json.exception"), std::string::npos) << findings[0];
+  }
+}
+
+TEST(CandidateId, IsALineOfBoundedLength) {
+  const School school;
+  Identities identities(school.places().identities());
+  EXPECT_NO_THROW(identities.enrol(std::string(k_longest_candidate, 'a'), "", School::key()));
+  for (const std::string& id : {std::string(k_longest_candidate + 1, 'a'), std::string(5000, 'b'), std::string("a\nb")})
+    EXPECT_THROW(identities.enrol(id, "", School::key()), Error);
+  const std::string refusal =
+      testing_basics::error_of([] { static_cast<void>(parse_people("id\n1\n" + std::string(5000, 'c') + "\n", "class.csv")); });
+  EXPECT_NE(refusal.find("class.csv:3: id ccc"), std::string::npos) << refusal;
+  EXPECT_LT(refusal.size(), 200u) << "it does not repeat what is too long";
 }
 
 TEST(Identities, ThatAreLostAreNotBegunAnew) {

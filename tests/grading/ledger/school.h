@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/file.h"
+#include "grading/ledger/check_ledger.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"

@@ -92,20 +92,78 @@ TEST_F(ReportVerbs, WhatIsNotInTheLedgerOrNotTheReleasedResultIsRefused) {
   expect_refused("report " + session + " --out " + path("r.pdf"), {"r.pdf: exists already and is no report of Cavum", "--overwrite"});
   ASSERT_EQ(run("report " + session + " --out " + path("r.pdf") + " --overwrite --no-replay").exit_code, 0);
   EXPECT_EQ(run("report " + session + " --out " + path("r.pdf") + " --no-replay").exit_code, 0) << "a report may be written anew";
+}
 
-  // released after a regrade: the report by the session's own rubric would show another result
+TEST_F(ReportVerbs, ARegradedResultIsTheOneThatCountsWithReasonAndTheSealedOneBeside) {
+  const std::string session = sit("4711", "Ann Lee", "novice", "e1");
+  const json sealed = run_json("grade " + session);
   write_text_file(path("kind.toml"),
                   "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
                   "\"target_removed_percent\"\nfull = 50\nzero = 0\npoints = 10\n");
   const std::string entry = run_json("ledger show " + path("L"))["sessions"][0]["seq"].dump();
-  ASSERT_EQ(run("ledger regrade " + path("L") + " --session " + entry + " --rubric " + path("kind.toml") + " --reason appeal").exit_code, 0);
   ASSERT_EQ(run("ledger release " + path("L") + " --all").exit_code, 0);
-  const std::string student = " --for student --ledger " + path("L");
-  expect_refused("report " + session + " --out " + path("r.html") + student, {"the released result is", "--rubric"});
-  const std::string html = report(session, student + " --rubric " + path("kind.toml"));
-  const json kind = run_json("grade " + session + " --rubric " + path("kind.toml"));
-  EXPECT_NE(html.find(fixed(kind["score"]["points"], 1) + " of 10.0 points"), std::string::npos);
-  EXPECT_NE(html.find("<b>Regrade</b>: "), std::string::npos);
+  const auto regraded =
+      run("ledger regrade " + path("L") + " --session " + entry + " --rubric " + path("kind.toml") + " --reason 'the limit was misprinted' --json");
+  ASSERT_EQ(regraded.exit_code, 0) << regraded.err;
+  const json kind = json::parse(regraded.out)["after"];
+  const std::string new_points = fixed(kind["points"], 1) + " of 10.0 points",
+                    old_points = fixed(sealed["score"]["points"], 1) + " of " + fixed(sealed["score"]["max"], 1) + " points";
+  ASSERT_NE(new_points, old_points);
+  const std::string student = " --for student --ledger " + path("L"), ledger = "--ledger " + path("L");
+  EXPECT_NE(report(session, student).find("</b><br>" + old_points), std::string::npos) << "until it is released the old one stands";
+  fs::remove(path("kind.toml"));  // nothing but the ledger knows it now
+
+  const auto shows_it = [&](const std::string& html) {
+    EXPECT_NE(html.find("</b><br>" + new_points), std::string::npos);
+    EXPECT_NE(html.find("the exam was sealed as " + sealed["verdict"].get<std::string>() + ", " + old_points), std::string::npos);
+    EXPECT_NE(html.find("the limit was misprinted (entry " + json::parse(regraded.out)["seq"].dump() + " of the ledger, 20"), std::string::npos);
+    const auto from = html.find("Sealed result and regrade");
+    ASSERT_NE(from, std::string::npos) << "criterion by criterion";
+    for (const auto& c : sealed["criteria"]) EXPECT_NE(html.find(c["id"].get<std::string>(), from), std::string::npos) << c["id"];
+  };
+  const std::string instructors = report(session, ledger);
+  shows_it(instructors);
+  EXPECT_NE(instructors.substr(instructors.find("Attempts over time")).find(", regraded</td>"), std::string::npos);
+  ASSERT_EQ(run("ledger release " + path("L") + " --all").exit_code, 0);
+  shows_it(report(session, student));
+  const auto all = run("ledger report " + path("L") + " --out " + path("reports"));
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  shows_it(read_text_file(path("reports/" + pseudonym_ + "-" + entry + ".html")));
+  EXPECT_EQ(run("report " + session + " --out " + path("r.pdf") + student).exit_code, 0);
+
+  // another rubric than the one that counts is no student's report, and an instructor is told
+  write_text_file(path("other.toml"),
+                  "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
+                  "\"target_removed_percent\"\nfull = 100\nzero = 0\npoints = 77\n");
+  expect_refused("report " + session + " --out " + path("no.html") + student + " --rubric " + path("other.toml"),
+                 {"the released result is", "--rubric"});
+  const std::string what_if = report(session, ledger + " --rubric " + path("other.toml"));
+  EXPECT_NE(what_if.find("<b>Not the ledger&#39;s result</b>"), std::string::npos);
+  EXPECT_EQ(what_if.find("the limit was misprinted"), std::string::npos);
+}
+
+TEST_F(ReportVerbs, WhatWasFiledWithFindingsStandsNowhereAsSound) {
+  const std::string sound = sit("4711", "Ann Lee", "novice", "e1");
+  const auto ticket = run("ledger ticket " + path("L") + " " + scenario() +
+                          " --candidate 4711 --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --json --out " + path("e2.ticket"));
+  ASSERT_EQ(ticket.exit_code, 0) << ticket.err;
+  const std::string bad = path("e2.cavum");
+  ASSERT_EQ(run("exam " + scenario() + " --ticket " + path("e2.ticket") + " --operator expert --quiet --out " + bad).exit_code, 0);
+  ASSERT_EQ(std::system(("python3 -c \"import sqlite3; d = sqlite3.connect('" + bad +
+                         "'); d.execute('update chunk set utc_ns = utc_ns - 60000000000 where seq = 2'); d.commit()\"")
+                            .c_str()),
+            0);
+  ASSERT_EQ(run("ledger add " + path("L") + " " + bad + " --simulated --with-findings").exit_code, 1);
+  ASSERT_EQ(run("ledger release " + path("L") + " --all").exit_code, 0);
+  ASSERT_EQ(run("ledger release " + path("L") + " --candidate 4711 --with-findings").exit_code, 0);
+  for (const std::string reader : {"student", "instructor"}) {
+    const std::string html = report(sound, "--ledger " + path("L") + " --for " + reader);
+    const std::string attempts = html.substr(html.find("Attempts over time"));
+    EXPECT_NE(attempts.find("in doubt (pass)"), std::string::npos) << reader;
+    EXPECT_NE(attempts.find("filed with a finding: chunk 2"), std::string::npos) << reader;
+    EXPECT_NE(attempts.find("in doubt</text>"), std::string::npos) << reader << ": the chart says which point it is";
+    EXPECT_EQ(html.find("<b>In doubt</b>"), std::string::npos) << "this one is sound";
+  }
 }
 
 TEST_F(ReportVerbs, AWholeLedgersReleasedResultsEachGiveAStudentsReport) {

@@ -1,0 +1,29 @@
+#include "engine/session/station_check.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/json_fields.h"
+#include "engine/session/chain.h"
+
+namespace cavum {
+
+std::vector<std::string> check_stations(const SessionReader& session) {
+  std::vector<std::string> findings;
+  const std::string begun = session.fact(k_station_fact);
+  for (const auto& e : session.events()) {
+    if (e.kind != "gap") continue;
+    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
+    const std::string by = text_in(detail, "station_key"), when = "the exam was taken up again at tick " + std::to_string(e.tick);
+    if (begun.empty())
+      findings.push_back(when + ", and the recording does not say which station began it");
+    else if (by != begun)
+      findings.push_back(when + " by another station than began it: " + (by.empty() ? "one that is not named" : by) + ", begun by " + begun);
+    else if (text_in(member_of(detail, "source"), k_memory_note) == k_not_remembered)
+      findings.push_back(when + " at a station that did not remember beginning it: its memory of used tickets was removed");
+  }
+  if (session.seal() && !begun.empty() && to_hex(session.seal()->public_key) != begun)
+    findings.push_back("the exam was ended by another station than began it: ended by " + to_hex(session.seal()->public_key) + ", begun by " + begun);
+  return findings;
+}
+
+}  // namespace cavum

@@ -1,0 +1,96 @@
+#include "grading/ledger/check_ledger.h"
+
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "engine/base/file.h"
+#include "engine/session/verify.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/registry.h"
+
+namespace cavum {
+
+LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
+  const LedgerContent content = read_ledger(places);
+  LedgerCheck out{content.findings, {}, content.remarks};
+  auto& findings = out.findings;
+  const Registry registry = read_registry(content);
+  findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
+  if (!content.witnessed) out.not_checked.emplace_back("whether an older copy was put back: this computer has no witness of the ledger");
+  if (!replay && !registry.sessions.empty())
+    out.not_checked.emplace_back("whether the filed sessions' motion gives their forces and teeth again: --replay simulates each");
+  std::size_t filed_with_findings = 0;
+  for (const auto& s : registry.sessions) {
+    const std::string name = "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")", path = places.session(s.file_sha256);
+    try {
+      if (!std::filesystem::exists(path)) {
+        findings.push_back(name + ": its file is gone: " + path);
+      } else if (to_hex(sha256(read_file(path))) != s.file_sha256) {
+        findings.push_back(name + ": its file was changed: " + path);
+      } else if (replay && s.findings.empty()) {
+        for (const auto& f : verify_session(path).findings) findings.push_back(name + ": " + f);
+      }
+    } catch (const std::exception& e) {
+      findings.push_back(name + ": its file cannot be read: " + e.what());
+    }
+    filed_with_findings += s.findings.empty() ? 0 : 1;
+    for (const auto other : s.contested_by)
+      if (other > s.seq)
+        out.remarks.push_back(name + ": is contested by entry " + std::to_string(other) +
+                              ", another ending of the same exam: a person decides which counts");
+  }
+  if (replay && filed_with_findings > 0)
+    out.not_checked.push_back(std::to_string(filed_with_findings) + " sessions that were filed with findings are not simulated again");
+  std::error_code none;
+  std::set<std::string> filed;
+  for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
+  for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
+    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
+  return out;
+}
+
+void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerContent& content, const std::string& key_path,
+                 const std::string& public_key_path) {
+  bool known = false;
+  const auto must_be_ours = [&](const std::string& key, const std::string& path) {
+    known = true;
+    if (!content.public_key.empty() && key != content.public_key)
+      check.findings.push_back("the ledger is of another school than " + path + " names: signed by " + content.public_key + ", expected " + key);
+  };
+  if (std::filesystem::exists(public_key_path)) {
+    try {
+      std::string text = read_text_file(public_key_path);
+      while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+      must_be_ours(parse_public_key(text, public_key_path), public_key_path);
+    } catch (const Error& e) {
+      check.findings.emplace_back(e.what());
+    }
+  }
+  const std::string of_identities = "whether names were exchanged among the identities: ";
+  std::optional<SigningKey> key;
+  if (std::filesystem::exists(key_path)) {
+    try {
+      key = load_school_key(key_path);
+      must_be_ours(to_hex(key->public_key), key_path);
+    } catch (const Error& e) {
+      check.not_checked.push_back("the school's key cannot be used: " + std::string(e.what()));
+    }
+  }
+  if (!known)
+    check.not_checked.push_back("whether the ledger is this school's: neither " + key_path + " nor " + public_key_path + " is here to compare with");
+  if (!std::filesystem::exists(places.identities())) {
+    check.not_checked.push_back(of_identities + places.identities() + " is not there; restore it from its backup if this is the school's own copy");
+  } else if (!key || to_hex(key->public_key) != content.public_key) {
+    check.not_checked.push_back(of_identities + "the key that made the pseudonyms is not here");
+  } else {
+    try {
+      for (auto& f : Identities(places.identities()).check(*key)) check.findings.push_back(std::move(f));
+    } catch (const Error& e) {
+      check.findings.emplace_back(e.what());
+    }
+  }
+}
+
+}  // namespace cavum

@@ -1,0 +1,25 @@
+// The check of a whole ledger: entries, tree, signatures, witness, tickets, and the sessions' files beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grading/ledger/ledger_content.h"
+
+namespace cavum {
+
+struct LedgerCheck {
+  std::vector<std::string> findings;     ///< what does not hold
+  std::vector<std::string> not_checked;  ///< what could not be checked or was not asked for, and why
+  std::vector<std::string> remarks;      ///< what may be harmless
+};
+/// What of a ledger holds and what does not: entries, tree, signatures, witness, tickets, and the sessions' files beside it; with `replay` each
+/// session is simulated again.
+[[nodiscard]] LedgerCheck check_ledger(const LedgerPlaces& places, bool replay);
+
+/// Whose ledger is it, and are its identities unchanged? With the school's key at `key_path`, the public key at `public_key_path`, or neither: what
+/// is not there is not checked, and `check` says so.
+void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerContent& content, const std::string& key_path,
+                 const std::string& public_key_path);
+
+}  // namespace cavum

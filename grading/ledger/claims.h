@@ -1,0 +1,31 @@
+// What a session claims beside its recording's truth: that it was promised, by whom it was sat, when, and at which station, against what the ledger
+// knows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/session/session_reader.h"
+#include "grading/ledger/registry.h"
+
+namespace cavum {
+
+struct FilingOptions {
+  bool without_ticket = false;  ///< for exams that nobody promised: practice, or before tickets were used
+  bool simulated = false;       ///< also what a simulated operator sat; it is marked as such
+  bool with_findings = false;   ///< files what does not hold, too, with what was found: for an appeal; it is released only by name
+};
+
+/// What a closed session's ticket, result and events claim and the entries so far contradict, in words: what filing asks beside the recording's
+/// truth. With `filed`, a second ending of an exam is compared with the one in the ledger's folder.
+[[nodiscard]] std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const FilingOptions& options = {},
+                                                    const LedgerPlaces* filed = nullptr);
+
+/// Number of the ticket in a session's notes; empty without one.
+[[nodiscard]] std::string ticket_nonce_in(const SessionSetup& setup);
+/// Operator that moved the stylus, in the beginning or after a gap; empty for a hand.
+[[nodiscard]] std::string simulated_by(const SessionReader& session, const SessionSetup& setup);
+/// True for a result as grading writes it: everything that exports and figures of a class read is there, each of its type.
+[[nodiscard]] bool is_result(const nlohmann::json& result);
+
+}  // namespace cavum

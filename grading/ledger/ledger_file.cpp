@@ -1,0 +1,80 @@
+#include "grading/ledger/ledger_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "grading/ledger/ledger_schema.h"
+
+namespace cavum {
+namespace {
+
+static_assert(k_ledger_migrations.size() == k_ledger_format);
+
+/// What a database defines, by name: "table entry" and its SQL. What SQLite keeps for itself is left out.
+std::map<std::string, std::string> schema_of(Database& db) {
+  std::map<std::string, std::string> out;
+  auto rows = db.prepare("SELECT type, name, coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' ORDER BY rowid");
+  while (rows.step()) out[rows.text(0) + " " + rows.text(1)] = rows.text(2);
+  return out;
+}
+
+}  // namespace
+
+std::int64_t ledger_format(Database& db, const std::string& where) {
+  const auto format = db.integer("PRAGMA user_version");
+  if (format > k_ledger_format)
+    throw Error(where, "was written by a newer version of Cavum (format " + std::to_string(format) + ")", "use that version");
+  return std::max<std::int64_t>(format, 0);
+}
+
+void check_schema(Database& db, std::vector<std::string>& findings) {
+  Database fresh = Database::open(":memory:", true);
+  const auto format = static_cast<std::size_t>(std::clamp<std::int64_t>(db.integer("PRAGMA user_version"), 0, k_ledger_format));
+  for (std::size_t i = 0; i < format; ++i) fresh.run(k_ledger_migrations[i]);
+  const auto wanted = schema_of(fresh), found = schema_of(db);
+  for (const auto& [name, sql] : wanted) {
+    const auto is = found.find(name);
+    if (is == found.end())
+      findings.push_back(name + ": was taken out of the ledger's file");
+    else if (is->second != sql)
+      findings.push_back(name + ": is not as this program made it; it was altered");
+  }
+  for (const auto& [name, sql] : found)
+    if (!wanted.contains(name)) findings.push_back(name + ": does not belong to a ledger; it was put into its file");
+}
+
+void migrate(Database& db, const std::string& where) {
+  if (ledger_format(db, where) == k_ledger_format) return;
+  Transaction all(db);
+  const auto format = ledger_format(db, where);  // again under the lock: another program may have done it meanwhile
+  for (auto i = static_cast<std::size_t>(format); i < k_ledger_migrations.size(); ++i) db.run(k_ledger_migrations[i]);
+  db.run(("PRAGMA user_version = " + std::to_string(k_ledger_format)).c_str());
+  all.commit();
+}
+
+Database open_for_adding(const std::string& path, bool make) {
+  if (!make && !std::filesystem::exists(path)) throw Error(path, "there is no ledger", "make one with `cavum ledger init FOLDER`");
+  Database db = Database::open(path, make);
+  db.run("PRAGMA journal_mode = WAL");
+  db.run("PRAGMA synchronous = FULL");
+  return db;
+}
+
+void insert(Database& db, const LedgerEntry& e, const Checkpoint& p, std::span<const Bytes> documents) {
+  for (const Bytes& d : documents) db.prepare("INSERT OR IGNORE INTO document (sha256, bytes) VALUES (?, ?)").bind(1, sha256(d)).bind(2, d).run();
+  db.prepare("INSERT INTO entry (seq, text, leaf_sha256, attachment) VALUES (?, ?, ?, nullif(?, ''))")
+      .bind(1, static_cast<std::int64_t>(e.seq))
+      .bind(2, e.text)
+      .bind(3, e.leaf)
+      .bind(4, e.attachment)
+      .run();
+  db.prepare("INSERT INTO checkpoint (size, root_sha256, utc_ns, signature) VALUES (?, ?, ?, ?)")
+      .bind(1, static_cast<std::int64_t>(p.size))
+      .bind(2, p.root)
+      .bind(3, p.utc_ns)
+      .bind(4, p.signature)
+      .run();
+}
+
+}  // namespace cavum

@@ -1,0 +1,24 @@
+// A ledger's database file: opened for adding, brought up to the present format, written to, and compared with the tables that it should have.
+#pragma once
+
+#include "grading/ledger/ledger_content.h"
+
+namespace cavum {
+
+/// Version of the ledger's tables (SQLite `user_version`).
+inline constexpr int k_ledger_format = 3;
+/// SQLite `application_id`: "CavL".
+inline constexpr std::int64_t k_ledger_application_id = 0x4361764c;
+
+/// With a write-ahead log, synced at each commit. Throws Error when there is none and `make` does not ask for one.
+[[nodiscard]] Database open_for_adding(const std::string& path, bool make);
+/// Format of the file, 0 before there are tables. Throws Error when it is of a newer version.
+[[nodiscard]] std::int64_t ledger_format(Database& database, const std::string& where);
+/// Brings an older format up to date, in one transaction.
+void migrate(Database& database, const std::string& where);
+/// Adds an entry, its checkpoint, and the documents that the entry names, each unless it is there already.
+void insert(Database& database, const LedgerEntry& entry, const Checkpoint& checkpoint, std::span<const Bytes> documents);
+/// Tables, triggers, views and indexes that are not those that this version made: a view that shows people other figures, a trigger that is gone.
+void check_schema(Database& database, std::vector<std::string>& findings);
+
+}  // namespace cavum

@@ -1,0 +1,74 @@
+#include "grading/ledger/regrade.h"
+
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "scenarios/parse.h"
+
+namespace cavum {
+namespace {
+
+constexpr char k_rubric[] = "rubric.toml", k_scenario[] = "scenario.toml", k_attachment[] = "attachment/";
+
+}  // namespace
+
+RegradeBasis read_basis(const std::string& rubric_path, const std::string& scenario_path) {
+  RegradeBasis basis;
+  if (!scenario_path.empty()) {
+    basis.scenario_toml = read_text_file(scenario_path);
+    Scenario s = parse_scenario(basis.scenario_toml, scenario_path);
+    require_none(read_surfaces(s, basis.surfaces));
+  }
+  if (!rubric_path.empty()) {
+    basis.rubric_toml = read_text_file(rubric_path);
+    static_cast<void>(parse_rubric(basis.rubric_toml, rubric_path));
+  }
+  return basis;
+}
+
+std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regrade& regrade) {
+  if (regrade.documents.empty()) return {};
+  RegradeBasis basis;
+  for (const auto& [name, hash] : regrade.documents) {
+    const Bytes& bytes = content.documents.at(hash);
+    if (name == k_rubric) basis.rubric_toml.assign(bytes.begin(), bytes.end());
+    if (name == k_scenario) basis.scenario_toml.assign(bytes.begin(), bytes.end());
+    if (name.starts_with(k_attachment)) basis.surfaces.emplace_back(name.substr(sizeof k_attachment - 1), bytes);
+  }
+  return basis;
+}
+
+std::optional<Scenario> scenario_of(const RegradeBasis& basis, const std::string& where) {
+  if (basis.scenario_toml.empty()) return {};
+  Scenario s = parse_scenario(basis.scenario_toml, where, Reading::recorded);
+  use_surfaces(s, basis.surfaces);
+  return s;
+}
+
+std::optional<RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where) {
+  if (basis.rubric_toml.empty()) return {};
+  return parse_rubric(basis.rubric_toml, where);
+}
+
+const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
+                                 const std::string& reason) {
+  if (reason.empty() || reason.size() > k_longest_reason || !is_plain_text(reason))
+    throw Error("--reason", reason.size() > k_longest_reason ? "is longer than " + std::to_string(k_longest_reason) + " bytes" : "is no line of text",
+                "say in one line of UTF-8 why the result changes, without names: it is kept for ever");
+  std::vector<Bytes> documents;
+  nlohmann::json by = nlohmann::json::object();
+  const auto keep = [&](const std::string& name, Bytes bytes) {
+    by[name] = to_hex(sha256(bytes));
+    documents.push_back(std::move(bytes));
+  };
+  if (!basis.rubric_toml.empty()) keep(k_rubric, {basis.rubric_toml.begin(), basis.rubric_toml.end()});
+  if (!basis.scenario_toml.empty()) keep(k_scenario, {basis.scenario_toml.begin(), basis.scenario_toml.end()});
+  for (const auto& [name, bytes] : basis.surfaces) keep(k_attachment + name, bytes);
+  return ledger.append(
+      "regrade",
+      [&](const LedgerContent&) {
+        return nlohmann::json{{"session", session}, {"result", result}, {"by", by}, {"reason", reason}};
+      },
+      documents);
+}
+
+}  // namespace cavum

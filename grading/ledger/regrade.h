@@ -1,0 +1,34 @@
+// What a filed exam is marked anew by: a rubric, or a corrected scenario with its STL files. The ledger keeps it with the new result, so that the
+// result can be made again and its report written without any file from elsewhere.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "grading/ledger/ledger.h"
+#include "grading/ledger/registry.h"
+#include "scenarios/surface_files.h"
+
+namespace cavum {
+
+struct RegradeBasis {
+  std::string rubric_toml, scenario_toml;  ///< empty: none; with both, the scenario's zones and the rubric count
+  SurfaceFiles surfaces;                   ///< of the scenario
+};
+
+/// Reads the files; an empty path is none. Throws Error when one is no rubric or scenario, or an STL is missing.
+[[nodiscard]] RegradeBasis read_basis(const std::string& rubric_path, const std::string& scenario_path);
+/// What the ledger keeps of a regrade; nothing when it was entered before the ledger kept any.
+[[nodiscard]] std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regrade& regrade);
+/// As it is marked by; nothing when the basis has none. `where` names it in errors.
+[[nodiscard]] std::optional<Scenario> scenario_of(const RegradeBasis& basis, const std::string& where);
+[[nodiscard]] std::optional<RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where);
+
+/// The most bytes of a reason.
+inline constexpr std::size_t k_longest_reason = 2000;
+/// Enters the result of marking the session of entry `session` by `basis`, and keeps that. Throws Error when `reason` is empty, too long or no plain
+/// text.
+const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
+                                 const std::string& reason);
+
+}  // namespace cavum

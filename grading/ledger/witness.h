@@ -1,0 +1,17 @@
+// The witness of a ledger: a file outside the ledger's folder that remembers every checkpoint, so that a ledger which was put back to an older copy
+// is found.
+#pragma once
+
+#include "grading/ledger/ledger_content.h"
+
+namespace cavum {
+
+/// $CAVUM_HOME/witness/ID, or below ~/.config/cavum: one line for each checkpoint, "size root utc_ns".
+[[nodiscard]] std::string witness_path(const std::string& ledger_id);
+
+/// What it remembers, the oldest first; nothing when this computer has none. A line that was changed is a finding.
+[[nodiscard]] std::vector<Checkpoint> read_witness(const std::string& ledger_id, std::vector<std::string>& findings);
+/// Adds a line, synced. Throws Error when that cannot be done; the next entry tells it again.
+void tell_witness(const std::string& ledger_id, const Checkpoint& checkpoint);
+
+}  // namespace cavum

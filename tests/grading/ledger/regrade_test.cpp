@@ -1,0 +1,175 @@
+// What a filed exam was marked anew by stays in the ledger, bound by the tree; ledgers from before that are brought up to date.
+#include "grading/ledger/regrade.h"
+
+#include "grading/ledger/ledger_file.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+const std::string k_rubric =
+    "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = \"target_removed_percent\"\nfull = 50\n"
+    "zero = 0\npoints = 10\n";
+
+/// Format 2, as it was before documents were kept: two programs apart, it must still be read and brought up to date.
+constexpr char k_format_2[] = R"(CREATE TABLE entry (      -- append only
+  seq INTEGER PRIMARY KEY,   -- 0, 1, 2 ...
+  text TEXT NOT NULL,        -- {"body":...,"kind":...,"seq":...,"utc_ns":...}: the leaf of the tree
+  leaf_sha256 BLOB NOT NULL, -- SHA-256(0x00 || text)
+  attachment TEXT            -- a result (JSON), bound by text's body.result_sha256: a receipt shows the text, and no marks
+) STRICT;
+CREATE TABLE checkpoint (    -- one after each entry: the school's signature over the tree so far
+  size INTEGER PRIMARY KEY,  -- number of entries, 1, 2, 3 ...
+  root_sha256 BLOB NOT NULL,
+  utc_ns INTEGER NOT NULL,   -- since 1970
+  signature BLOB NOT NULL    -- Ed25519
+) STRICT;
+CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER entry_is_kept BEFORE DELETE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER checkpoint_stays BEFORE UPDATE ON checkpoint BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER checkpoint_is_kept BEFORE DELETE ON checkpoint BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE VIEW session AS SELECT seq, text ->> '$.body.candidate' AS candidate, text ->> '$.body.scenario_id' AS scenario,
+  text ->> '$.body.file_sha256' AS file_sha256, attachment ->> '$.verdict' AS verdict, attachment ->> '$.score.points' AS points,
+  attachment ->> '$.score.max' AS points_max FROM entry WHERE text ->> '$.kind' = 'session';
+CREATE VIEW ticket AS SELECT seq, text ->> '$.body.ticket.candidate' AS candidate, text ->> '$.body.ticket.exam' AS scenario,
+  text ->> '$.body.ticket.nonce' AS nonce, text ->> '$.body.ticket.not_before' AS not_before, text ->> '$.body.ticket.not_after' AS not_after
+  FROM entry WHERE text ->> '$.kind' = 'ticket';
+PRAGMA application_id = 1130460748; PRAGMA user_version = 2)";
+
+class KeptRegrade : public testing::Test {
+ protected:
+  void SetUp() override {
+    Ledger ledger = school_.ledger();
+    ASSERT_TRUE(file_session(ledger, school_.sit(school_.ticket("4711"))).seq);
+    session_ = read_registry(ledger.content()).sessions.at(0).seq;
+    sealed_ = read_registry(ledger.content()).sessions.at(0).result;
+    basis_.rubric_toml = k_rubric;
+  }
+  json better() const {
+    json r = sealed_;
+    r["score"]["points"] = 12.5;
+    return r;
+  }
+  void tamper(const std::string& sql) {
+    test::tamper(school_.places().database(),
+                 "DROP TRIGGER document_stays; DROP TRIGGER document_is_kept; " + sql +
+                     "; CREATE TRIGGER document_stays BEFORE UPDATE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is "
+                     "append only'); END; CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT "
+                     "RAISE(ABORT, 'the ledger is append only'); END");
+  }
+  School school_;
+  std::uint64_t session_ = 0;
+  json sealed_;
+  RegradeBasis basis_;
+};
+
+TEST_F(KeptRegrade, IsFoundAgainByteForByteAndKeptOnce) {
+  Ledger ledger = school_.ledger();
+  enter_regrade(ledger, session_, better(), basis_, "the limit was misprinted");
+  enter_regrade(ledger, session_, sealed_, basis_, "and again");
+  const LedgerContent content = read_ledger(school_.places());
+  EXPECT_TRUE(content.findings.empty()) << content.findings[0];
+  EXPECT_EQ(content.documents.size(), 1u);
+  EXPECT_EQ(ledger.content().documents, content.documents);
+  const FiledSession s = read_registry(content).sessions.at(0);
+  ASSERT_EQ(s.regrades.size(), 2u);
+  EXPECT_EQ(s.regrade(s.result_seq)->reason, "and again");
+  EXPECT_EQ(s.regrade(s.seq), nullptr) << "the sealed result is no regrade";
+  const auto kept = kept_basis(content, s.regrades[0]);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->rubric_toml, k_rubric);
+  EXPECT_EQ(rubric_of(*kept, "kept")->criteria.at(0).id, "removed");
+  EXPECT_FALSE(scenario_of(*kept, "kept"));
+  // its hash is in the text that the tree's leaf is of
+  EXPECT_NE(content.entries.at(s.regrades[0].seq).text.find(to_hex(sha256(k_rubric))), std::string::npos);
+}
+
+TEST_F(KeptRegrade, AScenarioIsKeptWithItsSurfaces) {
+  Ledger ledger = school_.ledger();
+  RegradeBasis basis = read_basis("", k_scenario);
+  EXPECT_EQ(basis.scenario_toml, read_text_file(k_scenario));
+  basis.surfaces.emplace_back("a b.stl", Bytes{0, 255, 7});
+  enter_regrade(ledger, session_, better(), basis, "corrected");
+  const LedgerContent content = read_ledger(school_.places());
+  const auto kept = kept_basis(content, read_registry(content).sessions.at(0).regrades.at(0));
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->scenario_toml, basis.scenario_toml);
+  EXPECT_EQ(kept->surfaces, basis.surfaces);
+}
+
+TEST_F(KeptRegrade, WhatIsDoneToItIsFound) {
+  {
+    Ledger ledger = school_.ledger();
+    enter_regrade(ledger, session_, better(), basis_, "appeal");
+  }
+  const Bytes sound = read_file(school_.places().database());
+  tamper("UPDATE document SET bytes = CAST(replace(CAST(bytes AS TEXT), 'full = 50', 'full = 90') AS BLOB)");
+  expect_finding(check_ledger(school_.places(), false).findings, {"document", "was changed"});
+  EXPECT_THROW(school_.ledger(), Error);
+  write_file(school_.places().database(), sound);
+  tamper("DELETE FROM document");
+  expect_finding(check_ledger(school_.places(), false).findings, {"rubric.toml", "taken out"});
+  write_file(school_.places().database(), sound);
+  tamper("INSERT INTO document VALUES (x'" + to_hex(sha256(std::string("x"))) + "', x'78')");
+  expect_finding(check_ledger(school_.places(), false).findings, {"belongs to no entry"});
+}
+
+TEST_F(KeptRegrade, AReasonIsALineOfText) {
+  Ledger ledger = school_.ledger();
+  for (const std::string& reason : {std::string(), std::string("two\nlines"), std::string("\xff"), std::string(k_longest_reason + 1, 'a')})
+    EXPECT_THROW(enter_regrade(ledger, session_, sealed_, basis_, reason), Error) << reason;
+  EXPECT_EQ(ledger.content().documents.size(), 0u);
+}
+
+TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
+  json receipt;
+  {
+    Ledger ledger = school_.ledger();
+    ledger.append("regrade", [&](const LedgerContent&) {  // as that version entered it: by a file that was not kept
+      return json{{"session", session_}, {"result", better()}, {"by", {{"rubric_sha256", to_hex(sha256(k_rubric))}}}, {"reason", "old"}};
+    });
+    receipt = ledger.receipt(session_);
+  }
+  const LedgerContent before = read_ledger(school_.places());
+  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(school_.places().database() + end);
+  {
+    Database old = Database::open(school_.places().database(), true);
+    old.run(k_format_2);
+    for (const auto& e : before.entries)
+      old.prepare("INSERT INTO entry VALUES (?, ?, ?, nullif(?, ''))")
+          .bind(1, static_cast<std::int64_t>(e.seq))
+          .bind(2, e.text)
+          .bind(3, e.leaf)
+          .bind(4, e.attachment)
+          .run();
+    for (const auto& p : before.checkpoints)
+      old.prepare("INSERT INTO checkpoint VALUES (?, ?, ?, ?)")
+          .bind(1, static_cast<std::int64_t>(p.size))
+          .bind(2, p.root)
+          .bind(3, p.utc_ns)
+          .bind(4, p.signature)
+          .run();
+  }
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty()) << "it is read as it is";
+  {
+    Ledger ledger = school_.ledger();
+    const FiledSession s = read_registry(ledger.content()).sessions.at(0);
+    EXPECT_EQ(s.result["score"]["points"], 12.5);
+    EXPECT_FALSE(kept_basis(ledger.content(), s.regrades.at(0))) << "nothing was kept then";
+    enter_regrade(ledger, session_, better(), basis_, "entered again, to be kept");
+    EXPECT_TRUE(check_receipt(receipt, ledger.content().public_key, &ledger.content()).empty());
+  }
+  const auto check = check_ledger(school_.places(), true);
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0];
+  const LedgerContent after = read_ledger(school_.places());
+  for (std::size_t i = 0; i < before.entries.size(); ++i) EXPECT_EQ(after.entries.at(i).text, before.entries[i].text);
+  EXPECT_TRUE(kept_basis(after, read_registry(after).sessions.at(0).regrades.at(1)));
+  Database db = Database::open(school_.places().database(), false);
+  EXPECT_EQ(db.integer("PRAGMA user_version"), k_ledger_format);
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,133 @@
+// `cavum ledger init | ticket | add | receipt`: promised exams, and those that were sat.
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "grading/ledger/candidate_id.h"
+#include "grading/ledger/filing.h"
+#include "grading/ledger/issue.h"
+#include "scenarios/exam.h"
+#include "ui/ledger_verbs_parts.h"
+#include "ui/print_json.h"
+#include "ui/session_files.h"
+
+namespace cavum {
+
+using nlohmann::json;
+
+SigningKey key_of(const LedgerOptions& o) { return load_school_key(o.key.empty() ? school_key_path() : o.key); }
+
+void require_new(const LedgerOptions& o, const std::string& path) {
+  require_writable(path);
+  const LedgerPlaces places{o.folder};
+  std::error_code none;
+  for (const std::string& kept : {places.database(), places.identities(), school_key_path(), school_public_key_path(), o.key,
+                                  station_path("station.key"), station_path("used_tickets")})
+    if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
+      throw Error("--out " + path, "holds a key, identities or entries", "name another file: it is never written over");
+  if (!o.overwrite && std::filesystem::exists(path)) throw Error("--out " + path, "is there already", "name another file, or add --overwrite");
+}
+
+Identities sound_identities(const Ledger& ledger) {
+  Identities identities(ledger.places().identities());
+  if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
+    throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
+  return identities;
+}
+
+void ledger_init(const LedgerOptions& o) {
+  if (o.folder.empty()) throw Error("cavum ledger init", "names no folder", "name one for the ledger");
+  const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
+  Ledger::create(o.folder, o.school, key);
+  static_cast<void>(Identities(LedgerPlaces{o.folder}.identities(), true));
+  const std::string known = school_public_key_path();
+  if (!std::filesystem::exists(known)) write_text_file(known, to_hex(key.public_key) + "\n");
+  const LedgerContent content = read_ledger({o.folder});
+  if (o.as_json) {
+    print_json(json{{"ledger", content.id}, {"public_key", content.public_key}, {"folder", o.folder}});
+    return;
+  }
+  std::cout << "ledger " << content.id << " in " << o.folder << "\nthe school's public key: " << content.public_key
+            << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? school_key_path() : o.key) << " (signs), " << witness_path(content.id)
+            << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known << "\n";
+}
+
+void ledger_ticket(const LedgerOptions& o) {
+  if (o.candidate.empty() == o.candidates.empty())
+    throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
+  require_candidate_id("--candidate", o.candidate);
+  require_candidate_id("--name", o.name);
+  const std::vector<Person> people =
+      o.candidates.empty() ? std::vector<Person>{{o.candidate, o.name}} : parse_people(read_text_file(o.candidates), o.candidates);
+  const std::int64_t from = parse_utc(o.from, "--from"), until = parse_utc(o.until, "--until");
+  if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
+  ExamOptions exam;
+  exam.tooth_file = o.tooth;
+  exam.rubric_file = o.rubric;
+  exam.force_model = o.model;
+  exam.grant = o.grant;
+  const auto setup = prepare_exam(o.scenario, exam);
+  Ledger ledger(o.folder, key_of(o));
+  Identities identities = sound_identities(ledger);
+  const Ticket ticket = promise(*setup, ledger.content(), from, until);
+  const bool folder = !o.candidates.empty();
+  if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
+  if (folder) std::filesystem::create_directories(o.out);
+  json printed = json::array();
+  for (const auto& p : people) {
+    const std::string candidate = identities.enrol(p.id, p.name, ledger.key()), file = folder ? o.out + "/" + candidate + ".ticket" : o.out;
+    require_new(o, file);
+    write_text_file(file, issue(ledger, ticket, candidate) + "\n");
+    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
+    if (!o.as_json) std::cout << candidate << "  " << file << "  " << p.id << (p.name.empty() ? "" : ", " + p.name) << "\n";
+  }
+  if (o.as_json) print_json(json{{"tickets", printed}});
+}
+
+int ledger_add(const LedgerOptions& o) {
+  Ledger ledger(o.folder, key_of(o));
+  if (!o.out.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
+    std::error_code none;
+    std::filesystem::create_directories(o.out, none);
+    require_writable(o.out + "/receipt.json");
+  }
+  json printed = json::array();
+  bool all = true;
+  for (const auto& path : session_files(o.sessions)) {
+    Filing filing;
+    try {
+      filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings});
+    } catch (const DatabaseError&) {
+      throw;  // the disk: what was acknowledged stands, and nothing more can be
+    } catch (const Error& e) {
+      if (o.sessions.size() == 1 && !std::filesystem::is_directory(o.sessions[0])) throw;
+      filing.findings.emplace_back(e.what());
+    }
+    all = all && filing.seq && filing.findings.empty();
+    json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};
+    if (filing.seq) {
+      one["receipt"] = ledger.receipt(*filing.seq);
+      if (!o.out.empty()) write_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
+    }
+    if (!o.as_json) {
+      std::cout << path << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
+      for (const auto& f : filing.findings) std::cout << "  - " << f << "\n";
+    }
+    printed.push_back(std::move(one));
+  }
+  if (o.as_json) print_json(json{{"sessions", printed}});
+  return all ? 0 : 1;
+}
+
+void ledger_receipt(const LedgerOptions& o) {
+  const Ledger ledger(o.folder, key_of(o));
+  if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
+    throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
+  require_new(o, o.out);
+  write_text_file(o.out, ledger.receipt(static_cast<std::uint64_t>(o.session_seq)).dump(2) + "\n");
+  std::cout << "written: " << o.out << "\n";
+}
+
+}  // namespace cavum

@@ -1,0 +1,44 @@
+// What the verbs of `cavum ledger` share: their options, and the functions behind them, by file: _filing (init, ticket, add, receipt), _results
+// (release, regrade, export, candidates, forget), _check (verify, show).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grading/ledger/identities.h"
+#include "grading/ledger/ledger.h"
+#include "scenarios/accommodations.h"
+
+namespace cavum {
+
+struct LedgerOptions {
+  std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
+                           receipt, reason;
+  std::vector<std::string> sessions, chosen;
+  Grant grant;
+  std::int64_t session_seq = -1;
+  bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
+       another_task = false, with_simulated = false;
+};
+
+/// The school's key: --key, else the one in its place. Throws Error when there is none.
+[[nodiscard]] SigningKey key_of(const LedgerOptions& options);
+/// Throws Error when `path` cannot be written, holds a key, identities or entries, or is there already and --overwrite does not allow it.
+void require_new(const LedgerOptions& options, const std::string& path);
+/// The ledger's identities. Throws Error when one of them was changed by hand.
+[[nodiscard]] Identities sound_identities(const Ledger& ledger);
+
+// Each runs a verb; those that return a number give the exit code, 0 or 1. They throw Error.
+void ledger_init(const LedgerOptions& options);
+void ledger_ticket(const LedgerOptions& options);
+int ledger_add(const LedgerOptions& options);
+void ledger_receipt(const LedgerOptions& options);
+void ledger_release(const LedgerOptions& options);
+void ledger_regrade(const LedgerOptions& options);
+void ledger_export(const LedgerOptions& options);
+void ledger_candidates(const LedgerOptions& options);
+void ledger_forget(const LedgerOptions& options);
+int ledger_verify(const LedgerOptions& options);
+int ledger_show(const LedgerOptions& options);
+
+}  // namespace cavum

@@ -1,0 +1,37 @@
+#include "engine/base/text.h"
+#include "ui/report/report_document.h"
+
+namespace cavum {
+
+void add_filing_notes(Document& d, const ReportSource& s) {
+  if (!s.filing) return;
+  const auto note = [&](const std::string& lead, const std::string& text) {
+    d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note});
+  };
+  if (const auto& r = s.filing->regrade)
+    note("Why it was regraded",
+         r->reason + " (entry " + std::to_string(r->entry) + " of the ledger, " + r->date + "). The result below is the one that counts");
+  if (!s.filing->not_filed.empty()) note("Not the ledger's result", s.filing->not_filed);
+  if (s.filing->findings.empty()) return;
+  std::string all;
+  for (const auto& f : s.filing->findings) all += (all.empty() ? "" : "; ") + f;
+  note("In doubt", "This session was filed with findings, and its result does not stand as sound: " + all);
+}
+
+std::string attempt_verdict(const ReportAttempt& a) {
+  std::string out = a.doubt.empty() ? a.verdict : "in doubt (" + (a.verdict.empty() ? "no verdict" : a.verdict) + ")";
+  if (a.regraded) out += ", regraded";
+  if (a.simulated) out += ", simulated operator";
+  return out;
+}
+
+std::string attempt_remark(const ReportAttempt& a) {
+  std::string out;
+  const auto say = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
+  if (a.this_one) say("this report");
+  if (!a.released) say("not released");
+  if (!a.doubt.empty()) say("filed with a finding: " + one_line(a.doubt));
+  return out;
+}
+
+}  // namespace cavum
