@@ -67,7 +67,7 @@ void write_report(const std::string& session, const std::string& out, const Opti
   if (filed != nullptr) {
     source.filing = filing_of(*ledger, *filed, source.reader, o.with_name);
     source.filing->not_filed = not_the_filed_result(*filed, m.result, source.reader);
-    if (!source.filing->not_filed.empty() || o.marking.anew()) source.filing->regrade.reset();  // this report is of something else
+    if (!source.filing->not_filed.empty()) source.filing->regrade.reset();  // this report is of something else
   }
   source.integrity = integrity_of(session, o, filed);
   write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));

@@ -127,20 +127,24 @@ TEST(Identities, PseudonymsTellNothingAndDiffer) {
   EXPECT_THROW(identities.enrol("a\nb", "", School::key()), Error);
 }
 
+/// Two candidates have sat it, and the first one's result is released; each test works on a copy.
 class Released : public testing::Test {
  protected:
-  void SetUp() override {
-    Ledger ledger = school_.ledger();
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    Ledger ledger = shared_->ledger();
     for (const char* who : {"4711", "4712"})
-      ASSERT_TRUE(file_session(ledger, school_.sit(school_.ticket(who), who[3] == '1' ? "expert" : "novice")).seq);
+      ASSERT_TRUE(file_session(ledger, shared_->sit(shared_->ticket(who), who[3] == '1' ? "expert" : "novice")).seq);
     ASSERT_EQ(read_registry(ledger.content()).sessions.at(0).seq, 2u);
     ledger.append("release", [](const LedgerContent&) { return json{{"results", {2}}}; });
-    content_ = ledger.content();
-    registry_ = read_registry(content_);
   }
-  School school_;
-  LedgerContent content_;
-  Registry registry_;
+  static void TearDownTestSuite() { delete shared_; }
+  School school_{*shared_};
+  LedgerContent content_ = read_ledger(school_.places());
+  Registry registry_ = read_registry(content_);
+
+ private:
+  static inline School* shared_ = nullptr;
 };
 
 TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {

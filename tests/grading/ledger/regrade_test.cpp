@@ -39,13 +39,19 @@ CREATE VIEW ticket AS SELECT seq, text ->> '$.body.ticket.candidate' AS candidat
   FROM entry WHERE text ->> '$.kind' = 'ticket';
 PRAGMA application_id = 1130460748; PRAGMA user_version = 2)";
 
+/// A school with one filed exam; each test works on a copy.
 class KeptRegrade : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    Ledger ledger = shared_->ledger();
+    ASSERT_TRUE(file_session(ledger, shared_->sit(shared_->ticket("4711"))).seq);
+  }
+  static void TearDownTestSuite() { delete shared_; }
   void SetUp() override {
-    Ledger ledger = school_.ledger();
-    ASSERT_TRUE(file_session(ledger, school_.sit(school_.ticket("4711"))).seq);
-    session_ = read_registry(ledger.content()).sessions.at(0).seq;
-    sealed_ = read_registry(ledger.content()).sessions.at(0).result;
+    const FiledSession s = read_registry(read_ledger(school_.places())).sessions.at(0);
+    session_ = s.seq;
+    sealed_ = s.result;
     basis_.rubric_toml = k_rubric;
   }
   json better() const {
@@ -60,10 +66,13 @@ class KeptRegrade : public testing::Test {
                      "append only'); END; CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT "
                      "RAISE(ABORT, 'the ledger is append only'); END");
   }
-  School school_;
+  School school_{*shared_};
   std::uint64_t session_ = 0;
   json sealed_;
   RegradeBasis basis_;
+
+ private:
+  static inline School* shared_ = nullptr;
 };
 
 TEST_F(KeptRegrade, IsFoundAgainByteForByteAndKeptOnce) {
@@ -153,7 +162,7 @@ TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
           .bind(4, p.signature)
           .run();
   }
-  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty()) << "it is read as it is";
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "it is read as it is";
   {
     Ledger ledger = school_.ledger();
     const FiledSession s = read_registry(ledger.content()).sessions.at(0);
