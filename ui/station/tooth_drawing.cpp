@@ -92,7 +92,7 @@ void ToothDrawing::draw(const Drawn& drawn, const Sight& sight, bool by_processo
   std::sort(seen.begin(), seen.end());
   // A renderer on the processor keeps some 400 bytes a triangle until it is told to draw them, and the program never gives the peak back: told in
   // between, its memory stays the same however rich in triangles the cavity becomes.
-  constexpr int k_at_once = 5'000;  // triangles, 2 MB
+  constexpr int k_at_once = 20'000;  // triangles, 8 MB
   int waiting = 0;
   for (const auto& [far_mm, i] : seen) {
     drawn.meshes[i].draw();
