@@ -45,10 +45,10 @@ Scenario scenario_of(const SittingOptions& o) {
   return o.resume.empty() ? parse_scenario(read_text_file(o.scenario), o.scenario) : prepare_exam(SessionReader(o.resume).setup())->scenario;
 }
 
-/// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, before the exam begins: an exam that began does not
-/// grow any more. The allocator keeps it, instead of giving it back at once.
+/// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as the exam begins: it does not grow any more then.
+/// The allocator keeps it, instead of giving it back at once.
 void reserve_memory() {
-  constexpr std::size_t k_blocks = 256, k_block_bytes = 64 * 1024;  // 16 MB: twice what ten minutes of hard work were seen to take
+  constexpr std::size_t k_blocks = 384, k_block_bytes = 64 * 1024;  // 24 MB: ten minutes of hard work took 8, a picture takes 8 for a moment
   mallopt(M_TRIM_THRESHOLD, 4 * static_cast<int>(k_blocks * k_block_bytes));
   std::vector<std::vector<char>> blocks(k_blocks);
   for (auto& block : blocks) block.assign(k_block_bytes, 1);
@@ -235,6 +235,7 @@ class Station {
           break;
         case Wish::begin:
           sitting_->begin();
+          reserve_memory();
           go_to(Screen::exam);
           break;
         case Wish::end:
@@ -362,7 +363,6 @@ class Station {
     constexpr double k_below_mm = 1.5;  // of the opening: the whole crown is in the picture
     state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
                                     static_cast<float>(setup.zones.opening_z_mm() - k_below_mm)};
-    reserve_memory();
   }
 
   void go_to(Screen screen) {
