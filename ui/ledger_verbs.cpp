@@ -16,7 +16,10 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
     auto* v = ledger->add_subcommand(name, what);
     v->add_option("folder", o->folder, "the ledger's folder")->required();
     v->add_option("--key", o->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
-    v->callback([o, run, &exit_code] { exit_code = run(*o); });
+    v->callback([o, run, name, &exit_code] {
+      if (o->folder.empty()) throw Error(std::string("cavum ledger ") + name, "no folder named", "name the ledger's folder");
+      exit_code = run(*o);
+    });
     return v;
   };
   const auto done = [](void (*run)(const LedgerOptions&)) {
@@ -55,9 +58,13 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   json_flag(v);
 
   v = verb("release", "Let results go to candidates and exports", done(ledger_release));
-  v->add_flag("--all", o->all, "all that are filed without findings");
+  v->add_flag("--all", o->all,
+              "all that are filed without findings and not contested, what simulated operators sat, too: that is never written under a "
+              "student's number");
   v->add_option("--candidate", o->chosen, "pseudonym or the school's own number; may be repeated");
-  v->add_flag("--with-findings", o->with_findings, "with --candidate: also one that was filed with findings or is contested, after an appeal");
+  v->add_option("--session", o->chosen_sessions, "its entry: chooses one of several endings of an exam, which then alone counts; may be repeated");
+  v->add_flag("--with-findings", o->with_findings,
+              "with --candidate or --session: also one that was filed with findings, with --session also one that is contested, after an appeal");
   json_flag(v);
 
   v = verb("regrade", "Mark a filed exam by another rubric or a corrected scenario: a new result beside the old", done(ledger_regrade));

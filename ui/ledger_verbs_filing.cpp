@@ -38,7 +38,13 @@ Identities sound_identities(const Ledger& ledger) {
 }
 
 void ledger_init(const LedgerOptions& o) {
-  if (o.folder.empty()) throw Error("cavum ledger init", "names no folder", "name one for the ledger");
+  constexpr std::size_t k_longest_school = 254;
+  if (o.school.empty() || o.school.size() > k_longest_school || !is_plain_text(o.school))
+    throw Error("--school",
+                o.school.empty()                     ? "names no school"
+                : o.school.size() > k_longest_school ? "is longer than " + std::to_string(k_longest_school) + " bytes"
+                                                     : "holds a control character or bytes that are no UTF-8",
+                "give the school's name in one line of UTF-8");
   const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
   Ledger::create(o.folder, o.school, key);
   static_cast<void>(Identities(LedgerPlaces{o.folder}.identities(), true));
@@ -122,7 +128,7 @@ int ledger_add(const LedgerOptions& o) {
 }
 
 void ledger_receipt(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o));
+  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
     throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
   require_new(o, o.out);

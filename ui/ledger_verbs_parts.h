@@ -16,6 +16,7 @@ struct LedgerOptions {
                            receipt, reason;
   std::vector<std::string> sessions, chosen;
   Grant grant;
+  std::vector<std::uint64_t> chosen_sessions;
   std::int64_t session_seq = -1;
   bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
        another_task = false, with_simulated = false;

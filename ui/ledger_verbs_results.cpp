@@ -3,9 +3,12 @@
 #include <iostream>
 
 #include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/regrade.h"
+#include "grading/ledger/release.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "ui/ledger_verbs_parts.h"
@@ -17,38 +20,34 @@ namespace cavum {
 using nlohmann::json;
 
 void ledger_release(const LedgerOptions& o) {
-  if (!o.all && o.chosen.empty()) throw Error("cavum ledger release", "needs to know whose results", "give --all, or --candidate for each");
+  if (!o.all && o.chosen.empty() && o.chosen_sessions.empty())
+    throw Error("cavum ledger release", "needs to know whose results", "give --all, --candidate for each, or --session for each");
+  if (o.all && !(o.chosen.empty() && o.chosen_sessions.empty()))
+    throw Error("--all", "is given with names", "give either --all, or --candidate and --session");
   Ledger ledger(o.folder, key_of(o));
   Identities identities = sound_identities(ledger);
-  std::vector<std::string> wanted = o.chosen;
-  for (const auto& w : wanted) require_candidate_id("--candidate", w);
-  for (auto& w : wanted)
+  ReleaseWish wish{o.all, o.with_findings, o.chosen, o.chosen_sessions};
+  for (auto& w : wish.candidates) {
+    require_candidate_id("--candidate", w);
     if (const auto known = identities.of_id(w)) w = known->pseudonym;
-  std::size_t kept_back = 0;
-  std::vector<std::string> unknown = wanted;
-  const Registry before = read_registry(ledger.content());
-  json results = json::array();
-  for (const auto& s : before.sessions) {
-    const bool chosen = o.all || std::find(wanted.begin(), wanted.end(), s.candidate) != wanted.end();
-    unknown.erase(std::remove(unknown.begin(), unknown.end(), s.candidate), unknown.end());
-    if (!chosen || s.released) continue;
-    if (s.doubtful() && !(o.with_findings && !o.all)) {
-      ++kept_back;
-      continue;
-    }
-    results.push_back(s.result_seq);
   }
-  if (!unknown.empty()) throw Error("--candidate " + unknown[0], "has no session in this ledger", "see `cavum ledger show " + o.folder + "`");
-  if (!results.empty()) ledger.append("release", [&](const LedgerContent&) { return json{{"results", results}}; });
+  const Release released = release_results(ledger, wish);
   if (o.as_json)
-    print_json(json{{"released", results.size()}, {"kept_back", kept_back}});
+    print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}});
   else
-    std::cout << results.size() << " results released"
-              << (kept_back > 0 ? ", " + std::to_string(kept_back) +
-                                      " kept back: filed with findings, or contested by another ending of the same exam (--candidate with "
-                                      "--with-findings releases them after an appeal)"
-                                : "")
+    std::cout << released.results.size() << (released.results.size() == 1 ? " result released" : " results released")
+              << (released.kept_back > 0 ? ", " + std::to_string(released.kept_back) +
+                                               " kept back: filed with findings, or contested by another ending of the same exam (--candidate or "
+                                               "--session with --with-findings releases one after an appeal)"
+                                         : "")
               << "\n";
+}
+
+/// "pass, 80.8 of 100"
+std::string in_words(const json& result) {
+  if (!result.is_object()) return "no result";
+  const json& score = result.at("score");
+  return result.value("verdict", "") + ", " + fixed(score.at("points").get<double>(), 1) + " of " + plain_number(score.at("max").get<double>());
 }
 
 void ledger_regrade(const LedgerOptions& o) {
@@ -70,15 +69,18 @@ void ledger_regrade(const LedgerOptions& o) {
   const json result = to_json(grade(graded->input(), graded->rubric));
   const auto& entry = enter_regrade(ledger, found->seq, result, basis, o.reason);
   if (o.as_json)
-    print_json(
-        json{{"seq", entry.seq}, {"before", found->result.value("score", json())}, {"after", result.at("score")}, {"verdict", result.at("verdict")}});
+    print_json(json{{"seq", entry.seq},
+                    {"before", member_of(found->result, "score")},
+                    {"verdict_before", text_in(found->result, "verdict")},
+                    {"after", result.at("score")},
+                    {"verdict", result.at("verdict")}});
   else
-    std::cout << "entry " << entry.seq << ": " << found->result.at("score").at("points") << " points before, " << result.at("score").at("points")
-              << " now; the old result stands until the new one is released\n";
+    std::cout << "entry " << entry.seq << ": " << in_words(found->result) << " before; " << in_words(result) << " now"
+              << (found->shown.is_null() ? "" : "; the old result stands until the new one is released") << "\n";
 }
 
 void ledger_export(const LedgerOptions& o) {
-  Ledger ledger(o.folder, key_of(o));
+  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
   Identities identities = sound_identities(ledger);
   const Registry registry = read_registry(ledger.content());
   int left_out = 0;
@@ -91,6 +93,8 @@ void ledger_export(const LedgerOptions& o) {
   require_new(o, o.out);
   write_text_file(o.out, text);
   std::cout << "written: " << o.out << "\n";
+  if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const FiledSession& s) { return s.shown.is_object(); }))
+    std::cout << "no result is released; " << registry.sessions.size() << (registry.sessions.size() == 1 ? " is" : " are") << " pending\n";
   if (const auto simulated = released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
     std::cout << simulated << " released results of simulated operators are "
               << (o.with_simulated ? "in it, marked SIMULATED, under no student's number\n" : "left out (--with-simulated writes them, marked)\n");
@@ -98,7 +102,7 @@ void ledger_export(const LedgerOptions& o) {
 }
 
 void ledger_candidates(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o));
+  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
   Identities identities = sound_identities(ledger);
   json all = json::array();
   for (const auto& i : identities.all()) {

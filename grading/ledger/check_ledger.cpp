@@ -18,7 +18,14 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   auto& findings = out.findings;
   const Registry registry = read_registry(content);
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
-  if (!content.witnessed) out.not_checked.emplace_back("whether an older copy was put back: this computer has no witness of the ledger");
+  const bool has_id = !content.id.empty();
+  out.remarks.insert(out.remarks.end(), registry.remarks.begin(), registry.remarks.end());
+  if (!has_id)
+    out.not_checked.emplace_back(
+        "whether an older copy was put back, and which of the filed sessions belong to it: the ledger's id could not be read, so nothing could be "
+        "compared");
+  else if (!content.witnessed)
+    out.not_checked.emplace_back("whether an older copy was put back: this computer has no witness of the ledger");
   if (!replay && !registry.sessions.empty())
     out.not_checked.emplace_back("whether the filed sessions' motion gives their forces and teeth again: --replay simulates each");
   std::size_t filed_with_findings = 0;
@@ -38,8 +45,9 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
-        out.remarks.push_back(name + ": is contested by entry " + std::to_string(other) +
-                              ", another ending of the same exam: a person decides which counts");
+        out.remarks.push_back(
+            name + ": is contested by entry " + std::to_string(other) + ", another ending of the same exam: " +
+            (s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
   }
   if (replay && filed_with_findings > 0)
     out.not_checked.push_back(std::to_string(filed_with_findings) + " sessions that were filed with findings are not simulated again");
@@ -47,19 +55,20 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   std::set<std::string> filed;
   for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
   for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
-    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
+    if (has_id && !filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
   return out;
 }
 
 void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerContent& content, const std::string& key_path,
                  const std::string& public_key_path) {
+  const bool unread = content.public_key.empty();
   bool known = false;
   const auto must_be_ours = [&](const std::string& key, const std::string& path) {
-    known = true;
-    if (!content.public_key.empty() && key != content.public_key)
+    if (!unread && key != content.public_key)
       check.findings.push_back("the ledger is of another school than " + path + " names: signed by " + content.public_key + ", expected " + key);
   };
   if (std::filesystem::exists(public_key_path)) {
+    known = true;
     try {
       std::string text = read_text_file(public_key_path);
       while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
@@ -71,12 +80,18 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
   const std::string of_identities = "whether names were exchanged among the identities: ";
   std::optional<SigningKey> key;
   if (std::filesystem::exists(key_path)) {
+    known = true;
     try {
       key = load_school_key(key_path);
       must_be_ours(to_hex(key->public_key), key_path);
     } catch (const Error& e) {
       check.not_checked.push_back("the school's key cannot be used: " + std::string(e.what()));
     }
+  }
+  if (unread) {
+    check.not_checked.push_back("whether the ledger is this school's, and " + of_identities +
+                                "the ledger's id and key could not be read, so nothing could be compared");
+    return;
   }
   if (!known)
     check.not_checked.push_back("whether the ledger is this school's: neither " + key_path + " nor " + public_key_path + " is here to compare with");

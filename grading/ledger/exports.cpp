@@ -6,6 +6,7 @@
 
 #include "engine/base/text.h"
 #include "engine/session/session.h"
+#include "grading/ledger/exported_grade.h"
 
 namespace cavum {
 namespace {
@@ -14,14 +15,6 @@ using nlohmann::json;
 
 /// A number in full, or nothing.
 std::string number_in(const json& j) { return j.is_number() ? j.dump() : ""; }
-
-/// Criteria that fail the exam by themselves, whatever the sum.
-std::vector<std::string> critical_in(const json& result) {
-  std::vector<std::string> out;
-  for (const auto& c : result.at("criteria"))
-    if (c.contains("critical_failed") && c["critical_failed"] == json(true)) out.push_back(c.value("id", ""));
-  return out;
-}
 
 constexpr char k_simulated[] = "SIMULATED";
 
@@ -32,36 +25,6 @@ std::string simulated_mark(const FiledSession& s) {
 
 /// Whom a row is for: a candidate, or a simulated operator in a candidate's place, who is somebody else.
 std::string sitter_of(const FiledSession& s) { return s.simulated.empty() ? s.candidate : std::string(k_simulated) + " " + s.candidate; }
-
-/// "fail (critical: perforation)"
-std::string verdict_of(const json& result) {
-  std::string out = result.value("verdict", "");
-  std::string critical;
-  for (const auto& id : critical_in(result)) critical += (critical.empty() ? "" : ", ") + id;
-  return critical.empty() ? out : out + " (critical: " + critical + ")";
-}
-
-/// The exam was failed although the sum alone might pass: by a critical criterion, or by one below the pass mark where none makes up for another.
-bool is_failed_beside_points(const json& result) {
-  const json& score = result.at("score");
-  const double pass_points = 0.01 * score.value("pass_percent", 0.0) * score.at("max").get<double>();
-  return result.value("verdict", "") == "fail" && (!critical_in(result).empty() || score.at("points").get<double>() >= pass_points);
-}
-
-/// What a gradebook may add up and compare with its own pass mark: the points, but none where they do not decide.
-json grade_of(const json& result) { return is_failed_beside_points(result) ? json(0) : result.at("score").at("points"); }
-
-/// "Verdict: pass. floor_depth 8 of 10: deepest place 0.2 mm over ..."
-std::string feedback_of(const json& result) {
-  std::string out = "Verdict: " + verdict_of(result) + ".";
-  if (is_failed_beside_points(result))
-    out += std::string(" Failed by ") + (critical_in(result).empty() ? "a criterion below the pass mark" : "what is critical") + ": the " +
-           plain_number(result.at("score").at("points")) + " of " + plain_number(result.at("score").at("max")) + " points do not count.";
-  for (const auto& c : result.at("criteria"))
-    if (c.at("points").get<double>() < c.at("max").get<double>())
-      out += " " + c.value("id", "") + " " + plain_number(c.at("points")) + " of " + plain_number(c.at("max")) + ": " + c.value("reason", "") + ".";
-  return one_line(out);
-}
 
 /// Milliseconds, as LTI wants: a platform keeps the score with the later time.
 std::string utc_ms(std::int64_t utc_ns) {
@@ -97,18 +60,14 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   struct Exam {
     std::vector<std::string> criteria;
     std::map<std::string, const FiledSession*> by_candidate;
-    /// What most were marked out of. A gradebook has one scale an exam; a regrade by another rubric may have another.
-    [[nodiscard]] double scale() const {
-      std::map<double, std::size_t> of;
-      for (const auto& [candidate, s] : by_candidate) ++of[s->shown.at("score").at("max").get<double>()];
-      return std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
-    }
   };
+  const auto scales = own_scales(registry);
   std::map<std::string, Exam> exams;
   for (const auto& s : registry.sessions) {
     if (s.shown.is_null() || (!s.simulated.empty() && !with_simulated)) continue;
     Exam& exam = exams[s.scenario_id];
     exam.by_candidate[sitter_of(s)] = &s;
+    if (exported_grade(s, scales).by_another_rubric) continue;
     for (const auto& c : s.shown.at("criteria"))
       if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
         exam.criteria.push_back(id);
@@ -148,15 +107,14 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
       }
       const json& result = found->second->shown;
       const std::string mark = simulated_mark(*found->second);
-      const double own = result.at("score").at("max").get<double>(), scale = exam.scale();
-      const json grade = own == scale ? grade_of(result) : json(grade_of(result).get<double>() / own * scale);
-      row += "," + number_in(grade) + "," + csv_field(mark + verdict_of(result)) + "," + number_in(result.at("score").at("points"));
+      const ExportedGrade g = exported_grade(*found->second, scales);
+      row += "," + number_in(g.grade) + "," + csv_field(mark + g.verdict) + "," + number_in(g.points);
       for (const auto& wanted : exam.criteria) {
         row += ",";
         for (const auto& c : result.at("criteria"))
-          if (c.at("id") == wanted) row += number_in(c.at("points"));
+          if (!g.by_another_rubric && c.at("id") == wanted) row += number_in(c.at("points"));
       }
-      row += "," + csv_field(mark + feedback_of(result));
+      row += "," + csv_field(mark + g.feedback);
     }
   }
   for (const auto& [id, row] : rows) out += row + "\n";
@@ -164,9 +122,13 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
 }
 
 json lti_scores(const Registry& registry, Identities& identities, bool with_simulated) {
-  std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last counts
-  for (const auto& s : registry.sessions)
-    if (s.simulated.empty() || with_simulated) last[{s.scenario_id, sitter_of(s)}] = &s;
+  std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last one that is released, else the last
+  for (const auto& s : registry.sessions) {
+    if (!s.simulated.empty() && !with_simulated) continue;
+    const FiledSession*& counts = last[{s.scenario_id, sitter_of(s)}];
+    if (counts == nullptr || s.shown.is_object() || !counts->shown.is_object()) counts = &s;
+  }
+  const auto scales = own_scales(registry);
   json out = json::array();
   for (const auto& [key, s] : last) {
     std::string user = "simulated:" + s->candidate;
@@ -178,16 +140,17 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
     const bool shown = s->shown.is_object();
     const bool review = s->result.is_object() && s->result.value("verdict", "") == "review";
     json score = {{"userId", user},
-                  {"timestamp", utc_ms(s->received_utc_ns)},
+                  {"timestamp", utc_ms(shown ? s->released_utc_ns : s->received_utc_ns)},
                   {"activityProgress", "Completed"},
                   {"gradingProgress", shown    ? "FullyGraded"
                                       : review ? "PendingManual"
                                                : "Pending"}};
     if (const std::string mark = simulated_mark(*s); !mark.empty()) score["comment"] = mark;
     if (shown) {
-      score["scoreGiven"] = grade_of(s->shown);
-      score["scoreMaximum"] = s->shown.at("score").at("max");
-      score["comment"] = simulated_mark(*s) + feedback_of(s->shown);
+      const ExportedGrade g = exported_grade(*s, scales);
+      score["scoreGiven"] = g.grade;
+      score["scoreMaximum"] = g.max;
+      score["comment"] = simulated_mark(*s) + g.feedback;
     }
     out.push_back({{"resourceId", s->scenario_id}, {"score", std::move(score)}});
   }
@@ -209,6 +172,8 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
                        {"result", s.result},
                        {"shown", s.shown},
                        {"simulated", s.simulated},
+                       {"contested_by", s.contested_by},
+                       {"chosen", s.chosen},
                        {"findings", s.findings}});
   const Checkpoint& p = ledger.content().checkpoints.back();
   json facts = {{"results", results},
@@ -233,15 +198,16 @@ bool results_hold(const std::string& text) {
 }
 
 std::string tidy_csv(const Registry& registry) {
-  std::string out = "session,candidate,scenario,station,simulated,regraded,findings,verdict,released,criterion,metric,value,unit,points,max\n";
+  std::string out =
+      "session,candidate,scenario,station,simulated,regraded,findings,contested,chosen,verdict,released,criterion,metric,value,unit,points,max\n";
   for (const auto& s : registry.sessions) {
     if (!s.result.is_object()) continue;
     for (const auto& c : s.result.at("criteria"))
       out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + s.station_key.substr(0, 16) + "," +
              csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
-             s.result.value("verdict", "") + "," + (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," +
-             csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) + "," + csv_field(c.value("unit", "")) + "," +
-             number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
+             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + s.result.value("verdict", "") + "," +
+             (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
+             "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }
   return out;
 }

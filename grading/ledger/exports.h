@@ -11,29 +11,30 @@
 namespace cavum {
 
 /// Moodle's grade import (CSV, first row names): "ID number", for each exam the grade that counts, verdict, points, one column
-/// for each criterion, and feedback. The grade is the points, and 0 where the exam was failed whatever the points are (by a critical criterion, or by
-/// one below the mark where none makes up for another): a gradebook that adds up and compares must not make a pass of it. One row for each
-/// candidate with a released result; of several attempts at one exam the last counts. `left_out` receives how many results had no known candidate.
-/// What a simulated operator sat is left out, whoever's ticket it used; `with_simulated` writes it in rows of its own, under no student's number,
-/// verdict and feedback beginning with SIMULATED.
+/// for each criterion, and feedback, as exported_grade has them: all of an exam on one scale, and 0 where the exam was failed whatever the points
+/// are. A result on another scale has no points of criteria. One row for each candidate with a released result; of several attempts at one exam the
+/// last released one counts. `left_out` receives how many results had no known candidate. What a simulated operator sat is left out, whoever's ticket
+/// it used; `with_simulated` writes it in rows of its own, under no student's number, verdict and feedback beginning with SIMULATED.
 [[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated = false);
 
-/// Scores as the LTI Advantage Assignment and Grade Services 2.0 take them, one object for each session: userId, timestamp, activityProgress,
-/// gradingProgress, and scoreGiven, scoreMaximum, comment once released. Before that gradingProgress is `Pending`, and `PendingManual` while the
-/// verdict is `review`. Of simulated operators as in moodle_csv: userId is then `simulated:` and the pseudonym, which no platform knows.
+/// Scores as the LTI Advantage Assignment and Grade Services 2.0 take them, one object for each candidate and exam: userId, timestamp,
+/// activityProgress, gradingProgress, and scoreGiven, scoreMaximum, comment once released, with the time of the release. The last released attempt
+/// stands until a newer one is released. Before that gradingProgress is `Pending`, and `PendingManual` while the verdict is `review`. Of simulated
+/// operators as in moodle_csv: userId is then `simulated:` and the pseudonym, which no platform knows.
 [[nodiscard]] nlohmann::json lti_scores(const Registry& registry, Identities& identities, bool with_simulated = false);
 
 /// How many released results were sat by simulated operators.
 [[nodiscard]] std::size_t released_simulated(const Registry& registry);
 
-/// {"results":[{session, candidate, file_sha256, released, result}], "ledger", "checkpoint", "public_key", "signature"}: keys in order, no spaces,
-/// signed by the school over "CVRESULT" and the text of the object without "signature". Pseudonyms only.
+/// {"results":[{session, candidate, file_sha256, released, result, shown, simulated, findings, contested_by, chosen}], "ledger", "checkpoint",
+/// "public_key", "signature"}: keys in order, no spaces, signed by the school over "CVRESULT" and the text of the object without "signature".
+/// Pseudonyms only.
 [[nodiscard]] std::string signed_results(const Registry& registry, const Ledger& ledger);
 /// True when `text` is what signed_results wrote, unchanged.
 [[nodiscard]] bool results_hold(const std::string& text);
 
-/// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings (their number), verdict,
-/// released, criterion, metric, value, unit, points, max. Pseudonyms only.
+/// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings, contested (their numbers),
+/// chosen, verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.
 [[nodiscard]] std::string tidy_csv(const Registry& registry);
 
 /// A field of a CSV file: quoted where it must be, and never a formula to a spreadsheet that opens it.

@@ -12,6 +12,8 @@ using nlohmann::json;
 void Ledger::create(const std::string& folder, const std::string& school_name, const SigningKey& key) {
   const LedgerPlaces places{folder};
   if (std::filesystem::exists(places.database())) throw Error(folder, "holds a ledger already", "choose another folder");
+  if (holds_parts_of_a_ledger(places))
+    throw Error(folder, "holds sessions or identities of a ledger whose ledger.db is gone", instead_of_none(places.database()));
   std::error_code ignored;
   std::filesystem::create_directories(folder + "/sessions", ignored);
   // complete under another name first: a process killed here leaves no half a ledger
@@ -37,10 +39,9 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
   std::filesystem::rename(fresh, places.database());
 }
 
-Ledger::Ledger(const std::string& folder, const SigningKey& key)
-    : places_{folder}, key_(key), database_(open_for_adding(LedgerPlaces{folder}.database(), false)) {
-  if (database_.integer("PRAGMA application_id") != k_ledger_application_id)
-    throw Error(places_.database(), "is no ledger", "name the folder of one");
+Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)
+    : places_{folder}, key_(key), use_(use), database_(open_for_adding(LedgerPlaces{folder}.database(), false)) {
+  require_ledger(database_, places_.database());
   migrate(database_, places_.database());
   reload();
 }
@@ -48,7 +49,9 @@ Ledger::Ledger(const std::string& folder, const SigningKey& key)
 void Ledger::reload() {
   content_ = read_content(database_, places_.database());
   if (!content_.findings.empty())
-    throw Error(places_.folder, "nothing is added to a ledger that does not hold (" + content_.findings.front() + ")",
+    throw Error(places_.folder,
+                (use_ == LedgerUse::add ? "nothing is added to a ledger that does not hold (" : "nothing is told of a ledger that does not hold (") +
+                    content_.findings.front() + ")",
                 "see `cavum ledger verify " + places_.folder + "`, and go back to the copy that holds");
   if (content_.public_key != to_hex(key_.public_key))
     throw Error(places_.folder, "belongs to another school's key", "name that key's file with --key, or restore it");

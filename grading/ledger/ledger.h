@@ -16,12 +16,15 @@
 
 namespace cavum {
 
+/// What a ledger is opened for: to add to it, or to write of it what the school signs or knows by name.
+enum class LedgerUse { add, tell };
+
 class Ledger {
  public:
   /// A new ledger in a folder, made when missing. Throws Error when there is one already.
   static void create(const std::string& folder, const std::string& school_name, const SigningKey& key);
-  /// For adding. Throws Error when anything in it does not hold, or the key is another school's.
-  Ledger(const std::string& folder, const SigningKey& key);
+  /// Throws Error, in the words of its use, when anything in it does not hold, or the key is another school's.
+  Ledger(const std::string& folder, const SigningKey& key, LedgerUse use = LedgerUse::add);
 
   [[nodiscard]] const LedgerContent& content() const noexcept { return content_; }
   [[nodiscard]] const LedgerPlaces& places() const noexcept { return places_; }
@@ -40,6 +43,7 @@ class Ledger {
 
   LedgerPlaces places_;
   SigningKey key_;
+  LedgerUse use_;
   Database database_;
   LedgerContent content_;
 };

@@ -92,14 +92,21 @@ void check_tree(LedgerContent& c) {
     c.findings.push_back("entry " + std::to_string(expected) + ": the school has signed nothing from here on");
 }
 
+/// A table that was taken out is a finding of check_schema; the others are read all the same.
+bool has_table(Database& db, const std::string& name) {
+  return db.integer(("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '" + name + "'").c_str()) == 1;
+}
+
 /// Each as it was put there, each named by an entry, and none missing.
 void read_documents(Database& db, LedgerContent& c) {
-  auto rows = db.prepare("SELECT sha256, bytes FROM document ORDER BY sha256");
-  while (rows.step()) {
-    const std::string hash = to_hex(rows.fixed_blob<32>(0));
-    Bytes bytes = rows.blob(1);
-    if (to_hex(sha256(bytes)) != hash) c.findings.push_back("document " + hash + ": was changed after it was entered");
-    c.documents[hash] = std::move(bytes);
+  if (has_table(db, "document")) {
+    auto rows = db.prepare("SELECT sha256, bytes FROM document ORDER BY sha256");
+    while (rows.step()) {
+      const std::string hash = to_hex(rows.fixed_blob<32>(0));
+      Bytes bytes = rows.blob(1);
+      if (to_hex(sha256(bytes)) != hash) c.findings.push_back("document " + hash + ": was changed after it was entered");
+      c.documents[hash] = std::move(bytes);
+    }
   }
   std::set<std::string> named;
   for (const auto& e : c.entries)
@@ -176,28 +183,33 @@ std::map<std::string, std::string> documents_of(const LedgerEntry& e) {
 }
 
 LedgerContent read_content(Database& db, const std::string& where) {
-  if (db.integer("PRAGMA application_id") != k_ledger_application_id) throw Error(where, "is no ledger", "make one with `cavum ledger init FOLDER`");
+  require_ledger(db, where);
   static_cast<void>(ledger_format(db, where));
   LedgerContent c;
   check_schema(db, c.findings);
   // The witness first: it is told after each entry, so what it knows by now is in the database by then. One snapshot of the tables for the same
   // reason.
-  const std::string first = db.text("SELECT text FROM entry WHERE seq = 0");
+  const bool has_entries = has_table(db, "entry");
+  const std::string first = has_entries ? db.text("SELECT text FROM entry WHERE seq = 0") : "";
   const json begin = json::parse(first, nullptr, false);
   const std::string id = text_in(member_of(begin, "body"), "ledger");
   const auto witnessed = id.size() == 32 && id.find('/') == std::string::npos ? read_witness(id, c.findings) : std::vector<Checkpoint>();
   const bool alone = !db.in_transaction();
   if (alone) db.run("BEGIN");
-  auto rows = db.prepare("SELECT seq, text, leaf_sha256, coalesce(attachment, '') FROM entry ORDER BY seq");
-  while (rows.step()) {
-    const auto seq = static_cast<std::uint64_t>(rows.integer(0));
-    if (seq != c.entries.size()) c.findings.push_back("entry " + std::to_string(c.entries.size()) + ": is missing");
-    c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), rows.text(3), c.findings));
-    if (c.entries.size() > seq + 1) break;
+  if (has_entries) {
+    auto rows = db.prepare("SELECT seq, text, leaf_sha256, coalesce(attachment, '') FROM entry ORDER BY seq");
+    for (std::uint64_t expected = 0; rows.step(); ++expected) {
+      const auto seq = static_cast<std::uint64_t>(rows.integer(0));
+      if (seq != expected) c.findings.push_back("entry " + std::to_string(expected) + ": is missing");
+      expected = seq;
+      c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), rows.text(3), c.findings));
+    }
   }
-  auto points = db.prepare("SELECT size, root_sha256, utc_ns, signature FROM checkpoint ORDER BY size");
-  while (points.step())
-    c.checkpoints.push_back({static_cast<std::uint64_t>(points.integer(0)), points.fixed_blob<32>(1), points.integer(2), points.fixed_blob<64>(3)});
+  if (has_table(db, "checkpoint")) {
+    auto points = db.prepare("SELECT size, root_sha256, utc_ns, signature FROM checkpoint ORDER BY size");
+    while (points.step())
+      c.checkpoints.push_back({static_cast<std::uint64_t>(points.integer(0)), points.fixed_blob<32>(1), points.integer(2), points.fixed_blob<64>(3)});
+  }
   if (ledger_format(db, where) >= 3) read_documents(db, c);
   if (alone) db.run("COMMIT");
   if (c.entries.empty() || c.entries[0].kind != "init") {
@@ -218,8 +230,14 @@ LedgerContent read_content(Database& db, const std::string& where) {
   return c;
 }
 
+bool holds_parts_of_a_ledger(const LedgerPlaces& places) {
+  std::error_code none;
+  const std::filesystem::directory_iterator sessions(places.folder + "/sessions", none);
+  return std::filesystem::exists(places.identities(), none) || sessions != std::filesystem::directory_iterator();
+}
+
 LedgerContent read_ledger(const LedgerPlaces& places) {
-  if (!std::filesystem::exists(places.database())) throw Error(places.folder, "holds no ledger", "make one with `cavum ledger init FOLDER`");
+  if (!std::filesystem::exists(places.database())) throw Error(places.folder, "holds no ledger", instead_of_none(places.database()));
   try {
     Database live = Database::open(places.database(), false);
     return read_content(live, places.database());

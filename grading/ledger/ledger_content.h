@@ -64,6 +64,8 @@ struct LedgerPlaces {
   [[nodiscard]] std::string identities() const { return folder + "/identities.db"; }
   [[nodiscard]] std::string session(const std::string& file_sha256) const { return folder + "/sessions/" + file_sha256 + ".cavum"; }
 };
+/// True where filed sessions or identities are, whose ledger may be gone.
+[[nodiscard]] bool holds_parts_of_a_ledger(const LedgerPlaces& places);
 /// Reads and checks a ledger file without changing it; with the witness, when this computer has one. Throws Error only when it is no ledger at all.
 [[nodiscard]] LedgerContent read_ledger(const LedgerPlaces& places);
 /// The same of a database that is open. Throws DatabaseError when it cannot be read.

@@ -21,6 +21,19 @@ std::map<std::string, std::string> schema_of(Database& db) {
 
 }  // namespace
 
+std::string instead_of_none(const std::string& path) {
+  if (holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()}))
+    return "its sessions or identities are beside it: restore ledger.db from its backup";
+  return "make one with `cavum ledger init FOLDER`";
+}
+
+void require_ledger(Database& db, const std::string& where) {
+  if (db.integer("PRAGMA application_id") == k_ledger_application_id) return;
+  std::error_code none;
+  const bool empty = std::filesystem::file_size(where, none) == 0 && !none;
+  throw Error(where, empty ? "is empty" : "is no ledger", instead_of_none(where));
+}
+
 std::int64_t ledger_format(Database& db, const std::string& where) {
   const auto format = db.integer("PRAGMA user_version");
   if (format > k_ledger_format)
@@ -54,7 +67,9 @@ void migrate(Database& db, const std::string& where) {
 }
 
 Database open_for_adding(const std::string& path, bool make) {
-  if (!make && !std::filesystem::exists(path)) throw Error(path, "there is no ledger", "make one with `cavum ledger init FOLDER`");
+  if (!make && !std::filesystem::exists(path)) throw Error(path, "there is no ledger", instead_of_none(path));
+  std::error_code none;  // an empty file would become a database below
+  if (!make && std::filesystem::file_size(path, none) == 0 && !none) throw Error(path, "is empty", instead_of_none(path));
   Database db = Database::open(path, make);
   db.run("PRAGMA journal_mode = WAL");
   db.run("PRAGMA synchronous = FULL");

@@ -1,5 +1,6 @@
 #include "grading/ledger/registry.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -8,6 +9,47 @@
 namespace cavum {
 
 using nlohmann::json;
+
+namespace {
+
+bool contest_each_other(const FiledSession& a, const FiledSession& b) {
+  return std::find(a.contested_by.begin(), a.contested_by.end(), b.seq) != a.contested_by.end();
+}
+
+/// What the entry `seq` releases, `results`: of several endings of one exam one, and once a person has chosen, that one.
+void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
+  for (auto& s : r.sessions) {
+    if (!results.contains(s.result_seq)) continue;
+    const auto say = [&](const std::string& what) {
+      r.remarks.push_back("entry " + std::to_string(seq) + ": has not released entry " + std::to_string(s.seq) + ", for " + what);
+    };
+    if (const FiledSession* other = r.chosen_instead_of(s)) {
+      say("entry " + std::to_string(other->seq) + ", another ending of the same exam, was chosen before");
+      continue;
+    }
+    const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
+                                  [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
+    if (both) {
+      say("it names two endings of the same exam, and one counts: choose it with --session");
+      continue;
+    }
+    for (auto& o : r.sessions)  // released before anybody knew of this ending
+      if (contest_each_other(s, o)) o.released = false, o.shown = json(), o.shown_seq = 0, o.released_utc_ns = 0;
+    s.released = true;
+    s.shown = s.result;
+    s.shown_seq = s.result_seq;
+    s.released_utc_ns = utc_ns;
+    s.chosen = s.questioned();
+  }
+}
+
+}  // namespace
+
+const FiledSession* Registry::chosen_instead_of(const FiledSession& session) const {
+  for (const auto& o : sessions)
+    if (contest_each_other(session, o) && o.chosen) return &o;
+  return nullptr;
+}
 
 Registry read_registry(const LedgerContent& content) {
   Registry r;
@@ -31,7 +73,7 @@ Registry read_registry(const LedgerContent& content) {
         s.scenario_id = e.body.at("scenario_id");
         s.station_key = e.body.at("station_key");
         s.nonce = e.body.at("nonce");
-        s.result = e.body.at("result");
+        s.result = s.sealed = e.body.at("result");
         s.simulated = e.body.at("simulated");
         s.findings = e.body.at("findings").get<std::vector<std::string>>();
         if (!chains.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
@@ -58,12 +100,11 @@ Registry read_registry(const LedgerContent& content) {
         s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), documents_of(e), s.result});
         s.released = false;  // a new result waits for its own release, and the old one stands until then
       } else if (e.kind == "release") {
-        for (const auto& seq : e.body.at("results")) {
-          bool found = false;
-          for (auto& s : r.sessions)
-            if (s.result_seq == seq.get<std::uint64_t>()) s.released = found = true, s.shown = s.result, s.shown_seq = s.result_seq;
-          if (!found) say("releases a result that does not count");
-        }
+        const auto results = e.body.at("results").get<std::set<std::uint64_t>>();
+        for (const auto seq : results)
+          if (std::none_of(r.sessions.begin(), r.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
+            say("releases a result that does not count");
+        release(r, e.seq, e.utc_ns, results);
       } else if (e.kind != "init" && e.kind != "forget") {
         say("is of a kind that this version does not know: '" + e.kind + "'");
       }

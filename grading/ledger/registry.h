@@ -25,13 +25,15 @@ struct FiledSession {
   std::uint64_t seq = 0;  ///< of its entry
   std::string file_sha256, chain_sha256, candidate, scenario_id, station_key;
   std::string nonce;         ///< of its ticket; empty without one
+  nlohmann::json sealed;     ///< the result that was filed
   nlohmann::json result;     ///< that counts: the sealed one, or the last regrade's
   std::uint64_t result_seq;  ///< of the entry that holds it
   std::vector<std::string> findings;
-  std::string simulated;        ///< operator that sat it instead of a candidate; empty for people
-  bool released = false;        ///< the result that counts
-  nlohmann::json shown;         ///< the last one that was released: it stands until another is; null before
-  std::uint64_t shown_seq = 0;  ///< of the entry that holds it
+  std::string simulated;             ///< operator that sat it instead of a candidate; empty for people
+  bool released = false;             ///< the result that counts
+  nlohmann::json shown;              ///< the last one that was released: it stands until another is; null before
+  std::uint64_t shown_seq = 0;       ///< of the entry that holds it
+  std::int64_t released_utc_ns = 0;  ///< when that was released
   std::int64_t received_utc_ns = 0;
   std::vector<Regrade> regrades;            ///< the oldest first
   std::vector<std::uint64_t> contested_by;  ///< entries of other endings of the same exam, filed with findings: a person decides which one counts
@@ -41,8 +43,11 @@ struct FiledSession {
       if (r.seq == entry) return &r;
     return nullptr;
   }
-  /// Filed with findings, or contested: it counts for nobody before a person has looked at it.
-  [[nodiscard]] bool doubtful() const { return !findings.empty() || !contested_by.empty(); }
+  bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
+  /// Filed with findings, or contested: it is released by name only.
+  [[nodiscard]] bool questioned() const { return !findings.empty() || !contested_by.empty(); }
+  /// The same, and no person has looked at it yet: it counts for nobody.
+  [[nodiscard]] bool doubtful() const { return questioned() && !chosen; }
 };
 struct IssuedTicket {
   std::uint64_t seq = 0;
@@ -54,6 +59,10 @@ struct Registry {
   std::vector<FiledSession> sessions;
   /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.
   std::vector<std::string> findings;
+  /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once. Neither is a contradiction.
+  std::vector<std::string> remarks;
+  /// The ending that was chosen of this session's exam, when it is another one; else null.
+  [[nodiscard]] const FiledSession* chosen_instead_of(const FiledSession& session) const;
 };
 [[nodiscard]] Registry read_registry(const LedgerContent& content);
 

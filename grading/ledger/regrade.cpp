@@ -29,7 +29,11 @@ std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regra
   if (regrade.documents.empty()) return {};
   RegradeBasis basis;
   for (const auto& [name, hash] : regrade.documents) {
-    const Bytes& bytes = content.documents.at(hash);
+    const auto found = content.documents.find(hash);
+    if (found == content.documents.end())
+      throw Error("entry " + std::to_string(regrade.seq), "the " + name + " that its result was marked by is not in the ledger",
+                  "restore ledger.db from its backup");
+    const Bytes& bytes = found->second;
     if (name == k_rubric) basis.rubric_toml.assign(bytes.begin(), bytes.end());
     if (name == k_scenario) basis.scenario_toml.assign(bytes.begin(), bytes.end());
     if (name.starts_with(k_attachment)) basis.surfaces.emplace_back(name.substr(sizeof k_attachment - 1), bytes);

@@ -52,6 +52,9 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
 
   ASSERT_EQ(run("ledger export " + path("L") + " --format moodle --out " + path("none.csv")).exit_code, 0);
   EXPECT_EQ(read_text_file(path("none.csv")), "ID number\n") << "nothing is released yet";
+  EXPECT_NE(
+      run("ledger export " + path("L") + " --format moodle --overwrite --out " + path("none.csv")).out.find("no result is released; 2 are pending"),
+      std::string::npos);
   ASSERT_EQ(run("ledger release " + path("L") + " --candidate 4711").exit_code, 0);
   const auto plain = run("ledger export " + path("L") + " --format moodle --out " + path("plain.csv"));
   ASSERT_EQ(plain.exit_code, 0);
@@ -71,6 +74,12 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   const auto regraded = run("ledger regrade " + path("L") + " --session 3 --rubric " + path("kind.toml") + " --reason appeal --json");
   ASSERT_EQ(regraded.exit_code, 0) << regraded.err;
   EXPECT_EQ(json::parse(regraded.out)["after"]["points"], 10.0);
+  write_text_file(path("hard.toml"),
+                  "[rubric]\nrule = \"compensatory\"\npass_percent = 90\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
+                  "\"target_removed_percent\"\nfull = 200\nzero = 0\npoints = 100\n");
+  const auto told = run("ledger regrade " + path("L") + " --session 3 --rubric " + path("hard.toml") + " --reason appeal");
+  EXPECT_NE(told.out.find(": pass, 10.0 of 10 before; fail, "), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find(" of 100 now"), std::string::npos) << told.out;
   const auto shown = json::parse(run("ledger show " + path("L") + " --json").out);
   EXPECT_EQ(shown["sessions"][0]["regraded"], true);
   EXPECT_EQ(shown["sessions"][0]["released"], false) << "the new result waits for its release";
@@ -118,6 +127,9 @@ TEST_F(LedgerVerbs, SayWhatIsWrongAndWhatToDo) {
                  {"for whom"});
   expect_refused("ledger release " + path("L"), {"whose results"});
   expect_refused("ledger show " + path("L/none"), {"holds no ledger"});
+  expect_refused("ledger verify ''", {"no folder named"});
+  expect_refused("ledger init " + path("L2") + " --school " + std::string(255, 'x'), {"--school", "longer than 254 bytes"});
+  expect_refused("ledger release " + path("L") + " --session 0", {"is no session's entry"});
   expect_refused("ledger release " + path("L") + " --all --key " + path("nokey"), {"key is not there", "restore it"});
   EXPECT_FALSE(fs::exists(path("nokey")));
   write_text_file(path("twice.csv"), "id\n1\n1\n");
@@ -172,6 +184,12 @@ TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
   const auto shown = run_json("ledger show " + path("L"));
   EXPECT_EQ(shown["sessions"][0]["contested_by"], json::array({shown["sessions"][1]["seq"]}));
   EXPECT_EQ(run_json("ledger release " + path("L") + " --all"), (json{{"released", 0}, {"kept_back", 2}}));
+  const std::string release = "ledger release " + path("L") + " --with-findings ", first = shown["sessions"][0]["seq"].dump(),
+                    second = shown["sessions"][1]["seq"].dump();
+  expect_refused(release + "--candidate 4711", {"entries " + first + " and " + second, "--session"});
+  EXPECT_EQ(run_json(release + "--session " + first), (json{{"released", 1}, {"kept_back", 0}}));
+  expect_refused(release + "--session " + second, {"was chosen before and alone counts"});
+  EXPECT_EQ(run_json("ledger show " + path("L"))["sessions"][0]["chosen"], true);
 }
 
 TEST_F(LedgerVerbs, ALedgerThatWasEditedIsShownWithAWarning) {
@@ -194,6 +212,14 @@ TEST_F(LedgerVerbs, ALedgerThatWasEditedIsShownWithAWarning) {
 
 TEST_F(LedgerVerbs, VerifyChecksWhatItCanAndNamesWhatItCannot) {
   tickets();
+  fs::copy(path("L"), path("cut"), fs::copy_options::recursive);
+  write_text_file(path("drop.py"), "import sqlite3, sys\nsqlite3.connect(sys.argv[1]).execute('drop table entry')\n");
+  ASSERT_EQ(std::system(("python3 " + path("drop.py") + " " + path("cut/ledger.db")).c_str()), 0);
+  const auto cut = run("ledger verify " + path("cut"));
+  EXPECT_EQ(cut.exit_code, 1);
+  EXPECT_NE(cut.out.find("table entry: was taken out"), std::string::npos) << cut.out;
+  EXPECT_EQ(cut.out.find("entries of ,"), std::string::npos) << cut.out;
+  expect_refused("ledger candidates " + path("cut"), {"table entry: was taken out", "nothing is told of"});
   fs::remove(path("L/identities.db"));
   const auto r = run("ledger verify " + path("L"));
   EXPECT_EQ(r.exit_code, 0) << r.err;

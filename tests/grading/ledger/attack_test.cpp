@@ -8,6 +8,7 @@
 #include "grading/ledger/explain_session.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/ledger_schema.h"
+#include "grading/ledger/release.h"
 #include "grading/ledger/station_ticket.h"
 #include "tests/grading/ledger/school.h"
 
@@ -368,6 +369,59 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   EXPECT_EQ(registry.sessions[0].contested_by, std::vector<std::uint64_t>{*contest.seq});
   EXPECT_TRUE(registry.sessions[0].doubtful()) << "what was filed as sound goes to a person, too";
   expect_finding(check_ledger(school_.places(), false).remarks, {"is contested by entry 3"});
+
+  // a person chooses one, by its entry, and that one alone counts
+  const std::string candidate = registry.sessions[0].candidate;
+  const auto refused = [&](const ReleaseWish& wish, const std::vector<std::string>& words) {
+    const std::string said = testing_basics::error_of([&] { release_results(ledger, wish); });
+    for (const auto& w : words) EXPECT_NE(said.find(w), std::string::npos) << "'" << w << "' is missing in: " << said;
+    EXPECT_TRUE(std::none_of(ledger.content().entries.begin(), ledger.content().entries.end(), [](const auto& e) { return e.kind == "release"; }));
+  };
+  refused({.with_findings = true, .candidates = {candidate}}, {"entries 2 and 3", "choose it with --session"});
+  refused({.with_findings = true, .sessions = {2, 3}}, {"endings of the same exam"});
+  refused({.sessions = {2}}, {"entries 2 and 3", "--with-findings"});
+  refused({.with_findings = true, .sessions = {1}}, {"no session's entry"});
+  EXPECT_EQ(release_results(ledger, {.all = true}).kept_back, 2u);
+  EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {2}}).results, std::vector<std::uint64_t>{2});
+  const std::string again = testing_basics::error_of([&] { release_results(ledger, {.with_findings = true, .sessions = {3}}); });
+  EXPECT_NE(again.find("entry 2, another ending of the same exam, was chosen before"), std::string::npos) << again;
+  EXPECT_EQ(release_results(ledger, {.with_findings = true, .candidates = {candidate}}).results.size(), 0u) << "the other is not released with it";
+  // not even by an entry that some other program makes
+  ledger.append("release", [](const LedgerContent&) { return nlohmann::json{{"results", {3}}}; });
+  const Registry chosen = read_registry(ledger.content());
+  EXPECT_TRUE(chosen.findings.empty());
+  expect_finding(check_ledger(school_.places(), false).remarks, {"has not released entry 3", "was chosen before"});
+  EXPECT_FALSE(chosen.sessions[0].doubtful()) << "it counts in a class's figures";
+  EXPECT_TRUE(chosen.sessions[1].doubtful());
+  EXPECT_TRUE(chosen.sessions[1].shown.is_null());
+  Identities identities(school_.places().identities());
+  int left_out = 0;
+  const std::string said = "Several endings of this exam were filed (also entry 3), and this one was chosen by a person.";
+  const std::string csv = moodle_csv(chosen, identities, left_out);
+  EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].sealed["score"]["points"].dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find(said), std::string::npos) << csv;
+  const auto scores = lti_scores(chosen, identities);
+  ASSERT_EQ(scores.size(), 1u);
+  EXPECT_EQ(scores[0]["score"]["scoreGiven"], chosen.sessions[0].sealed["score"]["points"]);
+  EXPECT_NE(scores[0]["score"]["comment"].get<std::string>().find(said), std::string::npos);
+}
+TEST_F(Attack, AnEndingThatWasReleasedBeforeItWasContested) {
+  remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
+  const std::string cut = cut_back(school_, session_, "cut.cavum");
+  close_again(cut);
+  Ledger ledger = school_.ledger();
+  ASSERT_TRUE(file_session(ledger, cut).seq);
+  ASSERT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
+  ASSERT_TRUE(file_session(ledger, session_, {.with_findings = true}).seq);
+  const auto now = [&] { return read_registry(ledger.content()).sessions; };
+  const std::uint64_t other = now().at(1).seq;
+  EXPECT_TRUE(now()[0].released && now()[0].doubtful()) << "it stands, and a person has to look";
+  EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {other}}).results.size(), 1u);
+  EXPECT_TRUE(now()[0].shown.is_null()) << "one counts";
+  EXPECT_FALSE(now()[0].released);
+  EXPECT_TRUE(now()[1].chosen);
+  EXPECT_EQ(now()[1].shown, now()[1].sealed);
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }
 TEST_F(Attack, ABeginningThatIsSaidToBeAnotherStations) {
   const std::string cut = cut_back(school_, session_, "cut.cavum");

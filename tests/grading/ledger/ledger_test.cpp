@@ -193,7 +193,7 @@ TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
   });
   const std::string id = registry_.sessions.at(0).shown["criteria"][0]["id"];
   EXPECT_NE(critical_csv.find("\n4711,0,fail (critical: " + id + "),86"), std::string::npos) << critical_csv;
-  EXPECT_NE(critical_csv.find("86 of 100 points do not count"), std::string::npos) << critical_csv;
+  EXPECT_NE(critical_csv.find("86.0 of 100 points do not count"), std::string::npos) << critical_csv;
   EXPECT_EQ(critical_lti["scoreGiven"], 0);
   EXPECT_NE(critical_lti["comment"].get<std::string>().find("Verdict: fail (critical: " + id + ")"), std::string::npos);
 
@@ -209,6 +209,97 @@ TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
   });
   EXPECT_NE(low_csv.find("\n4711,41.5,fail,41.5"), std::string::npos) << "too few points stay what they are: " << low_csv;
   EXPECT_EQ(low_lti["scoreGiven"], 41.5);
+}
+
+/// What Moodle's row and the platform's score of candidate 4711 are after a released regrade.
+struct Told {
+  std::vector<std::string> heading, row;
+  json score;
+  [[nodiscard]] std::string field(const std::string& name) const {
+    const auto at = std::find(heading.begin(), heading.end(), name);
+    return at == heading.end() ? "no column " + name : row.at(static_cast<std::size_t>(at - heading.begin()));
+  }
+};
+Told told_of(const Registry& registry, Identities& identities) {
+  int left_out = 0;
+  Told out;
+  const auto table = parse_csv(moodle_csv(registry, identities, left_out), "moodle.csv");
+  out.heading = table.at(0).fields;
+  for (const auto& r : table)
+    if (r.fields[0] == "4711") out.row = r.fields;
+  for (const auto& s : lti_scores(registry, identities))
+    if (s["score"]["userId"] == "4711") out.score = s["score"];
+  return out;
+}
+
+TEST_F(Released, AFailureByAnotherPassMarkIsNoPassByTheExamsOwn) {
+  Identities identities(school_.places().identities());
+  Registry registry = registry_;
+  FiledSession& s = registry.sessions.at(0);
+  s.shown["score"]["points"] = 80.752695;
+  s.shown["score"]["pass_percent"] = 90.0;
+  s.shown["verdict"] = "fail";
+  ASSERT_EQ(s.sealed["score"]["pass_percent"], 60.0);
+  const Told failed = told_of(registry, identities);
+  EXPECT_EQ(failed.field("block_cavity"), "0");
+  EXPECT_EQ(failed.field("block_cavity points"), "80.752695");
+  EXPECT_EQ(failed.score["scoreGiven"], 0);
+  for (const std::string& words : {failed.field("block_cavity feedback"), failed.score["comment"].get<std::string>()})
+    EXPECT_NE(words.find("Failed by another pass mark (90 %, the exam's own is 60 %): the 80.8 of 100 points do not count."), std::string::npos)
+        << words;
+  s.shown["score"]["points"] = 59.0;  // no pass by the exam's own mark either: it stays what it is
+  EXPECT_EQ(told_of(registry, identities).field("block_cavity"), "59.0");
+  s.shown["score"]["pass_percent"] = 50.0;
+  s.shown["verdict"] = "pass";
+  EXPECT_NE(told_of(registry, identities).field("block_cavity feedback").find("Passed by another pass mark (50 %, the exam's own is 60 %)."),
+            std::string::npos);
+}
+
+TEST_F(Released, AResultOutOfAnotherMaximumIsBroughtToTheExamsOwn) {
+  Identities identities(school_.places().identities());
+  Registry registry = registry_;
+  registry.sessions.at(1).shown = registry.sessions.at(1).result;  // another candidate, marked by the exam's own rubric
+  FiledSession& s = registry.sessions.at(0);
+  s.shown["score"] = {{"points", 10.0}, {"max", 20.0}, {"pass_percent", 40.0}};
+  s.shown["verdict"] = "pass";
+  s.shown["criteria"] = json::array(
+      {{{"id", "removed"}, {"points", 4.0}, {"max", 10.0}, {"reason", "short"}}, {{"id", "other"}, {"points", 6.0}, {"max", 10.0}, {"reason", "b"}}});
+  const Told told = told_of(registry, identities);
+  EXPECT_EQ(told.field("block_cavity"), "50.0");
+  EXPECT_EQ(told.field("block_cavity points"), "50.0");
+  EXPECT_EQ(told.field("block_cavity removed"), "") << "points of another rubric are no points of this one";
+  EXPECT_EQ(told.field("block_cavity other"), "no column block_cavity other");
+  EXPECT_EQ(told.score["scoreGiven"], 50.0);
+  EXPECT_EQ(told.score["scoreMaximum"], 100.0);
+  EXPECT_NE(told.field("block_cavity feedback").find("Marked by another rubric: 10.0 of 20."), std::string::npos);
+  s.shown["verdict"] = "fail";  // by the other rubric's single-criterion rule: 50 of 100 is short of 60, and over its own 40 %
+  EXPECT_EQ(told_of(registry, identities).field("block_cavity"), "0");
+}
+
+TEST_F(Released, TheLastReleasedAttemptStandsUntilANewerOneIsReleased) {
+  Identities identities(school_.places().identities());
+  Registry registry = registry_;
+  FiledSession later = registry.sessions.at(0);
+  later.seq = later.result_seq = 90;
+  later.released = false;
+  later.shown = json();
+  later.shown_seq = 0;
+  later.result["score"]["points"] = 33.5;
+  later.received_utc_ns += 1'000'000'000;
+  registry.sessions.push_back(later);
+  const double first = registry.sessions.at(0).shown["score"]["points"].get<double>();
+  Told told = told_of(registry, identities);
+  EXPECT_EQ(std::stod(told.field("block_cavity")), first);
+  EXPECT_EQ(told.score["gradingProgress"], "FullyGraded");
+  EXPECT_EQ(told.score["scoreGiven"], first);
+  const std::string before = told.score["timestamp"];
+  FiledSession& released = registry.sessions.back();
+  released.shown = released.result;
+  released.released_utc_ns = released.received_utc_ns + 5'000'000'000;
+  told = told_of(registry, identities);
+  EXPECT_EQ(told.field("block_cavity"), "33.5");
+  EXPECT_EQ(told.score["scoreGiven"], 33.5);
+  EXPECT_GT(told.score["timestamp"].get<std::string>(), before) << "a platform keeps the later one";
 }
 
 TEST_F(Released, WhatASimulatedOperatorSatIsNobodysGrade) {
@@ -303,12 +394,61 @@ TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
   EXPECT_TRUE(says(check_all(school).not_checked, "no witness"));
 }
 
+TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
+  for (const std::string table : {"document", "checkpoint", "entry"}) {
+    const School school;
+    school.ticket("4711");
+    write_text_file(school.places().session("stray"), "x");
+    test::tamper(school.places().database(), "DROP TABLE " + table);
+    const LedgerCheck check = check_all(school);
+    expect_finding(check.findings, {"table " + table, "was taken out"});
+    EXPECT_FALSE(says(check.findings, "no such table")) << table;
+    EXPECT_FALSE(says(check.findings, "try again")) << table;
+    EXPECT_EQ(read_ledger(school.places()).entries.size(), table == "entry" ? 0u : 2u) << table;
+    EXPECT_EQ(says(check.remarks, "belongs to no entry"), table != "entry") << "without entries nothing is said of the files";
+    const std::string adding = testing_basics::error_of([&] { static_cast<void>(school.ledger()); });
+    EXPECT_NE(adding.find("nothing is added to a ledger that does not hold (table " + table), std::string::npos) << adding;
+    const std::string telling = testing_basics::error_of([&] { static_cast<void>(Ledger(school.ledger_folder(), School::key(), LedgerUse::tell)); });
+    EXPECT_EQ(telling.find("nothing is added"), std::string::npos) << telling;
+    EXPECT_NE(telling.find("table " + table), std::string::npos) << telling;
+  }
+}
+
+TEST(CheckLedger, WithoutItsFirstEntryNothingIsSaidOfWitnessAndKey) {
+  const School school;
+  test::tamper(school.places().database(), "DROP TRIGGER entry_is_kept; DELETE FROM entry");
+  const LedgerCheck check = check_all(school);
+  EXPECT_FALSE(check.findings.empty());
+  EXPECT_FALSE(says(check.not_checked, "has no witness"));
+  EXPECT_FALSE(says(check.not_checked, "is not here"));
+  EXPECT_TRUE(says(check.not_checked, "the ledger's id could not be read"));
+}
+
+TEST(Ledger, ThatIsGoneOrEmptyIsRestoredAndNotBegunAnew) {
+  const School school;
+  for (const std::string end : {"", "-wal", "-shm"}) std::filesystem::remove(school.places().database() + end);
+  const auto expect_restore = [&](const std::string& what) {
+    for (const std::string& said : {testing_basics::error_of([&] { static_cast<void>(school.ledger()); }),
+                                    testing_basics::error_of([&] { static_cast<void>(read_ledger(school.places())); })}) {
+      EXPECT_NE(said.find("restore ledger.db from its backup"), std::string::npos) << what << ": " << said;
+      EXPECT_EQ(said.find("ledger init"), std::string::npos) << what << ": " << said;
+    }
+  };
+  expect_restore("gone");
+  EXPECT_THROW(Ledger::create(school.ledger_folder(), "School", School::key()), Error);
+  write_text_file(school.places().database(), "");
+  expect_restore("empty");
+  EXPECT_EQ(std::filesystem::file_size(school.places().database()), 0u) << "nothing was written into it";
+}
+
 TEST(CheckLedger, ASchoolsPublicKeyThatIsAnothersIsAFinding) {
   const School school;
   write_text_file(school_public_key_path(), std::string(64, 'a') + "\n");
   expect_finding(check_all(school).findings, {"of another school than", "school.pub", std::string(64, 'a')});
   write_text_file(school_public_key_path(), "not a key\n");
+  std::filesystem::remove(school_key_path());
   expect_finding(check_all(school).findings, {"school.pub", "64 hexadecimal digits"});
+  EXPECT_FALSE(says(check_all(school).not_checked, "neither")) << "it is there, and of no use";
 }
 
 TEST(Receipt, ThatIsNoneIsNamedInOurWords) {

@@ -1,0 +1,104 @@
+#include "grading/ledger/exported_grade.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+constexpr double k_rounding = 1e-6;  // of the JSON
+
+ExamScale scale_in(const json& result) {
+  const json& score = member_of(result, "score");
+  if (!member_of(score, "max").is_number()) return {};
+  return {score.at("max").get<double>(), score.value("pass_percent", 0.0)};
+}
+
+/// "80.8 of 100"
+std::string points_of(const json& points, const json& max) { return fixed(points.get<double>(), 1) + " of " + plain_number(max.get<double>()); }
+
+/// Criteria that fail the exam by themselves, whatever the sum.
+std::string critical_in(const json& result) {
+  std::string out;
+  for (const auto& c : result.at("criteria"))
+    if (c.contains("critical_failed") && c["critical_failed"] == json(true)) out += (out.empty() ? "" : ", ") + c.value("id", "");
+  return out;
+}
+
+/// What a person decided before this result was released, or has to decide.
+std::string doubts_of(const FiledSession& s) {
+  std::string out;
+  if (!s.contested_by.empty()) {
+    std::string others;
+    for (const auto other : s.contested_by) others += (others.empty() ? "" : ", ") + std::to_string(other);
+    out += s.chosen ? "Several endings of this exam were filed (also entry " + others + "), and this one was chosen by a person. "
+                    : "Contested since its release by another ending of this exam (entry " + others + "). ";
+  }
+  if (!s.findings.empty())
+    out += "Filed with " + std::to_string(s.findings.size()) + (s.findings.size() == 1 ? " finding" : " findings") + ", and released by a person. ";
+  return out;
+}
+
+}  // namespace
+
+std::map<std::string, ExamScale> own_scales(const Registry& registry) {
+  std::map<std::string, std::vector<std::pair<ExamScale, std::size_t>>> found;
+  for (const auto& s : registry.sessions) {
+    const ExamScale scale = scale_in(s.sealed);
+    if (scale.max <= 0) continue;
+    auto& of_exam = found[s.scenario_id];
+    const auto at = std::find_if(of_exam.begin(), of_exam.end(), [&](const auto& f) { return f.first == scale; });
+    if (at == of_exam.end())
+      of_exam.emplace_back(scale, 1);
+    else
+      ++at->second;
+  }
+  std::map<std::string, ExamScale> out;
+  for (const auto& [exam, scales] : found)
+    out[exam] = std::max_element(scales.begin(), scales.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  return out;
+}
+
+ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales) {
+  const auto known = own_scales.find(session.scenario_id);
+  const ExamScale own = known == own_scales.end() ? ExamScale{} : known->second;
+  const json& result = session.shown;
+  const json &points = result.at("score").at("points"), &max = result.at("score").at("max");
+  const ExamScale by = scale_in(result);
+  const std::string verdict = result.value("verdict", ""), critical = critical_in(result);
+  ExportedGrade g{points, points, max, false, verdict + (critical.empty() ? "" : " (critical: " + critical + ")"), {}};
+  if (own.max > 0 && by.max > 0 && std::fabs(own.max - by.max) > k_rounding) {
+    g.by_another_rubric = true;
+    g.points = points.get<double>() / by.max * own.max;
+    g.max = own.max;
+  }
+  g.grade = g.points;
+  g.feedback = doubts_of(session) + "Verdict: " + g.verdict + ".";
+  if (g.by_another_rubric) g.feedback += " Marked by another rubric: " + points_of(points, max) + ".";
+
+  const auto reaches = [&](double percent) { return g.points.get<double>() >= 0.01 * percent * g.max.get<double>() - k_rounding; };
+  const double own_percent = own.max > 0 ? own.pass_percent : by.pass_percent;
+  const std::string marks = "(" + plain_number(by.pass_percent) + " %, the exam's own is " + plain_number(own_percent) + " %)";
+  if (verdict == "fail" && (!critical.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
+    g.grade = 0;
+    g.feedback += std::string(" Failed by ") +
+                  (!critical.empty()          ? "what is critical"
+                   : reaches(by.pass_percent) ? "a criterion below the pass mark"
+                                              : "another pass mark " + marks) +
+                  ": the " + points_of(points, max) + " points do not count.";
+  } else if (verdict == "pass" && !reaches(own_percent)) {
+    g.feedback += " Passed by another pass mark " + marks + ".";
+  }
+  for (const auto& c : result.at("criteria"))
+    if (c.at("points").get<double>() < c.at("max").get<double>())
+      g.feedback += " " + c.value("id", "") + " " + points_of(c.at("points"), c.at("max")) + ": " + c.value("reason", "") + ".";
+  g.feedback = one_line(g.feedback);
+  return g;
+}
+
+}  // namespace cavum

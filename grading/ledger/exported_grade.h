@@ -1,0 +1,28 @@
+// What a gradebook is told of a released result: it adds up and compares with its own pass mark, which is the exam's, so a failure must not read as a
+// pass there, and all of one exam must be on one scale. What was changed for that is said in the feedback.
+#pragma once
+
+#include "grading/ledger/registry.h"
+
+namespace cavum {
+
+/// What an exam is marked out of, and passed with.
+struct ExamScale {
+  double max = 0, pass_percent = 0;
+  bool operator==(const ExamScale&) const = default;
+};
+/// Of each exam's sealed results the most frequent scale, the first filed of two as frequent; an exam without any is left out.
+[[nodiscard]] std::map<std::string, ExamScale> own_scales(const Registry& registry);
+
+struct ExportedGrade {
+  nlohmann::json grade;            ///< the points, or 0 where the exam was failed although the points would pass by themselves
+  nlohmann::json points;           ///< out of max
+  nlohmann::json max;              ///< the exam's own
+  bool by_another_rubric = false;  ///< one with another maximum: points are scaled, and its criteria are others
+  std::string verdict;             ///< "fail (critical: perforation)"
+  std::string feedback;            ///< one line
+};
+/// Of a released result (`shown` is an object).
+[[nodiscard]] ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales);
+
+}  // namespace cavum

@@ -1,0 +1,81 @@
+#include "grading/ledger/release.h"
+
+#include <algorithm>
+
+namespace cavum {
+namespace {
+
+template <class T>
+bool holds(const std::vector<T>& list, const T& wanted) {
+  return std::find(list.begin(), list.end(), wanted) != list.end();
+}
+
+std::string entries_of(const FiledSession& s) {
+  std::vector<std::uint64_t> all = s.contested_by;
+  all.push_back(s.seq);
+  std::sort(all.begin(), all.end());
+  std::string out;
+  for (std::size_t i = 0; i < all.size(); ++i) out += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + std::to_string(all[i]);
+  return out;
+}
+
+/// An entry that was named by its number is released, or it is said why not.
+void require_releasable(const Registry& registry, const ReleaseWish& wish, const FiledSession& s) {
+  const std::string where = "--session " + std::to_string(s.seq);
+  for (const auto other : s.contested_by)
+    if (holds(wish.sessions, other))
+      throw Error(where, "and entry " + std::to_string(other) + " are endings of the same exam, and one counts", "choose one of them");
+  if (const FiledSession* other = registry.chosen_instead_of(s))
+    throw Error(where, "entry " + std::to_string(other->seq) + ", another ending of the same exam, was chosen before and alone counts",
+                "it stays unreleased");
+  if (s.questioned() && !wish.with_findings)
+    throw Error(where,
+                s.contested_by.empty() ? "was filed with findings" : "is one of several endings of the same exam (entries " + entries_of(s) + ")",
+                "look at it; to release it all the same, add --with-findings");
+}
+
+}  // namespace
+
+Release select_results(const Registry& registry, const ReleaseWish& wish) {
+  const auto find = [&](std::uint64_t seq) {
+    return std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == seq; });
+  };
+  for (const auto seq : wish.sessions)
+    if (find(seq) == registry.sessions.end()) throw Error("--session " + std::to_string(seq), "is no session's entry", "see `cavum ledger show`");
+  for (const auto& c : wish.candidates)
+    if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
+      throw Error("--candidate " + c, "has no session in this ledger", "see `cavum ledger show`");
+  Release out;
+  for (const auto& s : registry.sessions) {
+    const bool by_entry = holds(wish.sessions, s.seq), by_candidate = holds(wish.candidates, s.candidate);
+    if (by_entry) require_releasable(registry, wish, s);
+    const bool undecided = !s.contested_by.empty() && !s.chosen && registry.chosen_instead_of(s) == nullptr;
+    if (by_candidate && undecided && !by_entry)
+      throw Error("--candidate " + s.candidate, "several endings of one exam are filed, entries " + entries_of(s) + ", and one counts",
+                  "choose it with --session and --with-findings");
+    // what was released before somebody contested it is not chosen yet
+    if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful()))) continue;
+    const bool by_name = (by_entry || by_candidate) && wish.with_findings;
+    if ((s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr)
+      ++out.kept_back;
+    else
+      out.results.push_back(s.result_seq);
+  }
+  return out;
+}
+
+Release release_results(Ledger& ledger, const ReleaseWish& wish) {
+  Release out;
+  struct Nothing {};
+  try {
+    ledger.append("release", [&](const LedgerContent& now) -> nlohmann::json {
+      out = select_results(read_registry(now), wish);
+      if (out.results.empty()) throw Nothing();
+      return {{"results", out.results}};
+    });
+  } catch (const Nothing&) {
+  }
+  return out;
+}
+
+}  // namespace cavum

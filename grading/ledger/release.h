@@ -1,0 +1,26 @@
+// Which results go to candidates and exports: all that nobody questions, a candidate's, or a single entry's. Of several endings of one exam a person
+// chooses one, by its entry; from then on it alone counts.
+#pragma once
+
+#include "grading/ledger/ledger.h"
+#include "grading/ledger/registry.h"
+
+namespace cavum {
+
+struct ReleaseWish {
+  bool all = false;                     ///< what is neither filed with findings nor contested
+  bool with_findings = false;           ///< of candidates and sessions also what is
+  std::vector<std::string> candidates;  ///< pseudonyms
+  std::vector<std::uint64_t> sessions;  ///< their entries
+};
+struct Release {
+  std::vector<std::uint64_t> results;  ///< of the entries that hold them
+  std::size_t kept_back = 0;           ///< what was wanted, and is questioned
+};
+/// What `wish` releases of what is filed. Throws Error when an entry or candidate is not there, a candidate's exam is contested and no ending was
+/// chosen yet, two endings of one exam are named, or another ending was chosen before.
+[[nodiscard]] Release select_results(const Registry& registry, const ReleaseWish& wish);
+/// Enters their release; nothing when there are none.
+Release release_results(Ledger& ledger, const ReleaseWish& wish);
+
+}  // namespace cavum
