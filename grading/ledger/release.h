@@ -8,10 +8,10 @@
 namespace cavum {
 
 struct ReleaseWish {
-  bool all = false;                     ///< what is neither filed with findings nor contested
-  bool with_findings = false;           ///< of candidates and sessions also what is
-  std::vector<std::string> candidates;  ///< pseudonyms
-  std::vector<std::uint64_t> sessions;  ///< their entries
+  bool all = false;                          ///< what is neither filed with findings nor contested
+  bool with_findings = false;                ///< of candidates and sessions also what is
+  std::vector<std::string> candidates = {};  ///< pseudonyms
+  std::vector<std::uint64_t> sessions = {};  ///< their entries
 };
 struct Release {
   std::vector<std::uint64_t> results;  ///< of the entries that hold them

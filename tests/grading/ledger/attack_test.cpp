@@ -382,6 +382,10 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   refused({.sessions = {2}}, {"entries 2 and 3", "--with-findings"});
   refused({.with_findings = true, .sessions = {1}}, {"no session's entry"});
   EXPECT_EQ(release_results(ledger, {.all = true}).kept_back, 2u);
+  // both at once, as an older version released them, is no choice
+  ledger.append("release", [](const LedgerContent&) { return nlohmann::json{{"results", {2, 3}}}; });
+  for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown.is_null() && s.doubtful()) << s.seq;
+  expect_finding(check_ledger(school_.places(), false).remarks, {"names two endings of the same exam"});
   EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {2}}).results, std::vector<std::uint64_t>{2});
   const std::string again = testing_basics::error_of([&] { release_results(ledger, {.with_findings = true, .sessions = {3}}); });
   EXPECT_NE(again.find("entry 2, another ending of the same exam, was chosen before"), std::string::npos) << again;
