@@ -47,7 +47,12 @@ Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)
 }
 
 void Ledger::reload() {
-  content_ = read_content(database_, places_.database());
+  try {
+    content_ = read_content(database_, places_.database());
+  } catch (const DatabaseError&) {
+    content_.findings = schema_findings(database_);  // the cause, when tables were altered
+    if (content_.findings.empty()) throw;
+  }
   if (!content_.findings.empty())
     throw Error(places_.folder,
                 (use_ == LedgerUse::add ? "nothing is added to a ledger that does not hold (" : "nothing is told of a ledger that does not hold (") +

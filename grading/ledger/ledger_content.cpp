@@ -251,7 +251,8 @@ LedgerContent read_ledger(const LedgerPlaces& places) {
     return c;
   } catch (const DatabaseError& e) {
     LedgerContent damaged;
-    damaged.findings.emplace_back(e.what());
+    damaged.findings = schema_findings(copy);  // the cause, when tables were altered
+    if (damaged.findings.empty()) damaged.findings.emplace_back(e.what());
     return damaged;
   }
 }

@@ -23,7 +23,7 @@ std::map<std::string, std::string> schema_of(Database& db) {
 
 std::string instead_of_none(const std::string& path) {
   if (holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()}))
-    return "its sessions or identities are beside it: restore ledger.db from its backup";
+    return "restore ledger.db from its backup: the ledger's sessions or identities are still here";
   return "make one with `cavum ledger init FOLDER`";
 }
 
@@ -55,6 +55,16 @@ void check_schema(Database& db, std::vector<std::string>& findings) {
   }
   for (const auto& [name, sql] : found)
     if (!wanted.contains(name)) findings.push_back(name + ": does not belong to a ledger; it was put into its file");
+}
+
+std::vector<std::string> schema_findings(Database& db) noexcept {
+  try {
+    std::vector<std::string> findings;
+    check_schema(db, findings);
+    return findings;
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 void migrate(Database& db, const std::string& where) {

@@ -24,5 +24,7 @@ void migrate(Database& database, const std::string& where);
 void insert(Database& database, const LedgerEntry& entry, const Checkpoint& checkpoint, std::span<const Bytes> documents);
 /// Tables, triggers, views and indexes that are not those that this version made: a view that shows people other figures, a trigger that is gone.
 void check_schema(Database& database, std::vector<std::string>& findings);
+/// The same of a database that could not be read: nothing when not even that can be told.
+[[nodiscard]] std::vector<std::string> schema_findings(Database& database) noexcept;
 
 }  // namespace cavum

@@ -417,6 +417,18 @@ TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
   }
 }
 
+TEST(CheckLedger, AColumnThatWasRenamedIsToldAsATableThatWasAltered) {
+  const School school;
+  {
+    Database db = Database::open(school.places().database(), false);
+    db.run("ALTER TABLE document RENAME COLUMN bytes TO b");
+  }
+  const LedgerCheck check = check_all(school);
+  expect_finding(check.findings, {"table document", "altered"});
+  EXPECT_FALSE(says(check.findings, "try again"));
+  EXPECT_NE(testing_basics::error_of([&] { static_cast<void>(school.ledger()); }).find("does not hold (table document"), std::string::npos);
+}
+
 TEST(CheckLedger, WithoutItsFirstEntryNothingIsSaidOfWitnessAndKey) {
   const School school;
   test::tamper(school.places().database(), "DROP TRIGGER entry_is_kept; DELETE FROM entry");
