@@ -74,7 +74,7 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   ExportedGrade g{points, points, max, false, verdict + (critical.empty() ? "" : " (critical: " + critical + ")"), {}};
   if (own.max > 0 && by.max > 0 && std::fabs(own.max - by.max) > k_rounding) {
     g.by_another_rubric = true;
-    g.points = points.get<double>() / by.max * own.max;
+    g.points = std::round(points.get<double>() / by.max * own.max * 1e6) / 1e6;
     g.max = own.max;
   }
   g.grade = g.points;
