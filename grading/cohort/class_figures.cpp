@@ -84,7 +84,9 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
   when_possible(a.icc, [&] { return intraclass_correlation(table); });
   when_possible(a.limits, [&] { return limits_of_agreement(program, people); });
   when_possible(a.kappa, [&] { return weighted_kappa(bands, quadratic_weights(3)); });
-  when_possible(a.cut, [&] { return borderline_cut(ratings, rated, borderline); });
+  const auto [least, most] = std::minmax_element(ratings.begin(), ratings.end());
+  if (!ratings.empty() && borderline >= *least && borderline <= *most)  // beyond the ratings given the line says nothing
+    when_possible(a.cut, [&] { return borderline_cut(ratings, rated, borderline); });
   if (!a.limits || a.limits->sd <= 0) return;
   std::size_t i = 0;
   for (const auto& [candidate, given] : by_candidate) {

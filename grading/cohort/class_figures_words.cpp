@@ -89,8 +89,8 @@ std::string to_text(const ClassFigures& f) {
     if (a.limits)
       s += "program less people " + fixed(a.limits->bias, 1) + " points, " + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) +
            few("limits") + "\n";
-    s += "weighted kappa " + number(a.kappa, 2) + few("weighted_kappa") + "\ncut by borderline regression " + number(a.cut, 1) + " points" +
-         few("borderline_cut") + "\n";
+    s += "weighted kappa " + number(a.kappa, 2) + few("weighted_kappa") + "\n";
+    if (a.cut) s += "cut by borderline regression " + fixed(*a.cut, 1) + " points" + few("borderline_cut") + "\n";
   }
   if (!f.to_look_at.empty()) s += "\nto look at\n";
   for (const auto& t : f.to_look_at)

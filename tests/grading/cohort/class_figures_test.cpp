@@ -161,6 +161,7 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   EXPECT_NEAR(*f.agreement.kappa, 1.0, 1e-12);
   // ratings 5 3 4 1, points 100 50 75 25: slope 148.75/8.75·... by hand 18.571, through 3.25 and 62.5
   EXPECT_NEAR(*f.agreement.cut, 62.5 - 0.25 * 162.5 / 8.75, 1e-9);
+  for (const double beyond : {0.9, 5.1, 99.0}) EXPECT_FALSE(class_figures(r, "exam", marks, beyond).agreement.cut) << beyond << ", of ratings 1 to 5";
 }
 
 TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
