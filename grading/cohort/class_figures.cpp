@@ -130,11 +130,11 @@ void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<
     for (const auto other : s.contested_by)
       f.to_look_at.push_back({s.seq, s.candidate, "does not count: entry " + std::to_string(other) + " ends the same exam otherwise"});
   }
-  const bool mixed = f.simulated > 0 && f.simulated < f.n;
+  if (f.simulated > 0 && f.simulated < f.n)
+    f.to_look_at.push_back(
+        {0, "", std::to_string(f.simulated) + " of the " + std::to_string(f.n) + " are simulated operators, and count among people"});
   for (const auto& [candidate, s] : sat) {
     if (s->result.value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
-    if (mixed && !s->simulated.empty())
-      f.to_look_at.push_back({s->seq, candidate, "was sat by the simulated operator " + s->simulated + ", and counts among people"});
     const json truth = s->result.value("perforation", json::object()).value("truth", json::object());
     if (!truth.is_object() || !truth.value("perforated", false)) continue;
     const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());
