@@ -13,7 +13,9 @@ std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string
   try {
     exam = begin(path);
   } catch (const DatabaseError& refusal) {
-    if (second_place.empty()) throw;
+    if (second_place.empty())
+      throw Error(path, "cannot be written, and the exam has not begun (" + one_line(refusal.what()) + ")",
+                  "make room, or name a file on another disk too: --out-if-full");
     exam = begin(second_place);
     const nlohmann::json detail{{"from", std::filesystem::path(path).filename().string()}, {"ticks", 0}, {"why", one_line(refusal.what())}};
     exam->recorder().add_event(0, "moved", detail.dump());

@@ -1,6 +1,7 @@
 // `cavum cohort`: a class as a whole, and a class that is simulated.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/text.h"
 #include "grading/cohort/simulated_class.h"
 #include "ui/number_check.h"
 #include "ui/own_places.h"
@@ -26,6 +28,7 @@ struct Options {
   cohort::SimulatedClass wanted;
   std::string folder, key, exam, marks, out;
   double borderline = 3;
+  bool borderline_given = false;
   bool as_json = false;
 };
 
@@ -58,6 +61,14 @@ void report(const Options& o) {
   if (!o.marks.empty()) {
     Identities identities(places.identities());
     marks = cohort::parse_marks(read_text_file(o.marks), identities, o.marks, cohort::points_of_exam(registry, o.exam));
+  }
+  if (o.borderline_given) {
+    const auto rating_is = [&](auto holds) {
+      return std::any_of(marks.begin(), marks.end(), [&](const cohort::HumanMark& m) { return m.rating && holds(*m.rating); });
+    };
+    if (!rating_is([&](double r) { return r <= o.borderline; }) || !rating_is([&](double r) { return r >= o.borderline; }))
+      throw Error("--borderline " + plain_number(o.borderline), "does not lie within the ratings that the marks give",
+                  "name a rating that judges used");
   }
   const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
   if (!o.out.empty()) {
@@ -102,10 +113,12 @@ void add_cohort_verbs(CLI::App& app, int& exit_code) {
   v->add_option("ledger", o->folder, "the ledger's folder")->required();
   v->add_option("--exam", o->exam, "id of the scenario")->required();
   v->add_option("--marks", o->marks, "people's marks, CSV `candidate,judge,points[,rating]`");
-  v->add_option("--borderline", o->borderline, "the rating that means borderline")->check(between(-1000, 1000))->capture_default_str();
+  const auto* borderline =
+      v->add_option("--borderline", o->borderline, "the rating that means borderline")->check(between(-1000, 1000))->capture_default_str();
   v->add_option("--out", o->out, "also a report (.html or .pdf)");
   v->add_flag("--json", o->as_json, "one JSON object on stdout");
-  v->callback([o, &exit_code] {
+  v->callback([o, borderline, &exit_code] {
+    o->borderline_given = borderline->count() > 0;
     report(*o);
     exit_code = 0;
   });

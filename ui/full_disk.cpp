@@ -74,7 +74,9 @@ void write_somewhere(Exam& exam, const std::string& second_place, const std::fun
       nobody = true;
       answer = rescue_place(exam.recorder().path());
     }
-    if (!answer.empty()) static_cast<void>(moved(exam, answer, why));
+    if (!answer.empty() && moved(exam, answer, why))
+      std::fprintf(stderr, "cavum: the whole exam is at %s%s\n", one_line(answer).c_str(),
+                   nobody ? ", in the folder for temporary files: copy it from there before the computer is switched off" : "");
   }
 }
 

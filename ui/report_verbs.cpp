@@ -71,7 +71,9 @@ void write_report(const std::string& session, const std::string& out, const Opti
   }
   source.integrity = integrity_of(session, o, filed);
   write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));
-  std::cout << "written: " << out << " (" << verdict_name(m.result.verdict) << ")\n";
+  const bool holds = source.integrity.findings.empty();
+  if (!holds) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(source.integrity.findings.front()) << "\n";
+  std::cout << "written: " << out << " (" << verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold") << ")\n";
 }
 
 void run_report(const Options& o) {

@@ -86,7 +86,8 @@ std::string plain_number(double v) {
 std::string fixed(double v, int digits) {
   char buffer[400];  // the largest number has 309 digits before the point
   std::snprintf(buffer, sizeof buffer, "%.*f", digits, v);
-  return buffer;
+  const std::string_view text = buffer;
+  return std::string(text.find_first_not_of("-0.") == std::string_view::npos && text.front() == '-' ? text.substr(1) : text);  // no zero below zero
 }
 
 }  // namespace cavum

@@ -84,7 +84,9 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
   when_possible(a.icc, [&] { return intraclass_correlation(table); });
   when_possible(a.limits, [&] { return limits_of_agreement(program, people); });
   when_possible(a.kappa, [&] { return weighted_kappa(bands, quadratic_weights(3)); });
-  when_possible(a.cut, [&] { return borderline_cut(ratings, rated, borderline); });
+  const auto [least, most] = std::minmax_element(ratings.begin(), ratings.end());
+  if (!ratings.empty() && borderline >= *least && borderline <= *most)  // beyond the ratings given the line says nothing
+    when_possible(a.cut, [&] { return borderline_cut(ratings, rated, borderline); });
   if (!a.limits || a.limits->sd <= 0) return;
   std::size_t i = 0;
   for (const auto& [candidate, given] : by_candidate) {
@@ -128,11 +130,11 @@ void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<
     for (const auto other : s.contested_by)
       f.to_look_at.push_back({s.seq, s.candidate, "does not count: entry " + std::to_string(other) + " ends the same exam otherwise"});
   }
-  const bool mixed = f.simulated > 0 && f.simulated < f.n;
+  if (f.simulated > 0 && f.simulated < f.n)
+    f.to_look_at.push_back(
+        {0, "", std::to_string(f.simulated) + " of the " + std::to_string(f.n) + " are simulated operators, and count among people"});
   for (const auto& [candidate, s] : sat) {
     if (s->result.value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
-    if (mixed && !s->simulated.empty())
-      f.to_look_at.push_back({s->seq, candidate, "was sat by the simulated operator " + s->simulated + ", and counts among people"});
     const json truth = s->result.value("perforation", json::object()).value("truth", json::object());
     if (!truth.is_object() || !truth.value("perforated", false)) continue;
     const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());

@@ -85,12 +85,14 @@ std::string to_text(const ClassFigures& f) {
   if (a.n > 0) {
     s +=
         "\nmarked by people too: " + std::to_string(a.n) + " candidates, " + std::to_string(a.judges) + (a.judges == 1 ? " judge" : " judges") + "\n";
-    if (a.icc) s += "ICC(2,1) " + fixed(a.icc->single_random, 2) + ", ICC(3,1) " + fixed(a.icc->single_fixed, 2) + few("icc") + "\n";
+    if (a.icc)
+      s += "ICC(2,1) " + fixed(a.icc->single_random, 2) + ", ICC(3,1) " + fixed(a.icc->single_fixed, 2) + ", the program counted as a judge" +
+           few("icc") + "\n";
     if (a.limits)
       s += "program less people " + fixed(a.limits->bias, 1) + " points, " + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) +
            few("limits") + "\n";
-    s += "weighted kappa " + number(a.kappa, 2) + few("weighted_kappa") + "\ncut by borderline regression " + number(a.cut, 1) + " points" +
-         few("borderline_cut") + "\n";
+    s += "weighted kappa " + number(a.kappa, 2) + few("weighted_kappa") + "\n";
+    if (a.cut) s += "cut by borderline regression " + fixed(*a.cut, 1) + " points" + few("borderline_cut") + "\n";
   }
   if (!f.to_look_at.empty()) s += "\nto look at\n";
   for (const auto& t : f.to_look_at)

@@ -10,7 +10,7 @@
 
 namespace cavum {
 
-SessionExplanation explain_session(const std::string& path, const std::string& school_key) {
+SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed) {
   SessionExplanation e;
   e.file = path;
   const VerifyReport report = verify_session(path);
@@ -48,16 +48,23 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
       if (wrong.empty())
         e.proved.push_back("the school with key " + ticket.public_key + " promised this exam to candidate " + ticket.candidate +
                            ": scenario, tooth, rubric and accommodations are those of the ticket, and it began within its time");
+      if (school_key.empty())
+        e.remarks.push_back("whether the key " + ticket.public_key.substr(0, 16) +
+                            "… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder");
     } catch (const Error& damage) {
       e.findings.emplace_back(damage.what());
     }
   } else if (!session.findings().empty()) {
     e.remarks.emplace_back("whether the session holds a ticket could not be read for certain");
-  } else if (!school_key.empty()) {
+  } else if (!school_key.empty() && ticket_needed) {
     e.findings.emplace_back("the session holds no ticket: nobody promised this exam");
   } else {
     e.remarks.emplace_back("there is no ticket: that this exam was asked for, and of whom, is not shown");
   }
+  for (const auto& event : session.events())
+    if (event.kind == "moved")
+      e.remarks.push_back("from " + fixed(static_cast<double>(event.tick) * 1e-3, 1) +
+                          " s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam");
   for (const auto& r : check_clocks(session))
     e.remarks.push_back("from tick " + std::to_string(r.first_tick) + " (" + fixed(static_cast<double>(r.first_tick) * 1e-3, 1) + " s): " + r.what);
   e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");

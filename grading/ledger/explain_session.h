@@ -15,8 +15,9 @@ struct SessionExplanation {
   std::vector<std::string> remarks;   ///< what nobody can know from the file, and what the clocks show
 };
 
-/// `school_key`: public key (hexadecimal) that must have signed the ticket; empty = whichever did. Throws Error when the file is no session at all.
-[[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key);
+/// `school_key`: public key (hexadecimal) that must have signed the ticket; empty = whichever did. With one, a session without a ticket does not
+/// hold when `ticket_needed`. Throws Error when the file is no session at all.
+[[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed = true);
 [[nodiscard]] std::string to_text(const SessionExplanation& explanation);
 
 }  // namespace cavum

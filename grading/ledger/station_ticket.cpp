@@ -16,16 +16,21 @@
 
 namespace cavum {
 
+std::string station_school_key() {
+  const std::string pinned = school_public_key_path();
+  if (!std::filesystem::exists(pinned)) return {};
+  std::string key = read_text_file(pinned);
+  while (!key.empty() && (key.back() == '\n' || key.back() == '\r' || key.back() == ' ')) key.pop_back();
+  return parse_public_key(key, pinned);
+}
+
 HeldTicket read_ticket(const std::string& path) {
   HeldTicket held{{}, read_text_file(path), path};
   while (!held.text.empty() && (held.text.back() == '\n' || held.text.back() == '\r')) held.text.pop_back();
-  const std::string pinned = school_public_key_path();
-  if (!std::filesystem::exists(pinned))
-    throw Error(pinned, "this station knows no school yet",
+  const std::string key = station_school_key();
+  if (key.empty())
+    throw Error(school_public_key_path(), "this station knows no school yet",
                 "copy the school's public key there: `cavum ledger init` writes it beside the school's key");
-  std::string key = read_text_file(pinned);
-  while (!key.empty() && (key.back() == '\n' || key.back() == '\r' || key.back() == ' ')) key.pop_back();
-  key = parse_public_key(key, pinned);
   held.ticket = parse_ticket(held.text, key, path);
   return held;
 }

@@ -17,6 +17,9 @@ struct HeldTicket {
   std::string path;
 };
 
+/// The key in school_public_key_path(), hexadecimal; empty when there is none. Throws Error when that file holds no key.
+[[nodiscard]] std::string station_school_key();
+
 /// Throws Error when the file is no ticket, was changed, or is not of the school in school_public_key_path(), or this station knows no school.
 [[nodiscard]] HeldTicket read_ticket(const std::string& path);
 /// Candidate and accommodations are the ticket's, and the session will hold it. Throws Error when `options` names another candidate or grants

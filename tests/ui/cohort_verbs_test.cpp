@@ -52,6 +52,11 @@ TEST_F(CohortVerbs, AClassIsReportedInWordsFiguresAndPictures) {
   const auto nobody = run("cohort report " + path("L") + " --exam unknown");
   EXPECT_EQ(nobody.exit_code, 2);
   EXPECT_NE(nobody.err.find("was sat by nobody"), std::string::npos) << nobody.err;
+
+  write_text_file(path("marks.csv"), "candidate,judge,points,rating\nsimulated-1-0001,x,3,2\nsimulated-1-0002,x,3,4\n");
+  const auto beyond = run("cohort report " + path("L") + " --exam block_cavity --marks " + path("marks.csv") + " --borderline 5");
+  EXPECT_EQ(beyond.exit_code, 2) << beyond.out;
+  EXPECT_NE(beyond.err.find("--borderline 5: does not lie within the ratings"), std::string::npos) << beyond.err;
 }
 
 }  // namespace

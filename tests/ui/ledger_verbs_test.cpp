@@ -153,6 +153,16 @@ TEST_F(LedgerVerbs, VerifySaysWhatIsProvedAndWhatIsNot) {
   const auto other = run("verify " + path("e.cavum") + " --school-key " + std::string(64, 'a'));
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_NE(other.out.find("ticket of another school"), std::string::npos);
+  // and so without an option, by the school that this computer knows
+  const std::string own = read_text_file(path("home/school.pub"));
+  write_text_file(path("home/school.pub"), std::string(64, 'a') + "\n");
+  EXPECT_EQ(run("verify " + path("e.cavum")).exit_code, 1);
+  fs::remove(path("home/school.pub"));
+  const auto unknown = run("verify " + path("e.cavum"));
+  EXPECT_EQ(unknown.exit_code, 0);
+  EXPECT_NE(unknown.out.find("is your school's was not compared"), std::string::npos) << unknown.out;
+  EXPECT_EQ(r.out.find("was not compared"), std::string::npos);
+  write_text_file(path("home/school.pub"), own);
 }
 
 TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
@@ -174,6 +184,11 @@ TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
   const auto told = run("verify " + cut);
   EXPECT_EQ(told.exit_code, 1);
   EXPECT_NE(told.out.find("did not remember beginning it"), std::string::npos) << told.out;
+  const auto reported = run("report " + cut + " --out " + path("cut.html"));  // says so before its verdict
+  ASSERT_EQ(reported.exit_code, 0) << reported.err;
+  EXPECT_NE(reported.err.find("cut.cavum: does not hold: "), std::string::npos) << reported.err;
+  const std::string page = read_text_file(path("cut.html"));
+  EXPECT_LT(page.find("This session does not hold"), page.find("class='verdict "));
   const auto refused = run("ledger add " + path("L") + " " + cut + " --simulated");
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_NE(refused.out.find("NOT FILED"), std::string::npos) << refused.out;

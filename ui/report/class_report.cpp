@@ -27,7 +27,7 @@ std::string few_first(const ClassFigures& f, const char* figure) {
   std::string words = few_words(f, figure);
   if (words.empty()) return "";
   words[0] = 'F';
-  return words + ". ";
+  return words + "; ";
 }
 
 /// Points of the class in twentieths of the whole, and the cut.

@@ -4,10 +4,13 @@
 namespace cavum {
 
 void add_filing_notes(Document& d, const ReportSource& s) {
-  if (!s.filing) return;
   const auto note = [&](const std::string& lead, const std::string& text) {
     d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note});
   };
+  if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty()))
+    note("Does not hold", "This session does not hold, and its result is no sound one: " + s.integrity.findings.front() +
+                              (s.integrity.findings.size() > 1 ? "; and more, under \"What is proved\"" : ""));
+  if (!s.filing) return;
   if (const auto& r = s.filing->regrade)
     note("Why it was regraded",
          r->reason + " (entry " + std::to_string(r->entry) + " of the ledger, " + r->date + "). The result below is the one that counts");
@@ -15,7 +18,7 @@ void add_filing_notes(Document& d, const ReportSource& s) {
   if (s.filing->findings.empty()) return;
   std::string all;
   for (const auto& f : s.filing->findings) all += (all.empty() ? "" : "; ") + f;
-  note("In doubt", "This session was filed with findings, and its result does not stand as sound: " + all);
+  note("In doubt", "The result of this session does not stand as sound. " + all);
 }
 
 std::string attempt_verdict(const ReportAttempt& a) {
@@ -30,7 +33,7 @@ std::string attempt_remark(const ReportAttempt& a) {
   const auto say = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
   if (a.this_one) say("this report");
   if (!a.released) say("not released");
-  if (!a.doubt.empty()) say("filed with a finding: " + one_line(a.doubt));
+  if (!a.doubt.empty()) say(one_line(a.doubt));
   return out;
 }
 

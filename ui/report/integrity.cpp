@@ -72,7 +72,7 @@ void add_integrity(Document& d, const ReportSource& s) {
     row("ledger", f->ledger + " of " + f->school + ", key " + f->public_key);
     row("receipt", "entry " + std::to_string(f->entry) + ", filed " + f->date + (f->released ? ", released" : ", not released"));
     row("root", f->root + " of the first " + std::to_string(f->entries) + " entries");
-    for (const auto& finding : f->findings) row("filed with a finding", finding);
+    for (const auto& finding : f->findings) row("in doubt", finding);
   }
   d.blocks.push_back(std::move(t));
   const auto list = [&](const char* title, const std::vector<std::string>& items) {

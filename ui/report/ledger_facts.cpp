@@ -14,8 +14,9 @@ namespace {
 
 /// What a session was filed with, and that another ending of it was.
 std::vector<std::string> doubts_of(const FiledSession& s) {
-  std::vector<std::string> out = s.findings;
-  for (const auto other : s.contested_by) out.push_back("another ending of this exam was presented: entry " + std::to_string(other));
+  std::vector<std::string> out;
+  for (const auto& f : s.findings) out.push_back("filed with a finding: " + f);
+  for (const auto other : s.contested_by) out.push_back("contested by entry " + std::to_string(other) + ", another ending of this exam");
   return out;
 }
 

@@ -182,6 +182,10 @@ void add_regrade(Document& d, const Comparison& c) {
   t.rows.push_back({{{"verdict"}, {c.before.verdict}, {c.verdict}, {""}, {because(c.rules)}}});
   t.rows.push_back(
       {{{"points"}, {points_of(c.before.points, c.before.max)}, {points_of(c.points, c.max)}, {signed_points(c.points - c.before.points)}, {""}}});
+  if (std::fabs(c.before.max - c.max) > 1e-9) {  // two scales: what is left of each
+    const double before = c.before.max > 0 ? 100 * c.before.points / c.before.max : 0, now = c.max > 0 ? 100 * c.points / c.max : 0;
+    t.rows.push_back({{{"of its own scale"}, {fixed(before, 1) + " %"}, {fixed(now, 1) + " %"}, {signed_points(now - before) + " %"}, {""}}});
+  }
   for (const auto& k : c.criteria) {
     std::string why = because(k.why);
     if (k.old_value && k.new_value && fixed(*k.old_value, 3) != fixed(*k.new_value, 3))

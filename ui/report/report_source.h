@@ -48,7 +48,7 @@ struct ReportFiling {
   std::uint64_t entry = 0, entries = 0;  ///< its number, and how many the root below is of
   std::string ledger, school, public_key, root, date;
   bool released = false;
-  std::vector<std::string> findings;     ///< it was filed with, and that it is contested
+  std::vector<std::string> findings;     ///< in words: what it was filed with, and that it is contested
   std::optional<ReportRegrade> regrade;  ///< that gave the result of this report
   std::string not_filed;                 ///< the result of this report is not the one that the ledger holds: how it differs
   std::optional<std::string> name;       ///< of the candidate: only when asked for, and released

@@ -33,6 +33,9 @@ TEST(Text, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(plain_number(3.5), "3.5");
   EXPECT_EQ(fixed(3.5, 2), "3.50");
   EXPECT_EQ(fixed(-1e300, 1).size(), 304u);
+  EXPECT_EQ(fixed(-0.004, 2), "0.00") << "no zero lies below zero";
+  EXPECT_EQ(fixed(-0.006, 2), "-0.01");
+  EXPECT_EQ(fixed(-0.2, 0), "0");
 }
 
 }  // namespace

@@ -83,12 +83,12 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
   EXPECT_EQ(f.n, 4u);
   EXPECT_EQ(why_of(f, 1), "perforated the pulp at 12.3 s; ") << "although it passed";
   EXPECT_EQ(why_of(f, 2), "") << "what a task aims at is no fault";
-  EXPECT_EQ(why_of(f, 3), "was sat by the simulated operator expert, and counts among people; ");
+  EXPECT_EQ(why_of(f, 0), "1 of the 4 are simulated operators, and count among people; ");
   EXPECT_EQ(why_of(f, 4), "verdict is review; ");
   EXPECT_EQ(why_of(f, 5), "was filed with findings and does not count: the chain breaks at second 7, and 1 more; ");
   EXPECT_NE(to_text(f).find("entry 1     C-1               perforated the pulp"), std::string::npos) << to_text(f);
   for (auto& s : r.sessions) s.simulated = "expert";
-  EXPECT_EQ(why_of(class_figures(r, "exam", {}, 3), 3), "") << "a class of simulated ones alone is not mixed";
+  EXPECT_EQ(why_of(class_figures(r, "exam", {}, 3), 0), "") << "a class of simulated ones alone is not mixed";
 }
 
 TEST(ClassFigures, FromFewAreCalledRough) {
@@ -161,6 +161,7 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   EXPECT_NEAR(*f.agreement.kappa, 1.0, 1e-12);
   // ratings 5 3 4 1, points 100 50 75 25: slope 148.75/8.75·... by hand 18.571, through 3.25 and 62.5
   EXPECT_NEAR(*f.agreement.cut, 62.5 - 0.25 * 162.5 / 8.75, 1e-9);
+  for (const double beyond : {0.9, 5.1, 99.0}) EXPECT_FALSE(class_figures(r, "exam", marks, beyond).agreement.cut) << beyond << ", of ratings 1 to 5";
 }
 
 TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {

@@ -273,7 +273,7 @@ TEST_F(StationWindow, PracticeSaysSoInTheSession) {
 
 TEST_F(StationWindow, PointAndSpeedChosenAtTheDeskAreRecordedInput) {
   // F9 is the second allowed point; each [ takes a tenth of the speed away
-  EXPECT_EQ(run(std::string(k_to_exam) + "until 1\nkey f9\nkey [\nkey [\nkey [\nuntil 4\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"),
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 1\nkey f9\nkey [\nkey [\nkey [\nuntil 6\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"),
             0)
       << said();
   EXPECT_TRUE(verify_session(session()).verified);
@@ -281,7 +281,7 @@ TEST_F(StationWindow, PointAndSpeedChosenAtTheDeskAreRecordedInput) {
   EXPECT_EQ(inputs.front().point, 0);
   EXPECT_EQ(inputs.back().point, 1);
   double most = 0;
-  for (std::size_t i = inputs.size() / 2; i < inputs.size(); ++i) most = std::max(most, inputs[i].pedal());
+  for (std::size_t i = inputs.size() * 3 / 4; i < inputs.size(); ++i) most = std::max(most, inputs[i].pedal());
   EXPECT_NEAR(most, 0.7, 1e-4);
 }
 

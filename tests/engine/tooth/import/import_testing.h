@@ -33,9 +33,8 @@ using testing_basics::error_of;
 
 /// The folder `shared/` beside the repository, or an empty path.
 inline fs::path shared_folder() {
-  for (fs::path p = fs::path(__FILE__).parent_path(); p.has_relative_path(); p = p.parent_path())
-    if (fs::exists(p / "shared" / "teeth")) return p / "shared";
-  return {};
+  const fs::path shared = fs::path(CAVUM_SOURCE_DIR) / ".." / "shared";
+  return fs::exists(shared / "teeth") ? shared : fs::path();
 }
 
 /// Ball of triangles whose corners lie on the sphere; `rings` 60 misses the ball's volume by 0.2 %.
