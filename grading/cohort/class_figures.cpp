@@ -123,12 +123,13 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const FiledSession
 void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<std::string, const FiledSession*>& sat) {
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
+    const char* const counts = s.chosen ? "counts, for a person chose it" : "does not count";
     if (!s.findings.empty())
       f.to_look_at.push_back({s.seq, s.candidate,
-                              "was filed with findings and does not count: " + s.findings.front() +
+                              std::string("was filed with findings and ") + counts + ": " + s.findings.front() +
                                   (s.findings.size() > 1 ? ", and " + std::to_string(s.findings.size() - 1) + " more" : "")});
     for (const auto other : s.contested_by)
-      f.to_look_at.push_back({s.seq, s.candidate, "does not count: entry " + std::to_string(other) + " ends the same exam otherwise"});
+      f.to_look_at.push_back({s.seq, s.candidate, std::string(counts) + ": entry " + std::to_string(other) + " ends the same exam otherwise"});
   }
   if (f.simulated > 0 && f.simulated < f.n)
     f.to_look_at.push_back(

@@ -39,7 +39,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
   const bool shown = !session.shown.is_null();
   if (reader == ReportReader::student && !shown)
     throw Error(entry, "is not released, and a student's report is of released results only",
-                "release it with `cavum ledger release " + ledger.places.folder + " --candidate " + session.candidate + "`, or use --for instructor");
+                "release it with `cavum ledger release " + ledger.places.folder + " --session " + std::to_string(session.seq) +
+                    (session.doubtful() ? " --with-findings" : "") + "`, or use --for instructor");
   if (with_name && !shown) throw Error("--with-name", entry + " is not released, and names stand with released results only", "release it first");
   ReportFiling f;
   f.entry = session.seq;

@@ -42,7 +42,7 @@ class ReportVerbs : public testing_ui::Program {
 TEST_F(ReportVerbs, AStudentSeesWhatIsReleasedAndNothingElse) {
   const std::string first = sit("4711", "Ann Lee", "novice", "e1"), second = sit("4711", "Ann Lee", "expert", "e2");
   const std::string ledger = "--ledger " + path("L"), student = " --for student " + ledger;
-  expect_refused("report " + first + " --out " + path("r.html") + student, {"is not released", "cavum ledger release", "--candidate " + pseudonym_});
+  expect_refused("report " + first + " --out " + path("r.html") + student, {"is not released", "cavum ledger release " + path("L") + " --session "});
   expect_refused("report " + first + " --out " + path("r.html") + " " + ledger + " --with-name", {"--with-name", "not released"});
   EXPECT_FALSE(fs::exists(path("r.html")));
 
