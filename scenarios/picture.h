@@ -27,8 +27,9 @@ struct PictureSpec {
   std::string title;
   bool high_contrast = false;    ///< stronger colours and lines
   const Shape* guard = nullptr;  ///< what is protected, drawn as a dashed line in sections; may be null
-  /// How often a leaf was cut or left wrongly by many, per cent: + removed outside the target, - left inside it. With it the tissues are drawn in grey
-  /// and the leaves in the colours of heat_legend_svg, and from above each column shows its most frequent overcut, else what was left most often.
+  /// How often a leaf was cut or left wrongly by many, per cent: + removed outside the target, - left inside it. With it the tissues are drawn in
+  /// grey and the leaves in the colours of heat_legend_svg, and from above each column shows its most frequent overcut, else what was left most
+  /// often.
   std::function<double(IVec3 leaf)> heat_percent = {};
 };
 
