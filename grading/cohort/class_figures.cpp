@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "grading/ledger/csv.h"
+#include "grading/ledger/exam_scale.h"
 #include "scenarios/zone_map.h"
 
 namespace cavum::cohort {
@@ -21,11 +22,11 @@ constexpr int k_shuffles = 9999;
 
 double max_in(const json& result) { return result.at("score").at("max").get<double>(); }
 
-/// What most of them were marked out of: a regrade by another rubric may have another maximum.
-double scale_of(const std::map<std::string, const FiledSession*>& sat) {
-  std::map<double, std::size_t> of;
-  for (const auto& [candidate, s] : sat) ++of[max_in(s->result)];
-  return std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+/// As the exam was sat; of an exam without any sealed result, as the first who counts was marked.
+ExamScale scale_of(const Registry& registry, const std::string& exam, const std::map<std::string, const FiledSession*>& sat) {
+  const auto own = own_scales(registry);
+  const auto at = own.find(exam);
+  return at != own.end() ? at->second : scale_in(sat.begin()->second->result);
 }
 
 /// On the scale of the class.
@@ -193,7 +194,7 @@ std::map<std::string, const FiledSession*> counting_sessions(const Registry& reg
   return sat;
 }
 
-double points_of_exam(const Registry& registry, const std::string& exam) { return scale_of(counting_sessions(registry, exam)); }
+double points_of_exam(const Registry& registry, const std::string& exam) { return scale_of(registry, exam, counting_sessions(registry, exam)).max; }
 
 ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
   ClassFigures f;
@@ -204,10 +205,12 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
     for (const auto& c : result.at("criteria")) out.push_back(c.at("id"));
     return out;
   };
-  f.max_points = scale_of(sat);
-  const json& any = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return max_in(s.second->result) == f.max_points; })->second->result;
-  f.pass_points = f.max_points * any.at("score").value("pass_percent", 0.0) / 100;
-  const double band = f.max_points * any.at("score").value("borderline_percent", 0.0) / 100;
+  const ExamScale scale = scale_of(registry, exam, sat);
+  f.max_points = scale.max;
+  f.pass_points = scale.max * scale.pass_percent / 100;
+  const double band = scale.max * scale.borderline_percent / 100;
+  const auto by_own = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return scale_in(s.second->result) == scale; });
+  const json& any = (by_own == sat.end() ? sat.begin() : by_own)->second->result;
   Matrix table;
   std::map<std::string, std::vector<double>> by_station;
   std::vector<double> in_order;

@@ -13,12 +13,6 @@ using nlohmann::json;
 
 constexpr double k_rounding = 1e-6;  // of the JSON
 
-ExamScale scale_in(const json& result) {
-  const json& score = member_of(result, "score");
-  if (!member_of(score, "max").is_number()) return {};
-  return {score.at("max").get<double>(), score.value("pass_percent", 0.0)};
-}
-
 /// "80.8 of 100"
 std::string points_of(const json& points, const json& max) { return fixed(points.get<double>(), 1) + " of " + plain_number(max.get<double>()); }
 
@@ -45,24 +39,6 @@ std::string doubts_of(const FiledSession& s) {
 }
 
 }  // namespace
-
-std::map<std::string, ExamScale> own_scales(const Registry& registry) {
-  std::map<std::string, std::vector<std::pair<ExamScale, std::size_t>>> found;
-  for (const auto& s : registry.sessions) {
-    const ExamScale scale = scale_in(s.sealed);
-    if (scale.max <= 0) continue;
-    auto& of_exam = found[s.scenario_id];
-    const auto at = std::find_if(of_exam.begin(), of_exam.end(), [&](const auto& f) { return f.first == scale; });
-    if (at == of_exam.end())
-      of_exam.emplace_back(scale, 1);
-    else
-      ++at->second;
-  }
-  std::map<std::string, ExamScale> out;
-  for (const auto& [exam, scales] : found)
-    out[exam] = std::max_element(scales.begin(), scales.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
-  return out;
-}
 
 ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales) {
   const auto known = own_scales.find(session.scenario_id);

@@ -2,17 +2,9 @@
 // pass there, and all of one exam must be on one scale. What was changed for that is said in the feedback.
 #pragma once
 
-#include "grading/ledger/registry.h"
+#include "grading/ledger/exam_scale.h"
 
 namespace cavum {
-
-/// What an exam is marked out of, and passed with.
-struct ExamScale {
-  double max = 0, pass_percent = 0;
-  bool operator==(const ExamScale&) const = default;
-};
-/// Of each exam's sealed results the most frequent scale, the first filed of two as frequent; an exam without any is left out.
-[[nodiscard]] std::map<std::string, ExamScale> own_scales(const Registry& registry);
 
 struct ExportedGrade {
   nlohmann::json grade;            ///< the points, or 0 where the exam was failed although the points would pass by themselves

@@ -217,12 +217,8 @@ void keys(const AuthorContext& c, AuthorWish& wish) {
 void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
   AuthorState& s = c.state;
   const Theme& t = c.screen.theme;
-  const bool fresh = s.ask_close && !ImGui::IsPopupOpen("Save?");
-  if (fresh) ImGui::OpenPopup("Save?");
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal("Save?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return;
-  heading_text("Save your changes?");
+  bool fresh = false;
+  if (!begin_question(t, "Save?", "Save your changes?", s.ask_close, fresh)) return;
   ImGui::TextUnformatted("Something was changed and is not in the file yet.");
   ImGui::Dummy({0, t.px(6)});
   if (main_button(t, "Save and close  (Enter)", true, !fresh)) wish = AuthorWish::save_and_close;
@@ -231,8 +227,7 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
   ImGui::SameLine();
   if (ImGui::Button("Back  (Esc)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
   if (wish != AuthorWish::none) s.ask_close = false;
-  if (!s.ask_close) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  end_question(s.ask_close);
 }
 
 }  // namespace

@@ -171,13 +171,8 @@ void move_pointer(const ScreenContext& c, PointerStylus& pointer, bool over, flo
 
 void ask_whether_finished(const ScreenContext& c) {
   StationState& s = c.state;
-  const bool fresh = s.confirm_end && !ImGui::IsPopupOpen("Finished?");
-  if (fresh) ImGui::OpenPopup("Finished?");
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal("Finished?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
-    return;
-  heading_text("Have you finished?");
+  bool fresh = false;
+  if (!begin_question(c.theme, "Finished?", "Have you finished?", s.confirm_end, fresh)) return;
   ImGui::TextUnformatted("Your work will be graded as it is now. The clock runs on until then.");
   ImGui::Dummy({0, c.theme.px(6)});
   if (main_button(c.theme, "Yes, hand it in  (Enter)", true, !fresh)) {
@@ -186,8 +181,7 @@ void ask_whether_finished(const ScreenContext& c) {
   }
   ImGui::SameLine();
   if (ImGui::Button("Back to work  (Esc)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_end = false;
-  if (!s.confirm_end) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  end_question(s.confirm_end);
 }
 
 }  // namespace

@@ -13,12 +13,8 @@ namespace {
 /// The window was asked to close: what would be lost, and how it is not.
 void ask_whether_to_close(const ScreenContext& c) {
   StationState& s = c.state;
-  const bool fresh = s.confirm_close && !ImGui::IsPopupOpen("Close?");
-  if (fresh) ImGui::OpenPopup("Close?");
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal("Close?", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return;
-  heading_text("This exam is not saved yet");
+  bool fresh = false;
+  if (!begin_question(c.theme, "Close?", "This exam is not saved yet", s.confirm_close, fresh)) return;
   ImGui::TextUnformatted("If the window closes now, its end and its result are lost.");
   ImGui::TextUnformatted("It can be saved to this computer's folder for temporary files first; copy it from there.");
   if (s.rescue_failed) bad_text(c.theme, "There it cannot be written either: make room, or type another place.");
@@ -30,8 +26,7 @@ void ask_whether_to_close(const ScreenContext& c) {
     ImGui::SameLine();
     if (ImGui::Button("Close and lose it", {0, c.theme.px(44)})) s.wish = Wish::abandon;
   }
-  if (!s.confirm_close) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  end_question(s.confirm_close);
 }
 
 }  // namespace

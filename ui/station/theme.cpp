@@ -156,6 +156,22 @@ void heading_text(const std::string& text) {
   pop_font();
 }
 
+bool begin_question(const Theme& theme, const char* name, const char* heading, bool asked, bool& fresh) {
+  fresh = asked && !ImGui::IsPopupOpen(name);
+  if (fresh) ImGui::OpenPopup(name);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return false;
+  heading_text(heading);
+  ImGui::Dummy({0, theme.px(2)});
+  return true;
+}
+
+void end_question(bool asked) {
+  if (!asked) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
 void wrapped_text(const std::string& text) {
   ImGui::PushTextWrapPos(0.0F);
   ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());

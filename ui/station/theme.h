@@ -31,6 +31,11 @@ void quiet_text(const Theme& theme, const std::string& text);
 void bad_text(const Theme& theme, const std::string& text);
 void heading_text(const std::string& text);
 void wrapped_text(const std::string& text);
+/// A question over everything else, with a heading, that shows while `asked`. When true, pair with end_question; `fresh` is true in its first frame,
+/// in which the key that raised it is still held and answers nothing.
+bool begin_question(const Theme& theme, const char* name, const char* heading, bool asked, bool& fresh);
+/// Closes it when it is not `asked` any more.
+void end_question(bool asked);
 /// What goes on; also by Enter, unless `by_enter` is false.
 bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter = true);
 /// One that stays quiet.
