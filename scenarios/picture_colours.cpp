@@ -24,9 +24,13 @@ struct HeatBand {
   double from_percent;
   const char *over, *under;
 };
-// Orange against blue, which common colour blindnesses leave apart; lighter = rarer.
-constexpr HeatBand k_heat[] = {
-    {60, "#a63603", "#08519c"}, {40, "#e6550d", "#3182bd"}, {20, "#fd8d3c", "#6baed6"}, {k_least_heat_percent, "#fdbe85", "#bdd7e7"}};
+// Orange against blue, which common colour blindnesses leave apart; lighter = rarer. Steps and colours are those of the class's tooth in 3D
+// (ui/report/page/src/deviation.ts).
+constexpr HeatBand k_heat[] = {{80, "#9c3a02", "#0b4488"},
+                               {60, "#dd6410", "#2b78bd"},
+                               {40, "#f58f3d", "#63a5d6"},
+                               {20, "#fdb777", "#9fc8e6"},
+                               {k_least_heat_percent, "#fdd9b5", "#cfe1f2"}};
 
 struct KeyEntry {
   std::string colour, text;

@@ -10,10 +10,10 @@
 #include "grading/ledger/regrade.h"
 #include "ui/marked_session.h"
 #include "ui/own_places.h"
+#include "ui/report/figures/section_pictures.h"
 #include "ui/report/integrity.h"
 #include "ui/report/ledger_facts.h"
 #include "ui/report/report.h"
-#include "ui/report/section_pictures.h"
 #include "ui/verbs.h"
 
 namespace cavum {

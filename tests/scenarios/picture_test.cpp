@@ -6,8 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/base/file.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum {
@@ -68,6 +73,22 @@ std::size_t drawn_in(const std::string& svg, const std::string& colour) {
   return leaves;
 }
 
+/// The steps and colours of the class's tooth in 3D, from its page's source: {from, {over, under}}, the highest first.
+std::vector<std::pair<double, std::pair<std::string, std::string>>> bands_of_the_page() {
+  const std::string source = read_text_file(CAVUM_SOURCE_DIR "/ui/report/page/src/deviation.ts");
+  const auto list = [&](const std::string& name) {
+    const auto at = source.find("export const " + name + " = [");
+    if (at == std::string::npos) throw std::runtime_error("deviation.ts has no " + name);
+    const auto begin = source.find('[', at) + 1;
+    return nlohmann::json::parse("[" + source.substr(begin, source.find(']', begin) - begin) + "]");
+  };
+  const auto edges = list("k_heat_edges"), over = list("k_over"), under = list("k_under");
+  std::vector<std::pair<double, std::pair<std::string, std::string>>> bands;
+  for (std::size_t i = edges.size(); i-- > 0;)
+    bands.push_back({100.0 * edges[i].get<double>(), {over.at(i).get<std::string>(), under.at(i).get<std::string>()}});
+  return bands;
+}
+
 TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
   const Tooth block = testing::dentin_block(3, 5, 0.1);
   const Scenario s =
@@ -76,12 +97,11 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
   const Octree& tree = block.octree;
   const int low_z = tree.leaf_at({0.01, 0.01, -4.9}).z;
   // ever more of the class from one side to the other, on both sides of none
-  const auto heat = [&](IVec3 leaf) { return -80.0 + 160.0 * leaf.x / (tree.size().x - 1); };
+  const auto heat = [&](IVec3 leaf) { return -95.0 + 190.0 * leaf.x / (tree.size().x - 1); };
   PictureSpec spec{View::mesio_distal, 0.01, k_scale, ""};
   spec.heat_percent = heat;
   const std::string svg = section_svg(block, nullptr, zones, spec);
-  const std::vector<std::pair<double, std::pair<std::string, std::string>>> bands{
-      {60, {"#a63603", "#08519c"}}, {40, {"#e6550d", "#3182bd"}}, {20, {"#fd8d3c", "#6baed6"}}, {5, {"#fdbe85", "#bdd7e7"}}};
+  const auto bands = bands_of_the_page();
   std::map<std::string, std::size_t> expected;
   const int y = tree.leaf_at({0.01, 0.01, 0.01}).y;
   for (int z = low_z; z < tree.size().z; ++z)
@@ -94,7 +114,7 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
           break;
         }
     }
-  ASSERT_EQ(expected.size(), 8u) << "every band is there";
+  ASSERT_EQ(expected.size(), 10u) << "every band is there";
   const std::string key = heat_legend_svg();
   for (const auto& [colour, leaves] : expected) {
     // the section's window may begin a few rows higher than the block

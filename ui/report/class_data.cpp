@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "ui/report/class_report.h"
-#include "ui/report/packed_array.h"
+#include "ui/report/figures/packed_array.h"
+#include "ui/report/figures/tooth_grid.h"
 #include "ui/report/report_data.h"
-#include "ui/report/tooth_grid.h"
 
 namespace cavum {
 

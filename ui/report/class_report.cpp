@@ -8,8 +8,8 @@
 #include "engine/base/text.h"
 #include "scenarios/picture.h"
 #include "ui/chart_svg.h"
-#include "ui/report/html_writer.h"
-#include "ui/report/pdf_writer.h"
+#include "ui/report/print/html_writer.h"
+#include "ui/report/print/pdf_writer.h"
 
 namespace cavum {
 namespace {

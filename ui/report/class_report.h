@@ -7,7 +7,7 @@
 
 #include "grading/cohort/class_figures.h"
 #include "grading/cohort/class_map.h"
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 
 namespace cavum {
 

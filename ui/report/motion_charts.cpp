@@ -5,7 +5,7 @@
 
 #include "engine/base/text.h"
 #include "ui/chart_svg.h"
-#include "ui/report/motion_track.h"
+#include "ui/report/figures/motion_track.h"
 
 namespace cavum {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 #include "ui/report/report_source.h"
 
 namespace cavum {

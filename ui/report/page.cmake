@@ -1,5 +1,5 @@
 # The page's script and style sheet: npm packages as the lock file pins them, bundled by esbuild in the build directory (the source tree is never
-# written to), and embedded by page_assets.cpp. Also the type check, which is part of the build, and where the page's tests run.
+# written to), and embedded by print/page_assets.cpp. Also the type check, which is part of the build, and where the page's tests run.
 find_program(NPM npm)
 find_program(NODE NAMES node nodejs)
 if(NOT NPM OR NOT NODE)
@@ -32,5 +32,5 @@ add_custom_command(
   VERBATIM)
 add_custom_target(cavum_page DEPENDS ${page_build}/page.js ${page_build}/page.css)
 add_dependencies(cavum_report cavum_page)
-set_source_files_properties(page_assets.cpp PROPERTIES OBJECT_DEPENDS "${page_build}/page.js;${page_build}/page.css"
+set_source_files_properties(print/page_assets.cpp PROPERTIES OBJECT_DEPENDS "${page_build}/page.js;${page_build}/page.css"
                             COMPILE_DEFINITIONS "CAVUM_PAGE_DIR=\"${page_build}\"")

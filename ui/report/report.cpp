@@ -5,9 +5,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "ui/report/html_writer.h"
 #include "ui/report/integrity.h"
-#include "ui/report/pdf_writer.h"
+#include "ui/report/print/html_writer.h"
+#include "ui/report/print/pdf_writer.h"
 #include "ui/report/report_data.h"
 #include "ui/report/report_document.h"
 

@@ -6,9 +6,9 @@
 
 #include "engine/instrument/diamond_point.h"
 #include "scenarios/picture.h"
-#include "ui/report/motion_track.h"
-#include "ui/report/packed_array.h"
-#include "ui/report/tooth_grid.h"
+#include "ui/report/figures/motion_track.h"
+#include "ui/report/figures/packed_array.h"
+#include "ui/report/figures/tooth_grid.h"
 
 namespace cavum {
 namespace {
@@ -112,19 +112,6 @@ json report_data(const ReportSource& s) {
           {"instruments", instruments_json(s)},
           {"events", std::move(events)},
           {"moments", std::move(moments)}};
-}
-
-std::string script_text(const json& data) {
-  const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
-  return safe;
 }
 
 }  // namespace cavum

@@ -5,21 +5,18 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "ui/report/figures/tooth_grid.h"
 #include "ui/report/report_source.h"
-#include "ui/report/tooth_grid.h"
 
 namespace cavum {
 
 /// {"schema":1,"kind":"session","title","duration_s","high_contrast","tissues","grid","scale_mm","motion","instruments","events","moments"}; arrays
-/// are packed (packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack.
+/// are packed (figures/packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack.
 [[nodiscard]] nlohmann::json report_data(const ReportSource& source);
 
 /// Of the page's data: the tissues by id, and the cells before and after, without the times.
 [[nodiscard]] nlohmann::json tissues_json(const Tooth& tooth, bool high_contrast);
 [[nodiscard]] nlohmann::json cells_json(const ToothGrid& grid, const ChangedCells& box);
 inline constexpr double k_colours_end_mm = 0.5;  ///< beyond this deviation from the target colours differ no more
-
-/// A JSON object as the content of a `<script>` element: nothing in it can end the element.
-[[nodiscard]] std::string script_text(const nlohmann::json& data);
 
 }  // namespace cavum

@@ -6,9 +6,9 @@
 #include "engine/base/text.h"
 #include "grading/grade.h"
 #include "scenarios/picture.h"
-#include "ui/report/from_above.h"
+#include "ui/report/figures/from_above.h"
+#include "ui/report/figures/section_pictures.h"
 #include "ui/report/motion_charts.h"
-#include "ui/report/section_pictures.h"
 
 namespace cavum {
 namespace {

@@ -1,7 +1,7 @@
 // The words, tables and pictures of a report, for a student or for an instructor: what html_writer.h and pdf_writer.h print.
 #pragma once
 
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 #include "ui/report/report_source.h"
 
 namespace cavum {
@@ -29,9 +29,8 @@ void add_integrity(Document& document, const ReportSource& source);
 [[nodiscard]] std::string place_text(const std::optional<Vec3>& site_mm);
 /// Of every figure of a floor's overcut.
 inline constexpr char k_floor_words[] =
-    "Overcut of the floor is what was cut of hard tissue below it: where the pulp lies under it the overcut ends at the pulp's own wall, however far "
-    "the "
-    "instrument went on. An opened pulp is told as a perforation, not as overcut.";
+    "Overcut of the floor is what was cut of hard tissue below it: where the pulp lies under it the overcut ends at the pulp's own wall, however "
+    "far the instrument went on. An opened pulp is told as a perforation, not as overcut.";
 /// How an exam came to its end, for finish_name(): "time was up".
 [[nodiscard]] std::string finish_words(const std::string& finish);
 /// "mm³" for "mm3".

@@ -10,8 +10,8 @@
 #include "grading/motion.h"
 #include "tests/ui/program.h"
 #include "tests/ui/report/unpack.h"
-#include "ui/report/packed_array.h"
-#include "ui/report/tooth_grid.h"
+#include "ui/report/figures/packed_array.h"
+#include "ui/report/figures/tooth_grid.h"
 
 namespace cavum {
 namespace {

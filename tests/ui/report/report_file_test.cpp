@@ -7,11 +7,11 @@
 #include "engine/base/text.h"
 #include "tests/ui/program.h"
 #include "tests/ui/report/unpack.h"
-#include "ui/report/html_writer.h"
-#include "ui/report/pdf_writer.h"
+#include "ui/report/figures/section_pictures.h"
+#include "ui/report/print/html_writer.h"
+#include "ui/report/print/pdf_writer.h"
 #include "ui/report/report.h"
 #include "ui/report/report_document.h"
-#include "ui/report/section_pictures.h"
 
 namespace cavum {
 namespace {

@@ -1,4 +1,4 @@
-#include "ui/report/tooth_grid.h"
+#include "ui/report/figures/tooth_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -1,15 +1,28 @@
-#include "ui/report/html_writer.h"
+#include "ui/report/print/html_writer.h"
 
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
-#include "ui/report/page_assets.h"
-#include "ui/report/report_data.h"
+#include "ui/report/print/page_assets.h"
 
 namespace cavum {
 namespace {
 
 std::string exact(double v) { return fixed(v, 4); }
+
+/// A JSON object as the content of a `<script>` element: nothing in it can end the element.
+std::string script_text(const nlohmann::json& data) {
+  const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
 
 class Writer {
  public:

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grading/grade.h"
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 
 namespace cavum {
 

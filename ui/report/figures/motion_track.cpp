@@ -1,4 +1,4 @@
-#include "ui/report/motion_track.h"
+#include "ui/report/figures/motion_track.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ui/report/packed_array.h"
+#include "ui/report/figures/packed_array.h"
 
 #include <sodium.h>
 #include <zstd.h>

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 
 namespace cavum {
 

@@ -1,4 +1,4 @@
-#include "ui/report/from_above.h"
+#include "ui/report/figures/from_above.h"
 
 #include <cairo.h>
 
@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "ui/report/packed_array.h"
+#include "ui/report/figures/packed_array.h"
 
 namespace cavum {
 namespace {

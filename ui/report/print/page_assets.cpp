@@ -1,4 +1,4 @@
-#include "ui/report/page_assets.h"
+#include "ui/report/print/page_assets.h"
 
 // The assembler copies the files' bytes; CMake rebuilds this source when they change.
 asm(R"(

@@ -1,4 +1,4 @@
-#include "ui/report/section_pictures.h"
+#include "ui/report/figures/section_pictures.h"
 
 #include <algorithm>
 #include <array>

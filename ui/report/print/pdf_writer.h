@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 
 namespace cavum {
 

@@ -1,10 +1,10 @@
-#include "ui/report/pdf_writer.h"
+#include "ui/report/print/pdf_writer.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/text.h"
-#include "ui/report/pdf_sheet.h"
+#include "ui/report/print/pdf_sheet.h"
 
 namespace cavum {
 namespace {

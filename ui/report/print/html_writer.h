@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "ui/report/document.h"
+#include "ui/report/print/document.h"
 
 namespace cavum {
 

@@ -1,4 +1,4 @@
-#include "ui/report/pdf_sheet.h"
+#include "ui/report/print/pdf_sheet.h"
 
 #include <cairo-pdf.h>
 #include <gio/gio.h>
