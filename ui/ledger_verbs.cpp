@@ -78,6 +78,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v = verb("verify", "Check every entry, signature, ticket and filed session", ledger_verify);
   v->add_flag("--replay", o->replay, "simulate every session again, too");
   v->add_option("--receipt", o->receipt, "check this receipt, and that the ledger still begins with what it saw");
+  v->add_option("--results", o->results, "check this file of `export --format json`: signed by this school and unchanged");
   json_flag(v);
 
   v = verb("export", "Write results for other systems", done(ledger_export));

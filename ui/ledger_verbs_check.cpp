@@ -6,6 +6,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "grading/ledger/check_ledger.h"
+#include "grading/ledger/exports.h"
 #include "grading/ledger/registry.h"
 #include "ui/ledger_verbs_parts.h"
 #include "ui/print_json.h"
@@ -24,6 +25,8 @@ int ledger_verify(const LedgerOptions& o) {
     const json receipt = json::parse(read_text_file(o.receipt), nullptr, false);
     for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(o.receipt + ": " + f);
   }
+  if (!o.results.empty())
+    for (auto& f : check_results(read_text_file(o.results), content.public_key, &content)) check.findings.push_back(o.results + ": " + f);
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
                     {"ledger", content.id},

@@ -13,7 +13,7 @@ namespace cavum {
 
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
-                           receipt, reason;
+                           receipt, results, reason;
   std::vector<std::string> sessions, chosen;
   Grant grant;
   std::vector<std::uint64_t> chosen_sessions;

@@ -4,9 +4,11 @@
 #include <map>
 #include <vector>
 
+#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/exported_grade.h"
+#include "grading/ledger/receipt.h"
 
 namespace cavum {
 namespace {
@@ -185,16 +187,30 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
   return facts.dump();
 }
 
-bool results_hold(const std::string& text) {
+std::vector<std::string> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger) {
+  std::vector<std::string> findings;
   try {
     json facts = json::parse(text);
+    const std::string written = text.substr(0, text.find_last_not_of("\r\n") + 1);
+    if (facts.dump() != written) findings.emplace_back("the text was written anew: keys, spaces or numbers are not as the school wrote them");
+    const std::string key = facts.at("public_key");
     const auto signature = fixed_from_hex<64>(facts.at("signature"), "signature");
-    const auto key = fixed_from_hex<32>(facts.at("public_key"), "public_key");
     facts.erase("signature");
-    return is_signed_by(key, results_message(facts), signature);
-  } catch (const std::exception&) {
-    return false;
+    if (!public_key.empty() && key != public_key) findings.emplace_back("the results are signed by another school's key");
+    if (!is_signed_by(fixed_from_hex<32>(key, "public_key"), results_message(facts), signature))
+      findings.emplace_back("the school's signature on the results does not hold: something was changed");
+    if (ledger != nullptr) {
+      Checkpoint seen;
+      seen.size = require_whole<std::uint64_t>(facts.at("checkpoint"), "size", "results");
+      seen.root = fixed_from_hex<32>(facts.at("checkpoint").at("root"), "root");
+      check_history(*ledger, facts.at("ledger"), seen, "the export", findings);
+    }
+  } catch (const json::exception&) {
+    findings.emplace_back("are no exported results: name a file that `cavum ledger export --format json` wrote");
+  } catch (const std::exception& e) {
+    findings.push_back(std::string("are no exported results: ") + e.what());
   }
+  return findings;
 }
 
 std::string tidy_csv(const Registry& registry) {

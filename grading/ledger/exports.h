@@ -30,8 +30,10 @@ namespace cavum {
 /// "public_key", "signature"}: keys in order, no spaces, signed by the school over "CVRESULT" and the text of the object without "signature".
 /// Pseudonyms only.
 [[nodiscard]] std::string signed_results(const Registry& registry, const Ledger& ledger);
-/// True when `text` is what signed_results wrote, unchanged.
-[[nodiscard]] bool results_hold(const std::string& text);
+/// Why `text` is not what signed_results wrote, in words; empty when it is. As check_receipt(): `public_key` (hexadecimal) is the school's, empty =
+/// the file's own; with a ledger's content also whether that still begins with what the export saw. The text has to be the one that was written, to
+/// the character: another program might read an object with a key twice, or a number with more digits, in another way.
+[[nodiscard]] std::vector<std::string> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger);
 
 /// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings, contested (their numbers),
 /// chosen, verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.

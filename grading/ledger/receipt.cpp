@@ -23,6 +23,21 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq) {
            {{"size", p.size}, {"root", to_hex(p.root)}, {"utc", utc_text(p.utc_ns)}, {"utc_ns", p.utc_ns}, {"signature", to_hex(p.signature)}}}};
 }
 
+void check_history(const LedgerContent& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
+                   std::vector<std::string>& findings) {
+  if (ledger.id != id) {
+    findings.push_back(what + " is of another ledger");
+  } else if (ledger.entries.size() < seen.size) {
+    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.entries.size()) + " entries, " + what + " saw " +
+                       std::to_string(seen.size));
+  } else {
+    std::vector<Sha256> leaves;
+    for (const auto& e : ledger.entries) leaves.push_back(leaf_hash(ledger_bytes(e.text)));
+    if (!is_consistent(seen.size, seen.root, leaves.size(), merkle_root(leaves), consistency_proof(leaves, seen.size)))
+      findings.push_back("the ledger no longer begins with what " + what + " saw: history was rewritten");
+  }
+}
+
 std::vector<std::string> check_receipt(const json& receipt, const std::string& public_key, const LedgerContent* ledger) {
   std::vector<std::string> findings;
   if (!receipt.is_object()) return {"is no receipt, for it is not JSON text of an object: name a file that `cavum ledger add --receipts` wrote"};
@@ -38,20 +53,7 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
       findings.emplace_back("the school's signature on the receipt does not hold");
     if (!is_included(leaf_hash(ledger_bytes(entry)), require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
       findings.emplace_back("the entry on the receipt is not the one that the school signed");
-    if (ledger != nullptr) {
-      if (ledger->id != id) {
-        findings.emplace_back("the receipt is of another ledger");
-      } else if (ledger->entries.size() < p.size) {
-        findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger->entries.size()) +
-                           " entries, the receipt saw " + std::to_string(p.size));
-      } else {
-        std::vector<Sha256> leaves;
-        for (const auto& e : ledger->entries) leaves.push_back(leaf_hash(ledger_bytes(e.text)));
-        const Sha256 root = merkle_root(leaves);
-        if (!is_consistent(p.size, p.root, leaves.size(), root, consistency_proof(leaves, p.size)))
-          findings.emplace_back("the ledger no longer begins with what the receipt saw: history was rewritten");
-      }
-    }
+    if (ledger != nullptr) check_history(*ledger, id, p, "the receipt", findings);
   } catch (const json::exception&) {
     findings.emplace_back("is no receipt: a part of it is missing or of another kind than `cavum ledger add --receipts` writes");
   } catch (const std::exception& e) {

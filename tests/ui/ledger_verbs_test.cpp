@@ -91,6 +91,15 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
 
   ASSERT_EQ(run("ledger forget " + path("L") + " --candidate 4712").exit_code, 0);
   EXPECT_EQ(run("ledger verify " + path("L") + " --replay --receipt " + path("receipts/receipt-4.json")).exit_code, 0);
+
+  ASSERT_EQ(run("ledger export " + path("L") + " --format json --out " + path("all.json")).exit_code, 0);
+  EXPECT_EQ(run("ledger verify " + path("L") + " --results " + path("all.json")).exit_code, 0);
+  std::string results = read_text_file(path("all.json"));
+  results.replace(results.find("\"released\":false"), 16, "\"released\":true ");
+  write_text_file(path("all.json"), results);
+  const auto changed = run("ledger verify " + path("L") + " --results " + path("all.json"));
+  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_NE(changed.out.find("all.json: the school's signature on the results does not hold"), std::string::npos) << changed.out;
 }
 
 TEST_F(LedgerVerbs, WhatATicketDoesNotPromiseDoesNotBegin) {

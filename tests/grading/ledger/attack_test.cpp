@@ -297,9 +297,17 @@ TEST_F(Attack, ExportedResultsThatWereImproved) {
   ASSERT_TRUE(file(session_).seq);
   const Ledger ledger = school_.ledger();
   std::string text = signed_results(read_registry(ledger.content()), ledger);
-  EXPECT_TRUE(results_hold(text));
+  const std::string& key = ledger.content().public_key;
+  EXPECT_TRUE(check_results(text, key, &ledger.content()).empty());
+  EXPECT_TRUE(check_results(text + "\n", "", nullptr).empty());
+  expect_finding(check_results(text, std::string(64, '0'), nullptr), {"another school's key"});
+  // a second list of results, which some programs read and others do not
+  std::string twice = text;
+  twice.insert(1, "\"results\":[],");
+  expect_finding(check_results(twice, key, nullptr), {"written anew"});
+  expect_finding(check_results("[]", key, nullptr), {"no exported results"});
   text.replace(text.find("\"pass\""), 6, "\"fail\"");
-  EXPECT_FALSE(results_hold(text));
+  expect_finding(check_results(text, key, &ledger.content()), {"signature on the results does not hold"});
 }
 /// A copy of a closed session as somebody makes it who wants a better end: without the end, and not closed.
 std::string cut_back(const School& school, const std::string& session, const std::string& name) {
