@@ -32,46 +32,52 @@ void sign(const Theme& t, CheckItem::State state) {
   ImGui::Dummy({size, size});
 }
 
+constexpr char k_title[] = "Stylus, pedal, finger rest", k_continue[] = "Continue  (Enter)";
+constexpr float k_width = 660;
+
 }  // namespace
+
+void preparing_screen(const ScreenContext& c) {
+  const Theme& t = c.theme;
+  begin_card(t, k_title, k_width);
+  wrapped_text("The tooth is being prepared ...");
+  const double phase = std::fmod(ImGui::GetTime(), 1.0);
+  ImGui::ProgressBar(static_cast<float>(phase), {-1, t.px(6)}, "");
+  ImGui::Dummy({0, t.px(10)});
+  main_button(t, k_continue, false);
+  if (!c.state.message.empty()) quiet_text(t, c.state.message);
+  end_area();
+}
 
 void device_check_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  begin_card(t, "Stylus, pedal, finger rest", 660);
-  const bool prepared = c.sitting->stage() != Stage::preparing;
-  bool good = false;
-  if (!prepared) {
-    wrapped_text("The tooth is being prepared ...");
-    const double phase = std::fmod(ImGui::GetTime(), 1.0);
-    ImGui::ProgressBar(static_cast<float>(phase), {-1, t.px(6)}, "");
-  } else {
-    if (PointerStylus* pointer = c.sitting->device().pointer()) {
-      PointerIntent still;
-      still.tip_mm = s.wanted_mm;
-      still.rotation = s.wanted_rotation;
-      still.pedal = key_held(GLFW_KEY_SPACE) || (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) ? 1.0 : 0.0;
-      pointer->want(still);
-      quiet_text(t, "Mouse and keyboard: the pedal is the space bar or the left button.");
-    }
-    const DeviceSight sight = c.sitting->sight();
-    const auto items = check_items(sight);
-    good = all_good(items);
-    for (const CheckItem& item : items) {
-      ImGui::Dummy({0, t.px(4)});
-      sign(t, item.state);
-      ImGui::SameLine(0, t.px(16));
-      ImGui::BeginGroup();
-      ImGui::TextUnformatted(item.title.c_str());
-      quiet_text(t, item.detail);
-      ImGui::EndGroup();
-    }
-    ImGui::Dummy({0, t.px(6)});
-    ImGui::TextUnformatted("Pedal");
-    ImGui::SameLine(t.px(110));
-    ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)}, "");
+  begin_card(t, k_title, k_width);
+  if (PointerStylus* pointer = c.sitting->device().pointer()) {
+    PointerIntent still;
+    still.tip_mm = s.wanted_mm;
+    still.rotation = s.wanted_rotation;
+    still.pedal = key_held(GLFW_KEY_SPACE) || (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) ? 1.0 : 0.0;
+    pointer->want(still);
+    quiet_text(t, "Mouse and keyboard: the pedal is the space bar or the left button.");
   }
+  const DeviceSight sight = c.sitting->sight();
+  const auto items = check_items(sight);
+  for (const CheckItem& item : items) {
+    ImGui::Dummy({0, t.px(4)});
+    sign(t, item.state);
+    ImGui::SameLine(0, t.px(16));
+    ImGui::BeginGroup();
+    ImGui::TextUnformatted(item.title.c_str());
+    quiet_text(t, item.detail);
+    ImGui::EndGroup();
+  }
+  ImGui::Dummy({0, t.px(6)});
+  ImGui::TextUnformatted("Pedal");
+  ImGui::SameLine(t.px(110));
+  ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)}, "");
   ImGui::Dummy({0, t.px(10)});
-  if (main_button(t, "Continue  (Enter)", prepared && good)) s.wish = Wish::to_briefing;
+  if (main_button(t, k_continue, all_good(items))) s.wish = Wish::to_briefing;
   if (!s.message.empty()) quiet_text(t, s.message);
   end_area();
 }

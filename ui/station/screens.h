@@ -24,6 +24,7 @@ struct ScreenContext {
 };
 
 void sign_in_screen(const ScreenContext& c);
+void preparing_screen(const ScreenContext& c);
 void device_check_screen(const ScreenContext& c);
 void briefing_screen(const ScreenContext& c);
 void exam_screen(const ScreenContext& c);

@@ -8,7 +8,7 @@
 
 namespace cavum {
 
-enum class Screen { sign_in, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
+enum class Screen { sign_in, preparing, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
 
 /// What a button or a key asked for; the station does it after the frame.

@@ -187,6 +187,8 @@ class Station {
     switch (state_.screen) {
       case Screen::sign_in:
         return sign_in_screen(context);
+      case Screen::preparing:
+        return preparing_screen(context);
       case Screen::device_check:
         return device_check_screen(context);
       case Screen::briefing:
@@ -280,12 +282,12 @@ class Station {
     const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
     if (fixed) {
       sitting_ = std::make_unique<Sitting>(o, state_.code.data());
-      return go_to(Screen::device_check);
+      return go_to(Screen::preparing);
     }
     if (state_.left_handed != scenario_.accommodations.left_handed) o.grant.left_handed = state_.left_handed;
     if (state_.high_contrast != scenario_.accommodations.high_contrast) o.grant.high_contrast = state_.high_contrast;
     sitting_ = std::make_unique<Sitting>(o, state_.code.data());
-    go_to(Screen::device_check);
+    go_to(Screen::preparing);
   }
 
   void usual_look() {
@@ -336,6 +338,7 @@ class Station {
       const Pose start = sitting_->device().start();
       state_.wanted_mm = start.tip_mm;
       state_.wanted_rotation = start.rotation;
+      go_to(Screen::device_check);
     }
     if (now == Stage::grading || now == Stage::interrupted) {
       sitting_->live().look_at_tooth([this](const Octree& tooth) { scene_->tooth().take(tooth); });
