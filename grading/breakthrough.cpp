@@ -23,12 +23,10 @@ constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue;
 constexpr double k_towards_handle = -0.2;  // cosine of push against the handle's axis
 constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
 constexpr double k_surely_n = 1.0;         // a force below that says to within 0.3 mm where the surface is
-constexpr std::int64_t k_mean_frames = 3;
-constexpr double k_lifted_share = 0.3;  // of the held force: when the tip's motion leaves no more of G, the hand has lifted
+constexpr double k_lifted_share = 0.3;     // of the held force: when the tip's motion leaves no more of G, the hand has lifted
 constexpr std::size_t k_most_confirming = 8;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-std::int64_t frames_in(double seconds) { return static_cast<std::int64_t>(seconds / k_frame_s + 0.5); }
 
 /// The fall that is being watched.
 struct Fall {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "grading/result_json.h"
 
 namespace cavum {
 namespace {
@@ -127,7 +128,6 @@ std::string regrade_text(const Comparison& c) {
 }
 
 Json to_json(const Comparison& c) {
-  const auto rounded = [](double v) { return std::round(v * 1e6) / 1e6 + 0.0; };
   const auto optional = [&](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
   Json list = Json::array();
   for (const auto& d : c.criteria)

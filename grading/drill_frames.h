@@ -12,6 +12,8 @@ namespace cavum {
 
 inline constexpr std::int64_t k_frame_ticks = 10;
 inline constexpr double k_frame_s = k_frame_ticks * k_tick_s;
+inline constexpr std::int64_t k_mean_frames = 3;  ///< over which the force is averaged where it is judged
+[[nodiscard]] constexpr std::int64_t frames_in(double seconds) noexcept { return static_cast<std::int64_t>(seconds / k_frame_s + 0.5); }
 
 /// Means over ten ticks.
 struct DrillFrame {

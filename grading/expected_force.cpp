@@ -6,7 +6,6 @@
 namespace cavum {
 namespace {
 
-constexpr std::int64_t k_mean_frames = 3;
 constexpr double k_least_n = 0.05;         // of a force that shows direction, stiffness or contact
 constexpr double k_saturates_n = 2.5;      // beyond it a device may not give what the tissue does (3.3 N at most, PHYSICS.md §3)
 constexpr double k_direction_share = 0.1;  // of each frame's force in the direction of the push
@@ -14,8 +13,6 @@ constexpr double k_holds = 0.6;            // of the level: a force that has it 
 constexpr double k_learns_from = 0.7;      // F / G: below it something else than a spring is at work
 constexpr double k_all_there = 0.9;        // F / G: nothing of the force is missing
 constexpr double k_held_share = 0.2;       // of each such frame in the force that was held: 50 ms
-
-std::size_t frames_in(double seconds) { return static_cast<std::size_t>(seconds / k_frame_s + 0.5); }
 
 }  // namespace
 
@@ -30,7 +27,7 @@ void RunningMedian::clear() {
   count_ = 0;
 }
 
-ExpectedForce::ExpectedForce(const ExpectedForceSettings& settings) : k_(settings), median_(frames_in(settings.level_s)) {}
+ExpectedForce::ExpectedForce(const ExpectedForceSettings& settings) : k_(settings), median_(static_cast<std::size_t>(frames_in(settings.level_s))) {}
 
 void ExpectedForce::forget() {
   median_.clear();
@@ -68,7 +65,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   if (size > k_holds * level_n_ && size > k_least_n) out_ = normalized(out_ * (1 - k_direction_share) + force * (k_direction_share / size), out_);
 
   waiting_.push_back(force_n_);
-  if (waiting_.size() > frames_in(k_.level_gap_s)) {
+  if (std::ssize(waiting_) > frames_in(k_.level_gap_s)) {
     median_.add(waiting_.front());
     waiting_.pop_front();
   }
@@ -76,7 +73,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
     const double now = median_.value();
     while (!levels_.empty() && levels_.back().second <= now) levels_.pop_back();
     levels_.emplace_back(i, now);
-    while (levels_.front().first < i - static_cast<std::int64_t>(frames_in(k_.level_memory_s))) levels_.pop_front();
+    while (levels_.front().first < i - frames_in(k_.level_memory_s)) levels_.pop_front();
     level_n_ = levels_.front().second;
     held_n_ = std::min(held_n_, level_n_);
   }

@@ -7,12 +7,13 @@
 #include "engine/base/text.h"
 
 namespace cavum {
+
+double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
+
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Rounded to a millionth, so that a figure reads the same wherever it is printed.
-double rounded(double v) { return std::round(v * 1e6) / 1e6; }
 Json optional(const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); }
 Json point(Vec3 p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z)}); }
 Json time_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(rounded(t.t_s())); }

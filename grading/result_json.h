@@ -12,4 +12,7 @@ namespace cavum {
 [[nodiscard]] nlohmann::ordered_json to_json(const Result& result);
 [[nodiscard]] std::string to_text(const Result& result);
 
+/// To a millionth, so that a figure reads the same wherever it is printed; never -0.
+[[nodiscard]] double rounded(double v);
+
 }  // namespace cavum

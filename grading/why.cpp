@@ -18,9 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class Finder {
+class LossFinder {
  public:
-  Finder(const GradeInput& input, const Result& result, const CriterionSpec& spec, Why& why) : in_(input), r_(result), spec_(spec), why_(why) {
+  LossFinder(const GradeInput& input, const Result& result, const CriterionSpec& spec, Why& why) : in_(input), r_(result), spec_(spec), why_(why) {
     end_ = static_cast<std::int64_t>(std::min(input.inputs.size(), input.records.size()));
     for (const auto& e : input.events)
       if (e.kind == "finished") end_ = std::min(end_, e.tick + 1);
@@ -80,7 +80,7 @@ class Finder {
 };
 
 /// Moments of what was removed. `as_value`: their volumes add up to the criterion's value, and what each cost is said where less is better.
-void Finder::removed_moments(std::vector<WhyItem> items, bool as_value) {
+void LossFinder::removed_moments(std::vector<WhyItem> items, bool as_value) {
   if (as_value && spec_.full < spec_.zero) {
     double before = 0;
     for (auto& i : items) {
@@ -92,7 +92,7 @@ void Finder::removed_moments(std::vector<WhyItem> items, bool as_value) {
   list_largest(std::move(items));
 }
 
-std::vector<WhyItem> Finder::in_zones(const std::function<bool(Zone)>& counts) const {
+std::vector<WhyItem> LossFinder::in_zones(const std::function<bool(Zone)>& counts) const {
   std::vector<RemovedShare> shares;
   for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
     if (counts(s.zone)) shares.push_back(s);
@@ -101,7 +101,7 @@ std::vector<WhyItem> Finder::in_zones(const std::function<bool(Zone)>& counts) c
 }
 
 /// What of the target stayed, wall by wall, and when the candidate last cut of the target there.
-void Finder::missed(double points) {
+void LossFinder::missed(double points) {
   struct Part {
     double sum = 0;
     Vec3 middle;
@@ -143,7 +143,7 @@ void Finder::missed(double points) {
   }
 }
 
-void Finder::walls(std::size_t first, std::size_t end, const std::string& figure) {
+void LossFinder::walls(std::size_t first, std::size_t end, const std::string& figure) {
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
@@ -164,7 +164,7 @@ void Finder::walls(std::size_t first, std::size_t end, const std::string& figure
 }
 
 /// Dice loses by what was missed and by what was removed beyond, each in proportion to its volume.
-void Finder::dice() {
+void LossFinder::dice() {
   std::vector<WhyItem> beyond = in_zones([](Zone z) { return z != Zone::target; });
   double too_much = 0;
   for (const auto& i : beyond) too_much += *i.amount;
@@ -174,7 +174,7 @@ void Finder::dice() {
   list_largest(std::move(beyond));
 }
 
-void Finder::overhang() {
+void LossFinder::overhang() {
   const AccessMeasures& a = r_.access;
   if (!a.overhang) return fact("this target opens nothing that could be overhung");
   const double lost = a.overhang->mm3 > 0 ? (spec_.points - why_.criterion.points) / a.overhang->mm3 : 0.0;
@@ -183,7 +183,7 @@ void Finder::overhang() {
   list_largest(std::move(items));
 }
 
-void Finder::canals() {
+void LossFinder::canals() {
   double covered = 0;
   for (const auto& p : r_.access.canal_mouths) covered += p.part;
   if (!(covered > 0)) return fact("no canal's mouth has hard tissue on the straight line out");
@@ -198,7 +198,7 @@ void Finder::canals() {
 }
 
 /// Points that no moment accounts for: what the value as a whole costs, and what does not count because too little of the work was done.
-void Finder::value_and_work() {
+void LossFinder::value_and_work() {
   const CriterionResult& c = why_.criterion;
   if (!c.value) {
     fact("cannot be measured on this cavity");
@@ -221,7 +221,7 @@ void Finder::value_and_work() {
 }
 
 /// The exam as a row of events, each with what it took since the one before.
-void Finder::steps() {
+void LossFinder::steps() {
   std::int64_t last = 0;
   for (const auto& e : in_.events) {
     const auto detail = Json::parse(e.detail_json, nullptr, false);
@@ -241,7 +241,7 @@ void Finder::steps() {
   }
 }
 
-void Finder::perforation() {
+void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
     if (!t.perforated) return fact(std::string("tissue: no ") + kind);
@@ -259,7 +259,7 @@ void Finder::perforation() {
   fact(p.agree() ? "force and tissue agree about faults" : "force and tissue disagree about faults");
 }
 
-void Finder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
+void LossFinder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
   fact(name + " of the cavity", found, "mm");
   fact(name + " of the target", wanted, "mm");
   fact("missing and too much together", error, "mm");
@@ -286,7 +286,7 @@ void Finder::shape(const std::string& name, std::optional<double> found, double 
   }
 }
 
-void Finder::find() {
+void LossFinder::find() {
   const std::string& m = spec_.metric;
   const auto starts = [&](const char* with) { return m.rfind(with, 0) == 0; };
   if (m == "target_removed_percent" || m == "missed_mm3") return missed(spec_.points - why_.criterion.points);
@@ -358,7 +358,7 @@ Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric,
     known += (known.empty() ? "" : ", ") + rubric.criteria[i].id;
     if (rubric.criteria[i].id != criterion_id) continue;
     w.criterion = result.criteria.at(i);
-    Finder finder(input, result, rubric.criteria[i], w);
+    LossFinder finder(input, result, rubric.criteria[i], w);
     finder.find();
     finder.value_and_work();
     std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });

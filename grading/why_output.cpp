@@ -1,20 +1,18 @@
 // What `grade --why` found, as JSON and as text.
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
 #include "grading/loss.h"
 #include "grading/motion.h"
+#include "grading/result_json.h"
 #include "grading/why.h"
 
 namespace cavum {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
-double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
-}  // namespace
+using Json = nlohmann::ordered_json;
+}
 
 Json to_json(const Why& w) {
   const auto& c = w.criterion;

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double k_cos_45 = 0.70710678118654752440;
 
-struct Box {
+struct LeafBox {
   IVec3 low, high;  // inclusive, exclusive
 };
 
 /// Leaves around the part of the target that lies in the tooth.
-Box find_target(const Shape& target, const Tooth& tooth, const std::string& where) {
+LeafBox find_target(const Shape& target, const Tooth& tooth, const std::string& where) {
   const Octree& tree = tooth.octree;
   const IVec3 n = tree.size();
-  Box box{{n.x, n.y, n.z}, {-1, -1, -1}};
+  LeafBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
   const auto see = [&](IVec3 leaf) {
     if (target.distance_mm(tree.centre_mm(leaf)) >= 0) return;
     box.low = {std::min(box.low.x, leaf.x), std::min(box.low.y, leaf.y), std::min(box.low.z, leaf.z)};
@@ -107,7 +107,7 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   ShapeMaker maker(tooth, scenario.path);
   const auto target = maker.make(spec.target);
   const std::string where = spec.target.empty() ? scenario.path : place_text(scenario.path, spec.target[0]);
-  const Box box = find_target(*target, tooth, where);
+  const LeafBox box = find_target(*target, tooth, where);
   const double leaf = tree.leaf_mm();
 
   ZoneMap map;
