@@ -59,9 +59,9 @@ std::size_t after_value(const std::string& text, std::size_t i) {
 }
 
 /// The text with its meaning, and where the values of that stand in it.
-class Reading {
+class ReadToml {
  public:
-  Reading(const std::string& text, const std::string& path) : text_(text), path_(path) {
+  ReadToml(const std::string& text, const std::string& path) : text_(text), path_(path) {
     try {
       table_ = toml::parse(std::string_view(text), path);
     } catch (const toml::parse_error& e) {
@@ -160,7 +160,7 @@ class Reading {
   std::vector<std::size_t> lines_;
 };
 
-double number_at(const Reading& reading, const toml::node& node, const std::string& place) {
+double number_at(const ReadToml& reading, const toml::node& node, const std::string& place) {
   if (!node.is_number()) reading.fail(node, "'" + place + "' is no number");
   return node.value<double>().value_or(0.0);
 }
@@ -168,7 +168,7 @@ double number_at(const Reading& reading, const toml::node& node, const std::stri
 std::string written_point(double x, double y) { return "[" + written_number(x) + ", " + written_number(y) + "]"; }
 
 /// A number where one stands; a number that is written otherwise but is the same stays.
-TextChange replaced(const Reading& r, const toml::node& node, const std::string& place, double value) {
+TextChange replaced(const ReadToml& r, const toml::node& node, const std::string& place, double value) {
   const std::size_t begin = r.begin_of(node), end = r.end_of(node);
   TextChange c{begin, r.text().substr(begin, end - begin), written_number(value)};
   if (written_number(number_at(r, node, place)) == c.inserted) c.inserted = c.removed;
@@ -176,7 +176,7 @@ TextChange replaced(const Reading& r, const toml::node& node, const std::string&
 }
 
 /// A key that its table does not have yet: after the last value of it.
-TextChange added(const Reading& r, const Reading::Found& f, const std::string& place, const std::string& value) {
+TextChange added(const ReadToml& r, const ReadToml::Found& f, const std::string& place, const std::string& value) {
   const auto* table = f.holder->as_table();
   if (table == nullptr) r.fail(*f.holder, "there is no '" + place + "'");
   const std::string line = f.key + " = " + value;
@@ -195,10 +195,10 @@ TextChange added(const Reading& r, const Reading::Found& f, const std::string& p
 }
 
 /// Throws unless the text afterwards holds these numbers there (`at`: of a number or of a list of them).
-TextChange proved(const Reading& before, const std::string& path, const TextChange& change, const std::string& at,
+TextChange proved(const ReadToml& before, const std::string& path, const TextChange& change, const std::string& at,
                   const std::vector<double>& wanted) {
   const std::string text = with_change(before.text(), change);
-  const Reading after(text, path);
+  const ReadToml after(text, path);
   const toml::node& node = after.at(at);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto* array = node.as_array();
@@ -232,16 +232,16 @@ std::string written_number(double value) {
 
 TextChange set_number(const std::string& text, const std::string& path, const std::string& place, double value) {
   require_number(path, value);
-  const Reading r(text, path);
-  const Reading::Found f = r.find(place);
+  const ReadToml r(text, path);
+  const ReadToml::Found f = r.find(place);
   return proved(r, path, f.node != nullptr ? replaced(r, *f.node, place, value) : added(r, f, place, written_number(value)), place, {value});
 }
 
 TextChange set_point(const std::string& text, const std::string& path, const std::string& place, double x_mm, double y_mm) {
   require_number(path, x_mm);
   require_number(path, y_mm);
-  const Reading r(text, path);
-  const Reading::Found f = r.find(place);
+  const ReadToml r(text, path);
+  const ReadToml::Found f = r.find(place);
   if (f.node == nullptr) return proved(r, path, added(r, f, place, written_point(x_mm, y_mm)), place, {x_mm, y_mm});
   const auto* array = f.node->as_array();
   if (array == nullptr || array->size() < 2) r.fail(*f.node, "'" + place + "' is no list of numbers");
@@ -254,7 +254,7 @@ TextChange set_point(const std::string& text, const std::string& path, const std
 TextChange insert_point(const std::string& text, const std::string& path, const std::string& place, std::size_t index, double x_mm, double y_mm) {
   require_number(path, x_mm);
   require_number(path, y_mm);
-  const Reading r(text, path);
+  const ReadToml r(text, path);
   const toml::array& list = r.list(place);
   if (list.empty() || index > list.size()) r.fail(list, "'" + place + "' has no place " + std::to_string(index) + " for a point");
   // parted as its neighbours are, unless a comment stands between them
@@ -270,7 +270,7 @@ TextChange insert_point(const std::string& text, const std::string& path, const 
 }
 
 TextChange remove_point(const std::string& text, const std::string& path, const std::string& place, std::size_t index) {
-  const Reading r(text, path);
+  const ReadToml r(text, path);
   const toml::array& list = r.list(place);
   if (index >= list.size() || list.size() < 2) r.fail(list, "'" + place + "' has no point " + std::to_string(index) + " to spare");
   std::size_t begin = r.begin_of(list[index]), end = r.end_of(list[index]);
@@ -291,7 +291,7 @@ TextChange remove_point(const std::string& text, const std::string& path, const 
   }
   TextChange change{begin, text.substr(begin, end - begin), ""};
   const std::string changed = with_change(text, change);
-  if (Reading(changed, path).list(place).size() + 1 != list.size()) r.fail(list[index], "the point could not be taken out");
+  if (ReadToml(changed, path).list(place).size() + 1 != list.size()) r.fail(list[index], "the point could not be taken out");
   return change;
 }
 

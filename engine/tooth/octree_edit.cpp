@@ -83,15 +83,18 @@ void Octree::apply_in(std::uint32_t& ref, int level, IVec3 low, std::uint32_t pl
 
 void Octree::store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, std::vector<RemovedLeaf>& removed) noexcept {
   const auto before = labels_of(ref);
-  const bool same = before.mask != 0 && std::equal(brick.tissue.begin(), brick.tissue.end(), before.first);
-  for (int block = 0; block < 8 && !same; ++block)
-    for (const int inner : k_leaf_of_block) {
-      const int i = first_of_block(block) + inner;
-      const std::uint8_t tissue = before.first[i & before.mask];
-      if (tissue == brick.tissue[static_cast<std::size_t>(i)]) continue;
+  for (int block = 0; block < 8; ++block) {
+    const std::uint64_t were = before.mask == 0 ? k_each_byte * before.first[0] : bytes_of_block(before.first, block);
+    std::uint64_t differ = were ^ bytes_of_block(brick.tissue.data(), block);
+    while (differ != 0) {
+      const int at = std::countr_zero(differ) & ~7;  // bits before the first leaf that differs
+      differ &= ~(std::uint64_t{0xff} << at);
+      const int i = first_of_block(block) + k_leaf_of_block[static_cast<std::size_t>(at / 8)];
       const IVec3 leaf = low + IVec3{i & 3, i >> 2 & 3, i >> 4};
-      removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z), tissue, 0});
+      removed.push_back({static_cast<std::int16_t>(leaf.x), static_cast<std::int16_t>(leaf.y), static_cast<std::int16_t>(leaf.z),
+                         static_cast<std::uint8_t>(were >> at), 0});
     }
+  }
   const std::uint64_t key = static_cast<std::uint64_t>(low.x) | static_cast<std::uint64_t>(low.y) << 16 | static_cast<std::uint64_t>(low.z) << 32;
   edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
   if (!marks_.empty()) marks_[mark_of(low)] = edit_hash_;

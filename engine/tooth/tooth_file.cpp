@@ -51,13 +51,13 @@ Tooth read_all_but_octree(ByteReader& in) {
 
 /// A zstd frame of `size` bytes, unpacked step by step: a size that is only claimed takes no memory.
 Bytes unpack(std::span<const std::uint8_t> packed, std::uint64_t size, const ByteReader& in) {
-  constexpr std::size_t k_step = 1 << 20;
+  constexpr std::size_t k_portion = 1 << 20;
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
   Bytes out;
   ZSTD_inBuffer from{packed.data(), packed.size(), 0};
   for (std::size_t more = 1; more != 0;) {
     const std::size_t had = out.size();
-    out.resize(had + std::min<std::uint64_t>(k_step, size - had));
+    out.resize(had + std::min<std::uint64_t>(k_portion, size - had));
     ZSTD_outBuffer to{out.data() + had, out.size() - had, 0};
     more = ZSTD_decompressStream(stream.get(), &to, &from);
     out.resize(had + to.pos);

@@ -1,5 +1,5 @@
 // The blind test of `cavum explain`: hides effects in recordings, asks the program, and compares afterwards.
-//   blind CAVUM --sample           what fits in --minutes (4), mixed evenly; fails where rates are worse than promised or than measured before
+//   blind CAVUM --sample           what fits in --minutes (2), mixed evenly; fails where rates are worse than promised or than measured before
 //   blind CAVUM --table            at least --draws (10) draws of each mechanism at sizes 1.0 and 0.35, and everything else
 //   blind CAVUM --table --only-simpler   the simpler methods alone, without asking the program
 //   blind CAVUM --case KIND NAME[,NAME] SIZE QUANTUM SEED [--keep DIR]   one recording again
@@ -187,7 +187,7 @@ Options parse(int argc, char** argv) {
       return argv[i];
     };
     if (a == "--sample")
-      o.minutes = 4.0;
+      o.minutes = 2.0;
     else if (a == "--table")
       o.table = true;
     else if (a == "--only-simpler")

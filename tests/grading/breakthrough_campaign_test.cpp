@@ -216,12 +216,12 @@ int sessions(int usual) {
 
 TEST(BreakthroughCampaign, FindsPerforationsAmongLookAlikes) {
   const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.FindsPerforationsAmongLookAlikes");
-  judge(run_sessions(seed, sessions(600), Drawn::usual), {0.01, 0.01, 150}, "detector_roc.svg");
+  judge(run_sessions(seed, sessions(500), Drawn::usual), {0.01, 0.01, 150}, "detector_roc.svg");
 }
 
 TEST(BreakthroughCampaign, HoldsOnDrawsThatNoSettingWasTunedOn) {
   const std::uint64_t seed = testing_engine::drawn_seed("BreakthroughCampaign.HoldsOnDrawsThatNoSettingWasTunedOn");
-  judge(run_sessions(seed, sessions(250), Drawn::shifted), {0.03, 0.013, 300}, nullptr);
+  judge(run_sessions(seed, sessions(120), Drawn::shifted), {0.03, 0.013, 300}, nullptr);
 }
 
 }  // namespace

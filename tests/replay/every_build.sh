@@ -9,7 +9,7 @@ shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
-for sitting in perforator:class_2 novice:class_1 expert:slot; do
+for sitting in perforator:class_2 novice:slot expert:cross; do
   "$cavum" exam "$source/data/scenarios/${sitting#*:}.toml" --candidate replay --operator "${sitting%:*}" --out "$work/${sitting%:*}.cavum" --quiet >/dev/null
 done
 cp "$source"/tests/replay/sessions/*.cavum "$work/"

@@ -97,17 +97,16 @@ TEST_F(CommandLine, AMisspeltTissueOrPointIsFoundBeforeAnyExam) {
   }
 }
 
-TEST_F(CommandLine, EveryTemplateIsSolvedByTheExpertInAboutTheTimeThatCheckSays) {
-  for (const auto& [tooth, task] : {std::pair<std::string, std::string>{"block", "class_1"},
-                                    {"block", "slot"},
-                                    {"block", "cross"},
-                                    {"molar", "class_1"},
-                                    {"molar", "class_2"},
-                                    {"molar", "slot"},
-                                    {"molar", "access"},
-                                    {"premolar", "access"},
-                                    {"incisor", "access"},
-                                    {"carious_molar", "lesion"}}) {
+// Four of them, drawn anew each run: a solution takes up to twenty seconds.
+TEST_F(CommandLine, TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays) {
+  Random random(testing_basics::drawn_seed("CommandLine.TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays"));
+  std::vector<std::pair<std::string, std::string>> templates{
+      {"block", "class_1"}, {"block", "slot"},   {"block", "cross"},     {"molar", "class_1"},  {"molar", "class_2"},
+      {"molar", "slot"},    {"molar", "access"}, {"premolar", "access"}, {"incisor", "access"}, {"carious_molar", "lesion"}};
+  for (int left = 4; left > 0; --left) {
+    const std::size_t chosen = random.below(templates.size());
+    const auto [tooth, task] = templates[chosen];
+    templates.erase(templates.begin() + static_cast<std::ptrdiff_t>(chosen));
     const std::string file = path(tooth + task + ".toml");
     ASSERT_EQ(run("scenario new --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);
     const Ran check = run("scenario check " + file + " --json");
