@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # every_build.sh CAVUM SOURCE_DIR REPLAYER...
-# Records three simulated candidates at three tasks with CAVUM, takes the recorded exams in tests/replay/sessions too, and
+# Records two simulated candidates at two tasks with CAVUM, takes the recorded exams in tests/replay/sessions too, and
 # lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All must verify and
 # print the same lines.
 set -euo pipefail
@@ -9,7 +9,7 @@ shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
-for sitting in perforator:class_2 novice:slot expert:cross; do
+for sitting in perforator:class_1 novice:slot; do
   "$cavum" exam "$source/data/scenarios/${sitting#*:}.toml" --candidate replay --operator "${sitting%:*}" --out "$work/${sitting%:*}.cavum" --quiet >/dev/null
 done
 cp "$source"/tests/replay/sessions/*.cavum "$work/"
