@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <set>
 #include <unsupported/Eigen/FFT>
 
@@ -10,20 +11,19 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_lowest_hz = 1.0;  // below, other mechanisms are slow enough to look like a line
-constexpr double k_two_pi = 6.283185307179586;
 
 /// Power at `hz`, summed over the sessions, each with a phase of its own.
 double power_at(const Recording& r, const Series& z, double hz) {
   double power = 0.0;
   for (const auto& s : r.sessions) {
     std::complex<double> sum = 0.0;
-    std::complex<double> turn = std::polar(1.0, -k_two_pi * std::fmod(hz * r.t_s[s.begin], 1.0)), step = 1.0;
+    std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * std::fmod(hz * r.t_s[s.begin], 1.0)), step = 1.0;
     double dt = -1.0;
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
       sum += z[i] * turn;
       if (i + 1 == s.end) break;
       const double now = r.t_s[i + 1] - r.t_s[i];
-      if (std::fabs(now - dt) > 1e-9) step = std::polar(1.0, -k_two_pi * hz * now), dt = now;
+      if (std::fabs(now - dt) > 1e-9) step = std::polar(1.0, -2 * std::numbers::pi * hz * now), dt = now;
       turn *= step;
     }
     power += std::norm(sum);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -10,7 +11,6 @@ namespace cavum::explain {
 namespace {
 
 constexpr int k_knots = 6;  // of a curve
-constexpr double k_two_pi = 6.283185307179586;
 constexpr double k_lags_s[] = {0.1, 0.3, 1.0, 3.0};
 
 /// The residual and what is already in the model, whitened.
@@ -138,7 +138,7 @@ void ripple(const Left& l, const Series& x, Structure& best) {
     double most = 0.0, best_f = 0.0;
     for (double f = 2.0 / range; f < 1.0 / finest; f += 0.2 / range) {
       double re = 0.0, im = 0.0, c = 1.0, d = 0.0;
-      const double step = k_two_pi * f * range / (k_bins - 1), sc = std::cos(step), ss = std::sin(step);
+      const double step = 2 * std::numbers::pi * f * range / (k_bins - 1), sc = std::cos(step), ss = std::sin(step);
       for (const double b : bins) {
         re += b * c;
         im += b * d;
@@ -149,7 +149,7 @@ void ripple(const Left& l, const Series& x, Structure& best) {
       if (re * re + im * im > most) most = re * re + im * im, best_f = f;
     }
     if (best_f == 0.0) continue;
-    Series in = (x * (k_two_pi * best_f)).sin(), quad = (x * (k_two_pi * best_f)).cos();
+    Series in = (x * (2 * std::numbers::pi * best_f)).sin(), quad = (x * (2 * std::numbers::pi * best_f)).cos();
     if (contact) in *= s.active, quad *= s.active;
     keep(best, gain_of(l, {in, quad}), 3, "a ripple of " + std::to_string(1.0 / best_f).substr(0, 6) + " mm in position");
   }

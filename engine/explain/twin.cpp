@@ -1,6 +1,7 @@
 #include "engine/explain/twin.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "engine/base/random.h"
 #include "engine/explain/holds.h"
@@ -8,14 +9,12 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_two_pi = 6.283185307179586;
-
 /// A smooth random function of the way travelled, standard deviation 1, waves of 0.7 to 6 mm: slow against the motion, so
 /// that the speed changes by a few percent at most, and new at every hold that is reached anew.
 class Wander {
  public:
   explicit Wander(Random& random) {
-    for (auto& w : waves_) w = {k_two_pi / (0.7 * std::exp(random.uniform(0.0, 2.15))), random.uniform(0.0, k_two_pi)};
+    for (auto& w : waves_) w = {2 * std::numbers::pi / (0.7 * std::exp(random.uniform(0.0, 2.15))), random.uniform(0.0, 2 * std::numbers::pi)};
   }
   [[nodiscard]] double at(double way_mm) const {
     double sum = 0.0;
