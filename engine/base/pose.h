@@ -18,6 +18,7 @@ struct Mat3 {
   [[nodiscard]] constexpr Vec3 operator*(Vec3 v) const noexcept { return {dot(row_x, v), dot(row_y, v), dot(row_z, v)}; }
   /// The inverse rotation applied to `v`.
   [[nodiscard]] constexpr Vec3 transposed(Vec3 v) const noexcept { return row_x * v.x + row_y * v.y + row_z * v.z; }
+  friend constexpr bool operator==(const Mat3&, const Mat3&) = default;
 };
 
 [[nodiscard]] inline Quat normalized(Quat q) noexcept {

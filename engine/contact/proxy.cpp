@@ -8,7 +8,7 @@ namespace {
 
 constexpr int k_max_steps = 12;          // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
-constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.0009, k_late_means_leaves = 0.05;
+constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.001, k_late_means_leaves = 0.05;
 constexpr double k_linear_leaves = 0.3, k_linear_mm = 0.0135;  // so far, or that far, a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
 constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
@@ -24,6 +24,9 @@ constexpr std::size_t k_refined_room = 32;
 // gathers anew each time. So a step back makes the stride shorter, and the search ends for this tick once more places than that were looked up,
 // sooner after a second step back: the proxy goes on in the next tick. The last gathering comes on top (some 450 places in a deep hole).
 constexpr int k_most_looked_up = 1200, k_most_going_back = 300;
+constexpr int k_all_places = 1 << 30;
+constexpr int k_part_looked_up = 140;              // places of a gathering that is spread over ticks, in each of them
+constexpr double k_aside_leaves = 0.1;             // the proxy takes an opened way while it lies no further beside it
 constexpr double k_resting_stride = 0.05;          // leaves: the shortest stride
 constexpr double k_shorter = 0.4, k_longer = 1.5;  // a stride after a step back, and after one onwards
 
@@ -53,8 +56,13 @@ void reset(ContactState& state, const ContactTool& tool, int point) noexcept {
   std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), -1.0);
-  state.gathered_turned_rad = -1.0;
+  state.gathered.turned_rad = -1.0;
+  state.catching_up = false;
+  state.opened = {};
 }
+
+/// So far from where they were gathered half spaces stand in for the surface.
+double linear_mm(double leaf_mm) noexcept { return std::max(k_linear_leaves * leaf_mm, k_linear_mm); }
 
 /// Room before a surface at `distance_mm`, as half spaces state it.
 double slack_mm(double distance_mm, double leaf_mm) noexcept {
@@ -62,74 +70,126 @@ double slack_mm(double distance_mm, double leaf_mm) noexcept {
   return std::max(std::min(distance_mm + k_dead_leaves * leaf_mm, 0.0), -k_deepest_leaves * leaf_mm);
 }
 
-/// Collects a half space for each sample that a step of `reach_mm` could bring into contact.
-void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state) noexcept {
-  const double leaf = tooth.leaf_mm(), linear_mm = std::max(k_linear_leaves * leaf, k_linear_mm);
-  const double moved_mm = length(state.proxy_mm - state.gathered_mm);
-  if (state.gathered_turned_rad == state.turned_rad && state.gathered_edit == tooth.edit_hash() && moved_mm <= linear_mm &&
-      state.gathered_reach_mm >= reach_mm + moved_mm)
-    return;
+/// Begins to gather half spaces about a place, for steps of `reach_mm` and small moves.
+void begin_gathering(const Octree& tooth, Vec3 at_mm, double reach_mm, const ContactState& state, GatheredContact& g) noexcept {
   constexpr double k_gather_leaves = 1.1;  // what touches where the surface will recede to is wanted, too
-  reach_mm = std::max(reach_mm, k_gather_leaves * leaf) + linear_mm;
-  state.gathered_mm = state.proxy_mm;
-  state.gathered_turned_rad = state.turned_rad;
-  state.gathered_edit = tooth.edit_hash();
-  state.gathered_reach_mm = reach_mm;
-  state.half_spaces.clear();
-  state.gathered_samples.clear();
-  state.active = {};
-  for (std::size_t p = 0; p < tool.patches.size(); ++p) {
-    const auto& patch = tool.patches[p];
-    const double travel = travel_mm(state, patch.lever_mm);
-    if (travel + reach_mm <= state.patch_clear_until_mm[p]) continue;
-    if (travel > state.patch_near_until_mm[p]) {
-      constexpr double k_margin_mm = 0.5;
-      const double r = patch.radius_mm + k_margin_mm;
-      const Vec3 middle = state.proxy_mm + state.rotation * patch.centre_mm;
-      if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {
-        state.patch_clear_until_mm[p] = travel + k_margin_mm;
-        continue;
-      }
-      state.patch_near_until_mm[p] = travel + k_stays_near_mm;
-    }
-    for (std::uint32_t i = patch.first; i < patch.last; ++i) {
-      if (travel + reach_mm <= state.sample_clear_until_mm[i]) continue;
-      const auto s = tooth.sample(state.proxy_mm + state.rotation * tool.samples[i].at_mm, state.cursor);
-      ++state.looked_up;
-      state.sample_clear_until_mm[i] = travel + s.distance_mm;
-      if (s.distance_mm > reach_mm) continue;
-      if (dot(s.gradient, s.gradient) < 1e-3) continue;  // no direction out: neighbours speak
-      state.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf)});
-      state.gathered_samples.push_back(i);
-    }
-  }
+  const double leaf = tooth.leaf_mm();
+  g.at_mm = at_mm;
+  g.turned_rad = state.turned_rad;
+  g.edit = tooth.edit_hash();
+  g.reach_mm = std::max(reach_mm, k_gather_leaves * leaf) + linear_mm(leaf);
+  g.half_spaces.clear();
+  g.samples.clear();
+  g.next_patch = g.next_sample = 0;
 }
 
-/// The step from `gathered_mm` nearest to the wanted one. Samples alone would let the head sink in between them: where it
+/// Goes on to collect a half space for each sample that a step could bring into contact; true when all have been asked, false after `most` places.
+bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, ContactState& state, GatheredContact& g) noexcept {
+  const double leaf = tooth.leaf_mm(), off_mm = length(g.at_mm - state.proxy_mm);
+  const int last_looked_up = state.looked_up + most;
+  for (; g.next_patch < tool.patches.size(); ++g.next_patch) {
+    const auto& patch = tool.patches[g.next_patch];
+    const double travel = travel_mm(state, patch.lever_mm), far_mm = travel + g.reach_mm + off_mm;
+    if (far_mm <= state.patch_clear_until_mm[g.next_patch]) continue;
+    if (travel + off_mm > state.patch_near_until_mm[g.next_patch]) {
+      constexpr double k_margin_mm = 0.5;
+      const double r = patch.radius_mm + k_margin_mm;
+      const Vec3 middle = g.at_mm + state.rotation * patch.centre_mm;
+      if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {
+        state.patch_clear_until_mm[g.next_patch] = travel + k_margin_mm - off_mm;
+        continue;
+      }
+      state.patch_near_until_mm[g.next_patch] = travel + k_stays_near_mm;
+    }
+    for (std::uint32_t i = std::max(g.next_sample, patch.first); i < patch.last; ++i) {
+      if (far_mm <= state.sample_clear_until_mm[i]) continue;
+      if (state.looked_up >= last_looked_up) {
+        g.next_sample = i;
+        return false;
+      }
+      const auto s = tooth.sample(g.at_mm + state.rotation * tool.samples[i].at_mm, state.cursor);
+      ++state.looked_up;
+      state.sample_clear_until_mm[i] = travel + s.distance_mm - off_mm;
+      if (s.distance_mm > g.reach_mm) continue;
+      if (dot(s.gradient, s.gradient) < 1e-3) continue;  // no direction out: neighbours speak
+      g.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf)});
+      g.samples.push_back(i);
+    }
+  }
+  return true;
+}
+
+/// Makes sure that the half spaces in force are good for a step of `reach_mm` from where the proxy is.
+void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state) noexcept {
+  GatheredContact& g = state.gathered;
+  const double moved_mm = length(state.proxy_mm - g.at_mm);
+  if (g.turned_rad == state.turned_rad && (g.edit == tooth.edit_hash() || state.catching_up) && moved_mm <= linear_mm(tooth.leaf_mm()) &&
+      g.reach_mm >= reach_mm + moved_mm)
+    return;
+  begin_gathering(tooth, state.proxy_mm, reach_mm, state, g);
+  (void)go_on_gathering(tooth, tool, k_all_places, state, g);
+  state.active = {};
+  state.catching_up = false;
+}
+
+/// How far the opened place lies ahead of the proxy, mm; 0 when the proxy cannot simply take it: it has gone elsewhere, or the device is not that far.
+double opened_way_mm(const OpenedPlace& opened, Vec3 device_mm, double leaf_mm, const ContactState& state) noexcept {
+  if (opened.turned_rad != state.turned_rad) return 0.0;
+  const Vec3 way = opened.tip_mm - state.proxy_mm;
+  const double ahead_mm = -dot(way, state.normal);
+  const bool beyond = ahead_mm <= 0.0 || ahead_mm > dot(state.proxy_mm - device_mm, state.normal);
+  return beyond || length(way + state.normal * ahead_mm) > k_aside_leaves * leaf_mm ? 0.0 : ahead_mm;
+}
+
+/// After a carve: gathers anew a part in each tick, and then follows.
+void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, double reach_mm, ContactState& state) noexcept {
+  if (!state.touching || state.gathered.edit == tooth.edit_hash() || state.gathered.turned_rad != state.turned_rad) {
+    state.catching_up = false;
+    return;
+  }
+  GatheredContact& coming = state.coming;
+  const double leaf = tooth.leaf_mm();
+  if (!state.catching_up) {
+    begin_gathering(tooth, opened_way_mm(state.opened, device_mm, leaf, state) > 0.0 ? state.opened.tip_mm : state.proxy_mm, reach_mm, state, coming);
+    state.catching_up = true;
+  }
+  if (!go_on_gathering(tooth, tool, k_part_looked_up, state, coming)) return;
+  state.catching_up = false;
+  std::swap(state.gathered, state.coming);
+  state.active = {};
+  const double way_mm = opened_way_mm(state.opened, device_mm, leaf, state);
+  if (way_mm > 0.0 && state.gathered.at_mm == state.opened.tip_mm) {
+    state.moved_mm += length(state.opened.tip_mm - state.proxy_mm);
+    state.proxy_mm = state.opened.tip_mm;
+  }
+  state.opened = {};
+}
+
+/// The step from `gathered.at_mm` nearest to the wanted one. Samples alone would let the head sink in between them: where it
 /// rests, the head's own furthest place against the surface is asked too, and becomes a half space if it enters the tissue.
 HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wanted, double stride_mm, ContactState& state) noexcept {
-  auto solution = nearest_step(wanted, state.half_spaces, state.active);
+  auto solution = nearest_step(wanted, state.gathered.half_spaces, state.active);
   const double leaf = tooth.leaf_mm();
-  const Vec3 since = state.proxy_mm - state.gathered_mm;
+  const Vec3 since = state.proxy_mm - state.gathered.at_mm;
   for (int round = 0; round < k_refinements && solution.feasible && solution.active.count > 0; ++round) {
     const Vec3 way = solution.step - since;
     const double way_mm = length(way);
     const Vec3 there = way_mm > stride_mm ? since + way * (stride_mm / way_mm) : solution.step;
     bool refined = false;
     for (int i = 0; i < solution.active.count; ++i) {
-      const Vec3 normal = normalized(state.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
+      const Vec3 normal = normalized(state.gathered.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
       const Vec3 furthest = tool.furthest_along(state.rotation.transposed(-normal));
-      const auto s = tooth.sample(state.gathered_mm + there + state.rotation * furthest, state.cursor);
+      const auto s = tooth.sample(state.gathered.at_mm + there + state.rotation * furthest, state.cursor);
       if (s.distance_mm >= -k_dead_leaves * leaf || dot(s.gradient, s.gradient) < 1e-3) continue;
-      if (state.half_spaces.size() >= state.gathered_samples.size() + k_refined_room) {  // begin anew; the active ones go with them
-        state.half_spaces.resize(state.gathered_samples.size());
+      if (state.gathered.half_spaces.size() >= state.gathered.samples.size() + k_refined_room) {  // begin anew; the active ones go with them
+        state.gathered.half_spaces.resize(state.gathered.samples.size());
         solution.active.count = 0;
       }
-      state.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, there)});
+      state.gathered.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, there)});
       refined = true;
     }
     if (!refined) break;
-    solution = nearest_step(wanted, state.half_spaces, solution.active);
+    solution = nearest_step(wanted, state.gathered.half_spaces, solution.active);
   }
   state.active = solution.active;
   return solution;
@@ -169,8 +229,10 @@ ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first
   state.patch_clear_until_mm.assign(patches, -1.0);
   state.patch_near_until_mm.assign(patches, -1.0);
   state.counted.assign(samples, 0);
-  state.gathered_samples.reserve(samples);
-  state.half_spaces.reserve(samples + k_refined_room);
+  for (GatheredContact* g : {&state.gathered, &state.coming}) {
+    g->samples.reserve(samples);
+    g->half_spaces.reserve(samples + k_refined_room);
+  }
   return state;
 }
 
@@ -204,18 +266,19 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
     if (!state.touching) stride = leaf;
     bool strode = false;
     int times_back = 0;
+    catch_up(tooth, tool, device.tip_mm, std::min(way_mm, stride) + 0.02 * leaf, state);
     for (int i = 0; i < k_max_steps; ++i) {
       const Vec3 rest = device.tip_mm - state.proxy_mm;
       const double rest_mm = length(rest);
       gather(tooth, tool, std::min(rest_mm, stride) + 0.02 * leaf, state);
       // The whole way is projected, and what is left of it shortened: a deep push must not hold back a slide.
       // The half spaces stand about the place where they were gathered: so do the steps.
-      const Vec3 since = state.proxy_mm - state.gathered_mm;
+      const Vec3 since = state.proxy_mm - state.gathered.at_mm;
       auto solution = solve(tooth, tool, since + rest, stride, state);
       if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
-        for (auto& h : state.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
-        state.gathered_turned_rad = -1.0;
-        solution = nearest_step(since + rest, state.half_spaces);
+        for (auto& h : state.gathered.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
+        state.gathered.turned_rad = -1.0;
+        solution = nearest_step(since + rest, state.gathered.half_spaces);
       }
       solution.step -= since;
       Vec3 stepped = solution.feasible ? solution.step : Vec3{};
@@ -268,24 +331,24 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
   const double same_mm = std::max(k_same_means_leaves * leaf, k_same_means_mm);
   if (state.means_turned_rad == state.turned_rad && dot(swung, swung) < k_same_normal2) {
     const double moved2 = dot(moved, moved), late_mm = k_late_means_leaves * leaf;
-    if (state.means_edit == tooth.edit_hash() && moved2 < same_mm * same_mm) return state.means;
-    // After a carve everything is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
-    // stood: what it touches may be looked up in the next tick.
-    if (state.looked_up > 0 && !state.means_late && moved2 < late_mm * late_mm) {
-      state.means_late = true;
+    if (state.means_edit == state.gathered.edit && moved2 < same_mm * same_mm) return state.means;
+    // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
+    // stood: what it touches may be looked up when that is done.
+    if ((state.catching_up || (state.looked_up > 0 && !state.means_late)) && moved2 < late_mm * late_mm) {
+      state.means_late = !state.catching_up;
       return state.means;
     }
   }
   state.means_late = false;
   state.means_turned_rad = state.turned_rad;
   state.means_tip_mm = tip;
-  state.means_edit = tooth.edit_hash();
+  state.means_edit = state.gathered.edit;
   state.means_normal = state.normal;
   TouchedMeans& means = state.means;
   means = {};
-  state.looked_up += static_cast<int>(state.gathered_samples.size());
+  state.looked_up += static_cast<int>(state.gathered.samples.size());
   const double touch_mm = k_touch_leaves * leaf, fade_mm = k_fade_leaves * leaf;
-  const Vec3 ahead = state.normal * (-k_ahead_leaves * leaf), close = state.normal * (-0.1 * leaf), since = tip - state.gathered_mm;
+  const Vec3 ahead = state.normal * (-k_ahead_leaves * leaf), close = state.normal * (-0.1 * leaf), since = tip - state.gathered.at_mm;
   const std::uint32_t head_end = tool.patches[tool.head_patches - 1].last;
   double cut_area = 0.0, solid_area = 0.0, void_area = 0.0;
   TissueConstants solid_mean, void_mean;
@@ -323,14 +386,14 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
   std::fill_n(state.counted.begin(), head_end, std::uint8_t{0});
   std::size_t patch = 0;
   bool near = void_near(tool.patches[patch]);
-  for (std::size_t n = 0; n < state.gathered_samples.size(); ++n) {
-    const std::uint32_t i = state.gathered_samples[n];
+  for (std::size_t n = 0; n < state.gathered.samples.size(); ++n) {
+    const std::uint32_t i = state.gathered.samples[n];
     while (i >= tool.patches[patch].last) near = void_near(tool.patches[++patch]);  // samples stand in the order of their patches
     const auto& s = tool.samples[i];
     const bool head = i < head_end;
     if (head) state.counted[i] = 1;
     const double seen = -dot(state.rotation * s.normal, state.normal);
-    const auto& h = state.half_spaces[n];
+    const auto& h = state.gathered.half_spaces[n];
     if (seen > 0.0) count(tip + state.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head, near);
   }
   if (state.touching) {  // a fine tip may touch between its samples: the furthest place counts a little, and alone if need be

@@ -27,6 +27,23 @@ struct TouchedMeans {
   bool void_tissue = false;  ///< pulp or another void tissue lies before the head
 };
 
+/// Half spaces about a place of the proxy: good for small moves of a tool that does not turn. Cutting only takes tissue away, so that
+/// those from before a carve still hold, though they allow less.
+struct GatheredContact {
+  ReservedVector<HalfSpace> half_spaces;  ///< one of each near sample, then refined ones
+  ReservedVector<std::uint32_t> samples;  ///< of the first half spaces
+  Vec3 at_mm;
+  double turned_rad = -1.0, reach_mm = 0.0;
+  std::uint64_t edit = 0;                                     ///< edit hash of the tooth that they are about
+  std::uint32_t next_patch = 0, next_sample = 0;  ///< of the tool, while they are being gathered
+};
+
+/// Where the last carve made room for the head, as the tool was turned then.
+struct OpenedPlace {
+  Vec3 tip_mm;
+  double turned_rad = -1.0;  ///< ContactState::turned_rad then; -1 = there is none
+};
+
 /// Memory of the contact: the proxy, and how far each patch and sample may travel through free air that is known already.
 /// Travel is an upper bound of the way of a part of the tool: what the tip moved, and what the tool turned times the part's lever.
 struct ContactState {
@@ -40,17 +57,15 @@ struct ContactState {
   Vec3 last_step_mm;
   double tool_air_until_mm = 0.0, tool_near_until_mm = 0.0;
   std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;
-  ReservedVector<HalfSpace> half_spaces;           ///< about `gathered_mm`: one of each near sample, then refined ones
-  ReservedVector<std::uint32_t> gathered_samples;  ///< samples of the first half spaces
-  ActiveSet active;                                ///< half spaces that held the last step
-  Vec3 gathered_mm;                                ///< proxy when they were gathered; good for small moves of an unturned tool in an unchanged tooth
-  double gathered_turned_rad = -1.0, gathered_reach_mm = 0.0;
-  std::uint64_t gathered_edit = 0;
+  GatheredContact gathered, coming;  ///< those in force, and those that a few ticks gather after a carve
+  bool catching_up = false;          ///< the latter are being gathered
+  OpenedPlace opened;                ///< set by whoever carves
+  ActiveSet active;                  ///< half spaces that held the last step
   TouchedMeans means;  ///< as long as neither tool, tooth nor normal changed much
   double means_turned_rad = -1.0;
-  std::uint64_t means_edit = 0;
+  std::uint64_t means_edit = 0;  ///< of the half spaces that they were taken from
   Vec3 means_tip_mm, means_normal;
-  bool means_late = false;            ///< they are those of the tick before
+  bool means_late = false;            ///< they have waited for what was gathered in the tick before
   int looked_up = 0;                  ///< places of the tooth that this tick asked for: what contact has cost
   std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with
   Octree::Cursor cursor;
@@ -69,6 +84,8 @@ struct ContactResult {
 
 /// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. A step that leads back the way the one before came
 /// shortens the stride; a tick with two of them ends early, and the proxy goes on in the next.
+/// After a carve what touches is gathered anew over a few ticks; then the proxy takes the way that was opened at once. Until then the half spaces
+/// from before hold it: `state.gathered.edit` says which tooth it has followed.
 /// Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 

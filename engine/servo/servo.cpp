@@ -9,13 +9,17 @@
 namespace cavum {
 namespace {
 
-constexpr double k_least_step_mm = 0.0125;             // of recession between two carves,
-constexpr double k_carve_step_leaves = 0.25;           // recession is gathered up to this before the octree is edited
+// Recession is gathered up to a step before the octree is edited: a leaf of 0.025 mm at once, a quarter of a coarse one. A tool that slides
+// is carved after half of it, for the surface it leaves behind is the one it felt; before void tissue a quarter, so that its first leaf goes in time;
+// and what a tool still owes as it lifts off is carved where it last was, or many short touches would cut nothing.
+constexpr double k_least_step_mm = 0.025, k_carve_step_leaves = 0.25;
+constexpr double k_slide_mm = 0.1, k_slide_share = 0.5, k_void_share = 0.25, k_lift_share = 0.04;
 constexpr double k_sweep_step_leaves = 1.0;            // way through void tissue between two carves
 constexpr double k_clamped_steps = 2.0;                // recession owed by a head that is clamped in its hole
 constexpr double k_most_steps = 4.0;                   // more recession is never owed
 constexpr double k_ease = 0.1;                         // of that recession
-constexpr int k_tick_work = 2100, k_least_work = 400;  // units (15 ns each) a tick for a carve under way
+constexpr int k_tick_work = 800, k_least_work = 400;  // units (15 ns each) a tick for a carve under way
+constexpr int k_busy_looked_up = 150;                  // places: after more of them a carve waits for the next tick
 constexpr int k_lookup_work = 4;                       // of them, that a place looked up by the contact costs
 constexpr double k_still_share = 0.01;                 // of the full speed: below it the handpiece stands still
 constexpr std::size_t k_edit_room = 1 << 17;           // bricks; untouched room costs no memory
@@ -40,31 +44,50 @@ double next_rpm(const ServoConfig& config, double rpm, const TickInput& input) n
 /// Sine and cosine of twice the angle from z towards x, times the square of the normal's part in that plane: no jump where it leaves it.
 SinCos approach_of(Vec3 normal) noexcept { return {2.0 * normal.x * normal.z, normal.z * normal.z - normal.x * normal.x}; }
 
+/// Recession between two carves, mm.
+double carve_step_mm(double leaf_mm) noexcept { return std::max(k_carve_step_leaves * leaf_mm, k_least_step_mm); }
+
 /// Goes on with the carve under way.
 void carve(const ServoModel& model, ServoState& state, int work, TickOutput& out) noexcept {
-  const auto& head = model.tray[static_cast<std::size_t>(state.carving.now.point)].point;
-  if (go_on_carving(state.carving, state.tooth, head, work, state.removed) == CarvingStep::no_room) out.notices |= k_notice_tooth_full;
+  const CarvedHead head = state.carving.now;
+  const auto done = go_on_carving(state.carving, state.tooth, model.tray[static_cast<std::size_t>(head.point)].point, work, state.removed);
+  if (done == CarvingStep::no_room) out.notices |= k_notice_tooth_full;
+  if (done == CarvingStep::done) state.contact.opened = {head.tip_mm, head.rotation == state.contact.rotation ? state.contact.turned_rad : -1.0};
+}
+
+/// What a tool that lifts off still owes is carved where it was.
+void carve_what_is_owed(ServoState& state, const CarvedHead& last_touch, Vec3 normal) noexcept {
+  if (last_touch.point < 0 || state.recession_mm < k_lift_share * carve_step_mm(state.tooth.leaf_mm())) return;
+  begin_carving(state.carving, {last_touch.tip_mm - normal * state.recession_mm, last_touch.rotation, last_touch.point}, 0.0);
+  state.carve_began_mm = 0.0;
+  state.swept_mm = 0.0;
 }
 
 /// Lets the surface recede and carves when enough has gathered.
 void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, const ContactResult& contact, const TouchedMeans& means,
          double penetration_mm, int input_point, TickOutput& out) noexcept {
-  const double leaf = state.tooth.leaf_mm(), step = std::max(k_carve_step_leaves * leaf, k_least_step_mm);
+  const double leaf = state.tooth.leaf_mm(), step = carve_step_mm(leaf);
+  state.swept_mm += length(contact.moved_mm);
+  const double due_mm = step * (means.void_tissue ? k_void_share : state.swept_mm >= k_slide_mm ? k_slide_share : 1.0);
   bool due = false;
   if (means.touching) {
     // v = X/τ · rpm/rpm_ref (slope 0.505 mm of the paper’s eq. 6 over 0.25 mm/s)
     state.recession_mm += penetration_mm * means.of.recession_per_s * (state.rpm / model.force.rpm_ref) * model.config.tick_s;
     state.recession_mm = std::min(state.recession_mm, k_most_steps * step);
-    due = state.recession_mm >= step;
+    due = state.recession_mm >= due_mm;
     out.cutting = means.of.recession_per_s > 0;
   }
-  state.swept_mm += length(contact.moved_mm);
   // Contact and carving share the time of a tick.
   const int work = std::max(k_tick_work - k_lookup_work * state.contact.looked_up, k_least_work);
   if (state.carving.under_way()) {
     // A carve may take its time as long as the next one is not due.
-    const bool late = state.recession_mm - state.carve_began_mm >= step || state.swept_mm >= k_sweep_step_leaves * leaf;
-    carve(model, state, late ? k_at_once : work, out);
+    const bool late = state.recession_mm - state.carve_began_mm >= due_mm || state.swept_mm >= k_sweep_step_leaves * leaf;
+    if (late && (means.touching || means.void_tissue)) {
+      carve(model, state, k_at_once, out);
+    } else {
+      state.carve_waits = !state.carve_waits && state.contact.looked_up > k_busy_looked_up;
+      if (!state.carve_waits) carve(model, state, work, out);
+    }
     return;
   }
   if (means.void_tissue && state.swept_mm >= k_sweep_step_leaves * leaf) due = true;
@@ -77,13 +100,14 @@ void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, co
   if (last.point == input_point) {
     const Vec3 top{0, 0, tool.point.cutting_length_mm};
     const Vec3 tip_way = at - last.tip_mm, top_way = tip_way + turned * top - last.rotation * top;
-    if (length(tip_way) + length(top_way) < step) return;
+    if (length(tip_way) + length(top_way) < due_mm) return;
   }
   // A recession that the proxy does not follow means a head clamped by the rounding between leaves: ease it by a few micrometres.
   begin_carving(state.carving, {at, turned, input_point}, ahead > k_clamped_steps * step ? k_ease * ahead : 0.0);
   state.carve_began_mm = state.recession_mm;
   state.swept_mm = 0.0;
-  carve(model, state, work, out);
+  state.carve_waits = state.contact.looked_up > k_busy_looked_up;
+  if (!state.carve_waits) carve(model, state, work, out);
 }
 
 }  // namespace
@@ -173,15 +197,18 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     const ContactTool& tool = model.tray[input.point];
     const Pose device{state.estimate.tip_mm, input.pose().rotation};
     const bool was_touching = state.contact.touching;
+    const CarvedHead last_touch{state.contact.proxy_mm, state.contact.rotation, state.contact.point};
+    const Vec3 last_normal = state.contact.normal;
     const ContactResult contact = update_contact(state.tooth, tool, input.point, device, state.contact);
     // What the proxy advanced along the contact when the tooth was carved is paid from the recession that was owed; so the surface
     // recedes at exactly v·dt, whatever the rounding of a single carve. A proxy that only slides pays nothing: its normal is within a
     // degree of the surface's, which over 2 mm would add up to half a leaf.
+    if (was_touching && !contact.touching) carve_what_is_owed(state, last_touch, last_normal);
     if (!contact.touching || !was_touching)
       state.recession_mm = 0.0;
-    else if (state.followed_edit != state.tooth.edit_hash())
+    else if (state.followed_edit != state.contact.gathered.edit)
       state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
-    if (!contact.on_its_way) state.followed_edit = state.tooth.edit_hash();
+    if (!contact.on_its_way) state.followed_edit = state.contact.gathered.edit;
     const TouchedMeans before = state.contact.means;
     TouchedMeans means = !contact.in_air && (contact.touching || state.rpm > 0)
                              ? touched_means(state.tooth, tool, model.voids, model.tissue.data(), std::max(0.0, state.recession_mm), state.contact)

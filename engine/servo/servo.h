@@ -21,7 +21,7 @@
 namespace cavum {
 
 /// The version of the physics: a recording replays bit for bit under the version that made it.
-inline constexpr int k_physics_version = 3;
+inline constexpr int k_physics_version = 4;
 
 /// Settings of the handpiece, the device and the tick. TOML text in a session: see `to_toml`.
 struct ServoConfig {
@@ -62,6 +62,7 @@ struct ServoState {
   std::uint64_t followed_edit = 0;  ///< edit hash of the tooth that the proxy has followed
   double swept_mm = 0.0;            ///< way of the head since the last carve began
   double carve_began_mm = 0.0;      ///< `recession_mm` when it began
+  bool carve_waits = false;         ///< contact needed this tick
   HeadCarving carving;
   std::uint64_t trace_hash = 0;         ///< over every output so far
   ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once

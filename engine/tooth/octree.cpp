@@ -24,6 +24,9 @@ Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
 }
 
 std::uint32_t Octree::canonical(const FullBrick& brick) {
+  unsigned near = 0;  // in a form that compilers turn into vectors: a carve asks this of hundreds of bricks
+  for (const int code : brick.distance) near |= static_cast<unsigned>(code != k_distance_far) & static_cast<unsigned>(code != -k_distance_far);
+  if (near != 0) return k_full_brick | bricks_.add(brick);
   bool one_tissue = true, far = true;
   for (std::size_t i = 0; i < k_brick_leaves; ++i) {
     one_tissue = one_tissue && brick.tissue[i] == brick.tissue[0];

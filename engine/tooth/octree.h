@@ -93,9 +93,9 @@ class Octree {
     };
     [[nodiscard]] static std::uint32_t key_of(IVec3 brick) noexcept { return static_cast<std::uint32_t>(brick.x | brick.y << 10 | brick.z << 20); }
     [[nodiscard]] static std::size_t place_of(IVec3 brick) noexcept {
-      return static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
+      return static_cast<std::size_t>((brick.x & 15) | (brick.y & 15) << 4 | (brick.z & 15) << 8);
     }
-    std::array<Entry, 512> entries_{};
+    std::array<Entry, 4096> entries_{};  // a head at a leaf of 0.025 mm spans some ten bricks each way
     std::uint64_t version_ = ~0ULL;
   };
   /// Trilinear distance and gradient at `mm`.
@@ -119,7 +119,8 @@ class Octree {
   /// and two leaves around it. Removed leaves are appended to `removed` up to its capacity, in a fixed order.
   /// The distance field is cut wider by `clearance_mm` than the labels: what interpolation between leaves rounds off
   /// would otherwise clamp a tool in the very hole it has cut.
-  /// `shape.unchanged(centre, radius)` may say true for a ball (mm) in which an earlier carve did all of it already.
+  /// `shape.unchanged(centre, radius)` may say true for a ball (mm) in which an earlier carve did all of it already,
+  /// `shape.brick(low_mm)` may answer for a whole brick: see KnowsBricks.
   /// Returns false, and leaves the rest untouched, when the reserved room or `removed` is full.
   template <class Shape>
   bool carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm = 0.0);
@@ -277,8 +278,8 @@ class Octree {
   void visit_cubes(std::uint32_t ref, int level, IVec3 low, const Visit& visit) const;
   template <class Shape>
   void plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t place, const Shape& shape, Planning& planning) const noexcept;
-  template <class Shape>
-  bool cut_brick(IVec3 low, unsigned near, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept;
+  template <class Shape, class Brick>
+  bool cut_brick(const Brick& in_shape, unsigned near, Planning& planning, FullBrick& brick) const noexcept;
   /// A number for each leaf of a block: a vector type, of which every compiler and machine makes the same.
   using EightCodes = std::int16_t __attribute__((vector_size(16)));
   [[nodiscard]] static EightCodes eight_of(const std::int16_t* numbers) noexcept {

@@ -99,9 +99,13 @@ void Octree::store_brick(std::uint32_t& ref, IVec3 low, const FullBrick& brick, 
   edit_hash_ = fast_hash(&brick, sizeof brick, edit_hash_ ^ key);
   if (!marks_.empty()) marks_[mark_of(low)] = edit_hash_;
   if ((ref & k_kind) == k_full_brick) {
-    const bool empty = std::all_of(brick.distance.begin(), brick.distance.end(), [](int code) { return code == k_distance_far; }) &&
-                       std::all_of(brick.tissue.begin(), brick.tissue.end(), [](int tissue) { return tissue == k_air; });
-    if (!empty) {
+    static const FullBrick air = [] {
+      FullBrick b;
+      b.tissue.fill(k_air);
+      b.distance.fill(k_distance_far);
+      return b;
+    }();
+    if (std::memcmp(&brick, &air, sizeof air) != 0) {
       bricks_.items[ref & k_index] = brick;
       return;
     }

@@ -16,32 +16,84 @@ struct Octree::Planning {
   Plan& plan;
 };
 
-/// A shape that knows the distances at eight leaves at once, in single precision.
+/// A shape that turns a brick into its own frame once, and then knows the distances at eight of its leaves at once, in single precision.
 template <class Shape>
-concept KnowsCorners = requires(const Shape& shape, float* out) {
-  shape.at_corners(Vec3{}, true, out);
+concept KnowsBricks = requires(const Shape& shape, float* out) {
+  shape.brick(Vec3{}).of_blocks(out);
+  shape.brick(Vec3{}).of_leaves(0, out);
 };
 
-/// A shape that can tell for a ball whether an earlier carve did all of it already.
+/// A shape that can tell for a ball, or a block of a brick, whether an earlier carve did all of it already.
 template <class Shape>
 concept KnowsUnchanged = requires(const Shape& shape) {
   shape.unchanged(Vec3{}, 1.0);
 };
 inline constexpr double k_half_diagonal = 1.7320508075688773;  ///< of a cube, in half edges
 
+/// A brick whose lowest corner is `low_mm`, for any shape.
+template <class Shape>
+struct PlainBrick {
+  const Shape& shape;
+  Vec3 low_mm;
+  double leaf_mm;
+  /// Distances at the centres of its eight blocks of 2x2x2 leaves, x fastest.
+  void of_blocks(double* out) const noexcept { corners({1, 1, 1}, 2, out); }
+  /// Distances at the centres of the eight leaves of a block.
+  void of_leaves(int block, double* out) const noexcept {
+    corners({(block & 1) * 2 + 0.5, (block >> 1 & 1) * 2 + 0.5, (block >> 2) * 2 + 0.5}, 1, out);
+  }
+
+ private:
+  void corners(Vec3 first, double apart, double* out) const noexcept {
+    for (int i = 0; i < 8; ++i) out[i] = shape(low_mm + (first + Vec3{double(i & 1), double(i >> 1 & 1), double(i >> 2)} * apart) * leaf_mm);
+  }
+};
+template <class Shape>
+auto brick_of(const Shape& shape, Vec3 low_mm, double leaf_mm) noexcept {
+  if constexpr (KnowsBricks<Shape>)
+    return shape.brick(low_mm);
+  else
+    return PlainBrick<Shape>{shape, low_mm, leaf_mm};
+}
+
+/// A vector type of four.
+template <class Real>
+struct FourOf;
+template <>
+struct FourOf<float> {
+  using type = float __attribute__((vector_size(16)));
+};
+template <>
+struct FourOf<double> {
+  using type = double __attribute__((vector_size(32)));
+};
+
+/// Eight distances, mm, and what they are as codes: in vector types, of which every compiler and machine makes the same.
+template <class Real>
+struct EightDistances {
+  alignas(16) Real mm[8];
+  /// `encode_distance` of `clearance_mm - mm`, and -1 for each that is negative, else 0.
+  void encode(Real clearance_mm, Real codes_per_mm, std::int16_t* code, std::int16_t* inside) const noexcept {
+    using Four = typename FourOf<Real>::type;
+    using FourWhole = std::int32_t __attribute__((vector_size(16)));
+    using FourCodes = std::int16_t __attribute__((vector_size(8)));
+    constexpr Real k_far = k_distance_far;
+    for (int half = 0; half < 2; ++half) {
+      Four d;
+      std::memcpy(&d, mm + 4 * half, sizeof d);
+      Four at = (clearance_mm - d) * codes_per_mm;
+      at = at < -k_far ? Four{} - k_far : at;
+      at = at > k_far ? Four{} + k_far : at;
+      const FourWhole whole = __builtin_convertvector(at + (k_far + Real{0.5}), FourWhole) - k_distance_far;
+      const auto codes = __builtin_convertvector(whole, FourCodes), negative = __builtin_convertvector(d < Real{0}, FourCodes);
+      std::memcpy(code + 4 * half, &codes, sizeof codes);
+      std::memcpy(inside + 4 * half, &negative, sizeof negative);
+    }
+  }
+};
 /// Single precision for shapes that offer it.
 template <class Shape>
-using BlockDistances = std::array<std::conditional_t<KnowsCorners<Shape>, float, double>, 8>;
-/// The shape's distances at the centres of 2x2x2 leaves, or of 2x2x2 blocks of 2x2x2 leaves, x fastest.
-template <class Shape, class Real>
-void corner_distances(const Shape& shape, Vec3 low_mm, double leaf_mm, bool of_blocks, Real* out) noexcept {
-  if constexpr (KnowsCorners<Shape>) {
-    shape.at_corners(low_mm, of_blocks, out);
-  } else {
-    const double apart_mm = of_blocks ? 2 * leaf_mm : leaf_mm;
-    for (int i = 0; i < 8; ++i) out[i] = shape(low_mm + Vec3{double(i & 1), double(i >> 1 & 1), double(i >> 2)} * apart_mm);
-  }
-}
+using BlockDistances = EightDistances<std::conditional_t<KnowsBricks<Shape>, float, double>>;
 
 template <class Shape>
 bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm) {
@@ -88,49 +140,39 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
   constexpr int k_brick_work = 6;
   planning.work -= k_brick_work;
   // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
-  BlockDistances<Shape> block_mm;
-  corner_distances(shape, origin_mm_ + Vec3{low.x + 1.0, low.y + 1.0, low.z + 1.0} * leaf_mm_, leaf_mm_, true, block_mm.data());
-  const auto far_mm = static_cast<typename BlockDistances<Shape>::value_type>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
+  const auto in_shape = brick_of(shape, origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_, leaf_mm_);
+  BlockDistances<Shape> blocks;
+  in_shape.of_blocks(blocks.mm);
+  const auto far_mm = static_cast<std::remove_cvref_t<decltype(blocks.mm[0])>>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
   unsigned near = 0;
-  for (unsigned block = 0; block < 8; ++block) near |= (block_mm[block] > far_mm ? 0u : 1u) << block;
+  for (unsigned block = 0; block < 8; ++block) near |= (blocks.mm[block] > far_mm ? 0u : 1u) << block;
   if (near == 0) return;
   auto& bricks = planning.plan.bricks_;
   bricks.emplace_back();
   bricks.back().place = place;
   bricks.back().content = expanded(ref);
-  if (!cut_brick(low, near, shape, planning, bricks.back().content)) bricks.pop_back();
+  if (!cut_brick<Shape>(in_shape, near, planning, bricks.back().content)) bricks.pop_back();
 }
 
 /// Cuts the blocks `near` (as bits) of a copy of a brick; false when nothing changed.
-template <class Shape>
-bool Octree::cut_brick(IVec3 low, unsigned near, const Shape& shape, Planning& planning, FullBrick& brick) const noexcept {
-  using Real = typename BlockDistances<Shape>::value_type;
+template <class Shape, class Brick>
+bool Octree::cut_brick(const Brick& in_shape, unsigned near, Planning& planning, FullBrick& brick) const noexcept {
+  BlockDistances<Shape> leaves;
+  using Real = std::remove_cvref_t<decltype(leaves.mm[0])>;
   const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)),
              clearance_mm = static_cast<Real>(planning.clearance_mm);
   const auto solid_most = static_cast<std::int16_t>(planning.clearance_mm > 0.0 ? encode_distance(planning.clearance_mm / leaf_mm_) : -1);
-  Real tool_mm[8];
   bool changed = false;
   constexpr int k_block_work = 5;
   for (; near != 0; near &= near - 1) {
     const int block = std::countr_zero(near);
     if (is_empty_block(brick, block)) continue;
-    const Vec3 first_mm = centre_mm(low + IVec3{(block & 1) * 2, (block >> 1 & 1) * 2, (block >> 2) * 2});
-    if constexpr (KnowsUnchanged<Shape>) {
-      const double half = 0.5 * leaf_mm_;
-      if (shape.unchanged(first_mm + Vec3{half, half, half}, half * k_half_diagonal)) continue;
-    }
+    if constexpr (KnowsUnchanged<Shape>)
+      if (in_shape.unchanged(block)) continue;
     planning.work -= k_block_work;
-    corner_distances(shape, first_mm, leaf_mm_, false, tool_mm);
-    // encode_distance, eight at a time; in a form that compilers turn into vectors
+    in_shape.of_leaves(block, leaves.mm);
     std::int16_t cut[8], inside[8];
-    for (int i = 0; i < 8; ++i) {
-      constexpr Real k_far = k_distance_far;
-      Real code = (clearance_mm - tool_mm[i]) * codes_per_mm;
-      code = code < -k_far ? -k_far : code;
-      code = code > k_far ? k_far : code;
-      cut[i] = static_cast<std::int16_t>(static_cast<int>(code + (k_far + Real{0.5})) - k_distance_far);
-    }
-    for (int i = 0; i < 8; ++i) inside[i] = static_cast<std::int16_t>(-static_cast<int>(tool_mm[i] < 0));
+    leaves.encode(clearance_mm, codes_per_mm, cut, inside);
     changed |= cut_block(brick, block, eight_of(cut), eight_of(inside), solid_most);
   }
   return changed;
