@@ -8,7 +8,7 @@ namespace {
 
 constexpr int k_max_steps = 12;          // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
-constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.001, k_late_means_leaves = 0.05;
+constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.001, k_late_means_leaves = 0.05, k_late_means_mm = 0.0025;
 constexpr double k_linear_leaves = 0.3, k_linear_mm = 0.0135;  // so far, or that far, a half space stands in for the curved surface
 constexpr double k_squeeze_leaves = 0.005;
 constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
@@ -27,6 +27,7 @@ constexpr int k_most_looked_up = 1200, k_most_going_back = 300;
 constexpr int k_all_places = 1 << 30;
 constexpr int k_part_looked_up = 140;              // places of a gathering that is spread over ticks, in each of them
 constexpr double k_aside_leaves = 0.1;             // the proxy takes an opened way while it lies no further beside it
+constexpr double k_room_leaves = 0.01;             // and nothing there enters the tissue by more
 constexpr double k_resting_stride = 0.05;          // leaves: the shortest stride
 constexpr double k_shorter = 0.4, k_longer = 1.5;  // a stride after a step back, and after one onwards
 
@@ -132,7 +133,8 @@ void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, Conta
   state.catching_up = false;
 }
 
-/// How far the opened place lies ahead of the proxy, mm; 0 when the proxy cannot simply take it: it has gone elsewhere, or the device is not that far.
+/// How far the opened place lies ahead of the proxy, mm; 0 when the proxy cannot simply take it: it has gone elsewhere, or the device is not that
+/// far.
 double opened_way_mm(const OpenedPlace& opened, Vec3 device_mm, double leaf_mm, const ContactState& state) noexcept {
   if (opened.turned_rad != state.turned_rad) return 0.0;
   const Vec3 way = opened.tip_mm - state.proxy_mm;
@@ -158,7 +160,10 @@ void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, doub
   std::swap(state.gathered, state.coming);
   state.active = {};
   const double way_mm = opened_way_mm(state.opened, device_mm, leaf, state);
-  if (way_mm > 0.0 && state.gathered.at_mm == state.opened.tip_mm) {
+  // The head has room there; neck and shank may not.
+  const auto& there = state.gathered.half_spaces;
+  const bool room = std::all_of(there.begin(), there.end(), [&](const HalfSpace& h) { return h.slack_mm >= -k_room_leaves * leaf; });
+  if (way_mm > 0.0 && room && state.gathered.at_mm == state.opened.tip_mm) {
     state.moved_mm += length(state.opened.tip_mm - state.proxy_mm);
     state.proxy_mm = state.opened.tip_mm;
   }
@@ -196,9 +201,15 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
 }
 
 /// Means of k, c and 1/τ over the solid (or the void) tissues of a mix, and their share in it.
-double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {
+inline double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {
   double share = 0.0;
   mean = {};
+  if (mix.count == 1) {
+    const std::uint8_t label = mix.label[0];
+    if (label == k_air || tooth.is_solid(label) != solid) return 0.0;
+    mean = tissue[label];
+    return 1.0;
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(mix.count); ++i) {
     const std::uint8_t label = mix.label[i];
     if (label == k_air || tooth.is_solid(label) != solid) continue;
@@ -330,12 +341,13 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
   const Vec3 moved = tip - state.means_tip_mm;
   const double same_mm = std::max(k_same_means_leaves * leaf, k_same_means_mm);
   if (state.means_turned_rad == state.turned_rad && dot(swung, swung) < k_same_normal2) {
-    const double moved2 = dot(moved, moved), late_mm = k_late_means_leaves * leaf;
+    const double moved2 = dot(moved, moved), late_mm = std::max(k_late_means_leaves * leaf, k_late_means_mm);
     if (state.means_edit == state.gathered.edit && moved2 < same_mm * same_mm) return state.means;
     // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
-    // stood: what it touches may be looked up when that is done.
-    if ((state.catching_up || (state.looked_up > 0 && !state.means_late)) && moved2 < late_mm * late_mm) {
-      state.means_late = !state.catching_up;
+    // stood: what it touches may be looked up in the next tick, or, in one tissue, when that is done.
+    const bool waits = state.catching_up && state.means_even;
+    if ((waits || (state.looked_up > 0 && !state.means_late)) && moved2 < late_mm * late_mm) {
+      state.means_late = !waits;
       return state.means;
     }
   }
@@ -350,7 +362,7 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
   const double touch_mm = k_touch_leaves * leaf, fade_mm = k_fade_leaves * leaf;
   const Vec3 ahead = state.normal * (-k_ahead_leaves * leaf), close = state.normal * (-0.1 * leaf), since = tip - state.gathered.at_mm;
   const std::uint32_t head_end = tool.patches[tool.head_patches - 1].last;
-  double cut_area = 0.0, solid_area = 0.0, void_area = 0.0;
+  double cut_area = 0.0, solid_area = 0.0, void_area = 0.0, least_n_per_mm = 1e9, most_n_per_mm = 0.0;
   TissueConstants solid_mean, void_mean;
   const auto count_void = [&](double area) {
     if (area <= 0.0) return;
@@ -369,6 +381,8 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
     if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth, tooth.mix(at + close, state.cursor), tissue, true, solid_mean) <= 0.0) touch = 0.0;
     if (touch > 0.0) {
       const double touched = area * touch;
+      least_n_per_mm = std::min(least_n_per_mm, solid_mean.stiffness_n_per_mm);
+      most_n_per_mm = std::max(most_n_per_mm, solid_mean.stiffness_n_per_mm);
       cut_area += touched;
       if (head) means.of.recession_per_s += touched * solid_mean.recession_per_s;
       // a sheet over air holds the tool whole; one over void tissue only as far as there is solid tissue ahead
@@ -413,6 +427,7 @@ TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const V
         count_void(s.area_mm2 * seen * mean_of(tooth, tooth.mix(at, state.cursor), tissue, false, void_mean));
     }
   }
+  state.means_even = !means.void_tissue && least_n_per_mm > 0.999 * most_n_per_mm;
   means.touching = cut_area > 1e-9;
   if (!means.touching) {
     means.of = {};

@@ -34,7 +34,7 @@ struct GatheredContact {
   ReservedVector<std::uint32_t> samples;  ///< of the first half spaces
   Vec3 at_mm;
   double turned_rad = -1.0, reach_mm = 0.0;
-  std::uint64_t edit = 0;                                     ///< edit hash of the tooth that they are about
+  std::uint64_t edit = 0;                         ///< edit hash of the tooth that they are about
   std::uint32_t next_patch = 0, next_sample = 0;  ///< of the tool, while they are being gathered
 };
 
@@ -61,10 +61,11 @@ struct ContactState {
   bool catching_up = false;          ///< the latter are being gathered
   OpenedPlace opened;                ///< set by whoever carves
   ActiveSet active;                  ///< half spaces that held the last step
-  TouchedMeans means;  ///< as long as neither tool, tooth nor normal changed much
+  TouchedMeans means;                ///< as long as neither tool, tooth nor normal changed much
   double means_turned_rad = -1.0;
   std::uint64_t means_edit = 0;  ///< of the half spaces that they were taken from
   Vec3 means_tip_mm, means_normal;
+  bool means_even = false;            ///< they are of one tissue
   bool means_late = false;            ///< they have waited for what was gathered in the tick before
   int looked_up = 0;                  ///< places of the tooth that this tick asked for: what contact has cost
   std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with

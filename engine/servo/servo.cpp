@@ -14,16 +14,19 @@ namespace {
 // and what a tool still owes as it lifts off is carved where it last was, or many short touches would cut nothing.
 constexpr double k_least_step_mm = 0.025, k_carve_step_leaves = 0.25;
 constexpr double k_slide_mm = 0.1, k_slide_share = 0.5, k_void_share = 0.25, k_lift_share = 0.04;
-constexpr double k_sweep_step_leaves = 1.0;            // way through void tissue between two carves
-constexpr double k_clamped_steps = 2.0;                // recession owed by a head that is clamped in its hole
-constexpr double k_most_steps = 4.0;                   // more recession is never owed
-constexpr double k_ease = 0.1;                         // of that recession
-constexpr int k_tick_work = 800, k_least_work = 400;  // units (15 ns each) a tick for a carve under way
-constexpr int k_busy_looked_up = 150;                  // places: after more of them a carve waits for the next tick
-constexpr int k_lookup_work = 4;                       // of them, that a place looked up by the contact costs
-constexpr double k_still_share = 0.01;                 // of the full speed: below it the handpiece stands still
-constexpr std::size_t k_edit_room = 1 << 17;           // bricks; untouched room costs no memory
-constexpr std::size_t k_removed_room = 1 << 16;        // leaves a tick
+constexpr double k_sweep_step_leaves = 1.0;  // way through void tissue between two carves
+constexpr double k_clamped_steps = 1.9;      // recession owed by a head that is clamped in its hole
+constexpr double k_most_steps = 2.2;         // more recession is never owed
+constexpr double k_most_ahead_leaves = 0.1;  // the proxy is paid for no more than that in advance
+constexpr double k_same_hole_leaves = 0.5;   // a proxy that comes back is in the hole it left when it is no further aside
+constexpr double k_ease = 0.1;               // of that recession
+constexpr int k_tick_work = 800, k_hurried_work = 2400, k_least_work = 400;  // units (15 ns each) a tick for a carve under way
+constexpr double k_hurry_share = 0.25;                                       // of a step
+constexpr int k_busy_looked_up = 150;                                        // places: after more of them a carve waits for the next tick
+constexpr int k_lookup_work = 4;                                             // of them, that a place looked up by the contact costs
+constexpr double k_still_share = 0.01;                                       // of the full speed: below it the handpiece stands still
+constexpr std::size_t k_edit_room = 1 << 17;                                 // bricks; untouched room costs no memory
+constexpr std::size_t k_removed_room = 1 << 16;                              // leaves a tick
 
 std::int32_t to_whole(double value) noexcept {
   if (!(value > -2147483647.0)) return -2147483647;
@@ -63,6 +66,15 @@ void carve_what_is_owed(ServoState& state, const CarvedHead& last_touch, Vec3 no
   state.swept_mm = 0.0;
 }
 
+/// What a proxy that comes back to where the head was carved owes beforehand, mm, at most 0: the hole is a clearance deeper than the head was.
+double begun_with_mm(const ServoState& state, int point) noexcept {
+  const CarvedHead& last = state.carving.last;
+  if (last.point != point) return 0.0;
+  const double leaf = state.tooth.leaf_mm(), deeper_mm = dot(last.tip_mm - state.contact.proxy_mm, state.contact.normal);
+  const bool there = length(last.tip_mm - state.contact.proxy_mm - state.contact.normal * deeper_mm) <= k_same_hole_leaves * leaf;
+  return there ? -std::clamp(deeper_mm, 0.0, k_most_ahead_leaves * leaf) : 0.0;
+}
+
 /// Lets the surface recede and carves when enough has gathered.
 void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, const ContactResult& contact, const TouchedMeans& means,
          double penetration_mm, int input_point, TickOutput& out) noexcept {
@@ -77,8 +89,9 @@ void cut(const ServoModel& model, ServoState& state, const ContactTool& tool, co
     due = state.recession_mm >= due_mm;
     out.cutting = means.of.recession_per_s > 0;
   }
-  // Contact and carving share the time of a tick.
-  const int work = std::max(k_tick_work - k_lookup_work * state.contact.looked_up, k_least_work);
+  // Contact and carving share the time of a tick. A carve takes more of it once a good part of what the next one takes has gathered.
+  const bool hurries = state.carving.under_way() && state.recession_mm - state.carve_began_mm >= k_hurry_share * due_mm;
+  const int work = std::max((hurries ? k_hurried_work : k_tick_work) - k_lookup_work * state.contact.looked_up, k_least_work);
   if (state.carving.under_way()) {
     // A carve may take its time as long as the next one is not due.
     const bool late = state.recession_mm - state.carve_began_mm >= due_mm || state.swept_mm >= k_sweep_step_leaves * leaf;
@@ -204,10 +217,12 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     // recedes at exactly v·dt, whatever the rounding of a single carve. A proxy that only slides pays nothing: its normal is within a
     // degree of the surface's, which over 2 mm would add up to half a leaf.
     if (was_touching && !contact.touching) carve_what_is_owed(state, last_touch, last_normal);
-    if (!contact.touching || !was_touching)
+    if (!contact.touching)
       state.recession_mm = 0.0;
+    else if (!was_touching)
+      state.recession_mm = begun_with_mm(state, input.point);
     else if (state.followed_edit != state.contact.gathered.edit)
-      state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -0.1 * state.tooth.leaf_mm());
+      state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -k_most_ahead_leaves * state.tooth.leaf_mm());
     if (!contact.on_its_way) state.followed_edit = state.contact.gathered.edit;
     const TouchedMeans before = state.contact.means;
     TouchedMeans means = !contact.in_air && (contact.touching || state.rpm > 0)

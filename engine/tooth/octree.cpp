@@ -131,35 +131,44 @@ std::uint8_t Octree::tissue_at(Vec3 mm, Cursor& cursor) const noexcept {
   return tissue_in(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}, cursor), leaf_in_brick(leaf));
 }
 
-inline bool Octree::cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept {
+inline bool Octree::cell_around(Vec3 mm, Cell& cell) const noexcept {
   const Vec3 p = (mm - origin_mm_) * leaves_per_mm_ - Vec3{0.5, 0.5, 0.5};
   if (!(std::fabs(p.x) < 1e6 && std::fabs(p.y) < 1e6 && std::fabs(p.z) < 1e6)) return false;
-  const IVec3 low{floor_of(p.x), floor_of(p.y), floor_of(p.z)};
-  cell.fx = p.x - low.x;
-  cell.fy = p.y - low.y;
-  cell.fz = p.z - low.z;
-  cell.crossing = ((low.x & 3) == 3 ? 1 : 0) | ((low.y & 3) == 3 ? 2 : 0) | ((low.z & 3) == 3 ? 4 : 0);
-  const IVec3 brick{low.x >> 2, low.y >> 2, low.z >> 2};
-  cell.ref[0] = find(brick, cursor);
-  for (int i = 1; i <= cell.crossing; ++i)
-    if ((i & ~cell.crossing) == 0) cell.ref[static_cast<std::size_t>(i)] = find(brick + IVec3{i & 1, i >> 1 & 1, i >> 2}, cursor);
-  const int x[2]{low.x & 3, (low.x + 1) & 3}, y[2]{(low.y & 3) << 2, ((low.y + 1) & 3) << 2}, z[2]{(low.z & 3) << 4, ((low.z + 1) & 3) << 4};
-  for (std::size_t i = 0; i < 8; ++i) cell.leaf[i] = x[i & 1] | y[i >> 1 & 1] | z[i >> 2];
+  cell.low = {floor_of(p.x), floor_of(p.y), floor_of(p.z)};
+  cell.fx = p.x - cell.low.x;
+  cell.fy = p.y - cell.low.y;
+  cell.fz = p.z - cell.low.z;
   return true;
+}
+
+template <class T, class RowOf>
+inline void Octree::read_cell(IVec3 low, Cursor& cursor, const RowOf& row_of, T* out) const noexcept {
+  const IVec3 brick{low.x >> 2, low.y >> 2, low.z >> 2};
+  const unsigned crossing = ((low.x & 3) == 3 ? 1u : 0u) | ((low.y & 3) == 3 ? 2u : 0u) | ((low.z & 3) == 3 ? 4u : 0u);
+  const auto row = row_of(find(brick, cursor));
+  const int first = leaf_in_brick(low);
+  if (crossing == 0) {
+    for (std::size_t i = 0; i < 8; ++i) out[i] = row.first[(first + k_leaf_of_block[i]) & row.mask];
+    return;
+  }
+  std::array<decltype(row_of(0u)), 8> rows;  // by the corner's bits that cross
+  rows[0] = row;
+  for (unsigned i = 1; i <= crossing; ++i)
+    if ((i & ~crossing) == 0)
+      rows[i] = row_of(find(brick + IVec3{static_cast<int>(i & 1), static_cast<int>(i >> 1 & 1), static_cast<int>(i >> 2)}, cursor));
+  const int x[2]{low.x & 3, (low.x + 1) & 3}, y[2]{(low.y & 3) << 2, ((low.y + 1) & 3) << 2}, z[2]{(low.z & 3) << 4, ((low.z + 1) & 3) << 4};
+  for (unsigned i = 0; i < 8; ++i) {
+    const auto& r = rows[i & crossing];
+    out[i] = r.first[(x[i & 1] | y[i >> 1 & 1] | z[i >> 2]) & r.mask];
+  }
 }
 
 SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
   Cell cell;
-  if (!cell_around(mm, cursor, cell)) return {k_distance_band_leaves * leaf_mm_, {}};
+  if (!cell_around(mm, cell)) return {k_distance_band_leaves * leaf_mm_, {}};
   int c[8];
-  const auto crossing = static_cast<std::size_t>(cell.crossing);
-  std::array<Row<std::int8_t>, 8> rows;
-  for (std::size_t i = 0; i <= crossing; ++i)
-    if ((i & ~crossing) == 0) rows[i] = codes_of(cell.ref[i]);
-  for (std::size_t i = 0; i < 8; ++i) {
-    const auto& row = rows[i & crossing];
-    c[i] = row.first[cell.leaf[i] & row.mask];
-  }
+  read_cell(
+      cell.low, cursor, [this](std::uint32_t ref) { return codes_of(ref); }, c);
   const double fx = cell.fx, fy = cell.fy, fz = cell.fz, gx = 1 - fx, gy = 1 - fy, gz = 1 - fz;
   // along x first, then y, then z; the gradient falls out of the same differences
   const double e00 = c[0] * gx + c[1] * fx, e10 = c[2] * gx + c[3] * fx, e01 = c[4] * gx + c[5] * fx, e11 = c[6] * gx + c[7] * fx;
@@ -173,18 +182,10 @@ SurfaceSample Octree::sample(Vec3 mm, Cursor& cursor) const noexcept {
 TissueMix Octree::mix(Vec3 mm, Cursor& cursor) const noexcept {
   TissueMix mix{1, {k_air}, {1.0}};
   Cell cell;
-  if (!cell_around(mm, cursor, cell)) return mix;
-  const auto crossing = static_cast<std::size_t>(cell.crossing);
-  std::array<Row<std::uint8_t>, 8> rows;
-  for (std::size_t i = 0; i <= crossing; ++i)
-    if ((i & ~crossing) == 0) rows[i] = labels_of(cell.ref[i]);
-  int unlike = 0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const auto& row = rows[i & crossing];
-    mix.label[i] = row.first[cell.leaf[i] & row.mask];
-    unlike |= mix.label[i] ^ mix.label[0];
-  }
-  if (unlike == 0) return mix;
+  if (!cell_around(mm, cell)) return mix;
+  read_cell(
+      cell.low, cursor, [this](std::uint32_t ref) { return labels_of(ref); }, mix.label.data());
+  if (std::bit_cast<std::uint64_t>(mix.label) == k_each_byte * mix.label[0]) return mix;
   mix.count = 8;
   for (std::size_t i = 0; i < 8; ++i)
     mix.share[i] = ((i & 1) != 0 ? cell.fx : 1 - cell.fx) * ((i & 2) != 0 ? cell.fy : 1 - cell.fy) * ((i & 4) != 0 ? cell.fz : 1 - cell.fz);

@@ -227,10 +227,8 @@ class Octree {
   [[nodiscard]] int uniform_code(std::uint8_t tissue) const noexcept { return solid_[tissue] ? -k_distance_far : k_distance_far; }
   /// The eight leaves whose centres surround a place: bit 0, 1, 2 of a corner's number = along x, y, z.
   struct Cell {
-    double fx, fy, fz;                 // place between the corners, 0..1
-    int crossing;                      // axes along which the corners lie in two bricks, as bits
-    std::array<std::uint32_t, 8> ref;  // bricks, by the corner's bits that cross
-    std::array<std::int32_t, 8> leaf;  // of each corner, in its brick
+    IVec3 low;          // leaf of the first corner
+    double fx, fy, fz;  // place between the corners, 0..1
   };
   /// What a brick says of its leaves: `first[leaf & mask]`. A uniform one has a single entry.
   template <class T>
@@ -257,7 +255,10 @@ class Octree {
     return all;
   }();
   /// False far outside of any tooth.
-  [[nodiscard]] bool cell_around(Vec3 mm, Cursor& cursor, Cell& cell) const noexcept;
+  [[nodiscard]] bool cell_around(Vec3 mm, Cell& cell) const noexcept;
+  /// What the eight leaves from `low` on hold, x fastest; `row_of(ref)` tells what a brick says.
+  template <class T, class RowOf>
+  void read_cell(IVec3 low, Cursor& cursor, const RowOf& row_of, T* out) const noexcept;
   [[nodiscard]] static std::int32_t floor_of(double v) noexcept {
     const auto i = static_cast<std::int32_t>(v);
     return i - (v < i ? 1 : 0);
