@@ -78,7 +78,8 @@ void Finder::take(std::int64_t i) {
   const DrillFrame& f = frame(i);
   expected_.take(frames_, i);
   const Vec3 surface = f.tip_mm + f.force_n / std::max(k_least_stiffness, expected_.stiffness_n_per_mm());  // it lies F / k before the tip
-  if (length(f.force_n) < s_.freed_n) freed_.note(i > 0 && length(frame(i - 1).force_n) < k_surely_n ? surface_mm_ : surface, surface, i);
+  if (length(f.force_n) < s_.freed_n && (i == 0 || length(f.tip_mm - frame(i - 1).tip_mm) < s_.springs_mm_s * k_frame_s))
+    freed_.note(i > 0 && length(frame(i - 1).force_n) < k_surely_n ? surface_mm_ : surface, surface, i);
   surface_mm_ = surface;
   if (!f.cutting_possible) {
     close();

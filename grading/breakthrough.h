@@ -47,13 +47,14 @@ struct BreakthroughSettings {
   double dated_at = 0.77;   ///< of G: the event's time is the last moment the force still had it
 
   // other explanations
-  double slips_mm_s = 1.2;     ///< a tip that wanders sideways faster than that before the fall slips
-  double strays_mm = 0.25;     ///< one that has gone sideways by more than that ...
-  double strays_share = 0.5;   ///< ... and this share of its advance, when the force is gone, fell off something
-  double dwell_s = 0.38;       ///< it must have cut so long ...
-  double dwell_mm = 0.5;       ///< ... within this distance: about the radius of a head
-  double freed_n = 0.12;       ///< where the force was below that, the tooth's surface is known to within 0.2 mm
-  double near_freed_mm = 0.4;  ///< a way that leads so near to such a place leads into an earlier cut
+  double slips_mm_s = 1.2;      ///< a tip that wanders sideways faster than that before the fall slips
+  double strays_mm = 0.25;      ///< one that has gone sideways by more than that ...
+  double strays_share = 0.5;    ///< ... and this share of its advance, when the force is gone, fell off something
+  double dwell_s = 0.38;        ///< it must have cut so long ...
+  double dwell_mm = 0.5;        ///< ... within this distance: about the radius of a head
+  double freed_n = 0.12;        ///< where the force was below that, the tooth's surface is known to within 0.2 mm
+  double springs_mm_s = 100.0;  ///< a tip that moves faster springs out of the hole or back: where it has passed says nothing
+  double near_freed_mm = 0.4;   ///< a way that leads so near to such a place leads into an earlier cut
 };
 
 /// One fall of the force.

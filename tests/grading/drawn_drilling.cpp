@@ -260,6 +260,7 @@ void Session::expect(std::int64_t now) {
   if (pushing_n_ > k_felt_share * k_felt_least_n) expected_n_ = std::max(expected_n_, std::min(pushing_n_, level_n_));
   if (felt_n_ >= 0.8 * level_n_) held_at_ = now;
   if (out_.touched < 0 || !pressing_ || now - held_at_ > k_felt_within_ticks || expected_n_ < std::max(k_felt_least_n, 0.5 * level_n_)) return;
+  if (depth() < deepest_mm_ - k_felt_near_mm) return;
   out_.least_share = std::min(out_.least_share, felt_n_ / expected_n_);
   if (out_.felt < 0 && felt_n_ < k_felt_share * expected_n_) out_.felt = now;
 }

@@ -22,6 +22,8 @@ enum class Drawn { usual, shifted };
 inline constexpr double k_felt_share = 0.2;
 /// ... while the hand presses on, and that would be at least so much, and half of the level before the touch ...
 inline constexpr double k_felt_least_n = 0.1;
+/// ... with the head at the bottom of its hole, not thrown out of it ...
+inline constexpr double k_felt_near_mm = 0.2;
 /// ... and nearly all of the level was there so shortly before: what fades over longer than that is no fall.
 inline constexpr std::int64_t k_felt_within_ticks = 3000;
 
