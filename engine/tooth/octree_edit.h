@@ -78,16 +78,16 @@ struct EightDistances {
     using FourWhole = std::int32_t __attribute__((vector_size(16)));
     using FourCodes = std::int16_t __attribute__((vector_size(8)));
     constexpr Real k_far = k_distance_far;
-    for (int half = 0; half < 2; ++half) {
+    for (std::size_t first = 0; first < 8; first += 4) {
       Four d;
-      std::memcpy(&d, mm + 4 * half, sizeof d);
+      std::memcpy(&d, mm + first, sizeof d);
       Four at = (clearance_mm - d) * codes_per_mm;
       at = at < -k_far ? Four{} - k_far : at;
       at = at > k_far ? Four{} + k_far : at;
       const FourWhole whole = __builtin_convertvector(at + (k_far + Real{0.5}), FourWhole) - k_distance_far;
       const auto codes = __builtin_convertvector(whole, FourCodes), negative = __builtin_convertvector(d < Real{0}, FourCodes);
-      std::memcpy(code + 4 * half, &codes, sizeof codes);
-      std::memcpy(inside + 4 * half, &negative, sizeof negative);
+      std::memcpy(code + first, &codes, sizeof codes);
+      std::memcpy(inside + first, &negative, sizeof negative);
     }
   }
 };

@@ -6,9 +6,9 @@
 // how much was left at least, and the examination's verdict rests on the tissue there.
 //
 // A run fails when it is worse than what the promise (recall 0.99, false alarms in 1 % of sessions) does by chance once in a hundred thousand runs.
-// Draws from ranges that no setting was tuned on are harder; they are held in the same way against what long runs of them gave under physics 3 (recall
-// 0.97, false alarms in 1.3 %). CAVUM_TEST_SEED repeats a run, CAVUM_CAMPAIGN_SESSIONS makes it longer, and thereby sharper: session i of a run is
-// draw_session(seed + 1 + i).
+// Draws from ranges that no setting was tuned on are harder; they are held in the same way against what long runs of them gave under physics 3
+// (recall 0.97, false alarms in 1.3 %). CAVUM_TEST_SEED repeats a run, CAVUM_CAMPAIGN_SESSIONS makes it longer, and thereby sharper: session i of a
+// run is draw_session(seed + 1 + i).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -189,14 +189,16 @@ TEST(Invariant, CuttingMoreOfTheTargetNeverLowersItsCriteria) {
     Carved c = moved_scene({}, 0.1);
     double percent = -1, points = -1, missed = -1, dice = -1;
     std::int64_t tick = 0;
+    constexpr double k_rounding = 1e-9;  // of sums in another order
+    constexpr double k_sliver = 1e-4;    // points: a cut that ends on the target's border takes slivers of leaves beyond it, and Dice counts them
     for (const auto& b : random_balls(random, 10)) {
       const ZoneMap& zones = c.zones;  // only inside the target, and all the deeper the better
       c.carve([&](Vec3 p) { return std::max(length(p - b.at) - b.radius, zones.distance_mm(p)); }, tick++);
       const Result r = c.graded();
-      EXPECT_GE(r.volumes.target_removed_percent, percent) << "seed " << seed << " round " << round;
-      EXPECT_GE(r.criteria[0].points, points) << "seed " << seed << " round " << round;
-      EXPECT_GE(r.criteria.back().points, missed) << "seed " << seed << " round " << round;
-      EXPECT_GE(r.criteria[r.criteria.size() - 2].points, dice) << "seed " << seed << " round " << round;
+      EXPECT_GE(r.volumes.target_removed_percent, percent - k_rounding) << "seed " << seed << " round " << round;
+      EXPECT_GE(r.criteria[0].points, points - k_rounding) << "seed " << seed << " round " << round;
+      EXPECT_GE(r.criteria.back().points, missed - k_rounding) << "seed " << seed << " round " << round;
+      EXPECT_GE(r.criteria[r.criteria.size() - 2].points - dice, -k_sliver) << "seed " << seed << " round " << round;
       percent = r.volumes.target_removed_percent;
       points = r.criteria[0].points;
       missed = r.criteria.back().points;

@@ -90,6 +90,7 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
 
 TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
   Random random(drawn_seed("CarveHead.SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast"));
+  int all_calls = 0, carves = 0;
   for (const auto& name : point_names()) {
     const DiamondPoint point = diamond_point(name);
     Tooth one = make_block({2, 2, 2}, {{"enamel", 1}, {"dentin", 1}}, 0.05);
@@ -118,12 +119,14 @@ TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
       }
       ASSERT_EQ(one.octree.edit_hash(), two.octree.edit_hash()) << name << " carve " << i;
     }
-    ASSERT_GT(calls, 12) << name << ": never spread";
+    all_calls += calls;
+    carves += 6;
     ASSERT_EQ(removed_one, removed_two) << name;
     const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
     ASSERT_EQ(a.tissue, b.tissue) << name;
     ASSERT_EQ(a.distance, b.distance) << name;
   }
+  EXPECT_GT(all_calls, 3 * carves) << "hardly ever spread: two calls are the least";
 }
 
 TEST(CarveHead, WhatIsDroppedWasNeverCarved) {
