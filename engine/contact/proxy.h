@@ -9,23 +9,10 @@
 #include "engine/base/reserved_vector.h"
 #include "engine/contact/contact_tool.h"
 #include "engine/contact/half_spaces.h"
+#include "engine/contact/touched_means.h"
 #include "engine/tooth/octree.h"
-#include "engine/tooth/void_map.h"
 
 namespace cavum {
-
-/// Constants of one tissue as the contact averages them.
-struct TissueConstants {
-  double stiffness_n_per_mm = 0, damping_n_s_per_mm = 0;
-  double recession_per_s = 0;  ///< 1/τ; 0 for void tissue
-};
-
-/// Means over the area touched, weighted by the area seen along the contact normal.
-struct TouchedMeans {
-  TissueConstants of;        ///< recession over the solid part only, where the coated head touches it
-  bool touching = false;     ///< false: nothing touched, `of` is zero
-  bool void_tissue = false;  ///< pulp or another void tissue lies before the head
-};
 
 /// Half spaces about a place of the proxy: good for small moves of a tool that does not turn. Cutting only takes tissue away, so that
 /// those from before a carve still hold, though they allow less.
@@ -61,14 +48,8 @@ struct ContactState {
   bool catching_up = false;          ///< the latter are being gathered
   OpenedPlace opened;                ///< set by whoever carves
   ActiveSet active;                  ///< half spaces that held the last step
-  TouchedMeans means;                ///< as long as neither tool, tooth nor normal changed much
-  double means_turned_rad = -1.0;
-  std::uint64_t means_edit = 0;  ///< of the half spaces that they were taken from
-  Vec3 means_tip_mm, means_normal;
-  bool means_even = false;            ///< they are of one tissue
-  bool means_late = false;            ///< they have waited for what was gathered in the tick before
-  int looked_up = 0;                  ///< places of the tooth that this tick asked for: what contact has cost
-  std::vector<std::uint8_t> counted;  ///< scratch: samples that `touched_means` has dealt with
+  TouchedMemory touched;
+  int looked_up = 0;  ///< places of the tooth that this tick asked for: what contact has cost
   Octree::Cursor cursor;
 };
 [[nodiscard]] ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm);
@@ -89,12 +70,5 @@ struct ContactResult {
 /// from before hold it: `state.gathered.edit` says which tooth it has followed.
 /// Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
-
-/// A sample touches solid tissue fully within 0.2 leaves of it and less and less up to 0.7; where it does not, void tissue
-/// before it counts. Which tissue that is, is interpolated 1.6 leaves ahead of where the surface will be once the
-/// `recession_mm` that is not yet carved is: so k and c change continuously across every border and through every carve,
-/// and a border is felt 0.08 mm early at a leaf of 0.05 mm. `tissue` has 256 entries.
-[[nodiscard]] TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue,
-                                         double recession_mm, ContactState& state) noexcept;
 
 }  // namespace cavum

@@ -116,7 +116,7 @@ Recording read_session_recording(const std::string& path, const std::string& for
         if (!contacts.back().empty()) contacts.emplace_back();
         continue;
       }
-      const auto& touched = simulation.state.contact.means.of;
+      const auto& touched = simulation.state.contact.touched.means.of;
       const Vec3 axis = simulation.state.contact.rotation * Vec3{0, 0, 1};
       contacts.back().push_back({t, out.penetration_mm, out.approach_mm_s, *force, touched.stiffness_n_per_mm, touched.damping_n_s_per_mm, out.rpm,
                                  worn, static_cast<double>(input.point), degrees(std::atan2(out.normal.x, out.normal.z)),

@@ -224,7 +224,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     else if (state.followed_edit != state.contact.gathered.edit)
       state.recession_mm = std::max(state.recession_mm + dot(contact.moved_mm, contact.normal), -k_most_ahead_leaves * state.tooth.leaf_mm());
     if (!contact.on_its_way) state.followed_edit = state.contact.gathered.edit;
-    const TouchedMeans before = state.contact.means;
+    const TouchedMeans before = state.contact.touched.means;
     TouchedMeans means = !contact.in_air && (contact.touching || state.rpm > 0)
                              ? touched_means(state.tooth, tool, model.voids, model.tissue.data(), std::max(0.0, state.recession_mm), state.contact)
                              : TouchedMeans{};
@@ -233,7 +233,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
       means.touching = before.touching;
       means.of = before.of;
       means.of.recession_per_s = 0.0;
-      state.contact.means = means;
+      state.contact.touched.means = means;
     }
     const double approach_mm = contact.touching ? -dot(device.tip_mm - state.last_tip_mm, contact.normal) : 0.0;
     const double penetration = contact.touching ? std::max(0.0, contact.penetration_mm - state.recession_mm) : 0.0;
