@@ -125,7 +125,7 @@ void Finder::watch(std::int64_t i) {
   }
   const bool told = found.sureness >= k_as_likely_as_not;
   const bool lifted = expected_.expected_n() < k_lifted_share * expected_.held_n();
-  if (share_[at(i)] > (told ? s_.returns_at : s_.closes_at) || lifted) {
+  if ((told ? expected_.force_n() / expected_.pressed_n() > s_.returns_at : share_[at(i)] > s_.closes_at) || lifted) {
     close();
     if (told) {  // a new level has to build up
       expected_.forget();
@@ -140,7 +140,7 @@ void Finder::close() {
 }
 
 double Finder::sureness(std::int64_t i) const {
-  const double expected = expected_.expected_n(), rest = expected_.force_n() / expected;
+  const double expected = expected_.expected_n(), pressed = expected_.pressed_n(), rest = expected_.force_n() / pressed;
   if (expected_.held_n() < s_.least_n || expected < s_.presses_on * expected_.held_n()) return 0.0;
   double noise_n2 = 0, scatter_n2 = 0;  // per tick
   for (std::int64_t k = std::max<std::int64_t>(0, i - k_mean_frames + 1); k <= i; ++k) {
@@ -149,7 +149,7 @@ double Finder::sureness(std::int64_t i) const {
   }
   if (scatter_n2 - k_noise_scatter * noise_n2 > s_.chatter * s_.chatter * expected * expected) return 0.0;
   // variance of the share, one axis of the mean over the frames
-  const double noise = noise_n2 / (3.0 * k_mean_frames * k_frame_ticks * expected * expected);
+  const double noise = noise_n2 / (3.0 * k_mean_frames * k_frame_ticks * pressed * pressed);
   const double wide2 = s_.void_rest * s_.void_rest + noise;
   const double likely = std::sqrt(2.0 / (k_pi * wide2)) * det_exp(-0.5 * rest * rest / wide2);
   return likely / (likely + s_.soft_odds);

@@ -2,9 +2,10 @@
 // nothing of the tissue, so that it would work on a real tooth as well.
 //
 // A breakthrough is a loss of force that the tip's own motion does not explain: the hand presses on, solid tissue would give the force G
-// (ExpectedForce), and hardly anything of it is left. How sure that is, is a likelihood ratio of two stories about the share F / G that is left:
-// a cavity leaves next to nothing (half normal with the scale `void_rest`, widened by the force's noise, which is estimated on the way);
-// softer tissue leaves any share of it (uniform), and is met `soft_odds` times as often.
+// (ExpectedForce), and hardly anything of it is left. A tip that goes on in the fall would press further in: G then grows beyond what was felt
+// before. How sure it is, is a likelihood ratio of two stories about the share F / G that is left: a cavity leaves next to nothing (half normal with
+// the scale `void_rest`, widened by the force's noise, which is estimated on the way); softer tissue leaves any share of it (uniform), and is met
+// `soft_odds` times as often.
 //
 // What else makes a force fall, and what tells it apart:
 //
@@ -32,13 +33,13 @@ struct BreakthroughSettings {
   ExpectedForceSettings expected;
 
   // the likelihood ratio
-  double void_rest = 0.15;         ///< scale of the share of G that a cavity leaves: the rim of the hole still touches
-  double soft_odds = 1.3;          ///< softer tissue is so many times as likely beforehand: at F / G = 0.25 it is even
-  double least_n = 0.07;           ///< a force below it tells nothing: 30 ms of noise of 0.05 N per tick are a fifth of it
-  double presses_on = 0.5;         ///< a fall counts while the tip's motion explains no more than half of it
-  double confirm_s = 0.02;         ///< it has to be so sure for so long
-  double chatter = 0.35;           ///< of G: a force that scatters by more than that, beyond its noise, is not gone
-  double least_advance_mm = 0.05;  ///< a cavity lets the tip on: by a step of the encoder at least
+  double void_rest = 0.15;        ///< scale of the share of G that a cavity leaves: the rim of the hole still touches
+  double soft_odds = 2.1;         ///< softer tissue is so many times as likely beforehand: at F / G = 0.2 it is even
+  double least_n = 0.06;          ///< a force below it tells nothing: 30 ms of noise of 0.05 N per tick are a quarter of it
+  double presses_on = 0.5;        ///< a fall counts while the tip's motion explains no more than half of it
+  double confirm_s = 0.02;        ///< it has to be so sure for so long
+  double chatter = 0.5;           ///< of G: a force that scatters by more than that, beyond its noise, is not gone
+  double least_advance_mm = 0.1;  ///< a cavity lets the tip on: by two steps of the encoder at least
 
   // the fall
   double opens_at = 0.5;    ///< of G: a fall is watched from there ...
@@ -48,13 +49,13 @@ struct BreakthroughSettings {
 
   // other explanations
   double slips_mm_s = 1.2;      ///< a tip that wanders sideways faster than that before the fall slips
-  double strays_mm = 0.25;      ///< one that has gone sideways by more than that ...
+  double strays_mm = 0.35;      ///< one that has gone sideways by more than that ...
   double strays_share = 0.5;    ///< ... and this share of its advance, when the force is gone, fell off something
   double dwell_s = 0.38;        ///< it must have cut so long ...
   double dwell_mm = 0.5;        ///< ... within this distance: about the radius of a head
   double freed_n = 0.12;        ///< where the force was below that, the tooth's surface is known to within 0.2 mm
   double springs_mm_s = 100.0;  ///< a tip that moves faster springs out of the hole or back: where it has passed says nothing
-  double near_freed_mm = 0.4;   ///< a way that leads so near to such a place leads into an earlier cut
+  double near_freed_mm = 0.5;   ///< a way that leads so near to such a place leads into an earlier cut
 };
 
 /// One fall of the force.

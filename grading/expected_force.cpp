@@ -33,7 +33,7 @@ void ExpectedForce::forget() {
   median_.clear();
   levels_.clear();
   waiting_.clear();
-  level_n_ = expected_n_ = held_n_ = 0;
+  level_n_ = expected_n_ = pressed_n_ = held_n_ = 0;
   fresh_ = true;
 }
 
@@ -60,8 +60,10 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   }
   const double k = stiffness_n_per_mm();
   // damping adds to the stiffness of quick steps, and is learned with it: a retreat may explain more than k alone, but never less than hard tissue
-  expected_n_ += (advance < 0 ? k_.back_share * std::max(k, k_.stiffness_n_per_mm) : k_.forth_share * k) * advance -
-                 std::max(0.0, expected_n_) * k_frame_s / k_.tau_s;
+  const double change_n = (advance < 0 ? k_.back_share * std::max(k, k_.stiffness_n_per_mm) : k_.forth_share * k) * advance -
+                          std::max(0.0, expected_n_) * k_frame_s / k_.tau_s;
+  expected_n_ += change_n;
+  pressed_n_ = force_n_ >= k_all_there * expected_n_ ? expected_n_ : std::min(pressed_n_ + change_n, k_.pressed_most * level_n_);
   if (size > k_holds * level_n_ && size > k_least_n) out_ = normalized(out_ * (1 - k_direction_share) + force * (k_direction_share / size), out_);
 
   waiting_.push_back(force_n_);

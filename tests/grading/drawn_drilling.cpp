@@ -17,6 +17,7 @@ namespace {
 using namespace testing_engine;
 
 constexpr double k_dt = k_tick_s;
+constexpr double k_feels_s = 0.03;         // time constant of what a hand feels
 constexpr std::int64_t k_longest = 60000;  // ticks
 constexpr double k_through_mm = 1.8;       // so far beyond the cavity's roof the hand stops, whatever it has felt
 constexpr double k_seen_mm = 4.0;          // a hand lets itself be drawn no further from the point that it sees on the screen
@@ -107,6 +108,7 @@ class Session {
   std::int64_t let_go_ = -1;  // tick in which the hand noticed that nothing resists any more
   Material dentin_;
   double expected_n_ = 0, pushing_n_ = 0;  // see expect()
+  double expected_felt_n_ = 0;             // as a hand would feel it
   std::int64_t held_at_ = 0;               // last tick with nearly all of the force
   bool pressing_ = false;                  // the hand means to drill on
   Vec3 last_tip_mm_;
@@ -239,7 +241,7 @@ void Session::tick(Vec3 intended, double pedal) {
         out_.grazed_elsewhere = out_.touched < 0;
       }
     }
-  felt_n_ += (length(last_.rendered_force_n) - felt_n_) * (k_dt / 0.03);
+  felt_n_ += (length(last_.rendered_force_n) - felt_n_) * (k_dt / k_feels_s);
   if (out_.touched < 0) level_n_ += (felt_n_ - level_n_) * (k_dt / 0.5);
   if (going_through_ && out_.touched >= 0 && let_go_ < 0 && felt_n_ < 0.1 * level_n_) let_go_ = now;
   expect(now);
@@ -249,20 +251,24 @@ void Session::tick(Vec3 intended, double pedal) {
 }
 
 /// What solid dentin would give at the same motion of the tip, and whether the hand can feel that the tooth gives less. The tip presses in by its
-/// advance, the surface recedes at X / tau, and the level before the touch is the most that it can be.
+/// advance, the surface recedes at X / tau, and the level before the touch is the most that it can be. Only a force at the bottom of the hole tells
+/// of the bottom: a blow against the wall or the rim on the way there does not. Force and expectation are compared as a hand feels them, both
+/// smoothed.
 void Session::expect(std::int64_t now) {
   const Vec3 at{input_.tip_nm[0] * 1e-6, input_.tip_nm[1] * 1e-6, input_.tip_nm[2] * 1e-6};
   const double k = dentin_.voigt.stiffness_n_per_mm;
   if (now > 0) expected_n_ += k * dot(at - last_tip_mm_, way_.into) - std::max(0.0, expected_n_) * k_dt / dentin_.tau_s;
   last_tip_mm_ = at;
   expected_n_ = std::min(expected_n_, level_n_);
-  pushing_n_ += (-dot(last_.rendered_force_n, way_.into) - pushing_n_) * (k_dt / 0.03);
-  if (pushing_n_ > k_felt_share * k_felt_least_n) expected_n_ = std::max(expected_n_, std::min(pushing_n_, level_n_));
-  if (felt_n_ >= 0.8 * level_n_) held_at_ = now;
-  if (out_.touched < 0 || !pressing_ || now - held_at_ > k_felt_within_ticks || expected_n_ < std::max(k_felt_least_n, 0.5 * level_n_)) return;
-  if (depth() < deepest_mm_ - k_felt_near_mm) return;
-  out_.least_share = std::min(out_.least_share, felt_n_ / expected_n_);
-  if (out_.felt < 0 && felt_n_ < k_felt_share * expected_n_) out_.felt = now;
+  pushing_n_ += (-dot(last_.rendered_force_n, way_.into) - pushing_n_) * (k_dt / k_feels_s);
+  const bool at_bottom = depth() >= deepest_mm_ - k_felt_near_mm;
+  if (at_bottom && pushing_n_ > k_felt_share * k_felt_least_n) expected_n_ = std::max(expected_n_, std::min(pushing_n_, level_n_));
+  if (at_bottom && felt_n_ >= 0.8 * level_n_) held_at_ = now;
+  expected_felt_n_ += (std::max(0.0, expected_n_) - expected_felt_n_) * (k_dt / k_feels_s);
+  if (out_.touched < 0 || !pressing_ || now - held_at_ > k_felt_within_ticks || !at_bottom) return;
+  if (std::min(expected_n_, expected_felt_n_) < std::max(k_felt_least_n, 0.5 * level_n_)) return;
+  out_.least_share = std::min(out_.least_share, felt_n_ / expected_felt_n_);
+  if (out_.felt < 0 && felt_n_ < k_felt_share * expected_felt_n_) out_.felt = now;
 }
 
 void Session::travel(Vec3 to, double mm_s, double pedal) {

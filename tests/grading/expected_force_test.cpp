@@ -33,13 +33,51 @@ double least_share(const std::vector<DrillFrame>& frames, ExpectedForce& observe
   return least;
 }
 
+double learned(double k) {
+  ExpectedForce observer({});
+  (void)least_share(against_a_spring(k, 2.02, 8, [](double t) { return 0.4 + 1.2 * std::sin(6 * t); }), observer);
+  return observer.stiffness_n_per_mm();
+}
+
 TEST(ExpectedForce, LearnsTheStiffnessOfASpring) {
-  for (const double k : {0.4, 0.8, 1.2}) {
-    ExpectedForce observer({});
-    const auto frames = against_a_spring(k, 2.02, 8, [](double t) { return 0.4 + 0.4 * std::sin(6 * t); });
-    (void)least_share(frames, observer);
-    EXPECT_NEAR(observer.stiffness_n_per_mm(), k, 0.15);
+  for (const double k : {0.55, 0.8, 1.15}) EXPECT_NEAR(learned(k), k, 0.1);
+}
+
+TEST(ExpectedForce, TakesNoSpringForHardTissueThatIsSofterOrStiffer) {
+  EXPECT_DOUBLE_EQ(learned(0.2), ExpectedForceSettings{}.least_stiffness_n_per_mm);
+  EXPECT_DOUBLE_EQ(learned(2.5), ExpectedForceSettings{}.most_stiffness_n_per_mm);
+}
+
+TEST(ExpectedForce, GrowsWithTheWayOfATipThatPressesOnInAFall) {
+  const double k = 0.8, tau_s = 2.02, lunge_mm = 0.5;
+  auto frames = against_a_spring(k, tau_s, 8, [](double) { return 0.4; });
+  ExpectedForceSettings settings;
+  settings.worth_mm2 = 1e6;  // k is known
+  ExpectedForce observer(settings);
+  (void)least_share(frames, observer);
+  EXPECT_DOUBLE_EQ(observer.pressed_n(), observer.expected_n()) << "nothing is missing yet";
+  const double level = observer.level_n();
+  // the force goes, and the tip springs on within 0.1 s
+  const auto first = static_cast<std::int64_t>(frames.size());
+  const int count = 10;
+  for (int i = 1; i <= count; ++i) {
+    DrillFrame f = frames[static_cast<std::size_t>(first - 1)];
+    f.tip_mm.z -= lunge_mm * i / count;
+    f.force_n = {};
+    frames.push_back(f);
   }
+  for (int i = 0; i < 3; ++i) frames.push_back(frames.back());  // until the means over three frames have arrived
+  for (std::int64_t i = first; i < static_cast<std::int64_t>(frames.size()); ++i) observer.take(frames, i);
+  EXPECT_LE(observer.expected_n(), level + 1e-12) << "the level bounds what was only guessed";
+  // F = k X of a surface that recedes at X / tau
+  const double decay = std::exp(-(count + 3) * k_frame_s / tau_s);
+  EXPECT_NEAR(observer.pressed_n(), level * decay + k * lunge_mm * (1 + decay) / 2, 0.04 * level);
+  for (int i = 0; i < 30; ++i) {
+    frames.push_back(frames.back());
+    frames.back().tip_mm.z -= 0.5;
+    observer.take(frames, static_cast<std::int64_t>(frames.size()) - 1);
+  }
+  EXPECT_NEAR(observer.pressed_n(), settings.pressed_most * observer.level_n(), 1e-9);
 }
 
 TEST(ExpectedForce, ExplainsWhatTheHandDoesInSolidTissue) {
