@@ -56,7 +56,7 @@ class Finder {
   void close();
   /// Of a cavity, from what is left of the expected force.
   [[nodiscard]] double sureness(std::int64_t i) const;
-  /// Whether the fall is explained by how the tip came to its place: withdrawn, slipping, or hardly there yet.
+  /// Whether the fall is explained by how the tip came to its place: withdrawn, slipping, milling, or hardly there yet.
   [[nodiscard]] bool explained_before(std::int64_t i) const;
   /// Whether it is explained by where the tip went: off something, or into an earlier cut.
   [[nodiscard]] bool explained_after(std::int64_t i) const;
@@ -158,6 +158,10 @@ double Finder::sureness(std::int64_t i) const {
 bool Finder::explained_before(std::int64_t i) const {
   if (dot(expected_.out(), frame(i).handle) < k_towards_handle) return true;
   if (length(aside(frame(i).tip_mm - fall_.came_from_mm)) > s_.slips_mm_s * k_came_s) return true;
+  const std::int64_t since = std::max(turning_since_, fall_.onset - frames_in(k_came_s));
+  double way_mm = 0;
+  for (std::int64_t k = since + 1; k <= fall_.onset; ++k) way_mm += length(aside(frame(k).tip_mm - frame(k - 1).tip_mm));
+  if (way_mm > s_.races_mm_s * static_cast<double>(fall_.onset - since) * k_frame_s) return true;
   std::int64_t dwell = 0;
   for (std::int64_t k = fall_.onset; k >= 0 && fall_.onset - k < frames_in(k_dwell_back_s); --k)
     if (length(frame(k).force_n) > k_dwell_share * expected_.held_n() && length(aside(frame(k).tip_mm - frame(fall_.onset).tip_mm)) < s_.dwell_mm)

@@ -15,6 +15,7 @@
 //   pedal released, point changed   nothing can be cut: the observer starts anew
 //   enamel to dentin, soft lesion   a share of the force is left, k·τ against k·τ: 0.3 to 1, and 0.2 to 0.45
 //   slip off a wall or an edge      the tip leaves sideways, or from a place where it has hardly cut (`slips_mm_s`, `strays_mm`, `dwell_s`)
+//   milling, wall by wall           the tip goes to and fro sideways (`races_mm_s`)
 //   breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces)
 //   a point pulled out of a bind    the push was towards the handle
 //   chatter                         the mean force vanishes, its scatter is many times the noise
@@ -35,7 +36,7 @@ struct BreakthroughSettings {
   // the likelihood ratio
   double void_rest = 0.15;        ///< scale of the share of G that a cavity leaves: the rim of the hole still touches
   double soft_odds = 2.1;         ///< softer tissue is so many times as likely beforehand: at F / G = 0.2 it is even
-  double least_n = 0.06;          ///< a force below it tells nothing: 30 ms of noise of 0.05 N per tick are a quarter of it
+  double least_n = 0.05;          ///< a force below it tells nothing: 30 ms of noise of 0.05 N per tick are a third of it
   double presses_on = 0.5;        ///< a fall counts while the tip's motion explains no more than half of it
   double confirm_s = 0.02;        ///< it has to be so sure for so long
   double chatter = 0.5;           ///< of G: a force that scatters by more than that, beyond its noise, is not gone
@@ -49,6 +50,7 @@ struct BreakthroughSettings {
 
   // other explanations
   double slips_mm_s = 1.2;      ///< a tip that wanders sideways faster than that before the fall slips
+  double races_mm_s = 20.0;     ///< one that goes to and fro sideways faster than that mills a wall
   double strays_mm = 0.35;      ///< one that has gone sideways by more than that ...
   double strays_share = 0.5;    ///< ... and this share of its advance, when the force is gone, fell off something
   double dwell_s = 0.38;        ///< it must have cut so long ...

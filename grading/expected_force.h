@@ -20,8 +20,8 @@ namespace cavum {
 
 struct ExpectedForceSettings {
   double stiffness_n_per_mm = 0.8;        ///< k before anything was measured (PHYSICS.md §1)
-  double worth_mm2 = 0.008;               ///< weight of that, as a sum of squared steps of the tip: two seconds of drilling
-  double least_stiffness_n_per_mm = 0.5;  ///< what was measured below it was half cavity, or no contact
+  double worth_mm2 = 0.012;               ///< weight of that, as a sum of squared steps of the tip: three seconds of drilling
+  double least_stiffness_n_per_mm = 0.6;  ///< what was measured below it was half cavity, or no contact
   double most_stiffness_n_per_mm = 1.2;   ///< what was measured above it was damping
   double learns_s = 4.0;                  ///< the measured k forgets its past so fast
   double back_share = 1.3;                ///< a retreat explains so many times k x its length: k is uncertain

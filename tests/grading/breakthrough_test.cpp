@@ -97,6 +97,19 @@ TEST(Breakthrough, IsSilentWhenThePointSlipsSideways) {
   }
 }
 
+TEST(Breakthrough, IsSilentWhenThePointMillsToAndFro) {
+  const auto told = [](std::uint64_t seed, double mm_s) {
+    Tape t = cutting(seed);
+    for (int i = 0; i < 6; ++i) t.run(40, {mm_s, 0, -0.25}, 0.9).run(40, {-mm_s, 0, -0.25}, 0.9);
+    t.run(60, {0, 0, -6}, 0.02).run(400, {0, 0, 0}, 0.02);
+    return t.events().size();
+  };
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    EXPECT_EQ(told(seed, 40), 0u) << "seed " << seed;
+    EXPECT_EQ(told(seed, 3), 1u) << "a hand that wanders over the floor, seed " << seed;
+  }
+}
+
 TEST(Breakthrough, IsSilentBetweenEnamelAndDentin) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Tape t = cutting(seed, 1.0);
