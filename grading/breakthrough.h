@@ -35,7 +35,7 @@ struct BreakthroughSettings {
 
   // the likelihood ratio
   double void_rest = 0.15;        ///< scale of the share of G that a cavity leaves: the rim of the hole still touches
-  double soft_odds = 2.1;         ///< softer tissue is so many times as likely beforehand: at F / G = 0.2 it is even
+  double soft_odds = 2.4;         ///< softer tissue is so many times as likely beforehand: at F / G = 0.19 it is even
   double least_n = 0.05;          ///< a force below it tells nothing: 30 ms of noise of 0.05 N per tick are a third of it
   double presses_on = 0.5;        ///< a fall counts while the tip's motion explains no more than half of it
   double confirm_s = 0.02;        ///< it has to be so sure for so long
