@@ -20,7 +20,6 @@ constexpr double k_dwell_share = 0.3;      // of the force that held: it cuts th
 constexpr double k_asked_from = 0.2;       // sureness from which other explanations are asked for
 constexpr double k_before_onset_s = 0.2;   // places freed since then belong to the fall itself
 constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue; bounds how far the surface lies before the tip
-constexpr double k_towards_handle = -0.2;  // cosine of push against the handle's axis
 constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
 constexpr double k_surely_n = 1.0;         // a force below that says to within 0.3 mm where the surface is
 constexpr double k_lifted_share = 0.3;     // of the held force: when the tip's motion leaves no more of G, the hand has lifted
@@ -156,12 +155,8 @@ double Finder::sureness(std::int64_t i) const {
 }
 
 bool Finder::explained_before(std::int64_t i) const {
-  if (dot(expected_.out(), frame(i).handle) < k_towards_handle) return true;
+  if (dot(expected_.out(), frame(i).handle) < s_.least_axial) return true;
   if (length(aside(frame(i).tip_mm - fall_.came_from_mm)) > s_.slips_mm_s * k_came_s) return true;
-  const std::int64_t since = std::max(turning_since_, fall_.onset - frames_in(k_came_s));
-  double way_mm = 0;
-  for (std::int64_t k = since + 1; k <= fall_.onset; ++k) way_mm += length(aside(frame(k).tip_mm - frame(k - 1).tip_mm));
-  if (way_mm > s_.races_mm_s * static_cast<double>(fall_.onset - since) * k_frame_s) return true;
   std::int64_t dwell = 0;
   for (std::int64_t k = fall_.onset; k >= 0 && fall_.onset - k < frames_in(k_dwell_back_s); --k)
     if (length(frame(k).force_n) > k_dwell_share * expected_.held_n() && length(aside(frame(k).tip_mm - frame(fall_.onset).tip_mm)) < s_.dwell_mm)

@@ -15,10 +15,9 @@
 //   pedal released, point changed   nothing can be cut: the observer starts anew
 //   enamel to dentin, soft lesion   a share of the force is left, k·τ against k·τ: 0.3 to 1, and 0.2 to 0.45
 //   slip off a wall or an edge      the tip leaves sideways, or from a place where it has hardly cut (`slips_mm_s`, `strays_mm`, `dwell_s`)
-//   milling, wall by wall           the tip goes to and fro sideways (`races_mm_s`)
-//   breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces)
-//   a point pulled out of a bind    the push was towards the handle
-//   chatter                         the mean force vanishes, its scatter is many times the noise
+//   milling                         the push is across the handle (`least_axial`): a cavity in a wall that is milled away is left to the tissue's
+//   word breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces) a point pulled out of a bind the
+//   push was towards the handle (`least_axial`) chatter                         the mean force vanishes, its scatter is many times the noise
 #pragma once
 
 #include <cstdint>
@@ -49,8 +48,8 @@ struct BreakthroughSettings {
   double dated_at = 0.77;   ///< of G: the event's time is the last moment the force still had it
 
   // other explanations
+  double least_axial = 0.2;     ///< cosine of push against the handle's axis: a push across the handle mills a wall, one towards it pulls out
   double slips_mm_s = 1.2;      ///< a tip that wanders sideways faster than that before the fall slips
-  double races_mm_s = 20.0;     ///< one that goes to and fro sideways faster than that mills a wall
   double strays_mm = 0.35;      ///< one that has gone sideways by more than that ...
   double strays_share = 0.5;    ///< ... and this share of its advance, when the force is gone, fell off something
   double dwell_s = 0.38;        ///< it must have cut so long ...

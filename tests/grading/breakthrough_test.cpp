@@ -97,16 +97,18 @@ TEST(Breakthrough, IsSilentWhenThePointSlipsSideways) {
   }
 }
 
-TEST(Breakthrough, IsSilentWhenThePointMillsToAndFro) {
-  const auto told = [](std::uint64_t seed, double mm_s) {
-    Tape t = cutting(seed);
-    for (int i = 0; i < 6; ++i) t.run(40, {mm_s, 0, -0.25}, 0.9).run(40, {-mm_s, 0, -0.25}, 0.9);
-    t.run(60, {0, 0, -6}, 0.02).run(400, {0, 0, 0}, 0.02);
+TEST(Breakthrough, IsSilentWhenThePointMillsAWallAway) {
+  // the same push and fall, once along the handle and once across it: there a wall ends, and the next one is met or not
+  const auto told = [](std::uint64_t seed, Vec3 into) {
+    Tape t(seed);
+    t.run(200, into * 2, 0, true, into).run(100, into * 1, 0.9, true, into).run(1500, into * 0.25, 0.9, true, into);
+    t.run(60, into * 6, 0.02, true, into).run(400, {}, 0.02, true, into);
     return t.events().size();
   };
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    EXPECT_EQ(told(seed, 40), 0u) << "seed " << seed;
-    EXPECT_EQ(told(seed, 3), 1u) << "a hand that wanders over the floor, seed " << seed;
+    EXPECT_EQ(told(seed, {0, 0, -1}), 1u) << "seed " << seed;
+    EXPECT_EQ(told(seed, {0.8, 0, -0.6}), 1u) << "aslant, seed " << seed;
+    EXPECT_EQ(told(seed, {0.6, -0.8, 0}), 0u) << "seed " << seed;
   }
 }
 
