@@ -14,7 +14,7 @@ enum class LookAlike { steady, lift_off, pedal_release, enamel_to_dentin, earlie
 inline constexpr int k_look_alikes = 10;
 [[nodiscard]] const char* name_of(LookAlike what);
 
-/// Whence a session is drawn. `shifted` is what no setting was tuned on: mostly the other force model, joint friction and noise at the ends of
+/// Whence a session is drawn. `shifted` lies beyond what is usual: mostly the other force model, joint friction and noise at the ends of
 /// their ranges, hands softer and stiffer, slower and faster, more aslant, lesions softer.
 enum class Drawn { usual, shifted };
 
