@@ -106,9 +106,12 @@ std::string roc_svg(const std::vector<Outcome>& all) {
     }
     const double px = x(alarmed / std::max(1.0, clean)), py = y(found / std::max(1.0, perforated));
     svg << px << ',' << py << ' ';
-    if (step == 50 || step == 80 || step == 20)
+    if (step == 50 || step == 60 || step == 20)
       marks << "<circle cx=\"" << px << "\" cy=\"" << py << "\" r=\"4\" fill=\"#d55e00\"/><text x=\"" << px + 8 << "\" y=\""
-            << py + (step == 50 ? 18 : 32) << "\">" << least << "</text>\n";
+            << py + (step == 60   ? 46
+                     : step == 50 ? 18
+                                  : 32)
+            << "\">" << least << "</text>\n";
   }
   svg << "\"/>\n" << marks.str() << "</svg>\n";
   return svg.str();
