@@ -12,17 +12,16 @@ namespace cavum {
 namespace {
 
 constexpr double k_as_likely_as_not = 0.5;
-constexpr double k_onset_share = 0.9;      // of G: from there on the tip's way counts
-constexpr double k_longest_onset_s = 3;    // a fall that began longer ago began with its opening
-constexpr double k_came_s = 0.3;           // before a fall opens: whence the tip came
-constexpr double k_dwell_back_s = 10;      // how far back cutting in the same place counts
-constexpr double k_dwell_share = 0.3;      // of the force that held: it cuts there
-constexpr double k_asked_from = 0.2;       // sureness from which other explanations are asked for
-constexpr double k_before_onset_s = 0.2;   // places freed since then belong to the fall itself
-constexpr double k_least_stiffness = 0.5;  // N/mm: softer than any hard tissue; bounds how far the surface lies before the tip
-constexpr double k_noise_scatter = 1.5;    // scatter of three frames by noise alone is below that, times its mean
-constexpr double k_surely_n = 1.0;         // a force below that says to within 0.3 mm where the surface is
-constexpr double k_lifted_share = 0.3;     // of the held force: when the tip's motion leaves no more of G, the hand has lifted
+constexpr double k_onset_share = 0.9;     // of G: from there on the tip's way counts
+constexpr double k_longest_onset_s = 3;   // a fall that began longer ago began with its opening
+constexpr double k_came_s = 0.3;          // before a fall opens: whence the tip came
+constexpr double k_dwell_back_s = 10;     // how far back cutting in the same place counts
+constexpr double k_dwell_share = 0.3;     // of the force that held: it cuts there
+constexpr double k_asked_from = 0.2;      // sureness from which other explanations are asked for
+constexpr double k_before_onset_s = 0.2;  // places freed since then belong to the fall itself
+constexpr double k_noise_scatter = 1.5;   // scatter of three frames by noise alone is below that, times its mean
+constexpr double k_surely_n = 1.0;        // a force below that says to within 0.3 mm where the surface is
+constexpr double k_lifted_share = 0.3;    // of the held force: when the tip's motion leaves no more of G, the hand has lifted
 constexpr std::size_t k_most_confirming = 8;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -76,7 +75,7 @@ class Finder {
 void Finder::take(std::int64_t i) {
   const DrillFrame& f = frame(i);
   expected_.take(frames_, i);
-  const Vec3 surface = f.tip_mm + f.force_n / std::max(k_least_stiffness, expected_.stiffness_n_per_mm());  // it lies F / k before the tip
+  const Vec3 surface = f.tip_mm + f.force_n / expected_.stiffness_n_per_mm();  // it lies F / k before the tip
   if (length(f.force_n) < s_.freed_n && (i == 0 || length(f.tip_mm - frame(i - 1).tip_mm) < s_.springs_mm_s * k_frame_s))
     freed_.note(i > 0 && length(frame(i - 1).force_n) < k_surely_n ? surface_mm_ : surface, surface, i);
   surface_mm_ = surface;
