@@ -14,6 +14,10 @@ std::string wall_text(std::size_t wall) {
                                                          : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
 }
 
+std::string amount_text(double value, double bound, int digits, const std::string& unit) {
+  return fixed(value, digits) + (bound > 0 ? " ± " + fixed(bound, digits) : "") + (unit.empty() ? "" : " " + unit);
+}
+
 namespace {
 
 std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
@@ -22,8 +26,8 @@ std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
 
 Loss missed_target(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
-  return {fixed(r.volumes.missed.mm3, 2) + " mm3 of the target left standing, most of it towards " + wall_text(w) + " (" +
-              fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
+  return {amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3") + " of the target left standing, most of it towards " +
+              wall_text(w) + " (" + fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
           {}};
 }
 
@@ -32,10 +36,11 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
   double most = 0;
   std::size_t wall = 0;
   Zone worst = *zones.begin();
-  double sum = 0;
+  Volume sum;
   for (const Zone z : zones) {
     const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
-    sum += v.removed.mm3;
+    sum.mm3 += v.removed.mm3;
+    sum.bound_mm3 += v.removed.bound_mm3;
     const auto w = largest(v.by_wall_mm3);
     if (v.by_wall_mm3[w] > most) {
       most = v.by_wall_mm3[w];
@@ -44,8 +49,9 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = fixed(sum, 2) + " mm3 removed, most of it " + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) +
-              " at " + wall_text(wall) + " (" + fixed(most, 2) + " mm3)";
+  loss.text = amount_text(sum.mm3, sum.bound_mm3, 2, "mm3") + " removed, most of it " +
+              (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) + " at " + wall_text(wall) + " (" + fixed(most, 2) +
+              " mm3)";
   if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
   return loss;
 }
@@ -76,7 +82,7 @@ Loss loss_of(const Result& r, const std::string& metric) {
     Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
     return {missed_target(r).text + "; beyond the target " + over.text, over.first};
   }
-  if (metric == "outside_mm3") return removed_in(r, {Zone::none});
+  if (metric == "outside_mm3") return removed_in(r, {Zone::none, Zone::protected_});
   if (metric == "protected_mm3") return removed_in(r, {Zone::protected_});
   if (metric == "leeway_sides_mm3") return removed_in(r, {Zone::leeway_sides});
   if (metric == "leeway_bottom_mm3") return removed_in(r, {Zone::leeway_bottom});
@@ -103,7 +109,12 @@ Loss loss_of(const Result& r, const std::string& metric) {
       if (e.fault) return {"a drop in force from " + fixed(e.force_before_n, 2) + " N at " + when({e.tick, e.site_mm}), {e.tick, e.site_mm}};
     return {"no faulty breakthrough seen in the force", {}};
   }
-  if (metric.rfind("touched_", 0) == 0) return {"touched", {}};
+  if (metric.rfind("touched_", 0) == 0) {
+    for (const auto& t : r.tissues)
+      if (const Trace& first = r.volumes.tissue_first[t.id]; metric == "touched_" + t.name + "_mm3" && first.tick >= 0)
+        return {"touched first at " + when(first) + " at " + place(first.site_mm), first};
+    return {"never touched", {}};
+  }
   if (metric == "overhang_mm3") return {"roof left above the chamber, around " + place(r.access.overhang_middle_mm), {}};
   if (metric == "canals_covered_percent") return {"hard tissue stands over the mouths around " + place(r.access.canals_covered_mm), {}};
   if (metric == "taper_error_deg")

@@ -39,9 +39,10 @@ Work work_done(const Result& r, const std::string& metric) {
     return {r.volumes.target_removed_percent, "", r.volumes.target_removed_bound_percent};
   };
   if (measures_work(metric)) return {};
-  if (metric.rfind("side_walls_", 0) == 0) return towards(0, 4, " towards the side walls");
+  const bool of_walls = metric.ends_with("_mm");  // a distance; volumes, also of what lies below the floor, ask for all of the work
+  if (of_walls && metric.rfind("side_walls_", 0) == 0) return towards(0, 4, " towards the side walls");
   for (std::size_t w = 0; w < k_walls; ++w)
-    if (metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return towards(w, w + 1, " towards " + wall_text(w));
+    if (of_walls && metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return towards(w, w + 1, " towards " + wall_text(w));
   return towards(0, k_walls + 1, "");
 }
 
@@ -81,17 +82,25 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   } else {
     const Loss loss = loss_of(r, c.metric);
     out.first = loss.first;
-    const std::string unit = out.unit.empty() ? "" : out.unit == "%" ? " %" : " " + out.unit;
-    out.reason = fixed(*v.value, 2) + unit + " where " + fixed(c.full, 2) + unit + " gives full marks" + (loss.text.empty() ? "" : ": " + loss.text);
+    out.reason = amount_text(*v.value, v.bound, 2, out.unit) + " where " + amount_text(c.full, 0, 2, out.unit) + " gives full marks" +
+                 (loss.text.empty() ? "" : ": " + loss.text);
   }
+  const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   if (out.critical_failed) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
-    out.reason += std::string("; critical ") + (above ? "above " : "below ") + fixed(above ? *c.critical_above : *c.critical_below, 2);
+    const auto& limit = above ? c.critical_above : c.critical_below;
+    out.reason += std::string("; critical ") + (above ? "above " : "below ") + fixed(*limit, 2);
+    if (near(limit)) out.reason += ", which lies within the bound of the figure";
     out.reason += out.doubtful ? "; this alone would fail the exam, but force and tissue disagree on it" : "; this alone fails the exam";
+  } else if (near(c.critical_above) || near(c.critical_below)) {
+    out.reason += "; the critical limit of " + fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2) +
+                  " lies within the bound of the figure";
   }
-  if (out.work_share < 1)
-    out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + fixed(work.percent, 1) + " % of the target" + work.where +
-                  " was removed, and care counts in full from " + fixed(k_care_counts_percent, 0) + " % on";
+  if (out.work_share < 1) {
+    out.work_text = amount_text(work.percent, work.bound_percent, 1, "%") + " of the target" + work.where + " was removed";
+    out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + out.work_text + ", and care counts in full from " +
+                  fixed(k_care_counts_percent, 0) + " % on";
+  }
   return out;
 }
 
@@ -99,6 +108,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
 struct Standing {
   double percent = 100.0;
   std::string which;
+  double bound_percent = 0.0;
 };
 
 /// `in_favour`: as if what force and tissue disagree on were decided for the candidate.
@@ -108,12 +118,13 @@ Standing standing_of(const Result& r, bool in_favour) {
   if (r.compensatory) {
     double sum = 0;
     for (const auto& c : r.criteria) sum += points(c);
-    return {r.max_points > 0 ? 100 * sum / r.max_points : 0, "the sum"};
+    if (!(r.max_points > 0)) return {0, "the sum"};
+    return {100 * sum / r.max_points, "the sum", 100 * r.points_bound / r.max_points};
   }
   for (const auto& c : r.criteria) {
     if (!(c.max > 0)) continue;
     const double percent = 100 * points(c) / c.max;
-    if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id};
+    if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id, 100 * c.points_bound / c.max};
   }
   return s;
 }
@@ -140,13 +151,16 @@ void mark(Result& r, const RubricSpec& rubric) {
     r.verdict_reasons.push_back("critical criterion " + c.id + ": " + c.reason);
   }
   const Standing standing = standing_of(r, false);
-  const bool doubt = !r.perforation.agree(), band = std::fabs(standing.percent - rubric.pass_percent) < rubric.borderline_percent;
-  std::string text = standing.which + " reaches " + fixed(standing.percent, 1) + " %, the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
-  r.verdict = critical || standing.percent < rubric.pass_percent ? Verdict::fail : Verdict::pass;
-  if (!critical && band) {
-    r.verdict = Verdict::review;
-    text += ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %";
-  }
+  const double beyond = standing.percent - rubric.pass_percent;
+  const bool doubt = !r.perforation.agree(), band = std::fabs(beyond) < rubric.borderline_percent;
+  r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
+  if (!critical && band) r.verdict = Verdict::review;
+  std::string text = standing.which + " reaches " + fixed(standing.percent, 1) + " %, " +
+                     (critical && beyond >= 0 ? "which alone would be enough: " : "") + "the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
+  if (!critical && band) text += ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %";
+  if (!critical && !band && std::fabs(beyond) < standing.bound_percent)
+    text += "; the score's bound of ± " + fixed(standing.bound_percent, 1) +
+            " % reaches across it (every figure off by all of its bound, each to the same side)";
   r.verdict_reasons.push_back(text);
   if (!r.compensatory)
     for (const auto& c : r.criteria)

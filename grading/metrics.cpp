@@ -67,7 +67,7 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   if (metric == "target_removed_percent") return {r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent};
   if (metric == "missed_mm3") return of_volume(r.volumes.missed);
   if (metric == "removed_mm3") return of_volume(r.volumes.removed);
-  if (metric == "outside_mm3") return zone(Zone::none);
+  if (metric == "outside_mm3") return of_volume(r.volumes.outside());
   if (metric == "protected_mm3") return zone(Zone::protected_);
   if (metric == "dice") return {r.volumes.dice, r.volumes.dice_bound};
   if (metric == "leeway_sides_mm3") return zone(Zone::leeway_sides);

@@ -16,7 +16,7 @@ struct Moment {
   std::int64_t from = 0, to = 0;
   std::array<double, k_zones> by_zone{};
   std::array<double, k_walls + 1> by_wall{};
-  double sum = 0.0, furthest_mm = -1e9;
+  double sum = 0.0, bound = 0.0, furthest_mm = -1e9;
   IVec3 at;
 };
 
@@ -43,10 +43,11 @@ std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedSh
   std::stable_sort(shares.begin(), shares.end(), [](const RemovedShare& a, const RemovedShare& b) { return a.tick < b.tick; });
   std::vector<Moment> moments;
   for (const auto& s : shares) {
-    if (moments.empty() || s.tick > moments.back().to + k_moment_gap_ticks) moments.push_back({s.tick, s.tick, {}, {}, 0.0, -1e9, {}});
+    if (moments.empty() || s.tick > moments.back().to + k_moment_gap_ticks) moments.push_back({s.tick, s.tick, {}, {}, 0.0, 0.0, -1e9, {}});
     Moment& m = moments.back();
     m.to = s.tick;
     m.sum += s.mm3;
+    m.bound += s.border ? 0.5 * zones.leaf_volume_mm3() : 0.0;
     m.by_zone[static_cast<std::size_t>(s.zone)] += s.mm3;
     m.by_wall[static_cast<std::size_t>(zones.wall(s.leaf))] += s.mm3;
     if (const double d = zones.distance_mm(s.leaf); d > m.furthest_mm) {
@@ -61,6 +62,7 @@ std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedSh
     item.end_tick = m.to;
     item.site_mm = zones.centre_mm(m.at);
     item.amount = m.sum;
+    item.bound = m.bound;
     item.unit = "mm3";
     item.what = text_of(m);
     items.push_back(std::move(item));
@@ -70,9 +72,10 @@ std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedSh
 
 std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, const std::function<bool(const RemovedAt&)>& counts) {
   std::vector<RemovedShare> shares;
+  const RemovedMap removed(input.removed, end - 1);
   for (const auto& r : input.removed)
-    if (r.tick < end && counts(r))
-      shares.push_back({r.leaf.leaf(), r.leaf.tissue, r.tick, input.zones.zone(r.leaf.leaf()), input.zones.leaf_volume_mm3()});
+    if (const IVec3 leaf = r.leaf.leaf(); r.tick < end && counts(r))
+      shares.push_back({leaf, r.leaf.tissue, r.tick, input.zones.zone(leaf), input.zones.leaf_volume_mm3(), on_border(input.zones, removed, leaf)});
   return removal_moments(input.zones, std::move(shares));
 }
 

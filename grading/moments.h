@@ -11,8 +11,8 @@
 
 namespace cavum {
 
-/// What was removed, gathered while at most k_moment_gap_ticks lie between: amount = its volume, mm3; place = the leaf furthest beyond the target;
-/// said are the zones that it lies in, each with its volume when they are several, and the wall that most of it lies at.
+/// What was removed, gathered while at most k_moment_gap_ticks lie between: amount = its volume, mm3, and its bound; place = the leaf furthest beyond
+/// the target; said are the zones that it lies in, each with its volume when they are several, and the wall that most of it lies at.
 [[nodiscard]] std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedShare> shares);
 /// The same of removed leaves before tick `end` that count, taken whole.
 [[nodiscard]] std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, const std::function<bool(const RemovedAt&)>& counts);

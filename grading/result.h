@@ -30,16 +30,22 @@ struct Volume {
 struct ZoneVolume {
   Volume removed;
   std::array<double, k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
-  Trace first;                                    ///< first leaf removed
+  Trace first;                                    ///< first leaf removed there, all of it or a part
 };
 
 struct VolumeMeasures {
   Volume target, removed, missed;
   double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
   double dice = 0.0, dice_bound = 0.0;
-  std::array<ZoneVolume, k_zones> zone;  ///< by Zone; none = outside
+  std::array<ZoneVolume, k_zones> zone;  ///< by Zone
   std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
-  std::array<Volume, 256> tissue;  ///< removed, by tissue id
+  std::array<Volume, 256> tissue;       ///< removed, by tissue id
+  std::array<Trace, 256> tissue_first;  ///< first leaf removed of each
+  /// R without T, L and C: in no zone, or protected wherever that lies.
+  [[nodiscard]] Volume outside() const noexcept {
+    const Volume &none = zone[static_cast<std::size_t>(Zone::none)].removed, &guarded = zone[static_cast<std::size_t>(Zone::protected_)].removed;
+    return {none.mm3 + guarded.mm3, none.bound_mm3 + guarded.bound_mm3};
+  }
 };
 
 /// Signed distance of the cut surface from the target's, mm, + = overcut. Meaningless when samples == 0.
@@ -112,6 +118,12 @@ struct PerforationMeasures {
   }
   /// Force and tissue tell the same story about faults.
   [[nodiscard]] bool agree() const noexcept { return detected() == fault.perforated; }
+  /// The aim was opened, and no event of the force tells of it.
+  [[nodiscard]] bool aim_unseen() const noexcept {
+    for (const auto& e : events)
+      if (!e.fault) return false;
+    return has_aims && aim.perforated;
+  }
 };
 
 struct MotionMeasures {
@@ -147,6 +159,7 @@ struct CriterionResult {
   double points = 0.0, max = 0.0;
   double points_bound = 0.0;  ///< by the bounds of the value and of the work's share
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
+  std::string work_text;      ///< that in words; empty when all of them count
   bool critical_failed = false;
   bool doubtful = false;  ///< it asks for a perforation, and force and tissue disagree about that
   Trace first;            ///< where the loss began

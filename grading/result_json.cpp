@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "grading/loss.h"
 
 namespace cavum {
 
@@ -95,7 +96,7 @@ Json to_json(const Result& r) {
                   {"target_removed_percent", rounded(r.volumes.target_removed_percent)},
                   {"missed_mm3", rounded(r.volumes.missed.mm3)},
                   {"removed_mm3", rounded(r.volumes.removed.mm3)},
-                  {"outside_mm3", mm3(Zone::none)},
+                  {"outside_mm3", rounded(r.volumes.outside().mm3)},
                   {"protected_mm3", mm3(Zone::protected_)},
                   {"dice", rounded(r.volumes.dice)},
                   {"overcut",
@@ -109,7 +110,7 @@ Json to_json(const Result& r) {
                     {"target_removed_percent", rounded(r.volumes.target_removed_bound_percent)},
                     {"missed_mm3", rounded(r.volumes.missed.bound_mm3)},
                     {"removed_mm3", rounded(r.volumes.removed.bound_mm3)},
-                    {"outside_mm3", bound(Zone::none)},
+                    {"outside_mm3", rounded(r.volumes.outside().bound_mm3)},
                     {"protected_mm3", bound(Zone::protected_)},
                     {"leeway_sides_mm3", bound(Zone::leeway_sides)},
                     {"leeway_bottom_mm3", bound(Zone::leeway_bottom)},
@@ -209,8 +210,8 @@ std::string to_text(const Result& r) {
   };
   s += "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) + fixed(r.volumes.target_removed_percent, 1) + " ± " +
        fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" + volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
-  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none})
-    s += volume(zone_name(z), zone(z));
+  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}) s += volume(zone_name(z), zone(z));
+  s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(Zone::protected_));
   s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + " ± " + fixed(r.volumes.dice_bound, 3) +
        "\n\nwalls, mm (+ = overcut)                       mean            p95   over  under (± " + fixed(r.shape.bound_mm, 2) + ")\n";
   for (std::size_t w = 0; w < k_walls; ++w) {
@@ -240,12 +241,14 @@ std::string to_text(const Result& r) {
          fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N, " +
          (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue") + "\n";
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    s += "  tissue: " + std::string(kind) +
-         (t.perforated ? ", " + t.tissue + " first touched at " + fixed(t.first.t_s(), 3) + " s, " + fixed(t.volume_mm3, 3) + " mm3\n"
-                       : " not touched\n");
+    s +=
+        "  tissue: " + std::string(kind) +
+        (t.perforated ? ", " + t.tissue + " first touched at " + fixed(t.first.t_s(), 3) + " s, " + amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3\n")
+                      : " not touched\n");
   };
   truth("fault", r.perforation.fault);
   if (r.perforation.has_aims) truth("aim", r.perforation.aim);
+  if (r.perforation.aim_unseen()) s += "  the breakthrough into the aim was not seen in the force, which costs nothing\n";
   s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
        " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
        " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +

@@ -133,7 +133,23 @@ bool removed_late(const GradeInput& input, std::int64_t last_tick) {
   return std::any_of(input.removed.begin(), input.removed.end(), [&](const RemovedAt& r) { return r.tick > last_tick; });
 }
 
+/// Something that stayed lies beside the leaf, or it did itself.
+bool beside_what_stayed(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
+  return tick < 0 || std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours), [&](IVec3 step) { return !removed.has(leaf + step); });
+}
+
+/// When a leaf went; of one that is gone in part, when the last leaf beside it did.
+std::int64_t tick_of(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
+  for (int i = 0; i < 27 && tick < 0; ++i) tick = std::max(tick, removed.tick(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
+  return tick;
+}
+
 }  // namespace
+
+bool on_border(const ZoneMap& zones, const RemovedMap& removed, IVec3 leaf) {
+  return std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours),
+                     [&](IVec3 step) { return !removed.has(leaf + step) || zones.zone(leaf + step) != zones.zone(leaf); });
+}
 
 void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
                             const std::function<void(const RemovedShare&)>& visit) {
@@ -141,8 +157,11 @@ void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, 
   const Shares shares(input, removed, !late);
   RemovedMap::Marks seen = removed.marks();
   for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
-    for (int i = 0; i < 27 && tick < 0; ++i) tick = std::max(tick, removed.tick(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
-    share_out(input, shares, late, leaf, held, [&](Zone z, double share) { visit({leaf, held, tick, z, share * input.zones.leaf_volume_mm3()}); });
+    const bool edge = beside_what_stayed(removed, leaf, tick);
+    const std::int64_t when = tick_of(removed, leaf, tick);
+    share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
+      visit({leaf, held, when, z, share * input.zones.leaf_volume_mm3(), edge || share < 1});
+    });
   });
 }
 
@@ -159,19 +178,14 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
 
   RemovedMap::Marks seen = removed.marks();
   for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
-    // a border leaf is one beside which something else begins: tissue that stayed, or another zone
-    const Zone own = zones.zone(leaf);
-    bool edge = tick < 0;
+    const bool edge = beside_what_stayed(removed, leaf, tick);
     if (tick >= 0) {
-      bool zone_edge = false;
-      for (const IVec3 step : k_six_neighbours) {
-        const bool stays = !removed.has(leaf + step);
-        edge = edge || stays;
-        zone_edge = zone_edge || stays || zones.zone(leaf + step) != own;
-      }
       tissue[held].leaves += 1;
-      tissue[held].border += zone_edge ? 1 : 0;
+      tissue[held].border += on_border(zones, removed, leaf) ? 1 : 0;
+      Trace& first = v.tissue_first[held];
+      if (first.tick < 0 || tick < first.tick) first = {tick, zones.centre_mm(leaf)};
     }
+    const std::int64_t when = tick_of(removed, leaf, tick);
     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
     const double total = share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
       const auto i = static_cast<std::size_t>(z);
@@ -179,7 +193,7 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
       zone[i].border += edge || share < 1 ? 1 : 0;
       v.zone[i].by_wall_mm3[wall] += share * leaf_mm3;
       Trace& first = v.zone[i].first;
-      if (tick >= 0 && own == z && (first.tick < 0 || tick < first.tick)) first = {tick, zones.centre_mm(leaf)};
+      if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
     });
     all.leaves += total;
     if (total > 0) all.border += edge || total < 1 ? 1 : 0;

@@ -30,10 +30,11 @@ class LossFinder {
   void value_and_work();
 
  private:
-  void fact(const std::string& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}) {
+  void fact(const std::string& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0) {
     WhyItem item;
     item.what = what;
     item.amount = amount;
+    if (bound > 0) item.bound = bound;
     item.unit = unit;
     if (t.tick >= 0) {
       item.tick = item.end_tick = t.tick;
@@ -60,12 +61,18 @@ class LossFinder {
   void overhang();
   void canals();
   void walls(std::size_t first, std::size_t end, const std::string& figure);
+  void leave_out(const WhyItem& i) {
+    ++why_.left_out;
+    why_.left_out_amount += *i.amount;
+    why_.left_out_points += i.points_lost.value_or(0);
+  }
   void list_largest(std::vector<WhyItem> items) {
-    for (const auto& i : keep_largest(items)) {
-      ++why_.left_out;
-      why_.left_out_amount += *i.amount;
-      why_.left_out_points += i.points_lost.value_or(0);
-    }
+    std::erase_if(items, [this](const WhyItem& i) {
+      const bool nothing = i.unit == "mm3" && *i.amount < k_least_moment_mm3;
+      if (nothing) leave_out(i);
+      return nothing;
+    });
+    for (const auto& i : keep_largest(items)) leave_out(i);
     for (auto& i : items) why_.items.push_back(std::move(i));
   }
   void steps();
@@ -83,9 +90,16 @@ class LossFinder {
 void LossFinder::removed_moments(std::vector<WhyItem> items, bool as_value) {
   if (as_value && spec_.full < spec_.zero) {
     double before = 0;
+    const auto said = [&](double mm3) { return fixed(mm3, 2) + " mm3"; };
     for (auto& i : items) {
       const double now = before + *i.amount;
       i.points_lost = points_at(before) - points_at(now);
+      if (now <= spec_.full)
+        i.what += ", within the " + said(spec_.full) + " that cost nothing";
+      else if (before < spec_.full)
+        i.what += ", of it " + fixed(now - spec_.full, 3) + " mm3 beyond the " + said(spec_.full) + " that cost nothing";
+      else if (before >= spec_.zero)
+        i.what += ", beyond the " + said(spec_.zero) + " at which no points are left";
       before = now;
     }
   }
@@ -134,12 +148,15 @@ void LossFinder::missed(double points) {
     std::string what = "of the target left towards " + wall_text(w);
     if (p.sum > 0) what += ", its middle at " + place(p.middle / p.sum);
     what += p.last.tick >= 0 ? "; the target was last cut there at " + when(p.last) : "; nothing of the target was cut there";
-    fact(what, mm3, "mm3");
+    fact(what, mm3, "mm3", {}, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (p.last.tick >= 0) {
       why_.items.back().tick = why_.items.back().end_tick = p.last.tick;
       why_.items.back().site_mm = p.last.site_mm;
     }
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
+    if (mm3 >= k_least_moment_mm3) continue;
+    leave_out(why_.items.back());
+    why_.items.pop_back();
   }
 }
 
@@ -150,10 +167,11 @@ void LossFinder::walls(std::size_t first, std::size_t end, const std::string& fi
       fact(wall_text(w) + ": nothing was cut there");
       continue;
     }
-    fact(wall_text(w) + ": mean " + fixed(m.mean_mm, 2) + " mm, 95th percentile " + fixed(m.p95_mm, 2) + " mm, of " + std::to_string(m.samples) +
-         " places (+ = overcut, bound " + fixed(r_.shape.bound_mm, 2) + " mm)");
-    if (m.worst_over.tick >= 0) fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over);
-    if (m.worst_under.tick >= 0) fact(wall_text(w) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under);
+    fact(wall_text(w) + ": mean " + amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm") + ", 95th percentile " +
+         amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm") + ", of " + std::to_string(m.samples) + " places (+ = overcut)");
+    if (m.worst_over.tick >= 0) fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
+    if (m.worst_under.tick >= 0)
+      fact(wall_text(w) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
   }
   if (figure.find("under") != std::string::npos) return;
   const double full = std::max(0.0, spec_.full);
@@ -210,12 +228,13 @@ void LossFinder::value_and_work() {
   const double by_work = points_at(spec_.full) < spec_.points ? spec_.points - points_at(spec_.full) : 0.0;
   const double by_value = spec_.points - c.points - by_work - accounted;
   if (by_value > 1e-9) {
-    fact((*c.value < spec_.full ? "short of " : "beyond ") + fixed(spec_.full, 2) + (c.unit.empty() ? "" : " " + c.unit) + ", which gives full marks",
-         std::fabs(*c.value - spec_.full), c.unit);
+    fact((*c.value < spec_.full ? "short of " : "beyond ") + amount_text(spec_.full, 0, 2, c.unit) + ", which gives full marks",
+         std::fabs(*c.value - spec_.full), c.unit, {}, c.bound);
     why_.items.back().points_lost = by_value;
   }
   if (by_work > 1e-9) {
-    fact("of the points count, because too little of the work was done", 100 * c.work_share, "%");
+    fact(fixed(100 * c.work_share, 1) + " % of the points count, for care counts in full only from " + fixed(k_care_counts_percent, 0) +
+         " % of the work on: " + c.work_text);
     why_.items.back().points_lost = by_work;
   }
 }
@@ -245,11 +264,12 @@ void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
     if (!t.perforated) return fact(std::string("tissue: no ") + kind);
-    fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first);
+    fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first, t.bound_mm3);
   };
   truth("fault", p.fault);
   if (p.has_aims) truth("aim", p.aim);
   if (p.events.empty()) fact("force: no breakthrough seen");
+  if (p.aim_unseen()) fact("force: the breakthrough into the aim was not seen, which costs nothing");
   for (const auto& e : p.events) {
     fact(std::string("force: ") + (e.fault ? "fault" : "aim") + ", a fall from " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) +
              " N while the tip went on by " + fixed(e.advance_mm, 2) + " mm; " + (e.confirmed ? "confirmed" : "not confirmed") + " by the tissue",
@@ -260,9 +280,9 @@ void LossFinder::perforation() {
 }
 
 void LossFinder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
-  fact(name + " of the cavity", found, "mm");
+  fact(name + " of the cavity", found, "mm", {}, r_.shape.bound_mm);
   fact(name + " of the target", wanted, "mm");
-  fact("missing and too much together", error, "mm");
+  fact("missing and too much together", error, "mm", {}, 2 * r_.shape.bound_mm);
   // the leaves at the ends tell when that was cut
   struct End {
     const char* what;
@@ -300,7 +320,7 @@ void LossFinder::find() {
                                     in_.zones.wall(leaf) == Wall::floor;
                            }),
                            true);
-  if (m == "outside_mm3") return in_zones({Zone::none});
+  if (m == "outside_mm3") return in_zones({Zone::none, Zone::protected_});
   if (m == "protected_mm3") return in_zones({Zone::protected_});
   if (m == "leeway_sides_mm3") return in_zones({Zone::leeway_sides});
   if (m == "leeway_bottom_mm3") return in_zones({Zone::leeway_bottom});
@@ -324,8 +344,9 @@ void LossFinder::find() {
   if (starts("outline_width")) return shape("width", r_.shape.width_mm, r_.shape.target_width_mm, r_.shape.width_error_mm);
   if (starts("depth")) return shape("depth", r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm);
   if (m == "taper_deg" || m == "taper_error_deg") {
-    fact("mean slope of the side walls", r_.shape.taper_deg, "degrees");
-    if (m == "taper_error_deg") fact("mean slope of the target's side walls", r_.access.target_taper_deg, "degrees");
+    fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
+    if (m == "taper_error_deg")
+      fact("mean slope of the target's side walls", r_.access.target_taper_deg, "degrees", {}, r_.access.target_taper_bound_deg);
     return walls(0, 4, m);
   }
   const auto record = [&](std::int64_t i) -> const TickRecord& { return in_.records[static_cast<std::size_t>(i)]; };
@@ -358,6 +379,8 @@ Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric,
     known += (known.empty() ? "" : ", ") + rubric.criteria[i].id;
     if (rubric.criteria[i].id != criterion_id) continue;
     w.criterion = result.criteria.at(i);
+    w.full = rubric.criteria[i].full;
+    w.zero = rubric.criteria[i].zero;
     LossFinder finder(input, result, rubric.criteria[i], w);
     finder.find();
     finder.value_and_work();

@@ -15,7 +15,8 @@ namespace cavum {
 struct WhyItem {
   std::int64_t tick = -1, end_tick = -1;  ///< first and last tick
   std::optional<Vec3> site_mm;
-  std::optional<double> amount;
+  std::optional<double> amount,
+      bound;  ///< the amount may be off by ± the bound; none where it is exact or follows from nothing but the places listed
   std::string unit;
   std::optional<double> points_lost;  ///< of this moment, where points follow from a sum over moments
   std::string what;
@@ -23,6 +24,7 @@ struct WhyItem {
 
 struct Why {
   CriterionResult criterion;
+  double full = 0.0, zero = 0.0;                        ///< values of the measure with full and with no marks
   std::vector<WhyItem> items;                           ///< in order of time; facts without a moment come first
   std::size_t left_out = 0;                             ///< smaller moments that are not listed ...
   double left_out_amount = 0.0, left_out_points = 0.0;  ///< ... all of them together
@@ -31,6 +33,7 @@ struct Why {
 /// Removed leaves less than this apart in time belong to one moment.
 inline constexpr std::int64_t k_moment_gap_ticks = 500;
 inline constexpr std::size_t k_most_moments = 20;
+inline constexpr double k_least_moment_mm3 = 0.0005;  ///< a smaller volume is not worth a line: it would read 0.000
 
 /// Throws Error naming all criteria when the rubric has none of that id.
 [[nodiscard]] Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric, const std::string& criterion_id);

@@ -26,6 +26,7 @@ Json to_json(const Why& w) {
                      {"to_tick", i.end_tick < 0 ? Json(nullptr) : Json(i.end_tick)},
                      {"site_mm", i.site_mm ? Json::array({rounded(i.site_mm->x), rounded(i.site_mm->y), rounded(i.site_mm->z)}) : Json(nullptr)},
                      {"amount", number(i.amount)},
+                     {"bound", number(i.bound)},
                      {"unit", i.unit},
                      {"points_lost", number(i.points_lost)},
                      {"what", i.what}});
@@ -37,6 +38,8 @@ Json to_json(const Why& w) {
             {"value", c.value ? Json(rounded(*c.value)) : Json(nullptr)},
             {"unit", c.unit},
             {"bound", rounded(c.bound)},
+            {"full", rounded(w.full)},
+            {"zero", rounded(w.zero)},
             {"points", rounded(c.points)},
             {"max", rounded(c.max)},
             {"critical_failed", c.critical_failed},
@@ -51,7 +54,9 @@ Json to_json(const Why& w) {
 std::string to_text(const Why& w) {
   const auto& c = w.criterion;
   std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
-                  " lost\n  " + c.reason + "\n";
+                  " lost\n  " + (c.value ? amount_text(*c.value, c.bound, 3, c.unit) : std::string("not measured")) + "; full marks at " +
+                  amount_text(w.full, 0, 3, c.unit) + (w.full < w.zero ? " or less" : " or more") + ", none from " +
+                  amount_text(w.zero, 0, 3, c.unit) + " on\n  " + c.reason + "\n";
   if (!w.items.empty()) s += "\n";
   for (const auto& i : w.items) {
     std::string time;
@@ -61,8 +66,12 @@ std::string to_text(const Why& w) {
       time += " s";
     }
     time.resize(std::max<std::size_t>(time.size(), 22), ' ');
-    std::string amount = i.amount ? fixed(*i.amount, 3) + " " + i.unit : "";
-    s += "  " + time + "  " + i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
+    const std::string amount = i.amount ? amount_text(*i.amount, i.bound.value_or(0), 3, i.unit) : "";
+    s += "  " + time + "  ";
+    if (i.what.starts_with("of "))
+      s += amount + " " + i.what;
+    else
+      s += i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
     if (i.site_mm) s += ", at " + place(*i.site_mm);
     if (i.tick >= 0) s += ", tick " + std::to_string(i.tick);
     if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";

@@ -292,6 +292,12 @@ void Adviser::criteria() {
     if (const auto range = ranges.find(c.metric); range != ranges.end()) criterion(i, c, range->second);
   }
   for (auto& p : turned_round(s_.rubric)) problems_.push_back(std::move(p));
+  const bool guard_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) {
+    return among({"protected_mm3", "outside_mm3", "overcut_mm3"}, c.metric) && (c.points > 0 || c.critical_above);
+  });
+  if (!guard_judged && !s_.zones.protected_shapes.empty())
+    warn("zones/protected/0", "what is protected can be removed for nothing: no criterion measures it",
+         "add one on protected_mm3, outside_mm3 or overcut_mm3, or take [[zones.protected]] out");
   if (!(s_.rubric.pass_percent > 0)) warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -73,6 +74,13 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
   std::optional<Tooth> tooth;
   if (!tooth_file.empty()) {
     tooth = load_tooth_file(tooth_file);
+    const auto name_of = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+    if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
+      problems.push_back(problem_at(s, "tooth",
+                                    "the scenario was written for " + name_of(s.tooth_file) + ", and is checked on " + name_of(tooth_file),
+                                    "see where its zones lie: `cavum scenario show --tooth`"));
+      problems.back().warning = true;
+    }
   } else if (!s.tooth_file.empty()) {
     try {
       const std::string found = find_tooth_file(s);

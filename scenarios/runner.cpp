@@ -123,7 +123,7 @@ void Runner::fill_values(const RunnerState& s, const TickInput& input, const Tic
       removed * leaf,
       zone_mm3(Zone::leeway_sides) + zone_mm3(Zone::leeway_bottom),
       zone_mm3(Zone::container_sides) + zone_mm3(Zone::container_bottom),
-      zone_mm3(Zone::none),
+      zone_mm3(Zone::none) + zone_mm3(Zone::protected_),
       zone_mm3(Zone::protected_),
       s.depth_mm,
       output.proxy_mm.x,

@@ -57,7 +57,7 @@ struct RunnerState {
   bool pause_button = false;      ///< was held in the last tick
   std::int32_t step = 0;
   Finish finish = Finish::running;
-  std::array<std::uint64_t, k_zones> removed_in_zone{};  ///< leaves; index Zone::none = outside
+  std::array<std::uint64_t, k_zones> removed_in_zone{};  ///< leaves
   std::uint64_t target_shares = 0;                       ///< of the target, ZoneMap::target_share summed
   std::array<std::uint64_t, 256> removed_of_tissue{};    ///< leaves, by tissue id
   double depth_mm = 0.0;                                 ///< deepest so far below the opening

@@ -81,7 +81,7 @@ struct ZoneSpec {
   std::vector<ShapeSpec> target;            ///< to remove
   MarginSpec leeway;                        ///< tolerated
   MarginSpec container;                     ///< damage; beyond it lies `outside`
-  std::vector<ShapeSpec> protected_shapes;  ///< must stay, even inside leeway and container
+  std::vector<ShapeSpec> protected_shapes;  ///< must stay, even inside leeway and container: belongs to neither, and counts as outside
 };
 
 struct StepSpec {

@@ -33,17 +33,20 @@ struct Task {
 };
 
 constexpr std::string_view k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
-constexpr std::string_view k_pulp_guard = R"([[zones.protected]]                  # must stay, even inside leeway and container; may be left out
+constexpr std::string_view k_pulp_guard =
+    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
 shape = "tissue"
 tissue = "pulp"
 offset_mm = 0.5
 )";
-constexpr std::string_view k_lesion_guard = R"([[zones.protected]]                  # must stay, even inside leeway and container; may be left out
+constexpr std::string_view k_lesion_guard =
+    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
 shape = "tissue"
 tissue = "pulp"
 offset_mm = 0.3
 )";
-constexpr std::string_view k_root_guard = R"([[zones.protected]]                  # must stay, even inside leeway and container; may be left out
+constexpr std::string_view k_root_guard =
+    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
 shape = "tissue"
 tissue = "periodontium"
 )";
@@ -251,7 +254,7 @@ constexpr std::string_view k_margins = R"(
 sides_mm = 0.25
 bottom_mm = 0.2
 
-[zones.container]                    # damage, measured from the target too; beyond it everything counts as outside
+[zones.container]                    # damage, measured from the target too; everything beyond it counts as outside
 sides_mm = 1.0
 bottom_mm = 0.8
 

@@ -1,6 +1,7 @@
 // `cavum scenario check | show | solve | new`: authoring help.
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -29,7 +30,7 @@ namespace cavum {
 namespace {
 
 struct Options {
-  std::string scenario, tooth, tooth_kind = "molar", task = "class_1", out, model = "consistent";
+  std::string scenario, tooth, tooth_kind = "molar", task, out, model = "consistent";
   std::uint64_t seed = 1;
   bool json = false, force = false, careless = false;
 };
@@ -51,12 +52,37 @@ int check(const Options& o) {
     for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
     if (checked.sound()) {
       const auto n = checked.problems.size();
-      std::cout << o.scenario << ": sound" << (n == 0 ? "" : ", with " + std::to_string(n) + (n == 1 ? " warning" : " warnings"));
+      std::cout << o.scenario << ": " << (n == 0 ? "sound" : "no mistakes, " + std::to_string(n) + (n == 1 ? " warning" : " warnings"));
       if (checked.expert_s) std::cout << "; the built-in expert needs about " << fixed(*checked.expert_s, 0) << " s";
-      std::cout << "\n";
+      std::cout << (n == 0 ? "" : "; whether it can be passed: cavum scenario solve " + o.scenario) << "\n";
     }
   }
   return checked.sound() ? 0 : 1;
+}
+
+/// Volumes of the zones in the tooth, each with half a leaf over its border; the target's by parts of leaves, as it is graded.
+std::array<Volume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zones) {
+  std::array<Volume, k_zones> volumes{};
+  const double leaf_mm3 = zones.leaf_volume_mm3();
+  const IVec3 size = tooth.octree.size();
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const IVec3 leaf{x, y, z};
+        const Zone own = zones.zone(leaf);
+        if (own == Zone::none) continue;
+        Volume& v = volumes[static_cast<std::size_t>(own)];
+        v.mm3 += leaf_mm3;
+        for (const IVec3 step : {IVec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+          if (zones.zone(leaf + step) != own) {
+            v.bound_mm3 += 0.5 * leaf_mm3;
+            break;
+          }
+      }
+  volumes[static_cast<std::size_t>(Zone::target)] = {
+      static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * leaf_mm3,
+      0.5 * static_cast<double>(zones.target_border_leaves()) * leaf_mm3};
+  return volumes;
 }
 
 int show(const Options& o) {
@@ -67,16 +93,22 @@ int show(const Options& o) {
   const ZoneMap zones = build_zones(s, tooth);
   const std::string svg = scenario_sheet_svg(s, tooth, zones);
   write_text_file(o.out, svg);
-  const double leaf = zones.leaf_volume_mm3();
+  const auto volumes = zone_volumes(tooth, zones);
   if (o.json) {
-    nlohmann::ordered_json j{
-        {"out", o.out}, {"tooth", tooth.name}, {"opening_z_mm", zones.opening_z_mm()}, {"zones_mm3", nlohmann::ordered_json::object()}};
-    for (std::size_t z = 1; z < k_zones; ++z) j["zones_mm3"][zone_name(static_cast<Zone>(z))] = static_cast<double>(zones.counts()[z]) * leaf;
+    nlohmann::ordered_json j{{"out", o.out},
+                             {"tooth", tooth.name},
+                             {"opening_z_mm", zones.opening_z_mm()},
+                             {"zones_mm3", nlohmann::ordered_json::object()},
+                             {"bounds_mm3", nlohmann::ordered_json::object()}};
+    for (std::size_t z = 1; z < k_zones; ++z) {
+      j["zones_mm3"][zone_name(static_cast<Zone>(z))] = rounded(volumes[z].mm3);
+      j["bounds_mm3"][zone_name(static_cast<Zone>(z))] = rounded(volumes[z].bound_mm3);
+    }
     print_json(j);
     return 0;
   }
   for (std::size_t z = 1; z < k_zones; ++z)
-    std::cout << zone_name(static_cast<Zone>(z)) << ": " << static_cast<double>(zones.counts()[z]) * leaf << " mm3\n";
+    std::cout << zone_name(static_cast<Zone>(z)) << ": " << fixed(volumes[z].mm3, 2) << " ± " << fixed(volumes[z].bound_mm3, 2) << " mm3\n";
   std::cout << "drawn: " << o.out << "\n";
   return 0;
 }
@@ -115,7 +147,26 @@ struct Solved {
   std::optional<Result> result;
   std::string point;
   std::vector<std::string> reasons;  ///< why it was not passed
+  std::string advice;                ///< what to change then
 };
+
+/// What an instructor can do when the expert did not pass.
+std::string advice_for_expert(const Result& r) {
+  if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
+  for (const auto& c : r.criteria)
+    if (c.critical_failed)
+      return "move the critical limit of '" + c.id + "' beyond what the expert reaches, or change the zones so that it can be kept";
+  if (r.verdict == Verdict::review)
+    return r.perforation.agree() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
+                                 : "look at the recording (--out): force and tissue disagree about a perforation";
+  const CriterionResult* worst = nullptr;
+  for (const auto& c : r.criteria)
+    if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;
+  return worst == nullptr
+             ? "give the rubric criteria"
+             : "begin with '" + worst->id + "', which cost most: set its full and zero within what the expert reaches, or allow a point that " +
+                   "fits the target";
+}
 
 /// The built-in expert takes the exam.
 Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& session) {
@@ -125,6 +176,7 @@ Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& s
     expert = std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, "expert", o.seed, OmniModel{}));
   } catch (const Error& e) {
     solved.reasons.emplace_back(e.what());
+    solved.advice = "see what `cavum scenario check` warns of";
     return solved;
   }
   solved.point = setup.point_names[expert->point()];
@@ -135,7 +187,8 @@ Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& s
   for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
     solved.reasons.push_back("step " + setup.scenario.steps[i].id + " was not completed (" + setup.scenario.steps[i].complete_when + ")");
   for (const auto& c : r.criteria)
-    if (c.points < c.max) solved.reasons.push_back("criterion " + c.id + ": " + c.reason);
+    if (c.points < c.max && !c.critical_failed) solved.reasons.push_back("criterion " + c.id + ": " + c.reason);  // a critical one is named already
+  solved.advice = advice_for_expert(r);
   return solved;
 }
 
@@ -217,6 +270,7 @@ int solve(const Options& o) {
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
     j["reasons"] = solved.reasons;
+    j["what_to_do"] = solved.advice;
     if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
     print_json(j);
@@ -226,22 +280,36 @@ int solve(const Options& o) {
             << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
   if (solved.result) {
     const Result& r = *solved.result;
-    std::cout << "score  " << fixed(r.points, 1) << " of " << fixed(r.max_points, 1) << " points, " << verdict_name(r.verdict) << "; pass mark "
-              << fixed(r.pass_percent, 0) << " %" << (r.compensatory ? "" : " of each criterion") << "\ntime   " << fixed(r.motion.time_s, 1)
-              << " s of " << fixed(limit_s, 1) << " s (" << fixed(100 * r.motion.time_s / limit_s, 0) << " %), with " << solved.point << "\nsteps  "
-              << r.progress.steps_completed << " of " << r.progress.steps << " completed, ended: " << r.progress.finish << "\n";
+    std::cout << "score  " << fixed(r.points, 1) << " ± " << fixed(r.points_bound, 1) << " of " << fixed(r.max_points, 1) << " points, "
+              << verdict_name(r.verdict) << "; pass mark " << fixed(r.pass_percent, 0) << " %" << (r.compensatory ? "" : " of each criterion")
+              << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s (" << fixed(100 * r.motion.time_s / limit_s, 0)
+              << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of " << r.progress.steps
+              << " completed, ended: " << r.progress.finish << "\n";
     for (const auto& c : r.criteria) std::cout << "  " << c.id << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << c.reason << "\n";
   }
   for (const auto& reason : solved.reasons) std::cout << "because: " << reason << "\n";
+  if (!passed) std::cout << "what to do: " << solved.advice << "\n";
   if (careless) std::cout << to_text(*careless);
   if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
   return answer;
 }
 
+/// The task that is written when none is named: a class I where the tooth has one.
+std::string first_task(const std::string& tooth) {
+  std::string first = "class_1";  // of an unknown tooth, which is refused with all choices
+  bool any = false;
+  for (const auto& c : template_choices()) {
+    if (c.tooth != tooth || (any && c.task != "class_1")) continue;
+    first = c.task;
+    any = true;
+  }
+  return first;
+}
+
 int make_new(const Options& o) {
   require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  write_text_file(o.out, scenario_template(o.tooth_kind, o.task));
+  write_text_file(o.out, scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task));
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
   return 0;
 }
@@ -280,7 +348,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   std::string known;
   for (const auto& c : template_choices()) known += (known.empty() ? "" : ", ") + c.tooth + " " + c.task;
   news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
-  news->add_option("--task", o->task, "kind of task")->capture_default_str();
+  news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
   news->add_option("--out", o->out, "file to write")->required();
   news->add_flag("--force", o->force, "overwrite");
   news->callback([o, &exit_code] { exit_code = make_new(*o); });

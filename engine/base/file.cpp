@@ -40,6 +40,7 @@ std::string station_path(const std::string& name) {
 }
 
 Bytes read_file(const std::string& path) {
+  if (path.empty()) throw Error("file", "its name is empty", "name a file");
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) throw Error(path, "cannot be opened (" + reason() + ")", "check the path and its permissions");
   struct stat info {};

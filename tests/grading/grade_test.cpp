@@ -156,6 +156,38 @@ TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
   EXPECT_EQ(verdict(0, 0, true), Verdict::fail);
 }
 
+TEST(Verdict, SaysWhatItsOwnBoundsLeaveOpen) {
+  RubricSpec rubric;
+  rubric.pass_percent = 60;
+  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}};
+  const auto said = [&](double time_s, double bound_s) {
+    Result r;
+    r.motion.time_s = time_s;
+    r.motion.time_bound_s = bound_s;
+    mark(r, rubric);
+    return r.verdict_reasons.at(0) + " | " + r.criteria.at(0).reason;
+  };
+  EXPECT_EQ(said(160, 10).find("reaches across"), std::string::npos);  // 70 +- 5 %
+  EXPECT_NE(said(160, 30).find("the score's bound of ± 15.0 % reaches across it"), std::string::npos) << said(160, 30);
+  EXPECT_NE(said(200, 30).find("reaches across"), std::string::npos);  // a fail, too
+  rubric.criteria[0].critical_above = 170;
+  EXPECT_NE(said(160, 30).find("the critical limit of 170.00 lies within the bound of the figure"), std::string::npos) << said(160, 30);
+  EXPECT_NE(said(180, 30).find("critical above 170.00, which lies within the bound of the figure"), std::string::npos) << said(180, 30);
+  EXPECT_EQ(said(160, 5).find("within the bound"), std::string::npos);
+}
+
+TEST(Verdict, AFailByACriticalCriterionDoesNotNameTheSumAsItsReason) {
+  RubricSpec rubric;
+  rubric.pass_percent = 40;
+  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, 150.0, {}}};
+  Result r;
+  r.motion.time_s = 200;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::fail);
+  ASSERT_EQ(r.verdict_reasons.size(), 2u);
+  EXPECT_EQ(r.verdict_reasons[1], "the sum reaches 50.0 %, which alone would be enough: the pass mark is 40.0 %");
+}
+
 /// A result whose time gets half its points, and force and tissue that tell what is asked for.
 Result with_perforation(bool force, bool tissue) {
   Result r;
@@ -244,6 +276,18 @@ points = 20
   c.carve(box_hole(-1.5, 1.5, -1, 1, -1.1), 2);
   const Result most = c.graded();
   for (std::size_t i = 1; i < most.criteria.size(); ++i) EXPECT_EQ(most.criteria[i].reason, "full marks") << most.criteria[i].id;
+}
+
+TEST(Grade, WhatWasCutBelowTheFloorCountsByAllOfTheWorkADistanceByThatTowardsTheWall) {
+  const std::string care =
+      "[[rubric.criteria]]\nid = \"cut\"\nmetric = \"floor_cut_mm3\"\nfull = 0\nzero = 5\npoints = 20\n"
+      "[[rubric.criteria]]\nid = \"deep\"\nmetric = \"floor_max_over_mm\"\nfull = 0\nzero = 5\npoints = 20\n";
+  Carved c(scenario_text(k_box_target, care), dentin_block(4, 4, 0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -1.2), 1);  // three fifths of the target, and little of what lies near its floor
+  const Result r = c.graded();
+  const auto& cut = r.criteria.at(r.criteria.size() - 2);
+  EXPECT_DOUBLE_EQ(cut.points, 20) << cut.reason;
+  EXPECT_LT(r.criteria.back().points, 10) << r.criteria.back().reason;
 }
 
 TEST(Grade, AWallThatIsGoneAltogetherIsOvercutNotKept) {
@@ -336,6 +380,13 @@ TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
   double sum = 0;
   for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
   EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);
+  // outside is R without T, L and C, and what is protected is none of these: a hole of 1 mm2 from the container's end to its floor
+  EXPECT_NEAR(*metric_value(r, "outside_mm3").value, 4 - 1.2, 0.05);
+  EXPECT_NEAR(to_json(r)["volumes"]["outside_mm3"].get<double>(), 4 - 1.2, 0.05);
+  double others = 0;
+  for (const Zone z : {Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom})
+    others += zone_volume(r, z).mm3;
+  EXPECT_NEAR(*metric_value(r, "outside_mm3").value, r.volumes.removed.mm3 - others, 1e-9);
   EXPECT_EQ(r.volumes.zone[static_cast<std::size_t>(Zone::protected_)].first.tick, 1);
 }
 

@@ -26,9 +26,9 @@ constexpr double k_pi_here = 3.14159265358979323846;
 std::string criteria_of_care() {
   std::string text;
   for (const char* metric :
-       {"leeway_sides_mm3", "leeway_bottom_mm3", "container_mm3", "overcut_mm3", "protected_mm3", "mesial_max_over_mm", "distal_max_over_mm",
-        "buccal_max_over_mm", "lingual_max_over_mm", "floor_max_over_mm", "side_walls_max_over_mm", "walls_max_over_mm", "outline_width_error_mm",
-        "outline_length_error_mm", "depth_error_mm", "perforated", "perforation_volume_mm3", "touched_pulp_mm3"})
+       {"leeway_sides_mm3", "leeway_bottom_mm3", "container_mm3", "overcut_mm3", "outside_mm3", "protected_mm3", "mesial_max_over_mm",
+        "distal_max_over_mm", "buccal_max_over_mm", "lingual_max_over_mm", "floor_max_over_mm", "side_walls_max_over_mm", "walls_max_over_mm",
+        "outline_width_error_mm", "outline_length_error_mm", "depth_error_mm", "perforated", "perforation_volume_mm3", "touched_pulp_mm3"})
     text += std::string("[[rubric.criteria]]\nid = \"") + metric + "\"\nmetric = \"" + metric + "\"\nfull = 0\nzero = 4\npoints = 10\n";
   return text + "[[rubric.criteria]]\nid = \"dice\"\nmetric = \"dice\"\nfull = 1\nzero = 0\npoints = 10\n" +
          "[[rubric.criteria]]\nid = \"missed\"\nmetric = \"missed_mm3\"\nfull = 0\nzero = 20\npoints = 10\n";

@@ -5,7 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/random.h"
+#include "grading/result_json.h"
 #include "scenarios/names.h"
+#include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
 namespace cavum {
@@ -70,12 +73,88 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
   mark(r, rubric);
   const Why w = why(c.input(), r, rubric, "c");
   ASSERT_EQ(w.items.size(), 2u);
-  EXPECT_NE(w.items[0].what.find("too little of the work"), std::string::npos) << w.items[0].what;
+  EXPECT_NE(w.items[0].what.find("care counts in full only from"), std::string::npos) << w.items[0].what;
   const WhyItem& cut = w.items[1];
   EXPECT_NEAR(*cut.amount, *r.criteria[0].value, 1e-9);
   EXPECT_NE(cut.what.find(" mm3 in container sides"), std::string::npos) << cut.what;
   EXPECT_NE(cut.what.find(" mm3 outside all zones"), std::string::npos) << cut.what;
   EXPECT_NE(cut.what.find("the mesial wall"), std::string::npos) << cut.what;
+}
+
+TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
+  Random random(testing_basics::drawn_seed("Why.MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound"));
+  for (int round = 0; round < 4; ++round) {
+    const std::string guard = "[[zones.protected]]\nshape = \"tissue\"\ntissue = \"pulp\"\n";
+    Carved c(scenario_text(k_chamber_target + guard), chambered_block(0.1));
+    std::int64_t tick = 0;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 at{random.uniform(-2.5, 2.5), random.uniform(-2, 2), random.uniform(-5, 0)};
+      const double radius = random.uniform(0.3, 1.1);
+      c.carve([=](Vec3 p) { return length(p - at) - radius; }, tick);
+      tick += 1 + static_cast<std::int64_t>(random.uniform(0, 1500));
+    }
+    const Result measured = c.graded();
+    for (const char* metric : {"leeway_sides_mm3", "leeway_bottom_mm3", "container_sides_mm3", "container_bottom_mm3", "container_mm3", "outside_mm3",
+                               "protected_mm3", "overcut_mm3", "removed_mm3", "touched_dentin_mm3", "touched_pulp_mm3"}) {
+      RubricSpec rubric = half_lost(measured, metric, -1);
+      Result r = measured;
+      mark(r, rubric);
+      if (!(*r.criteria[0].value > 0)) continue;
+      const Why w = why(c.input(), r, rubric, "c");
+      double sum = w.left_out_amount, bound = 0;
+      std::int64_t first = -1;
+      for (const auto& i : w.items) {
+        if (i.unit != "mm3" || i.tick < 0) continue;
+        sum += *i.amount;
+        bound += i.bound.value_or(0);
+        if (first < 0 || i.tick < first) first = i.tick;
+      }
+      EXPECT_NEAR(sum, *r.criteria[0].value, 1e-9) << metric;
+      if (w.left_out == 0 && metric == std::string("removed_mm3")) {  // between zones that both went nothing is uncertain of the sum
+        EXPECT_GE(bound, r.criteria[0].bound) << metric;
+      } else if (w.left_out == 0) {
+        EXPECT_NEAR(bound, r.criteria[0].bound, 1e-9) << metric;
+      }
+      if (w.left_out == 0 && r.criteria[0].first.tick >= 0) {
+        EXPECT_EQ(r.criteria[0].first.tick, first) << metric << ": " << r.criteria[0].reason;
+      }
+    }
+  }
+}
+
+TEST(Why, SaysWhichMomentUsedUpWhatCostsNothing) {
+  Carved c(scenario_text(
+               "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"),
+           dentin_block(4, 4, 0.05));
+  c.carve(box_hole(-0.6, 0.6, -0.6, 0.6, -2), 10);
+  c.carve(box_hole(2.2, 2.7, -0.5, 0.5, -0.4), 1000);  // 0.2 mm3 outside, then four times as much, then again
+  c.carve(box_hole(2.2, 3.2, -0.5, 0.5, -1), 2000);
+  c.carve(box_hole(2.2, 3.2, -0.5, 0.5, -2), 3000);
+  RubricSpec rubric = half_lost(c.graded(), "outside_mm3", -1);
+  rubric.criteria[0].full = 0.5;
+  rubric.criteria[0].zero = 0.9;
+  Result r = c.graded();
+  mark(r, rubric);
+  const Why w = why(c.input(), r, rubric, "c");
+  std::vector<std::string> said;
+  for (const auto& i : w.items)
+    if (i.tick >= 1000) said.push_back(i.what);
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_NE(said[0].find("within the 0.50 mm3 that cost nothing"), std::string::npos) << said[0];
+  EXPECT_NE(said[1].find("mm3 beyond the 0.50 mm3 that cost nothing"), std::string::npos) << said[1];
+  EXPECT_NE(said[2].find("beyond the 0.90 mm3 at which no points are left"), std::string::npos) << said[2];
+  EXPECT_NE(to_text(w).find("full marks at 0.500 mm3 or less, none from 0.900 mm3 on"), std::string::npos) << to_text(w);
+}
+
+TEST(Why, AnAimThatTheForceDidNotSeeIsSaid) {
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -4.5), 100);
+  const RubricSpec rubric = half_lost(c.graded(), "perforated", -1);
+  Result r = c.graded();
+  mark(r, rubric);
+  ASSERT_TRUE(r.perforation.aim_unseen());
+  EXPECT_NE(to_text(why(c.input(), r, rubric, "c")).find("the breakthrough into the aim was not seen, which costs nothing"), std::string::npos);
+  EXPECT_NE(to_text(r).find("the breakthrough into the aim was not seen in the force"), std::string::npos);
 }
 
 TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {

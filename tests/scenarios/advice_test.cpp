@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/file.h"
+#include "scenarios/check.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum {
@@ -49,6 +50,37 @@ TEST(Advice, OnCoarseLeavesAPointIsNotSaidToMissWhatItReachesOnFineOnes) {
     }
     EXPECT_FALSE(any_begins(fine, "the tooth's leaves"));
   }
+}
+
+TEST(Advice, SaysThatNoCriterionMeasuresWhatIsProtected) {
+  const std::string guard = "[[zones.protected]]\nshape = \"box\"\nat_mm = [2.5, 0, -2]\nsize_mm = [1, 1, 1]\n";
+  const char* for_nothing = "what is protected can be removed for nothing";
+  const Tooth block = testing::dentin_block(3, 4, 0.1);
+  EXPECT_FALSE(any_begins(warnings(hole("1.0") + guard, block), for_nothing));  // outside_mm3 counts it
+  std::string text = testing::scenario_text(hole("1.0") + guard);
+  const auto at = text.find("metric = \"outside_mm3\"");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 22, "metric = \"removed_mm3\"");
+  const Scenario s = parse_scenario(text, "s.toml");
+  std::optional<double> expert_s;
+  std::vector<std::string> said;
+  for (const auto& p : advise(s, block, build_zones(s, block), {}, expert_s)) said.push_back(p.what);
+  EXPECT_TRUE(any_begins(said, for_nothing));
+}
+
+TEST(Advice, SaysThatAScenarioWasWrittenForAnotherTooth) {
+  const std::string folder = std::string(CAVUM_SOURCE_DIR) + "/tests/scenarios/broken/", file = folder + "target_holds_pulp.toml";
+  const std::string text = read_text_file(file), block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block.cvt";
+  const auto said = [&](const std::string& written_for) {
+    std::string other = text;
+    other.replace(other.find("block.cvt"), 9, written_for);
+    std::vector<std::string> list;
+    for (const auto& p : check_whole(other, file, block).problems) list.push_back(p.what);
+    return list;
+  };
+  EXPECT_TRUE(any_begins(said("molar.cvt"), "the scenario was written for molar.cvt, and is checked on block.cvt"));
+  EXPECT_FALSE(any_begins(said("block.cvt"), "the scenario was written for"));
+  EXPECT_FALSE(any_begins(said("teeth/block.cvt"), "the scenario was written for"));
 }
 
 }  // namespace

@@ -157,6 +157,22 @@ TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
   EXPECT_EQ(exam.events(ExamEventKind::finished).at(0).index, static_cast<int>(Finish::completed));
 }
 
+TEST(Runner, WhatIsProtectedCountsAsOutsideWhileTheExamRuns) {
+  const std::string guard = "[[zones.protected]]\nshape = \"box\"\nat_mm = [0.9, 0, -0.5]\nsize_mm = [0.4, 1, 1]\n";  // 0.2 mm beside the target
+  const auto finish = [&](const char* condition) {
+    std::string text = scenario_text(k_box + guard);
+    const std::string from = "target_removed_percent >= 99";
+    text.replace(text.find(from), from.size(), condition);
+    Exam exam(parse_scenario(text, "s.toml"));
+    const RemovedLeaf guarded[] = {exam.leaf({0.75, 0, -0.5})};  // the leeway would reach there
+    exam.tick(guarded);
+    return exam.state.finish;
+  };
+  EXPECT_EQ(finish("outside_mm3 > 0.0005"), Finish::completed);
+  EXPECT_EQ(finish("protected_mm3 > 0.0005"), Finish::completed);
+  EXPECT_EQ(finish("leeway_mm3 + container_mm3 > 0"), Finish::running);
+}
+
 TEST(Runner, StepLimitsAndFailuresLeadOnOrEndTheExam) {
   const std::string next =
       "complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.1\n[[steps]]\nid = \"second\"\ninstruction = \"More.\"\n"

@@ -90,7 +90,8 @@ TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
     expert = taken_by("expert", *setup, 100000 * more);
   }
   EXPECT_EQ(expert.verdict, Verdict::pass) << text_of(expert);
-  EXPECT_GE(expert.points, 80) << text_of(expert);
+  EXPECT_GE(expert.points, 90) << text_of(expert);
+  for (const auto& c : expert.criteria) EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << c.reason;
   EXPECT_EQ(expert.progress.finish, "completed") << text_of(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;

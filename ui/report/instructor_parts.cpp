@@ -28,10 +28,15 @@ void add_volumes(Document& d, const Result& r) {
   t.rows.push_back({{{"target removed"}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
   volume("target left standing", r.volumes.missed);
   volume("removed in all", r.volumes.removed);
-  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}) {
+  const auto zone = [&](const std::string& name, Zone z) {
     const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
-    volume("removed, " + std::string(zone_name(z)), v.removed, v.removed.mm3 > 0 ? v.first : Trace{});
-  }
+    volume(name, v.removed, v.removed.mm3 > 0 ? v.first : Trace{});
+  };
+  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom})
+    zone("removed, " + std::string(zone_name(z)), z);
+  volume("removed, outside", r.volumes.outside());
+  zone("of it in no zone", Zone::none);
+  zone("of it protected", Zone::protected_);
   for (const auto& tissue : r.tissues)
     if (r.volumes.tissue[tissue.id].mm3 > 0) volume("removed of " + tissue.name + ", in whole leaves", r.volumes.tissue[tissue.id]);
   t.rows.push_back({{{"agreement (Dice)"}, {bounded(r.volumes.dice, r.volumes.dice_bound, 3, "")}, {""}, {""}}});
