@@ -36,11 +36,8 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
   double most = 0;
   std::size_t wall = 0;
   Zone worst = *zones.begin();
-  Volume sum;
   for (const Zone z : zones) {
     const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
-    sum.mm3 += v.removed.mm3;
-    sum.bound_mm3 += v.removed.bound_mm3;
     const auto w = largest(v.by_wall_mm3);
     if (v.by_wall_mm3[w] > most) {
       most = v.by_wall_mm3[w];
@@ -49,9 +46,8 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = amount_text(sum.mm3, sum.bound_mm3, 2, "mm3") + " removed, most of it " +
-              (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) + " at " + wall_text(wall) + " (" + fixed(most, 2) +
-              " mm3)";
+  loss.text = std::string("most of it ") + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) + " at " +
+              wall_text(wall) + " (" + fixed(most, 2) + " mm3)";
   if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
   return loss;
 }
@@ -80,7 +76,9 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "target_removed_percent" || metric == "missed_mm3") return missed_target(r);
   if (metric == "dice") {
     Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
-    return {missed_target(r).text + "; beyond the target " + over.text, over.first};
+    const Volume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
+    return {missed_target(r).text + "; " + fixed(r.volumes.removed.mm3 - in_target.mm3, 2) + " mm3 removed beyond the target, " + over.text,
+            over.first};
   }
   if (metric == "outside_mm3") return removed_in(r, {Zone::none, Zone::protected_});
   if (metric == "protected_mm3") return removed_in(r, {Zone::protected_});
