@@ -225,6 +225,10 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   if (!of_common.empty()) {
     m.length_error_mm = (of_either.length() - of_common.length()) * leaf_mm;
     m.width_error_mm = (of_either.width() - of_common.width()) * leaf_mm;
+    m.end_error = {{{(of_either.high_x - of_common.high_x) * leaf_mm, (of_cut.high_x - of_target.high_x) * leaf_mm},
+                    {(of_common.low_x - of_either.low_x) * leaf_mm, (of_target.low_x - of_cut.low_x) * leaf_mm},
+                    {(of_either.high_y - of_common.high_y) * leaf_mm, (of_cut.high_y - of_target.high_y) * leaf_mm},
+                    {(of_common.low_y - of_either.low_y) * leaf_mm, (of_target.low_y - of_cut.low_y) * leaf_mm}}};
   }
   if (removed.count() > 0) m.depth_mm = zones.opening_z_mm() - deepest;
   if (deepest_in_target < zones.target_high_mm().z) {

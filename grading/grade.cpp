@@ -7,6 +7,7 @@
 #include "engine/base/text.h"
 #include "grading/access.h"
 #include "grading/cut_surface.h"
+#include "grading/loss.h"
 #include "grading/motion.h"
 #include "grading/perforation.h"
 #include "grading/removed_map.h"
@@ -57,8 +58,33 @@ LateWork find_late_work(const GradeInput& input) {
 
 std::string seconds(std::int64_t ticks) { return fixed(static_cast<double>(ticks) * k_tick_s, 3) + " s"; }
 
+/// Steps that were not completed but ended: by their own time, or by their condition.
+void note_steps(const GradeInput& input, Result& r) {
+  std::size_t step = 0;
+  for (const auto& e : input.events) {
+    const bool late = is_kind(e, ExamEventKind::step_time_limit), failed = is_kind(e, ExamEventKind::step_failed);
+    if ((late || failed) && step < input.scenario.steps.size()) {
+      const StepSpec& s = input.scenario.steps[step];
+      const std::string at = " at " + when({e.tick, {}});
+      if (failed)
+        r.notes.push_back("step '" + s.id + "' failed" + at + ": " + s.fail_when);
+      else
+        r.notes.push_back("step '" + s.id + "' ran out of its time" + at +
+                          (s.time_limit_s ? ": its limit was " + seconds(step_limit_ticks(input.scenario, s)) : ""));
+    }
+    step += late || failed || is_kind(e, ExamEventKind::step_completed) ? 1 : 0;
+  }
+}
+
 /// What granted, paused and late time means for a reader.
-void note_time(Result& r) {
+void note_time(const GradeInput& input, Result& r) {
+  std::string refused;
+  for (const auto& e : input.events) {
+    if (!is_kind(e, ExamEventKind::pause_refused)) continue;
+    const bool turned =
+        e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) && input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
+    refused += (refused.empty() ? "" : ", ") + ("tick " + std::to_string(e.tick)) + (turned ? ": the handpiece turned" : ": none was left");
+  }
   if (const auto text = accommodations_text(r.accommodations); !text.empty())
     r.notes.push_back("accommodations: " + text + "; the limit was " + seconds(r.limit_ticks));
   if (!r.pauses.empty()) {
@@ -71,12 +97,14 @@ void note_time(Result& r) {
     r.notes.push_back("pauses: " + std::to_string(r.pauses.size()) + ", " + seconds(sum) + " in all, which do not count (" + list + ")");
   }
   if (r.pauses_refused > 0)
-    r.notes.push_back(std::to_string(r.pauses_refused) + " pauses asked for and not given: none was left, or the handpiece turned");
+    r.notes.push_back(std::to_string(r.pauses_refused) + (r.pauses_refused == 1 ? " pause" : " pauses") + " asked for and not given (" + refused +
+                      ")");
   if (r.motion.late_ticks > 0)
     r.notes.push_back(std::to_string(r.motion.late_ticks) + " ticks were recorded after the exam was over, " + fixed(r.motion.late_removed_mm3, 2) +
                       " mm3 removed in them; they do not count");
   if (r.late_work.ticks > 0)
-    r.notes.push_back("the candidate went on for " + seconds(r.late_work.ticks) + " after time was up, with the pedal pressed for " +
+    r.notes.push_back("the candidate went on for " + seconds(r.late_work.ticks) +
+                      (r.progress.finish == "time" ? " after time was up" : " after the exam was over") + ", with the pedal pressed for " +
                       seconds(r.late_work.pedal_ticks) + "; the tooth stayed as it was, and nothing of it counts");
 }
 
@@ -119,6 +147,7 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   const std::int64_t ticks = counted_ticks(static_cast<std::int64_t>(input.inputs.size()), input.events);
   // without motion (a cavity handed in for marking) every removed leaf counts
   const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;
+  if (ticks > 0 && !input.inputs.empty()) r.end = {ticks - 1, input.inputs[static_cast<std::size_t>(ticks - 1)].tip_mm()};
   const RemovedMap removed(input.removed, last_tick);
   r.volumes = measure_volumes(input, removed, last_tick);
   r.shape = measure_shape(input, removed, last_tick);
@@ -137,7 +166,8 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
     r.notes.push_back(std::to_string(r.progress.steps - r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) +
                       " steps were not completed; the verdict comes from the rubric alone");
-  note_time(r);
+  note_steps(input, r);
+  note_time(input, r);
   compare_with_final_tooth(input, removed, r);
   mark(r, rubric);
   return r;

@@ -1,6 +1,8 @@
 #include "grading/loss.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 #include "engine/base/text.h"
 
@@ -9,7 +11,7 @@ namespace cavum {
 std::string when(const Trace& t) { return fixed(t.t_s(), 2) + " s (tick " + std::to_string(t.tick) + ")"; }
 std::string place(Vec3 p) { return "[" + fixed(p.x, 2) + ", " + fixed(p.y, 2) + ", " + fixed(p.z, 2) + "] mm"; }
 std::string wall_text(std::size_t wall) {
-  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal opening"
+  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal side"
          : wall == static_cast<std::size_t>(Wall::floor) ? "the floor"
                                                          : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
 }
@@ -26,9 +28,11 @@ std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
 
 Loss missed_target(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
+  const Trace& last = r.volumes.target_last[w];
   return {amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3") + " of the target left standing, most of it towards " +
-              wall_text(w) + " (" + fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3)",
-          {}};
+              wall_text(w) + " (" + fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3), where " +
+              (last.tick < 0 ? "nothing of it was cut" : "it was cut last at " + when(last)),
+          last};
 }
 
 Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
@@ -52,22 +56,42 @@ Loss removed_in(const Result& r, std::initializer_list<Zone> zones) {
   return loss;
 }
 
-Loss at_walls(const Result& r, std::size_t first, std::size_t end, bool over) {
+/// By the wall that has the largest of the figure: "max_over_mm", "max_under_mm", "p95_mm" or "mean_mm".
+Loss at_walls(const Result& r, std::size_t first, std::size_t end, std::string_view metric) {
+  const bool over = metric.ends_with("max_over_mm"), under = metric.ends_with("max_under_mm"), p95 = metric.ends_with("p95_mm");
+  const auto size = [&](const WallMeasures& m) { return over ? m.max_over_mm : under ? m.max_under_mm : p95 ? m.p95_mm : m.mean_mm; };
   std::size_t worst = end;
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    if (m.samples == 0 && !(m.max_over_mm > 0)) continue;
-    const auto size = [&](std::size_t i) { return over ? r.shape.wall[i].max_over_mm : r.shape.wall[i].max_under_mm; };
-    if (worst == end || size(w) > size(worst)) worst = w;
+    if (m.samples == 0 && !(over && m.max_over_mm > 0)) continue;
+    if (worst == end || size(m) > size(r.shape.wall[worst])) worst = w;
   }
   if (worst == end) return {"nothing was cut there", {}};
   const WallMeasures& m = r.shape.wall[worst];
-  const Trace& t = over ? m.worst_over : m.worst_under;
+  const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   Loss loss{{}, t};
-  loss.text = over ? wall_text(worst) + " overcut by up to " + fixed(m.max_over_mm, 2) + " mm"
-                   : wall_text(worst) + " left up to " + fixed(m.max_under_mm, 2) + " mm thick";
+  if (over)
+    loss.text = wall_text(worst) + " overcut by up to " + fixed(m.max_over_mm, 2) + " mm";
+  else if (under)
+    loss.text = wall_text(worst) + " left up to " + fixed(m.max_under_mm, 2) + " mm thick";
+  else
+    loss.text = wall_text(worst) +
+                (p95 ? ", 95 % of whose places lie no further out than that; the furthest " : ", in the mean of its places; the furthest ") +
+                (&t == &m.worst_under ? fixed(m.max_under_mm, 2) + " mm thick" : fixed(m.max_over_mm, 2) + " mm beyond the target");
   if (t.tick >= 0) loss.text += ", at " + place(t.site_mm) + ", cut at " + when(t);
   return loss;
+}
+
+/// "0.68 mm at the mesial end (0.68 mm too far), 0.57 mm at the distal end (0.57 mm short)"
+std::string ends_text(const Result& r, std::size_t first) {
+  constexpr const char* k_ends[] = {"mesial", "distal", "buccal", "lingual"};
+  std::string text;
+  for (std::size_t i = first; i < first + 2; ++i) {
+    const auto& e = r.shape.end_error[i];
+    text += (text.empty() ? "" : ", ") + fixed(e.part_mm, 2) + " mm at the " + k_ends[i] + " end (" + fixed(std::fabs(e.beyond_mm), 2) +
+            (e.beyond_mm >= 0 ? " mm too far)" : " mm short)");
+  }
+  return text;
 }
 
 }  // namespace
@@ -77,9 +101,14 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "dice") {
     Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
     const Volume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
-    return {missed_target(r).text + "; " + fixed(r.volumes.removed.mm3 - in_target.mm3, 2) + " mm3 removed beyond the target, " + over.text,
-            over.first};
+    const Loss missed = missed_target(r);
+    const bool none = over.first.tick < 0;
+    if (none) return missed;
+    return {missed.text + "; " + fixed(r.volumes.removed.mm3 - in_target.mm3, 2) + " mm3 removed beyond the target, " + over.text, over.first};
   }
+  if (metric == "removed_mm3")
+    return removed_in(
+        r, {Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
   if (metric == "outside_mm3") return removed_in(r, {Zone::none, Zone::protected_});
   if (metric == "protected_mm3") return removed_in(r, {Zone::protected_});
   if (metric == "leeway_sides_mm3") return removed_in(r, {Zone::leeway_sides});
@@ -92,11 +121,10 @@ Loss loss_of(const Result& r, const std::string& metric) {
     if (r.access.floor_first.tick < 0) return {"no hard tissue was cut below the target", {}};
     return {"beginning at " + when(r.access.floor_first) + " at " + place(r.access.floor_first.site_mm), r.access.floor_first};
   }
-  const bool under = metric.find("under") != std::string::npos;
-  if (metric.rfind("side_walls_", 0) == 0) return at_walls(r, 0, 4, !under);
-  if (metric.rfind("walls_", 0) == 0) return at_walls(r, 0, k_walls, !under);
+  if (metric.rfind("side_walls_", 0) == 0) return at_walls(r, 0, 4, metric);
+  if (metric.rfind("walls_", 0) == 0) return at_walls(r, 0, k_walls, metric);
   for (std::size_t w = 0; w < k_walls; ++w)
-    if (metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return at_walls(r, w, w + 1, !under);
+    if (metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return at_walls(r, w, w + 1, metric);
   if (metric == "perforated" || metric == "perforation_volume_mm3") {
     const PerforationTruth& t = r.perforation.fault;
     if (!t.perforated) return {"no faulty breakthrough", {}};
@@ -126,9 +154,9 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "depth_error_mm" && r.shape.depth_mm)
     return {"depth " + fixed(*r.shape.depth_mm, 2) + " mm instead of " + fixed(r.shape.target_depth_mm, 2) + " mm", {}};
   if (metric == "outline_width_error_mm" && r.shape.width_mm)
-    return {"width " + fixed(*r.shape.width_mm, 2) + " mm instead of " + fixed(r.shape.target_width_mm, 2) + " mm", {}};
+    return {ends_text(r, 2) + "; width " + fixed(*r.shape.width_mm, 2) + " mm instead of " + fixed(r.shape.target_width_mm, 2) + " mm", {}};
   if (metric == "outline_length_error_mm" && r.shape.length_mm)
-    return {"length " + fixed(*r.shape.length_mm, 2) + " mm instead of " + fixed(r.shape.target_length_mm, 2) + " mm", {}};
+    return {ends_text(r, 0) + "; length " + fixed(*r.shape.length_mm, 2) + " mm instead of " + fixed(r.shape.target_length_mm, 2) + " mm", {}};
   return {};
 }
 

@@ -46,6 +46,24 @@ Work work_done(const Result& r, const std::string& metric) {
   return towards(0, k_walls + 1, "");
 }
 
+/// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never did.
+Trace clock_at(const Result& r, double seconds) {
+  auto tick = static_cast<std::int64_t>(std::floor(seconds * k_ticks_per_second));
+  for (const auto& p : r.pauses)
+    if (p.begin <= tick) tick += p.end - p.begin;
+  return tick >= 0 && tick <= r.end.tick ? Trace{tick, {}} : Trace{};
+}
+
+/// Digits that it takes to tell a value from another one and from nothing.
+int digits_for(double value, double other) {
+  constexpr int k_most = 6;
+  int digits = 2;
+  while (digits < k_most &&
+         ((value != other && fixed(value, digits) == fixed(other, digits)) || (value != 0 && fixed(value, digits) == fixed(0, digits))))
+    ++digits;
+  return digits;
+}
+
 /// The question whether something was broken into that must not be: what force and tissue may disagree on.
 bool asks_for_perforation(const Result& r, const std::string& metric) {
   return metric == "perforated" || metric == "perforation_volume_mm3" || metric == "perforation_events" ||
@@ -67,6 +85,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   if (!v.value) {
     out.reason = "cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind";
     out.critical_failed = c.critical_below.has_value();
+    out.first = r.end;
     return out;
   }
   const Work work = work_done(r, c.metric);
@@ -80,9 +99,18 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   if (share >= 1.0 && !out.critical_failed) {
     out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
   } else {
-    const Loss loss = loss_of(r, c.metric);
+    Loss loss = loss_of(r, c.metric);
+    if (c.metric == "time_s") {
+      loss.first = clock_at(r, c.full);
+      if (loss.first.tick >= 0) loss.text = "that time was over at " + when(loss.first);
+    }
+    if (loss.first.tick < 0 && r.end.tick >= 0) {
+      loss.first = r.end;
+      loss.text += std::string(loss.text.empty() ? "" : ", ") + "as it stood at the end, " + when(r.end);
+    }
     out.first = loss.first;
-    out.reason = amount_text(*v.value, v.bound, 2, out.unit) + " where " + amount_text(c.full, 0, 2, out.unit) + " gives full marks" +
+    const int digits = digits_for(*v.value, c.full);
+    out.reason = amount_text(*v.value, v.bound, digits, out.unit) + " where " + amount_text(c.full, 0, digits, out.unit) + " gives full marks" +
                  (loss.text.empty() ? "" : ": " + loss.text);
   }
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
@@ -174,6 +202,9 @@ void mark(Result& r, const RubricSpec& rubric) {
     if (open) r.verdict = Verdict::review;
     r.verdict_reasons.push_back(what + (open ? ": a person decides" : "; the exam is failed either way"));
   }
+  if (r.perforation.fault.perforated &&
+      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, c.metric); }))
+    r.verdict_reasons.push_back(r.perforation.fault.tissue + " was opened, which is a fault, and no criterion of this rubric asks for it");
   for (const auto& note : r.notes)
     if (note.find("a person must") != std::string::npos) {
       r.verdict = Verdict::review;

@@ -31,16 +31,18 @@ double wall_bound(const Result& r, const WallMeasures& w, const std::string& fig
   return figure == "mean_mm" ? w.mean_bound_mm : figure == "p95_mm" ? w.p95_bound_mm : r.shape.bound_mm;
 }
 
-/// Largest figure of walls 0..last.
+/// Largest figure of walls 0..last. The true one lies between the largest of the lower ends of all walls and the largest of the upper ends.
 MetricValue worst_wall(const Result& r, std::size_t walls, const std::string& figure) {
-  MetricValue worst{std::nullopt, r.shape.bound_mm};
+  std::optional<double> worst;
+  double low = 0, high = 0;
   for (std::size_t w = 0; w < walls; ++w) {
     if (r.shape.wall[w].samples == 0 && figure != "max_over_mm") continue;  // no overcut where nothing was cut
-    const double v = wall_figure(r.shape.wall[w], figure);
-    if (!worst.value || v > *worst.value) worst.value = v;
-    worst.bound = std::max(worst.bound, wall_bound(r, r.shape.wall[w], figure));
+    const double v = wall_figure(r.shape.wall[w], figure), bound = wall_bound(r, r.shape.wall[w], figure);
+    low = worst ? std::max(low, v - bound) : v - bound;
+    high = worst ? std::max(high, v + bound) : v + bound;
+    worst = worst ? std::max(*worst, v) : v;
   }
-  return worst;
+  return worst ? MetricValue{worst, std::max(high - *worst, *worst - low)} : MetricValue{std::nullopt, r.shape.bound_mm};
 }
 
 }  // namespace

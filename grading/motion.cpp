@@ -21,7 +21,7 @@ std::vector<TickSpan> idle_spans(const GradeInput& input, std::int64_t ticks, co
   for (std::size_t i = 0; i + window <= n; i += window) {
     bool quiet = true;
     for (std::size_t j = i; j < i + window && quiet; ++j)
-      quiet = paused[j] == 0 && input.records[j].removed == 0 && input.records[j].penetration_nm == 0 &&
+      quiet = paused[j] == 0 && input.records[j].removed == 0 && !(input.records[j].penetration_nm > 0 && input.records[j].rpm >= k_turning_rpm) &&
               length(input.inputs[j].tip_mm() - input.inputs[i].tip_mm()) <= k_idle_mm;
     if (!quiet) continue;
     const auto begin = static_cast<std::int64_t>(i), end = begin + k_idle_window_ticks;

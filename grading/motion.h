@@ -9,7 +9,7 @@ namespace cavum {
 inline constexpr std::int32_t k_turning_rpm = 1000;
 /// The way of the tip is summed over steps of this many ticks, so that the device's position quantum and tremor at rest add little.
 inline constexpr std::int64_t k_path_step_ticks = 10;
-/// Idle: a tenth of a second in which the tip stays within this and neither touches nor removes anything.
+/// Idle: a tenth of a second in which the tip stays within this and nothing is cut: the handpiece does not turn in contact, nothing is removed.
 inline constexpr std::int64_t k_idle_window_ticks = 100;
 inline constexpr double k_idle_mm = 0.05;
 

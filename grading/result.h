@@ -39,8 +39,9 @@ struct VolumeMeasures {
   double dice = 0.0, dice_bound = 0.0;
   std::array<ZoneVolume, k_zones> zone;  ///< by Zone
   std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
-  std::array<Volume, 256> tissue;       ///< removed, by tissue id
-  std::array<Trace, 256> tissue_first;  ///< first leaf removed of each
+  std::array<Volume, 256> tissue;              ///< removed, by tissue id
+  std::array<Trace, 256> tissue_first;         ///< first leaf removed of each
+  std::array<Trace, k_walls + 1> target_last;  ///< last leaf of the target removed towards each wall
   /// R without T, L and C: in no zone, or protected wherever that lies.
   [[nodiscard]] Volume outside() const noexcept {
     const Volume &none = zone[static_cast<std::size_t>(Zone::none)].removed, &guarded = zone[static_cast<std::size_t>(Zone::protected_)].removed;
@@ -66,6 +67,12 @@ struct ShapeMeasures {
   /// What is missing of the target's and what is too much, together: one does not make up for the other. None where nothing of the target was cut.
   /// Each is the sum of two distances: twice the bound.
   std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
+  /// The two errors of the outline end by end: mesial, distal, buccal, lingual.
+  struct EndError {
+    double part_mm = 0.0;    ///< of the error; both ends of an outline add up to it
+    double beyond_mm = 0.0;  ///< the cut's end beyond the target's, negative: short of it
+  };
+  std::array<EndError, 4> end_error;
 };
 
 /// A connected piece of something, for places.
@@ -184,6 +191,7 @@ struct Result {
   MotionMeasures motion;
   ProgressMeasures progress;
   Accommodations accommodations;
+  Trace end;                     ///< last tick that counts, and where the tip was
   std::int64_t limit_ticks = 0;  ///< of the exam's clock, with what was granted
   std::vector<PauseMeasure> pauses;
   int pauses_refused = 0;

@@ -202,8 +202,8 @@ std::string to_text(const Result& r) {
   for (const auto& reason : r.verdict_reasons) s += "  " + reason + "\n";
   s += "\n";
   for (const auto& c : r.criteria)
-    s += "  " + padded(c.id, 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + padded("± " + fixed(c.points_bound, 1), 9) + c.reason +
-         "\n";
+    s += "  " + padded(c.id + " ", 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + padded("± " + fixed(c.points_bound, 1), 9) +
+         c.reason + "\n";
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
   const auto volume = [&](const std::string& name, const Volume& v) {
     return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";

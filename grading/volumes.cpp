@@ -187,6 +187,7 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
     }
     const std::int64_t when = tick_of(removed, leaf, tick);
     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
+    if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == Zone::target) last = {tick, zones.centre_mm(leaf)};
     const double total = share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
       const auto i = static_cast<std::size_t>(z);
       zone[i].leaves += share;

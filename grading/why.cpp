@@ -161,6 +161,8 @@ void LossFinder::missed(double points) {
 }
 
 void LossFinder::walls(std::size_t first, std::size_t end, const std::string& figure) {
+  const bool under = figure.ends_with("max_under_mm"), over = figure.ends_with("max_over_mm") || figure.ends_with("p95_mm");
+  const double full = std::max(0.0, spec_.full);
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
@@ -169,16 +171,20 @@ void LossFinder::walls(std::size_t first, std::size_t end, const std::string& fi
     }
     fact(wall_text(w) + ": mean " + amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm") + ", 95th percentile " +
          amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm") + ", of " + std::to_string(m.samples) + " places (+ = overcut)");
-    if (m.worst_over.tick >= 0) fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
-    if (m.worst_under.tick >= 0)
+    if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
+      fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
+    if (m.worst_under.tick >= 0 && !over && m.max_under_mm > full)
       fact(wall_text(w) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
   }
-  if (figure.find("under") != std::string::npos) return;
-  const double full = std::max(0.0, spec_.full);
-  list_largest(whole_leaves([&](const RemovedAt& r) {
-    const auto w = static_cast<std::size_t>(in_.zones.wall(r.leaf.leaf()));
-    return w >= first && w < end && in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.distance_mm(r.leaf.leaf()) > full;
-  }));
+  if (under) return;
+  // by parts of leaves, as zones are counted: a wall's part is never more than the zone's whole
+  std::vector<RemovedShare> shares;
+  for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
+    const auto w = static_cast<std::size_t>(in_.zones.wall(s.leaf));
+    if (s.zone != Zone::target && w >= first && w < end && in_.before.octree.is_solid(s.tissue) && in_.zones.distance_mm(s.leaf) > full)
+      shares.push_back(s);
+  });
+  list_largest(removal_moments(in_.zones, std::move(shares)));
 }
 
 /// Dice loses by what was missed and by what was removed beyond, each in proportion to its volume.
@@ -219,7 +225,7 @@ void LossFinder::canals() {
 void LossFinder::value_and_work() {
   const CriterionResult& c = why_.criterion;
   if (!c.value) {
-    fact("cannot be measured on this cavity");
+    fact("cannot be measured on this cavity", {}, "", r_.end);
     why_.items.back().points_lost = spec_.points;
     return;
   }
@@ -229,12 +235,13 @@ void LossFinder::value_and_work() {
   const double by_value = spec_.points - c.points - by_work - accounted;
   if (by_value > 1e-9) {
     fact((*c.value < spec_.full ? "short of " : "beyond ") + amount_text(spec_.full, 0, 2, c.unit) + ", which gives full marks",
-         std::fabs(*c.value - spec_.full), c.unit, {}, c.bound);
+         std::fabs(*c.value - spec_.full), c.unit, c.first, c.bound);
     why_.items.back().points_lost = by_value;
   }
   if (by_work > 1e-9) {
     fact(fixed(100 * c.work_share, 1) + " % of the points count, for care counts in full only from " + fixed(k_care_counts_percent, 0) +
-         " % of the work on: " + c.work_text);
+             " % of the work on: " + c.work_text,
+         {}, "", r_.end);
     why_.items.back().points_lost = by_work;
   }
 }
@@ -282,7 +289,6 @@ void LossFinder::perforation() {
 void LossFinder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
   fact(name + " of the cavity", found, "mm", {}, r_.shape.bound_mm);
   fact(name + " of the target", wanted, "mm");
-  fact("missing and too much together", error, "mm", {}, 2 * r_.shape.bound_mm);
   // the leaves at the ends tell when that was cut
   struct End {
     const char* what;
@@ -303,7 +309,14 @@ void LossFinder::shape(const std::string& name, std::optional<double> found, dou
       t = {r.tick, at};
     }
     if (t.tick >= 0) fact(std::string(end.what) + " place removed", most, "mm from the tooth's origin", t);
+    if (deep || !error) continue;
+    const auto& e = r_.shape.end_error[static_cast<std::size_t>(&end - ends.data()) + (along_x ? 0 : 2)];
+    fact("missing or too much at the " + std::string(end.what).substr(9) + " end, " + fixed(std::fabs(e.beyond_mm), 2) +
+             (e.beyond_mm >= 0 ? " mm too far" : " mm short"),
+         e.part_mm, "mm", t, r_.shape.bound_mm);
+    if (*error > 0) why_.items.back().points_lost = (points_at(spec_.full) - why_.criterion.points) * e.part_mm / *error;
   }
+  if (deep) fact("missing and too much together", error, "mm", {}, 2 * r_.shape.bound_mm);
 }
 
 void LossFinder::find() {

@@ -23,6 +23,7 @@ constexpr double k_no_end = 1e300;
 constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
 constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a point's reach
 constexpr double k_coarse_leaf_mm = 0.1;
+constexpr double k_least_wall_mm2 = 0.05;  // less hard tissue beside the target is no wall
 using Ranges = std::map<std::string, ValueRange>;
 
 class Adviser {
@@ -55,6 +56,8 @@ class Adviser {
   [[nodiscard]] Ranges common_ranges() const;
   void step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges);
   void criterion(std::size_t i, const CriterionSpec& c, const ValueRange& range);
+  void wall_criterion(std::size_t i, const CriterionSpec& c);
+  [[nodiscard]] std::array<double, k_walls> wall_mm2() const;
 
   const Scenario& s_;
   const Tooth& tooth_;
@@ -282,6 +285,30 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const ValueRange&
     warn(place + "/critical_below", "nobody can fail by this: " + runs, "set it within that, or take it out");
 }
 
+/// Hard tissue that stands beside the target, by wall.
+std::array<double, k_walls> Adviser::wall_mm2() const {
+  std::array<double, k_walls> mm2{};
+  const Octree& tree = tooth_.octree;
+  zones_.for_each_target_leaf([&](IVec3 leaf) {
+    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+      if (const IVec3 beside = leaf + step; zones_.zone(beside) != Zone::target && tree.is_solid(tree.tissue(beside)))
+        if (const auto wall = static_cast<std::size_t>(zones_.wall(beside)); wall < k_walls) mm2[wall] += zones_.leaf_mm() * zones_.leaf_mm();
+  });
+  return mm2;
+}
+
+/// A figure of a wall that the cavity does not have.
+void Adviser::wall_criterion(std::size_t i, const CriterionSpec& c) {
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const std::string name = wall_name(static_cast<Wall>(w));
+    if (!c.metric.starts_with(name + "_") || !c.metric.ends_with("_mm") || wall_mm2()[w] >= k_least_wall_mm2) continue;
+    warn("rubric/criteria/" + std::to_string(i) + "/metric",
+         "the cavity has no " + name + (w == static_cast<std::size_t>(Wall::floor) ? "" : " wall") +
+             " in this tooth: " + (c.metric.ends_with("max_over_mm") ? "nobody can lose these points" : "nobody can win these points"),
+         "take the criterion out, or measure a wall that stays");
+  }
+}
+
 void Adviser::criteria() {
   const Ranges ranges = common_ranges();
   for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
@@ -289,7 +316,12 @@ void Adviser::criteria() {
     const std::string place = "rubric/criteria/" + std::to_string(i);
     if (!(c.points > 0) && !c.critical_above && !c.critical_below)
       warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
-    if (const auto range = ranges.find(c.metric); range != ranges.end()) criterion(i, c, range->second);
+    if (const auto range = ranges.find(c.metric); range != ranges.end())
+      criterion(i, c, range->second);
+    else if (c.metric.ends_with("max_over_mm") || c.metric.ends_with("max_under_mm") || c.metric.ends_with("_error_mm") ||
+             c.metric.ends_with("_error_deg"))
+      criterion(i, c, {0, k_no_end});
+    wall_criterion(i, c);
   }
   for (auto& p : turned_round(s_.rubric)) problems_.push_back(std::move(p));
   const bool guard_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) {
@@ -298,10 +330,27 @@ void Adviser::criteria() {
   if (!guard_judged && !s_.zones.protected_shapes.empty())
     warn("zones/protected/0", "what is protected can be removed for nothing: no criterion measures it",
          "add one on protected_mm3, outside_mm3 or overcut_mm3, or take [[zones.protected]] out");
+  const bool fault_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(),
+                                        [&](const CriterionSpec& c) { return c.metric.starts_with("perforat") || c.metric.starts_with("touched_"); });
+  if (!fault_judged && !s_.perforation.faults.empty())
+    warn("rubric/criteria/0/metric", "who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it",
+         "add one on perforated, with critical_above = 0.5");
   if (!(s_.rubric.pass_percent > 0)) warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
 }
 
 }  // namespace
+
+std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, const Tooth& tooth, const ZoneMap& zones) {
+  scenario.rubric = rubric;
+  scenario.path = rubric.path;
+  scenario.places.clear();
+  for (std::size_t i = 0; i < rubric.criteria.size(); ++i)
+    for (const char* key : {"", "/metric", "/full", "/zero", "/points", "/critical_above", "/critical_below"})
+      scenario.places["rubric/criteria/" + std::to_string(i) + key] = rubric.criteria[i].metric_at;
+  Adviser a(scenario, tooth, zones, {});
+  a.criteria();
+  return a.take();
+}
 
 std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
                             std::optional<double>& expert_s) {

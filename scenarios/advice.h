@@ -16,4 +16,7 @@ namespace cavum {
 [[nodiscard]] std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
                                           std::optional<double>& expert_s);
 
+/// What of it speaks of the rubric, when another one than the scenario's own is to mark an exam.
+[[nodiscard]] std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, const Tooth& tooth, const ZoneMap& zones);
+
 }  // namespace cavum

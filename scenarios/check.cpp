@@ -106,6 +106,8 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
   }
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+  problems.erase(std::unique(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a.text() == b.text(); }),
+                 problems.end());
   return checked;
 }
 

@@ -32,9 +32,10 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   };
   c.metric_at = place_of("metric");
   c.zero_at = place_of("zero");
+  const auto problems_before = problems.size();
   c.full = t.number("full", -1e9, 1e9, 1, true);
   c.zero = t.number("zero", -1e9, 1e9, 0, true);
-  if (t.has("full") && t.has("zero") && c.full == c.zero)
+  if (problems.size() == problems_before && c.full == c.zero)
     t.problem("zero", "'full' and 'zero' are the same value", "points run linearly from one to the other: make them differ");
   c.points = t.number("points", 0, 1000, 1, true);
   if (t.has("critical_above"))

@@ -34,6 +34,11 @@ std::int64_t exam_limit_ticks(const Scenario& s) noexcept {
   return time_in_ticks(s.time_limit_s, s.accommodations.extra_time_percent, s.accommodations.extra_time_s);
 }
 
+std::int64_t step_limit_ticks(const Scenario& s, const StepSpec& step) noexcept {
+  const double extra_s = s.time_limit_s > 0 ? s.accommodations.extra_time_s / s.time_limit_s : 0.0;  // per second
+  return time_in_ticks(*step.time_limit_s, s.accommodations.extra_time_percent, *step.time_limit_s * extra_s);
+}
+
 Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray)
     : scenario_(scenario),
       zones_(zones),
@@ -66,9 +71,7 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
     try {
       CompiledStep compiled{Expression(step.complete_when, names_, values_), {}, std::numeric_limits<std::int64_t>::max()};
       if (!step.fail_when.empty()) compiled.fail.emplace_back(step.fail_when, names_, values_);
-      const double extra_s = scenario.time_limit_s > 0 ? scenario.accommodations.extra_time_s / scenario.time_limit_s : 0.0;  // per second
-      if (step.time_limit_s)
-        compiled.limit_ticks = time_in_ticks(*step.time_limit_s, scenario.accommodations.extra_time_percent, *step.time_limit_s * extra_s);
+      if (step.time_limit_s) compiled.limit_ticks = step_limit_ticks(scenario, step);
       steps_.push_back(std::move(compiled));
     } catch (const std::runtime_error& e) {
       throw wrong(step, e);
@@ -194,6 +197,7 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
   const auto at = static_cast<std::size_t>(state.step);
   const CompiledStep& step = steps_[at];
   bool end = false;
+  Finish how = Finish::completed;  // of the last step
   if (step.complete.is_true()) {
     emit(state, ExamEventKind::step_completed, state.step);
     next_step(state);
@@ -203,13 +207,14 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
     if (failed || late) {
       emit(state, failed ? ExamEventKind::step_failed : ExamEventKind::step_time_limit, state.step);
       end = scenario_.steps[at].failure_ends_exam;
+      how = failed ? Finish::failed : Finish::time;
       next_step(state);
     }
   }
   if (end)
     finish(state, Finish::failed);
   else if (static_cast<std::size_t>(state.step) >= steps_.size())
-    finish(state, Finish::completed);
+    finish(state, how);
   else if (clock(state) + 1 >= limit_ticks_) {
     emit(state, ExamEventKind::time_limit, 0);
     finish(state, Finish::time);

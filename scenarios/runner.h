@@ -120,5 +120,7 @@ class Runner {
 [[nodiscard]] std::int64_t time_in_ticks(double seconds, double extra_percent, double extra_s = 0.0) noexcept;
 /// Ticks of a scenario's time limit with what its accommodations add.
 [[nodiscard]] std::int64_t exam_limit_ticks(const Scenario& scenario) noexcept;
+/// The same of a step that has a limit of its own.
+[[nodiscard]] std::int64_t step_limit_ticks(const Scenario& scenario, const StepSpec& step) noexcept;
 
 }  // namespace cavum

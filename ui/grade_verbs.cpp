@@ -13,6 +13,7 @@
 #include "grading/compare.h"
 #include "grading/result_json.h"
 #include "grading/why.h"
+#include "scenarios/advice.h"
 #include "ui/marked_session.h"
 #include "ui/print_json.h"
 #include "ui/session_files.h"
@@ -44,6 +45,9 @@ void write_new(const std::string& path, const Json& json) {
 
 void run_grade_one(const std::string& path, const Options& o) {
   const MarkedSession g = marked_session(path, o.marking);
+  if (!o.marking.rubric.empty())
+    for (const auto& p : advise_rubric(g.session->scenario, g.rubric, g.session->before, g.session->zones))
+      std::cerr << "cavum: " << one_line(p.text()) << "\n";
   if (!o.why.empty()) {
     const Why w = why(g.session->input(), g.result, g.rubric, o.why);
     if (o.json) {
@@ -125,9 +129,9 @@ int run_grade(const Options& o) {
     if (std::filesystem::exists(o.out)) throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
     require_writable(o.out);
   }
-  require_sound_marking(o.marking);
   const auto files = session_files(o.sessions);
   const bool many = files.size() > 1 || std::filesystem::is_directory(o.sessions.front());
+  if (many || o.marking.rubric.empty()) require_sound_marking(o.marking);  // of one session more can be said, when it is there
   if (many && !o.why.empty()) throw Error("--why", "explains one session", "name one session file");
   if (many) return run_grade_many(files, o) > 0 ? 1 : 0;
   run_grade_one(files.front(), o);

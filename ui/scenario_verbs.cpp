@@ -154,6 +154,8 @@ struct Solved {
 std::string advice_for_expert(const Result& r) {
   if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
   for (const auto& c : r.criteria)
+    if (!c.value) return "take '" + c.id + "' out: this cavity has nothing that it measures";
+  for (const auto& c : r.criteria)
     if (c.critical_failed)
       return "move the critical limit of '" + c.id + "' beyond what the expert reaches, or change the zones so that it can be kept";
   if (r.verdict == Verdict::review)

@@ -290,6 +290,71 @@ TEST(Grade, WhatWasCutBelowTheFloorCountsByAllOfTheWorkADistanceByThatTowardsThe
   EXPECT_LT(r.criteria.back().points, 10) << r.criteria.back().reason;
 }
 
+TEST(Grade, AFigureOfSeveralWallsIsSaidOfTheWallThatHasIt) {
+  const std::string walls = "[[rubric.criteria]]\nid = \"walls\"\nmetric = \"side_walls_p95_mm\"\nfull = 0.1\nzero = 0.9\npoints = 20\n";
+  Carved c(scenario_text(k_box_target, walls), dentin_block(4, 4, 0.05));
+  c.carve(box_hole(-1.5, 2.0, -1, 1, -2), 100);         // the whole mesial wall by 0.5 mm
+  c.carve(box_hole(0, 0.2, 0, 1.8, -0.3), 200);         // a notch of 0.8 mm in the buccal one
+  c.carve(box_hole(-1.7, -1.5, -0.1, 0.1, -0.2), 300);  // the distal one is hardly cut
+  const Result r = c.graded();
+  const auto& walls_result = r.criteria.back();
+  EXPECT_GT(wall(r, Wall::buccal).max_over_mm, 0.75);
+  EXPECT_NEAR(*walls_result.value, 0.5, 0.05);
+  EXPECT_NE(walls_result.reason.find("the mesial wall"), std::string::npos) << walls_result.reason;
+  EXPECT_EQ(walls_result.first.tick, 100);
+  // and its bound is what the walls together leave open, not the widest of them
+  double low = -1e9, high = -1e9;
+  for (const Wall w : {Wall::mesial, Wall::distal, Wall::buccal, Wall::lingual}) {
+    low = std::max(low, wall(r, w).p95_mm - wall(r, w).p95_bound_mm);
+    high = std::max(high, wall(r, w).p95_mm + wall(r, w).p95_bound_mm);
+  }
+  EXPECT_NEAR(walls_result.bound, std::max(high - *walls_result.value, *walls_result.value - low), 1e-12);
+}
+
+TEST(Grade, AnErrorOfTheOutlineIsSaidEndByEnd) {
+  const std::string length = "[[rubric.criteria]]\nid = \"l\"\nmetric = \"outline_length_error_mm\"\nfull = 0.1\nzero = 2\npoints = 20\n";
+  Carved c(scenario_text(k_box_target, length), dentin_block(4, 4, 0.05));
+  c.carve(box_hole(-1.1, 1.8, -1, 1, -2), 100);  // 0.3 mm too far mesially, 0.4 mm short distally
+  const Result r = c.graded();
+  EXPECT_NEAR(*r.shape.length_error_mm, 0.7, 0.1);
+  EXPECT_NEAR(r.shape.end_error[0].part_mm, 0.3, 0.05);
+  EXPECT_NEAR(r.shape.end_error[0].beyond_mm, 0.3, 0.05);
+  EXPECT_NEAR(r.shape.end_error[1].part_mm, 0.4, 0.05);
+  EXPECT_NEAR(r.shape.end_error[1].beyond_mm, -0.4, 0.05);
+  EXPECT_NE(r.criteria.back().reason.find("0.40 mm at the distal end (0.40 mm short)"), std::string::npos) << r.criteria.back().reason;
+}
+
+TEST(Grade, SmallFiguresHaveTheDigitsThatTellThemFromFullMarks) {
+  Result r;
+  RubricSpec rubric;
+  rubric.criteria = {{"t", "t", "time_s", 0.001, 0.003, 10, {}, {}}};
+  r.motion.time_s = 0.0012;
+  mark(r, rubric);
+  EXPECT_NE(r.criteria[0].reason.find("0.0012 s where 0.0010 s gives full marks"), std::string::npos) << r.criteria[0].reason;
+}
+
+TEST(Grade, WhoRestsInContactWithTheHandpieceOffIsIdle) {
+  Carved c(scenario_text(k_box_target), dentin_block(2, 2, 0.2));
+  for (int i = 0; i < 3000; ++i) {
+    c.inputs.emplace_back();
+    TickRecord& r = c.records.emplace_back();
+    r.penetration_nm = 1000;
+    r.rpm = i < 1000 ? 100000 : 0;
+  }
+  EXPECT_NEAR(c.graded().motion.idle_s, 2.0, 1e-9);
+}
+
+TEST(Grade, AStepThatRanOutOfItsTimeIsNamedWithItsLimit) {
+  Carved c(scenario_text(k_box_target), dentin_block(2, 2, 0.2));
+  c.scenario.steps.at(0).time_limit_s = 5.0;
+  c.scenario.accommodations.extra_time_percent = 20;
+  c.events.push_back({5999, "step_time_limit", "{}"});
+  c.events.push_back({5999, "finished", "{\"how\":\"time\"}"});
+  std::string notes;
+  for (const auto& n : c.graded().notes) notes += n + "\n";
+  EXPECT_NE(notes.find("ran out of its time at 6.00 s (tick 5999): its limit was 6.000 s"), std::string::npos) << notes;
+}
+
 TEST(Grade, AWallThatIsGoneAltogetherIsOvercutNotKept) {
   Carved c(scenario_text(k_box_target, "[[rubric.criteria]]\nid = \"gouge\"\nmetric = \"mesial_max_over_mm\"\nfull = 0\nzero = 5\npoints = 20\n"),
            dentin_block(4, 4, 0.1));

@@ -73,8 +73,8 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
   mark(r, rubric);
   const Why w = why(c.input(), r, rubric, "c");
   ASSERT_EQ(w.items.size(), 2u);
-  EXPECT_NE(w.items[0].what.find("care counts in full only from"), std::string::npos) << w.items[0].what;
-  const WhyItem& cut = w.items[1];
+  EXPECT_NE(w.items[1].what.find("care counts in full only from"), std::string::npos) << w.items[1].what;
+  const WhyItem& cut = w.items[0];
   EXPECT_NEAR(*cut.amount, *r.criteria[0].value, 1e-9);
   EXPECT_NE(cut.what.find(" mm3 in container sides"), std::string::npos) << cut.what;
   EXPECT_NE(cut.what.find(" mm3 outside all zones"), std::string::npos) << cut.what;
@@ -104,7 +104,7 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
       double sum = w.left_out_amount, bound = 0;
       std::int64_t first = -1;
       for (const auto& i : w.items) {
-        if (i.unit != "mm3" || i.tick < 0) continue;
+        if (i.unit != "mm3" || i.tick < 0 || i.what.starts_with("beyond ")) continue;  // the value as a whole
         sum += *i.amount;
         bound += i.bound.value_or(0);
         if (first < 0 || i.tick < first) first = i.tick;
@@ -115,7 +115,7 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
       } else if (w.left_out == 0) {
         EXPECT_NEAR(bound, r.criteria[0].bound, 1e-9) << metric;
       }
-      if (w.left_out == 0 && r.criteria[0].first.tick >= 0) {
+      if (w.left_out == 0) {
         EXPECT_EQ(r.criteria[0].first.tick, first) << metric << ": " << r.criteria[0].reason;
       }
     }
@@ -138,12 +138,30 @@ TEST(Why, SaysWhichMomentUsedUpWhatCostsNothing) {
   const Why w = why(c.input(), r, rubric, "c");
   std::vector<std::string> said;
   for (const auto& i : w.items)
-    if (i.tick >= 1000) said.push_back(i.what);
+    if (i.tick >= 1000 && i.what.starts_with("removed")) said.push_back(i.what);
   ASSERT_EQ(said.size(), 3u);
   EXPECT_NE(said[0].find("within the 0.50 mm3 that cost nothing"), std::string::npos) << said[0];
   EXPECT_NE(said[1].find("mm3 beyond the 0.50 mm3 that cost nothing"), std::string::npos) << said[1];
   EXPECT_NE(said[2].find("beyond the 0.90 mm3 at which no points are left"), std::string::npos) << said[2];
   EXPECT_NE(to_text(w).find("full marks at 0.500 mm3 or less, none from 0.900 mm3 on"), std::string::npos) << to_text(w);
+}
+
+TEST(Why, EveryLineThatCostsPointsHasItsTick) {
+  Carved c(opening_pulp(k_chamber_target), chambered_block(0.1));
+  c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
+  c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
+  const Result measured = c.graded();
+  for (const auto& m : k_metrics)
+    for (const double sign : {1.0, -1.0}) {
+      const RubricSpec rubric = half_lost(measured, std::string(m.name), sign);
+      Result r = measured;
+      mark(r, rubric);
+      EXPECT_GE(r.criteria[0].first.tick, 0) << m.name << ": " << r.criteria[0].reason;
+      for (const auto& i : why(c.input(), r, rubric, "c").items)
+        if (i.points_lost.value_or(0) > 1e-9) {
+          EXPECT_GE(i.tick, 0) << m.name << ": " << i.what;
+        }
+    }
 }
 
 TEST(Why, AnAimThatTheForceDidNotSeeIsSaid) {

@@ -68,6 +68,24 @@ TEST(Advice, SaysThatNoCriterionMeasuresWhatIsProtected) {
   EXPECT_TRUE(any_begins(said, for_nothing));
 }
 
+TEST(Advice, SaysThatTheCavityHasNoSuchWall) {
+  const auto said = [](const char* metric) {
+    std::string text = testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [2, 0, 0]\nsize_mm = [3, 2, 2]\n");  // out through the side
+    const std::string from = "metric = \"outside_mm3\"";
+    text.replace(text.find(from), from.size(), std::string("metric = \"") + metric + "\"");
+    const Tooth block = testing::dentin_block(3, 4, 0.1);
+    const Scenario s = parse_scenario(text, "s.toml");
+    std::optional<double> expert_s;
+    for (const auto& p : advise(s, block, build_zones(s, block), {}, expert_s))
+      if (p.what.starts_with("the cavity has no")) return p.what;
+    return std::string();
+  };
+  for (const char* metric : {"mesial_mean_mm", "mesial_p95_mm", "mesial_max_under_mm"})
+    EXPECT_EQ(said(metric), "the cavity has no mesial wall in this tooth: nobody can win these points");
+  EXPECT_EQ(said("mesial_max_over_mm"), "the cavity has no mesial wall in this tooth: nobody can lose these points");
+  for (const char* metric : {"distal_p95_mm", "buccal_mean_mm", "floor_max_over_mm", "side_walls_p95_mm"}) EXPECT_EQ(said(metric), "");
+}
+
 TEST(Advice, SaysThatAScenarioWasWrittenForAnotherTooth) {
   const std::string folder = std::string(CAVUM_SOURCE_DIR) + "/tests/scenarios/broken/", file = folder + "target_holds_pulp.toml";
   const std::string text = read_text_file(file), block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block.cvt";

@@ -173,6 +173,17 @@ TEST(Runner, WhatIsProtectedCountsAsOutsideWhileTheExamRuns) {
   EXPECT_EQ(finish("leeway_mm3 + container_mm3 > 0"), Finish::running);
 }
 
+TEST(Runner, HowTheLastStepEndedIsHowTheExamEnded) {
+  const auto ended = [](const char* step) {
+    Exam exam(scenario_with("complete_when = \"target_removed_percent >= 99\"\n", step));
+    for (int i = 0; i < 60; ++i) exam.tick();
+    return exam.state.finish;
+  };
+  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.05\n"), Finish::time);
+  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\nfail_when = \"time_s > 0.04\"\n"), Finish::failed);
+  EXPECT_EQ(ended("complete_when = \"time_s > 0.04\"\n"), Finish::completed);
+}
+
 TEST(Runner, StepLimitsAndFailuresLeadOnOrEndTheExam) {
   const std::string next =
       "complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.1\n[[steps]]\nid = \"second\"\ninstruction = \"More.\"\n"

@@ -206,7 +206,7 @@ TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
 std::string place_text(const std::optional<Vec3>& p) { return p ? fixed(p->x, 2) + ", " + fixed(p->y, 2) + ", " + fixed(p->z, 2) : ""; }
 
 std::string finish_words(const std::string& finish) {
-  if (finish == finish_name(Finish::completed)) return "all its steps were completed";
+  if (finish == finish_name(Finish::completed)) return "its last step was completed";
   if (finish == finish_name(Finish::failed)) return "a step was failed";
   if (finish == finish_name(Finish::time)) return "time was up";
   if (finish == finish_name(Finish::ended)) return "it was handed in before its steps were completed";
