@@ -125,6 +125,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
                   " lies within the bound of the figure";
   }
   if (out.work_share < 1) {
+    if (out.first.tick < 0) out.first = r.end;
     out.work_text = amount_text(work.percent, work.bound_percent, 1, "%") + " of the target" + work.where + " was removed";
     out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + out.work_text + ", and care counts in full from " +
                   fixed(k_care_counts_percent, 0) + " % on";
