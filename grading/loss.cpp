@@ -101,7 +101,7 @@ Loss loss_of(const Result& r, const std::string& metric) {
   if (metric == "dice") {
     Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
     const Volume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
-    const Loss missed = missed_target(r);
+    Loss missed = missed_target(r);
     const bool none = over.first.tick < 0;
     if (none) return missed;
     return {missed.text + "; " + fixed(r.volumes.removed.mm3 - in_target.mm3, 2) + " mm3 removed beyond the target, " + over.text, over.first};
