@@ -243,11 +243,13 @@ TEST(HandpieceSound, NeverClicks) {
     const Samples part = render(sound, p, 0.002 + 0.05 * random.uniform());
     all.insert(all.end(), part.begin(), part.end());
   }
-  EXPECT_LT(click_size(all), 1.2 * steady_click);
+  // the loudest of eight seconds of noise: by 1.32 in 2000 draws; the planted one by 1.64
+  constexpr double k_click = 1.5;
+  EXPECT_LT(click_size(all), k_click * steady_click);
   EXPECT_LT(largest_step(all), 1.2 * steady_step);
   Samples planted = steady(idle(200000), 0.5);
   for (std::size_t i = planted.size() / 2; i < planted.size(); ++i) planted[i] += 0.15f;
-  EXPECT_GT(click_size(planted), 1.2 * steady_click);
+  EXPECT_GT(click_size(planted), k_click * steady_click);
 }
 
 // With one seed the noise is the same, so what cutting adds is the difference of two sounds.
