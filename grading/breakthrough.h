@@ -15,9 +15,10 @@
 //   pedal released, point changed   nothing can be cut: the observer starts anew
 //   enamel to dentin, soft lesion   a share of the force is left, k·τ against k·τ: 0.3 to 1, and 0.2 to 0.45
 //   slip off a wall or an edge      the tip leaves sideways, or from a place where it has hardly cut (`slips_mm_s`, `strays_mm`, `dwell_s`)
-//   milling                         the push is across the handle (`least_axial`): a cavity in a wall that is milled away is left to the tissue's
-//   word breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces) a point pulled out of a bind the
-//   push was towards the handle (`least_axial`) chatter                         the mean force vanishes, its scatter is many times the noise
+//   milling, a point pulled out of  the push is across the handle, or towards it (`least_axial`); a cavity in a wall that is milled away is left to
+//   a bind                          the tissue's word
+//   breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces)
+//   chatter                         the mean force vanishes, its scatter is many times the noise
 #pragma once
 
 #include <cstdint>

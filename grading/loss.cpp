@@ -102,8 +102,7 @@ Loss loss_of(const Result& r, const std::string& metric) {
     Loss over = removed_in(r, {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none});
     const Volume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
     Loss missed = missed_target(r);
-    const bool none = over.first.tick < 0;
-    if (none) return missed;
+    if (over.first.tick < 0) return missed;
     return {missed.text + "; " + fixed(r.volumes.removed.mm3 - in_target.mm3, 2) + " mm3 removed beyond the target, " + over.text, over.first};
   }
   if (metric == "removed_mm3")

@@ -61,6 +61,4 @@ class RemovedMap {
   std::size_t count_ = 0;
 };
 
-inline constexpr IVec3 k_six_neighbours[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-
 }  // namespace cavum

@@ -119,24 +119,11 @@ void LossFinder::missed(double points) {
   struct Part {
     double sum = 0;
     Vec3 middle;
-    Trace last;
   };
   std::array<Part, k_walls + 1> parts;
-  std::vector<std::uint8_t> gone(
-      static_cast<std::size_t>(in_.zones.size().x) * static_cast<std::size_t>(in_.zones.size().y) * static_cast<std::size_t>(in_.zones.size().z), 0);
-  const auto index = [&](IVec3 leaf) {
-    const IVec3 l = leaf - in_.zones.low(), n = in_.zones.size();
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(n.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(n.x) +
-           static_cast<std::size_t>(l.x);
-  };
-  for (const auto& r : in_.removed) {
-    const IVec3 leaf = r.leaf.leaf();
-    if (r.tick >= end_ || in_.zones.zone(leaf) != Zone::target) continue;
-    gone[index(leaf)] = 1;
-    parts[static_cast<std::size_t>(in_.zones.wall(leaf))].last = {r.tick, in_.zones.centre_mm(leaf)};
-  }
+  const RemovedMap removed(in_.removed, end_ - 1);
   in_.zones.for_each_target_leaf([&](IVec3 leaf) {
-    if (gone[index(leaf)] != 0) return;
+    if (removed.has(leaf)) return;
     Part& p = parts[static_cast<std::size_t>(in_.zones.wall(leaf))];
     p.sum += 1;
     p.middle += in_.zones.centre_mm(leaf);
@@ -145,14 +132,11 @@ void LossFinder::missed(double points) {
     const double mm3 = r_.volumes.missed_by_wall_mm3[w];
     if (!(mm3 > 0)) continue;
     const Part& p = parts[w];
+    const Trace& last = r_.volumes.target_last[w];
     std::string what = "of the target left towards " + wall_text(w);
     if (p.sum > 0) what += ", its middle at " + place(p.middle / p.sum);
-    what += p.last.tick >= 0 ? "; the target was last cut there at " + when(p.last) : "; nothing of the target was cut there";
-    fact(what, mm3, "mm3", {}, r_.volumes.missed_bound_by_wall_mm3[w]);
-    if (p.last.tick >= 0) {
-      why_.items.back().tick = why_.items.back().end_tick = p.last.tick;
-      why_.items.back().site_mm = p.last.site_mm;
-    }
+    what += last.tick >= 0 ? "; the target was last cut there at " + when(last) : "; nothing of the target was cut there";
+    fact(what, mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
     if (mm3 >= k_least_moment_mm3) continue;
     leave_out(why_.items.back());

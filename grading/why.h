@@ -15,8 +15,8 @@ namespace cavum {
 struct WhyItem {
   std::int64_t tick = -1, end_tick = -1;  ///< first and last tick
   std::optional<Vec3> site_mm;
-  std::optional<double> amount,
-      bound;  ///< the amount may be off by ± the bound; none where it is exact or follows from nothing but the places listed
+  std::optional<double> amount;
+  std::optional<double> bound;  ///< the amount may be off by ± that; none where it is exact
   std::string unit;
   std::optional<double> points_lost;  ///< of this moment, where points follow from a sum over moments
   std::string what;

@@ -56,7 +56,7 @@ class Adviser {
   [[nodiscard]] Ranges common_ranges() const;
   void step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges);
   void criterion(std::size_t i, const CriterionSpec& c, const ValueRange& range);
-  void wall_criterion(std::size_t i, const CriterionSpec& c);
+  void wall_criterion(std::size_t i, const CriterionSpec& c, const std::array<double, k_walls>& mm2);
   [[nodiscard]] std::array<double, k_walls> wall_mm2() const;
 
   const Scenario& s_;
@@ -73,7 +73,7 @@ void Adviser::target() {
   const Octree& tree = tooth_.octree;
   zones_.for_each_target_leaf([&](IVec3 leaf) {
     ++inside[tree.tissue(leaf)];
-    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+    for (const IVec3 step : k_six_neighbours)
       if (zones_.zone(leaf + step) != Zone::target) ++beside[tree.tissue(leaf + step)];
   });
   for (const auto& t : tooth_.tissues) {
@@ -290,7 +290,7 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
   std::array<double, k_walls> mm2{};
   const Octree& tree = tooth_.octree;
   zones_.for_each_target_leaf([&](IVec3 leaf) {
-    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+    for (const IVec3 step : k_six_neighbours)
       if (const IVec3 beside = leaf + step; zones_.zone(beside) != Zone::target && tree.is_solid(tree.tissue(beside)))
         if (const auto wall = static_cast<std::size_t>(zones_.wall(beside)); wall < k_walls) mm2[wall] += zones_.leaf_mm() * zones_.leaf_mm();
   });
@@ -298,10 +298,10 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
 }
 
 /// A figure of a wall that the cavity does not have.
-void Adviser::wall_criterion(std::size_t i, const CriterionSpec& c) {
+void Adviser::wall_criterion(std::size_t i, const CriterionSpec& c, const std::array<double, k_walls>& mm2) {
   for (std::size_t w = 0; w < k_walls; ++w) {
     const std::string name = wall_name(static_cast<Wall>(w));
-    if (!c.metric.starts_with(name + "_") || !c.metric.ends_with("_mm") || wall_mm2()[w] >= k_least_wall_mm2) continue;
+    if (!c.metric.starts_with(name + "_") || !c.metric.ends_with("_mm") || mm2[w] >= k_least_wall_mm2) continue;
     warn("rubric/criteria/" + std::to_string(i) + "/metric",
          "the cavity has no " + name + (w == static_cast<std::size_t>(Wall::floor) ? "" : " wall") +
              " in this tooth: " + (c.metric.ends_with("max_over_mm") ? "nobody can lose these points" : "nobody can win these points"),
@@ -311,6 +311,7 @@ void Adviser::wall_criterion(std::size_t i, const CriterionSpec& c) {
 
 void Adviser::criteria() {
   const Ranges ranges = common_ranges();
+  const auto walls_mm2 = wall_mm2();
   for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
     const CriterionSpec& c = s_.rubric.criteria[i];
     const std::string place = "rubric/criteria/" + std::to_string(i);
@@ -321,7 +322,7 @@ void Adviser::criteria() {
     else if (c.metric.ends_with("max_over_mm") || c.metric.ends_with("max_under_mm") || c.metric.ends_with("_error_mm") ||
              c.metric.ends_with("_error_deg"))
       criterion(i, c, {0, k_no_end});
-    wall_criterion(i, c);
+    wall_criterion(i, c, walls_mm2);
   }
   for (auto& p : turned_round(s_.rubric)) problems_.push_back(std::move(p));
   const bool guard_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) {
@@ -345,8 +346,7 @@ std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, 
   scenario.path = rubric.path;
   scenario.places.clear();
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i)
-    for (const char* key : {"", "/metric", "/full", "/zero", "/points", "/critical_above", "/critical_below"})
-      scenario.places["rubric/criteria/" + std::to_string(i) + key] = rubric.criteria[i].metric_at;
+    scenario.places["rubric/criteria/" + std::to_string(i)] = rubric.criteria[i].metric_at;  // and so of all that it holds
   Adviser a(scenario, tooth, zones, {});
   a.criteria();
   return a.take();

@@ -272,8 +272,7 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
           return (at_axis > 0 && inside[i - stride] == 0) || (at_axis + 1 < count && inside[i + stride] == 0);
         };
         if (across(x, size.x, sx) || across(y, size.y, sy) || across(z, size.z, sz)) ++map.target_border_;
-        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
-          map.target_is_open_ = map.target_is_open_ || tree.tissue(at + step) == k_air;
+        for (const IVec3 step : k_six_neighbours) map.target_is_open_ = map.target_is_open_ || tree.tissue(at + step) == k_air;
         if (z + 1 == size.z || tissue[i + sz] == k_air) {
           const double surface = maker.surface().value[maker.surface().index(at.x, at.y)];
           if (std::fabs(surface - map.centre_mm(at).z) <= leaf) {

@@ -32,6 +32,9 @@ inline constexpr std::size_t k_walls = 5;
 /// 0.54 some leaves off the tilted edge of a box, where leaf centres near the edge are sparse.
 inline constexpr double k_distance_bound_leaves = 0.6;
 
+/// From a leaf to those that share a face with it.
+inline constexpr IVec3 k_six_neighbours[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
 class Shape;
 
 class ZoneMap {

@@ -73,7 +73,7 @@ std::array<Volume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zone
         if (own == Zone::none) continue;
         Volume& v = volumes[static_cast<std::size_t>(own)];
         v.mm3 += leaf_mm3;
-        for (const IVec3 step : {IVec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+        for (const IVec3 step : k_six_neighbours)
           if (zones.zone(leaf + step) != own) {
             v.bound_mm3 += 0.5 * leaf_mm3;
             break;
