@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "grading/access.h"
 #include "grading/cut_surface.h"
@@ -76,6 +77,16 @@ void note_steps(const GradeInput& input, Result& r) {
   }
 }
 
+/// Periods that the servo gave up, as the station recorded them.
+double lost_s(std::span<const SessionEvent> events) {
+  constexpr std::int64_t k_day = 86'400'000;  // whatever a file says
+  std::int64_t periods = 0;
+  for (const auto& e : events)
+    if (e.kind == k_servo_gap_event)
+      periods += std::clamp<std::int64_t>(whole_in(nlohmann::json::parse(e.detail_json, nullptr, false), "periods"), 0, k_day);
+  return static_cast<double>(periods) * k_tick_s;
+}
+
 /// What granted, paused and late time means for a reader.
 void note_time(const GradeInput& input, Result& r) {
   std::string refused;
@@ -99,6 +110,9 @@ void note_time(const GradeInput& input, Result& r) {
   if (r.pauses_refused > 0)
     r.notes.push_back(std::to_string(r.pauses_refused) + (r.pauses_refused == 1 ? " pause" : " pauses") + " asked for and not given (" + refused +
                       ")");
+  if (r.motion.lost_s > 0)
+    r.notes.push_back(fixed(r.motion.lost_s, 3) +
+                      " s were lost while the station's program stood still: the exam's clock does not show them, and the " + "candidate had them");
   if (r.motion.late_ticks > 0)
     r.notes.push_back(std::to_string(r.motion.late_ticks) + " ticks were recorded after the exam was over, " + fixed(r.motion.late_removed_mm3, 2) +
                       " mm3 removed in them; they do not count");
@@ -156,6 +170,7 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   for (const auto& e : input.events) r.pauses_refused += is_kind(e, ExamEventKind::pause_refused) ? 1 : 0;
   r.late_work = find_late_work(input);
   r.motion = measure_motion(input, ticks, r.pauses);
+  r.motion.lost_s = lost_s(input.events);
   for (const auto& leaf : input.removed) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
   r.perforation = measure_perforation(input, input.inputs.empty() ? last_tick : ticks);
   const PerforationSpec& spec = input.scenario.perforation;

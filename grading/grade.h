@@ -12,6 +12,9 @@
 
 namespace cavum {
 
+/// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
+inline constexpr int k_grading_version = 1;
+
 /// Everything a grade depends on. `inputs` and `records` are of one length; `removed` is in order of ticks.
 struct GradeInput {
   const Scenario& scenario;

@@ -139,6 +139,7 @@ struct MotionMeasures {
   /// Durations: a tick for each time that it began or ended, idle a tenth of a second. Way and force: what rounding in the recording leaves open.
   double time_bound_s = 0.0, handpiece_bound_s = 0.0, idle_bound_s = 0.0, over_limit_bound_s = 0.0, path_bound_mm = 0.0, force_bound_n = 0.0;
   Trace force_peak, first_over_limit;
+  double lost_s = 0.0;            ///< in which the station's program stood still: the exam's clock does not show it, and the candidate had it
   std::int64_t late_ticks = 0;    ///< recorded after the exam was over; they count nowhere
   double late_removed_mm3 = 0.0;  ///< removed in them
 };

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "grading/grade.h"
 #include "grading/loss.h"
 
 namespace cavum {
@@ -168,6 +169,7 @@ Json to_json(const Result& r) {
   j["finish"] = r.progress.finish;
   j["extra_time_percent"] = r.accommodations.extra_time_percent;
   j["late_ticks"] = r.motion.late_ticks + r.late_work.ticks;
+  j["grading_version"] = k_grading_version;
   j["bounds"] = {{"time_s", rounded(r.motion.time_bound_s)},   {"handpiece_time_s", rounded(r.motion.handpiece_bound_s)},
                  {"idle_s", rounded(r.motion.idle_bound_s)},   {"over_limit_s", rounded(r.motion.over_limit_bound_s)},
                  {"path_mm", rounded(r.motion.path_bound_mm)}, {"force_n", rounded(r.motion.force_bound_n)}};
@@ -189,6 +191,7 @@ Json to_json(const Result& r) {
     }
     j["pauses"] = {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
   }
+  if (r.motion.lost_s > 0) j["lost_time_s"] = rounded(r.motion.lost_s);
   if (r.motion.late_ticks > 0) j["late_removed_mm3"] = rounded(r.motion.late_removed_mm3);
   if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
   j["notes"] = r.notes;

@@ -21,25 +21,36 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
 }
 
+Scenario scenario_in(const SessionSetup& setup, const std::string& where) {
+  Scenario scenario = parse_scenario(setup.scenario_toml, where + ": scenario", Reading::recorded);
+  use_surfaces(scenario, setup.attachments);
+  scenario.accommodations = granted(scenario.accommodations, setup.notes, where + ": accommodations");
+  return scenario;
+}
+
 std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after) {
+  ExamGrounds grounds;
+  return load_for_grading(reader, std::move(after), grounds);
+}
+
+std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after, ExamGrounds& grounds) {
   const std::string& path = reader.path();
   const SessionSetup setup = reader.setup();
   auto s = std::make_unique<GradedSession>();
-  s->scenario = parse_scenario(setup.scenario_toml, path + ": scenario", Reading::recorded);
-  use_surfaces(s->scenario, setup.attachments);
-  s->scenario.accommodations = granted(s->scenario.accommodations, setup.notes, path + ": accommodations");
+  s->scenario = scenario_in(setup, path);
   s->sat_under_ticks = exam_limit_ticks(s->scenario);
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
-  s->before = load_tooth(setup.tooth, path + ": tooth");
+  const auto ground = grounds.of(s->scenario, setup, path);
+  s->before = {ground, &ground->tooth};
   s->after = std::move(after);
-  s->zones = build_zones(s->scenario, s->before);
+  s->zones = {ground, &ground->zones};
   s->inputs = reader.inputs();
   s->records = reader.records();
   s->removed = reader.removed();
   s->events = reader.events();
   s->sealed_result_json = reader.result_json();
   s->notes = setup.notes;
-  s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(s->before), setup.calibration,
+  s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(*s->before), setup.calibration,
               setup.points_toml, setup.notes};
   return s;
 }
@@ -49,16 +60,16 @@ void use_scenario(GradedSession& session, Scenario scenario, bool another_task) 
     throw Error(scenario.path,
                 "this is the task '" + scenario.id + "', and " + session.facts.session_file + " was an exam in '" + session.scenario.id + "'",
                 "name its corrected scenario, or add --another-task to mark the work by this one all the same");
-  require_tissues(scenario, session.before);
+  require_tissues(scenario, *session.before);
   require_same_surfaces(scenario, session.scenario);
   scenario.accommodations = granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
-  session.zones = build_zones(scenario, session.before);
+  session.zones = std::make_shared<const ZoneMap>(build_zones(scenario, *session.before));
   session.rubric = scenario.rubric;
   session.scenario = std::move(scenario);
 }
 
 void use_rubric(GradedSession& session, RubricSpec rubric) {
-  require_none(not_in_this_exam(rubric, session.scenario, session.before));
+  require_none(not_in_this_exam(rubric, session.scenario, *session.before));
   session.rubric = std::move(rubric);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "grading/exam_ground.h"
 #include "grading/grade.h"
 
 namespace cavum {
@@ -21,9 +22,10 @@ struct ReportFacts {
 
 struct GradedSession {
   Scenario scenario;
-  RubricSpec rubric;  ///< of the session: its own, else the scenario's
-  Tooth before, after;
-  ZoneMap zones;
+  RubricSpec rubric;                    ///< of the session: its own, else the scenario's
+  std::shared_ptr<const Tooth> before;  ///< may be shared by all who sat the exam
+  Tooth after;
+  std::shared_ptr<const ZoneMap> zones;
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
   std::vector<RemovedAt> removed;
@@ -32,13 +34,17 @@ struct GradedSession {
   std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
   std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
   std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
-  [[nodiscard]] GradeInput input() const { return {scenario, before, zones, after.octree, inputs, records, removed, events, sat_under_ticks}; }
+  [[nodiscard]] GradeInput input() const { return {scenario, *before, *zones, after.octree, inputs, records, removed, events, sat_under_ticks}; }
 };
 
 /// Throws Error when the file is damaged, or was never closed (resume it first).
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
 /// The same for an exam that is just ending, with the tooth as it is now.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
+/// The same with tooth and zones out of `grounds`.
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);
+/// The session's scenario with its surfaces and with what was granted to the candidate. Throws Error.
+[[nodiscard]] Scenario scenario_in(const SessionSetup& setup, const std::string& where);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
 /// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, when an STL that the session ran

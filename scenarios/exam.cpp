@@ -14,42 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string event_detail(const ExamEvent& event, const ExamSetup& setup) {
-  nlohmann::json detail = nlohmann::json::object();
-  const auto index = static_cast<std::size_t>(event.index);
-  switch (event.kind) {
-    case ExamEventKind::step_started:
-    case ExamEventKind::step_completed:
-    case ExamEventKind::step_failed:
-    case ExamEventKind::step_time_limit:
-      detail["step"] = index < setup.scenario.steps.size() ? setup.scenario.steps[index].id : "";
-      break;
-    case ExamEventKind::pause_started:
-    case ExamEventKind::pause_ended:
-      detail["pause"] = event.index;
-      break;
-    case ExamEventKind::pause_refused:
-      detail["pauses"] = event.index;
-      break;
-    case ExamEventKind::point_not_allowed:
-      detail["point"] = event.index;
-      break;
-    case ExamEventKind::aim_reached:
-    case ExamEventKind::perforation: {
-      detail["tissue"] = setup.tooth.tissue_name(static_cast<std::uint8_t>(event.index));
-      const Vec3 at = setup.tooth.octree.centre_mm({event.leaf[0], event.leaf[1], event.leaf[2]});
-      detail["site_mm"] = {at.x, at.y, at.z};
-      break;
-    }
-    case ExamEventKind::finished:
-      detail["how"] = finish_name(static_cast<Finish>(event.index));
-      break;
-    default:
-      break;
-  }
-  return detail.dump();
-}
-
 /// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
 void fill(ExamSetup& setup, const std::string& scenario_path, const std::string& tooth_path, const std::vector<std::string>& point_paths) {
   setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path, Reading::recorded);
@@ -74,6 +38,42 @@ std::vector<fs::path> data_folders(const std::string& folder, const std::string&
 }
 
 }  // namespace
+
+std::string event_detail(const ExamEvent& event, const Scenario& scenario, const Tooth& tooth) {
+  nlohmann::json detail = nlohmann::json::object();
+  const auto index = static_cast<std::size_t>(event.index);
+  switch (event.kind) {
+    case ExamEventKind::step_started:
+    case ExamEventKind::step_completed:
+    case ExamEventKind::step_failed:
+    case ExamEventKind::step_time_limit:
+      detail["step"] = index < scenario.steps.size() ? scenario.steps[index].id : "";
+      break;
+    case ExamEventKind::pause_started:
+    case ExamEventKind::pause_ended:
+      detail["pause"] = event.index;
+      break;
+    case ExamEventKind::pause_refused:
+      detail["pauses"] = event.index;
+      break;
+    case ExamEventKind::point_not_allowed:
+      detail["point"] = event.index;
+      break;
+    case ExamEventKind::aim_reached:
+    case ExamEventKind::perforation: {
+      detail["tissue"] = tooth.tissue_name(static_cast<std::uint8_t>(event.index));
+      const Vec3 at = tooth.octree.centre_mm({event.leaf[0], event.leaf[1], event.leaf[2]});
+      detail["site_mm"] = {at.x, at.y, at.z};
+      break;
+    }
+    case ExamEventKind::finished:
+      detail["how"] = finish_name(static_cast<Finish>(event.index));
+      break;
+    default:
+      break;
+  }
+  return detail.dump();
+}
 
 std::vector<std::string> data_names(const std::string& folder, const std::string& near_file) {
   for (const auto& place : data_folders(folder, near_file)) {
@@ -117,6 +117,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   if (const auto wrong = read_surfaces(scenario, s.attachments); !wrong.empty()) throw Error(wrong[0].where, wrong[0].what, wrong[0].what_to_do);
   s.candidate = options.candidate;
   s.device = options.device;
+  s.source = options.source;
   require_sound(options.grant, "accommodations");
   s.notes = options.notes;
   for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
@@ -156,18 +157,18 @@ std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
 Exam::Exam(const ExamSetup& setup, Simulation simulation)
     : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names), simulation_(std::move(simulation)) {}
 
-std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm) {
+std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm, const ReadClocks& clocks) {
   SessionSetup session = setup.session;
   const TickInput first = make_tick_input({first_tip_mm, {}}, 0, k_stylus_fresh, 0, {});
   session.first_tip_nm = first.tip_nm;
   std::unique_ptr<Exam> exam(new Exam(setup, make_simulation(session, path)));
   exam->last_input_ = first;
   exam->last_.proxy_mm = first_tip_mm;
-  exam->recorder_.emplace(Recorder::create(path, session));
+  exam->recorder_.emplace(Recorder::create(path, session, clocks));
   return exam;
 }
 
-std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source) {
+std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source, const ReadClocks& clocks) {
   std::unique_ptr<Exam> exam(new Exam(setup, {}));
   ResumedSession resumed = resume_session(
       path,
@@ -176,7 +177,7 @@ std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& pa
         exam->last_input_ = input;
         exam->last_ = output;
       },
-      source);
+      source, clocks);
   if (resumed.ticks == 0) {
     exam->last_input_.tip_nm = resumed.setup.first_tip_nm;
     exam->last_.proxy_mm = resumed.setup.first_tip_mm();
@@ -191,7 +192,7 @@ void Exam::record_events() {
   const RunnerState& r = *runner_state_;
   for (; events_recorded_ < r.event_count; ++events_recorded_) {
     const ExamEvent& e = r.events[events_recorded_];
-    recorder_->add_event(e.tick, event_name(e.kind), event_detail(e, setup_));
+    recorder_->add_event(e.tick, event_name(e.kind), event_detail(e, setup_.scenario, setup_.tooth));
   }
 }
 

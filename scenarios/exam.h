@@ -28,10 +28,14 @@ namespace cavum {
 /// Text of a force model: the name of data/materials/NAME.toml, or a path ending in .toml. Throws Error.
 [[nodiscard]] std::string force_model_text(const std::string& wanted, const std::string& near_file);
 
+/// Detail of a runner's event as it is recorded: one JSON object.
+[[nodiscard]] std::string event_detail(const ExamEvent& event, const Scenario& scenario, const Tooth& tooth);
+
 /// What may be chosen beside the scenario itself.
 struct ExamOptions {
   std::string candidate;                                   ///< pseudonym
   std::string device;                                      ///< name of what gives the input
+  MotionSource source;                                     ///< what moves the stylus, as it is signed
   double position_quantum_mm = 0.0;                        ///< step of its encoder; 0 = exact
   double peak_n = 0.0, continuous_n = 0.0;                 ///< forces that it bears; 0 or more than usual = the usual limits
   std::string tooth_file;                                  ///< empty: the scenario's
@@ -62,10 +66,12 @@ inline constexpr char k_late_work[] = "late_work";
 class Exam {
  public:
   /// Starts recording to `path`, with the tip at `first_tip_mm`. Throws Error when it cannot.
-  [[nodiscard]] static std::unique_ptr<Exam> start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm);
+  [[nodiscard]] static std::unique_ptr<Exam> start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm,
+                                                   const ReadClocks& clocks = read_clocks);
   /// Takes up a session that was killed, with the setup it holds; the ticks recorded so far are simulated again.
   /// `source` is noted in the gap: what gives the input from now on.
-  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source = {});
+  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source = {},
+                                                    const ReadClocks& clocks = read_clocks);
 
   /// One tick, in a pause with the pedal released, whatever the foot does. When the disk refuses it, it is kept in memory, the exam goes on, and
   /// `recording_problem` says so; it is written with a later second, or at the second place.

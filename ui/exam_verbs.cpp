@@ -104,6 +104,11 @@ std::unique_ptr<InputSource> make_source(const Options& o, const ExamSetup& setu
 
 std::string source_name(const Options& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
 
+MotionSource motion_source(const Options& o) {
+  if (!o.motion.empty()) return {"motion_file", std::filesystem::path(o.motion).filename().string()};
+  return {"operator", o.operator_name};
+}
+
 SourceNotes source_notes(const Options& o) {
   if (!o.motion.empty()) return {{"motion_file", std::filesystem::path(o.motion).filename().string()}};
   return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
@@ -116,10 +121,12 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
   options.force_model = o.model;
   options.rubric_file = o.rubric;
   options.device = source_name(o);
+  options.source = motion_source(o);
   options.notes = source_notes(o);
   if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
   if (live != nullptr) {
     options.device = live->name();
+    options.source = live->source();
     options.notes = live->notes();
     options.position_quantum_mm = live->position_quantum_mm();
     options.peak_n = live->peak_n();
@@ -300,6 +307,7 @@ int run_resumed(const Options& o) {
       throw Error("--device " + o.device, "has another encoder than the one that " + o.out + " was begun with",
                   "go on with the same device, or close the exam with --end");
     live->begin(*setup);
+    say(to_notes(live->source()));
     say(live->notes());
     say({{"device", live->name()}});
     return run_live(o, *setup, *live, Exam::resume(*setup, o.out, notes));
@@ -308,6 +316,7 @@ int run_resumed(const Options& o) {
   // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
   const auto source = moves ? make_source(o, *setup) : nullptr;
   if (moves) {
+    say(to_notes(motion_source(o)));
     say(source_notes(o));
     say({{"device", source_name(o)}});
   }

@@ -46,7 +46,7 @@ void write_new(const std::string& path, const Json& json) {
 void run_grade_one(const std::string& path, const Options& o) {
   const MarkedSession g = marked_session(path, o.marking);
   if (!o.marking.rubric.empty())
-    for (const auto& p : advise_rubric(g.session->scenario, g.rubric, g.session->before, g.session->zones))
+    for (const auto& p : advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
       std::cerr << "cavum: " << one_line(p.text()) << "\n";
   if (!o.why.empty()) {
     const Why w = why(g.session->input(), g.result, g.rubric, o.why);

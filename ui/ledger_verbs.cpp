@@ -34,6 +34,18 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--school", o->school, "name of the school, entered first")->capture_default_str();
   json_flag(v);
 
+  v = verb("station", "List the stations whose exams count; invite, enrol or revoke one", done(ledger_station));
+  auto* invite = v->add_option("--invite", o->invite, "make a one-time code for a station of this name");
+  auto* enrol = v->add_option("--enrol", o->enrol, "enter the station whose request this file is (`cavum station --enrol | --replace-key` wrote it)")
+                    ->excludes(invite);
+  v->add_option("--revoke", o->revoke, "its public key: nothing that it signs and that comes in from now on counts")
+      ->excludes(invite)
+      ->excludes(enrol);
+  v->add_option("--until", o->until,
+                "with --invite: until when the code is good (else a week); with --enrol: until when the key is (else without end)");
+  v->add_option("--reason", o->reason, "with --revoke: why, in one line; it is kept for ever");
+  json_flag(v);
+
   v = verb("ticket", "Promise an exam to a candidate, or to a list of them", done(ledger_ticket));
   v->add_option("scenario", o->scenario, "scenario file (.toml)")->required();
   v->add_option("--candidate", o->candidate, "matriculation number or mail address; kept with the identities only");
@@ -52,7 +64,8 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v = verb("add", "File finished exams: verified tick by tick, checked against their tickets, counter-signed", ledger_add);
   v->add_option("sessions", o->sessions, ".cavum files, or folders of them")->required();
   v->add_flag("--without-ticket", o->without_ticket, "also exams that nobody promised");
-  v->add_flag("--simulated", o->simulated, "also what a simulated operator sat; it stays marked as that");
+  v->add_flag("--simulated", o->simulated,
+              "also what no candidate's hand moved: simulated operators, motion files, practice; it stays marked as that");
   v->add_flag("--with-findings", o->with_findings, "also what does not hold, with what was found: for an appeal");
   v->add_option("--receipts", o->out, "folder for receipts: what a candidate can show without the ledger");
   json_flag(v);

@@ -101,10 +101,11 @@ int ledger_add(const LedgerOptions& o) {
   }
   json printed = json::array();
   bool all = true;
+  ExamGrounds grounds;  // of the class
   for (const auto& path : session_files(o.sessions)) {
     Filing filing;
     try {
-      filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings});
+      filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings}, grounds);
     } catch (const DatabaseError&) {
       throw;  // the disk: what was acknowledged stands, and nothing more can be
     } catch (const Error& e) {
@@ -112,7 +113,7 @@ int ledger_add(const LedgerOptions& o) {
       filing.findings.emplace_back(e.what());
     }
     all = all && filing.seq && filing.findings.empty();
-    json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};
+    json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
       if (!o.out.empty()) write_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
@@ -120,6 +121,7 @@ int ledger_add(const LedgerOptions& o) {
     if (!o.as_json) {
       std::cout << path << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
       for (const auto& f : filing.findings) std::cout << "  - " << f << "\n";
+      for (const auto& r : filing.remarks) std::cout << "  (" << r << ")\n";
     }
     printed.push_back(std::move(one));
   }

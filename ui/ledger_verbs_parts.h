@@ -1,5 +1,5 @@
 // What the verbs of `cavum ledger` share: their options, and the functions behind them, by file: _filing (init, ticket, add, receipt), _results
-// (release, regrade, export, candidates, forget), _check (verify, show).
+// (release, regrade, export, candidates, forget), _check (verify, show), _station (station).
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace cavum {
 
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
-                           receipt, results, reason;
+                           receipt, results, reason, invite, enrol, revoke;
   std::vector<std::string> sessions, chosen;
   Grant grant;
   std::vector<std::uint64_t> chosen_sessions;
@@ -41,5 +41,6 @@ void ledger_candidates(const LedgerOptions& options);
 void ledger_forget(const LedgerOptions& options);
 int ledger_verify(const LedgerOptions& options);
 int ledger_show(const LedgerOptions& options);
+void ledger_station(const LedgerOptions& options);
 
 }  // namespace cavum

@@ -22,6 +22,8 @@ class LiveSource {
  public:
   virtual ~LiveSource() = default;
   [[nodiscard]] virtual std::string name() const = 0;
+  /// As the station signs it.
+  [[nodiscard]] virtual MotionSource source() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;
   [[nodiscard]] virtual double peak_n() const { return 0.0; }        ///< that it bears; 0 = as usual
   [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same

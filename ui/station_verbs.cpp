@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/session/session_reader.h"
+#include "ui/enrol_station.h"
 #include "ui/number_check.h"
 #include "ui/own_places.h"
 #include "ui/seed_check.h"
@@ -20,6 +21,7 @@ constexpr std::size_t k_longest_code = 47;
 struct Options {
   StationOptions station;
   std::string author;
+  EnrolOptions enrol;
   int frame_times = 0;
 };
 
@@ -113,7 +115,19 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--pictures", s.pictures, "folder for the pictures that the script takes");
   station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")
       ->check(CLI::Range(1, 100000));
+  station->add_option("--enrol", o->enrol.code,
+                      "ask the school to enrol this station, with the one-time code that it gave; --out is the request to write");
+  station->add_flag("--replace-key", o->enrol.replace_key,
+                    "make a new key for this enrolled station, and ask for it to take the old one's place; --out as above");
+  station->add_option("--stylus", o->enrol.styluses,
+                      "with --enrol or --replace-key: falcon or touch; only recordings of it count then; may be repeated");
   station->callback([o, &exit_code] {
+    if (!o->enrol.code.empty() || o->enrol.replace_key) {
+      o->enrol.out = o->station.sitting.out;
+      enrol_station(o->enrol);
+      exit_code = 0;
+      return;
+    }
     require_sound(o->station, o->author);
     if (!o->author.empty()) {
       exit_code = run_author(o->station, o->author);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/device/usb_serial.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
@@ -30,6 +31,7 @@ FalconDrive drive_of(const StationStylus& station) {
 StylusFacts falcon_facts() {
   return {.id = "falcon",
           .name = "Novint Falcon",
+          .serial = usb_serial(k_falcon_vendor, k_falcon_product),
           .position_quantum_mm = k_falcon_quantum_mm,
           .peak_n = 8.9,
           .continuous_n = 2.0,

@@ -13,6 +13,7 @@ namespace cavum {
 struct StylusFacts {
   std::string id;                    ///< `simulated`, `falcon`, `touch`
   std::string name;                  ///< in words, with what the device says of itself
+  std::string serial = {};           ///< of this very device; empty when it tells none
   double position_quantum_mm = 0.0;  ///< step of the positions it reports; 0 = exact
   double peak_n = 0.0;               ///< force that it can give for a moment; more is cut to it
   double continuous_n = 0.0;         ///< force that it can give without end

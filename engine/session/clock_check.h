@@ -1,5 +1,5 @@
 // What the clocks in a recording say of how the exam was sat: whether the computer slept, whether time ran slower for the hand than on the wall, and
-// whether somebody set the clock. All of it is evidence for people: a simulated candidate may well be faster than real time.
+// whether somebody set the clock. A simulated candidate may well be faster than real time; what a hand is said to have done may not.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,17 @@ namespace cavum {
 /// One stretch of a recording in which the clocks disagree.
 struct ClockRemark {
   std::int64_t first_tick = 0, ticks = 0;
-  std::string what;  ///< in words, with times
+  std::string what;       ///< in words, with times
+  bool doubtful = false;  ///< no honest exam of a hand looks so: a finding when it is filed as one
 };
 
-/// Suspends (boot ran on, monotonic stood), ticks that took more than 1.25 times as long as they say and half a second besides, wall clocks set by
-/// more than 2 s, and a recording that is faster than real time as a whole. Each interruption that was
-/// recorded is named with its length and what the exam was taken up with.
+/// Doubtful: a suspend (boot ran on, monotonic stood) of more than 0.5 s, a wall clock that was set by more than 2 s, clocks that ran backwards,
+/// ticks that are ahead of the clock by more than a second and 2 % (recorded faster than real time), and lost time of more than 2 s in all that the
+/// recording does not own up to (servo_gap). Remarks: ticks that took more than 1.25 times as long as they say and half a second besides; each
+/// interruption that was recorded, with its length and what the exam was taken up with.
 [[nodiscard]] std::vector<ClockRemark> check_clocks(const SessionReader& session);
+
+/// Time that the servo itself recorded as lost (`servo_gap`), s.
+[[nodiscard]] double admitted_lost_s(const SessionReader& session);
 
 }  // namespace cavum

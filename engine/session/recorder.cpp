@@ -26,8 +26,7 @@ namespace {
 constexpr char k_insert_chunk[] = "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 constexpr char k_insert_event[] = "INSERT INTO event VALUES (?, ?, ?, ?, ?)";
 
-std::map<std::string, std::string> meta_of(const SessionSetup& setup) {
-  const Clocks now = read_clocks();
+std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Clocks& now) {
   char tick[32];
   std::snprintf(tick, sizeof tick, "%.17g", parse_servo_config(setup.servo_toml, "servo settings").tick_s);
   std::map<std::string, std::string> meta{
@@ -37,6 +36,9 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup) {
       {"candidate", setup.candidate},
       {"device", setup.device},
       {"calibration", setup.calibration},
+      {k_source_fact, setup.source.kind},
+      {k_source_name_fact, setup.source.name},
+      {k_source_serial_fact, setup.source.serial},
       {"tick_s", tick},
       {"first_tip_x_nm", std::to_string(setup.first_tip_nm[0])},
       {"first_tip_y_nm", std::to_string(setup.first_tip_nm[1])},
@@ -130,9 +132,10 @@ void make_single_file(Database& database) {
   database.run("PRAGMA journal_mode = DELETE");
 }
 
-Recorder::Recorder(std::string path, SigningKey key) : path_(std::move(path)), key_(key), pending_(1) {}
+Recorder::Recorder(std::string path, SigningKey key, ReadClocks clocks)
+    : path_(std::move(path)), key_(key), clocks_(std::move(clocks)), pending_(1) {}
 
-Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
+Recorder Recorder::create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks) {
   const auto need = [&](bool there, const std::string& what) {
     if (!there) throw Error(path, "a session needs " + what, "give it in the setup");
   };
@@ -141,14 +144,15 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup) {
   need(!setup.force_model_toml.empty(), "a force model");
   need(!setup.servo_toml.empty(), "servo settings");
   need(!setup.candidate.empty(), "the candidate's pseudonym");
+  need(is_source_kind(setup.source.kind), "what moves the stylus");
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
     if (!attached.insert(name).second) throw Error(path, "two attachments are named '" + name + "'", "give each its own name");
   require_free(path);
 
-  Recorder recorder(path, load_station_key(station_key_path()));
+  Recorder recorder(path, load_station_key(station_key_path()), clocks);
   const auto artifacts = artifacts_of(setup);
-  auto meta = meta_of(setup);
+  auto meta = meta_of(setup, clocks());
   meta[k_station_fact] = to_hex(recorder.key_.public_key);
   meta[k_begun_fact] = to_hex(recorder.key_.sign(begin_message(meta, artifacts)));
   remove_leftovers(path);
@@ -219,7 +223,7 @@ void Recorder::append(const TickInput& input, const TickRecord& record, std::spa
   now.state_hash = state_hash;
   ++ticks_;
   if (static_cast<std::int64_t>(now.inputs.size()) < k_chunk_ticks && now.removed.leaves.size() < k_chunk_leaves) return;
-  now.complete = read_clocks();
+  now.complete = clocks_();
   pending_.emplace_back();
   pending_.back().state_hash = state_hash;
   write_pending();
@@ -235,7 +239,7 @@ void Recorder::flush() {
   Pending& now = pending_.back();
   if (!now.inputs.empty() || !now.events.empty()) {
     const auto state_hash = now.state_hash;
-    now.complete = read_clocks();
+    now.complete = clocks_();
     pending_.emplace_back();
     pending_.back().state_hash = state_hash;
   }
@@ -325,7 +329,7 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
   seal.chunks = next_chunk_;
   seal.ticks = ticks_on_disk_;
   seal.events = next_event_;
-  seal.clocks = read_clocks();
+  seal.clocks = clocks_();
   seal.public_key = key_.public_key;
   seal.signature = key_.sign(seal_message(seal));
   Transaction transaction(*database_);

@@ -19,8 +19,8 @@ namespace cavum {
 class Recorder {
  public:
   /// A new session file holding the setup. Throws Error when `path` exists or cannot be written, when the
-  /// setup lacks tooth, diamond points, force model or servo settings, or when the station has no usable key.
-  [[nodiscard]] static Recorder create(const std::string& path, const SessionSetup& setup);
+  /// setup lacks tooth, diamond points, force model or servo settings or names no source of motion, or when the station has no usable key.
+  [[nodiscard]] static Recorder create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks = read_clocks);
 
   Recorder(Recorder&&) = default;
   Recorder& operator=(Recorder&&) = delete;
@@ -69,7 +69,7 @@ class Recorder {
     std::uint64_t state_hash = 0;
     std::optional<Clocks> complete;  ///< when its last tick came
   };
-  Recorder(std::string path, SigningKey key);
+  Recorder(std::string path, SigningKey key, ReadClocks clocks);
   void open_for_recording();
   void require_database();
   void require_open() const;
@@ -79,6 +79,7 @@ class Recorder {
 
   std::string path_;
   SigningKey key_;
+  ReadClocks clocks_;
   std::optional<Database> database_;
   std::optional<Statement> insert_chunk_, insert_event_;
   std::deque<Pending> pending_;  ///< the last one is being filled

@@ -12,8 +12,8 @@ namespace cavum {
 /// The recorder's door for resuming: puts it where the file ends.
 class Resumption {
  public:
-  static Recorder open(const SessionReader& session) {
-    Recorder recorder(session.path(), load_station_key(station_key_path()));
+  static Recorder open(const SessionReader& session, const ReadClocks& clocks) {
+    Recorder recorder(session.path(), load_station_key(station_key_path()), clocks);
     recorder.open_for_recording();
     recorder.chain_ = session.chunks().empty() ? genesis_hash(session.meta(), session.artifacts()) : session.chunks().back().sha256;
     recorder.next_chunk_ = static_cast<std::int64_t>(session.chunks().size());
@@ -56,13 +56,12 @@ void simulate(const SessionReader& session, Simulation& simulation, const TickVi
   }
 }
 
-std::string gap_detail(const SessionReader& session, const SourceNotes& source, const std::string& station_key) {
+std::string gap_detail(const SessionReader& session, const SourceNotes& source, const std::string& station_key, const Clocks& now) {
   Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
     if (e.event.kind == "gap")
       if (const auto boot = text_in(nlohmann::json::parse(e.event.detail_json, nullptr, false), "boot_id"); !boot.empty()) last_boot = boot;
-  const Clocks now = read_clocks();
   const std::string this_boot = boot_id();
   nlohmann::json detail;
   detail["last_utc_ns"] = last.utc_ns;
@@ -78,14 +77,18 @@ std::string gap_detail(const SessionReader& session, const SourceNotes& source, 
 
 }  // namespace
 
-ResumedSession resume_session(const std::string& path, const TickVisitor& visit, const SourceNotes& source) {
+SourceNotes to_notes(const MotionSource& source) {
+  return {{k_source_fact, source.kind}, {k_source_name_fact, source.name}, {k_source_serial_fact, source.serial}};
+}
+
+ResumedSession resume_session(const std::string& path, const TickVisitor& visit, const SourceNotes& source, const ReadClocks& clocks) {
   const SessionReader session(path);
   require_intact(session);
   SessionSetup setup = session.setup();
   Simulation simulation = make_simulation(setup, path);
   simulate(session, simulation, visit);
-  Recorder recorder = Resumption::open(session);
-  recorder.add_event(session.ticks(), "gap", gap_detail(session, source, Resumption::station_of(recorder)));
+  Recorder recorder = Resumption::open(session, clocks);
+  recorder.add_event(session.ticks(), "gap", gap_detail(session, source, Resumption::station_of(recorder), clocks()));
   try {
     recorder.flush();
   } catch (const DatabaseError&) {  // a full disk: the gap waits in memory, and is written before anything that comes

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/vec.h"
 #include "engine/servo/tick.h"
+#include "engine/session/motion_source.h"
 
 namespace cavum {
 
@@ -28,6 +30,7 @@ struct SessionSetup {
   std::string candidate;    ///< pseudonym, never a name
   std::string device;       ///< name of the stylus, or of the simulated operator
   std::string calibration;  ///< the device's calibration, as text
+  MotionSource source;      ///< what moves the stylus
   std::string scenario_toml;
   std::string rubric_toml;  ///< empty when the scenario's own rubric counts
   std::string force_model_toml;
@@ -47,6 +50,8 @@ struct Clocks {
   friend bool operator==(const Clocks&, const Clocks&) = default;
 };
 [[nodiscard]] Clocks read_clocks();
+/// Where a recording gets its clocks from: the computer's, or a test's.
+using ReadClocks = std::function<Clocks()>;
 /// Names the running boot, for `boot_ns` compares only within one; empty when the system does not tell.
 [[nodiscard]] std::string boot_id();
 /// "2026-11-21T02:30:00Z"
@@ -59,6 +64,9 @@ struct SessionEvent {
   std::string detail_json;  ///< one JSON value
   friend bool operator==(const SessionEvent&, const SessionEvent&) = default;
 };
+
+/// Kind of the event that owns up to periods of the servo which passed without a tick: {"periods","times","first_tick"}.
+inline constexpr char k_servo_gap_event[] = "servo_gap";
 
 /// A file kept inside the session.
 struct Artifact {

@@ -169,6 +169,7 @@ SessionSetup SessionReader::setup() const {
   s.candidate = fact("candidate");
   s.device = fact("device");
   s.calibration = fact("calibration");
+  s.source = {fact(k_source_fact), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");
   s.rubric_toml = text("rubric.toml");
   s.force_model_toml = text("force_model.toml");

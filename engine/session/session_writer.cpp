@@ -89,7 +89,7 @@ void SessionWriter::note_changes(const ServoTick& tick) {
 void SessionWriter::note_counts(std::int64_t tick) {
   counted_since_ = tick;
   if (gaps_ > 0)
-    recorder_.add_event(tick, "servo_gap", nlohmann::json{{"periods", gap_periods_}, {"times", gaps_}, {"first_tick", first_gap_tick_}}.dump());
+    recorder_.add_event(tick, k_servo_gap_event, nlohmann::json{{"periods", gap_periods_}, {"times", gaps_}, {"first_tick", first_gap_tick_}}.dump());
   if (overruns_ > 0)
     recorder_.add_event(tick, "overruns", nlohmann::json{{"count", overruns_}, {"worst_late_ms", static_cast<double>(worst_late_ns_) * 1e-6}}.dump());
   gap_periods_ = gaps_ = overruns_ = worst_late_ns_ = 0;

@@ -2,6 +2,8 @@
 // here, so that they cannot start differently.
 #pragma once
 
+#include <functional>
+
 #include "engine/servo/servo.h"
 #include "engine/session/session.h"
 
@@ -12,6 +14,10 @@ struct Simulation {
   ServoModel model;
   ServoState state;
 };
+
+/// Called for every recorded tick while it is simulated again, so that a scenario can catch up.
+/// `state.removed` holds the leaves removed in the tick.
+using TickVisitor = std::function<void(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state)>;
 
 /// Throws Error when the tooth, a diamond point, the force model or the servo settings cannot be used;
 /// `where` precedes the name of the part.

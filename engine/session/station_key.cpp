@@ -73,6 +73,25 @@ SigningKey load_signing_key(const std::string& path, const std::string& owner) {
   return key;
 }
 
+namespace {
+
+std::string enrolled_path(const std::string& path) { return path + ".enrolled"; }
+
+}  // namespace
+
+SigningKey load_station_key(const std::string& path) {
+  const std::string enrolled = enrolled_path(path);
+  if (!std::filesystem::exists(enrolled)) return load_signing_key(path, "station");
+  const std::string advice =
+      "restore the key from its backup, or have the station enrolled anew: remove " + enrolled + " and ask with `cavum station --enrol CODE`";
+  if (!std::filesystem::exists(path)) throw Error(path, "the key that this station was enrolled with is gone", advice);
+  const SigningKey key = load_signing_key(path, "station");
+  if (read_text_file(enrolled) != to_hex(key.public_key) + "\n") throw Error(path, "is not the key that this station was enrolled with", advice);
+  return key;
+}
+
+void remember_enrolled(const std::string& path, const SigningKey& key) { write_text_file(enrolled_path(path), to_hex(key.public_key) + "\n"); }
+
 std::string parse_public_key(const std::string& text, const std::string& where) {
   std::string key = text;
   for (char& c : key)

@@ -23,7 +23,11 @@ struct SigningKey {
 /// Reads the key at `path`, or makes one there (mode 0600) when there is none; `owner` ("station", "school") is written into it, and a
 /// key of another owner is refused. Throws Error when the file cannot be read or made, is damaged, or may be read by others.
 [[nodiscard]] SigningKey load_signing_key(const std::string& path, const std::string& owner);
-[[nodiscard]] inline SigningKey load_station_key(const std::string& path) { return load_signing_key(path, "station"); }
+/// The same of a station. Throws Error also when a key was enrolled here (remember_enrolled) and is no longer there, or is another: a lost key is not
+/// silently made again, for nobody knows the new one.
+[[nodiscard]] SigningKey load_station_key(const std::string& path);
+/// Remembers beside the key at `path` that it was enrolled by a school. Throws Error when nothing can be written.
+void remember_enrolled(const std::string& path, const SigningKey& key);
 
 /// A station's public key as people write it: 64 hexadecimal digits, returned in lower case. Throws Error(`where`, ...)
 /// for anything else.

@@ -55,7 +55,7 @@ void note(VerifyReport& report, const std::optional<Divergence>& divergence) {
 }
 
 /// Simulates every chunk that unpacks; ends early only when one does not, for then the state is unknown.
-void replay(const SessionReader& session, Simulation& simulation, VerifyReport& report) {
+void replay(const SessionReader& session, Simulation& simulation, const TickVisitor& visit, VerifyReport& report) {
   for (std::size_t i = 0; i < session.chunks().size(); ++i) {
     const ChunkRow& c = session.chunks()[i];
     ChunkMotion motion;
@@ -68,7 +68,9 @@ void replay(const SessionReader& session, Simulation& simulation, VerifyReport& 
     std::span<const RemovedLeaf> listed = motion.removed.leaves;
     for (std::size_t t = 0; t < motion.inputs.size(); ++t) {
       const auto tick = c.first_tick + static_cast<std::int64_t>(t);
-      const TickRecord record = make_tick_record(step(simulation.model, simulation.state, motion.inputs[t]));
+      const TickOutput output = step(simulation.model, simulation.state, motion.inputs[t]);
+      const TickRecord record = make_tick_record(output);
+      if (visit) visit(tick, motion.inputs[t], output, simulation.state);
       const auto removed = listed.first(motion.removed.counts[t]);
       listed = listed.subspan(removed.size());
       auto divergence = compare(tick, motion.records[t], record);
@@ -94,7 +96,7 @@ void compare_final_tooth(const SessionReader& session, const Simulation& simulat
   }
 }
 
-void simulate_and_compare(const SessionReader& session, VerifyReport& report) {
+void simulate_and_compare(const SessionReader& session, const TickVisitor& visit, VerifyReport& report) {
   const auto recorded_physics = session.number("physics_version", 0);
   if (recorded_physics != k_physics_version) {
     report.findings.push_back("table meta: recorded under physics " + std::to_string(recorded_physics) + ", this program has " +
@@ -106,7 +108,7 @@ void simulate_and_compare(const SessionReader& session, VerifyReport& report) {
   try {
     Simulation simulation = make_simulation(session.setup(), session.path());
     tick_s = simulation.model.config.tick_s;
-    replay(session, simulation, report);
+    replay(session, simulation, visit, report);
     if (report.closed && report.ticks_replayed == report.ticks) compare_final_tooth(session, simulation, report);
   } catch (const std::exception& e) {
     report.findings.push_back(std::string(e.what()) + " (not replayed)");
@@ -125,7 +127,7 @@ VerifyReport verify_session(const std::string& path, const std::string& expected
   return verify_session(SessionReader(path), expected_station_key);
 }
 
-VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key) {
+VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key, const TickVisitor& visit) {
   VerifyReport report;
   report.file = session.path();
   report.closed = session.closed();
@@ -139,7 +141,7 @@ VerifyReport verify_session(const SessionReader& session, const std::string& exp
   if (session.seal()) report.station_key = to_hex(session.seal()->public_key);
   if (!expected_station_key.empty() && session.seal() && report.station_key != expected_station_key)
     report.findings.push_back("table seal: closed by station " + report.station_key + ", not by the one expected");
-  simulate_and_compare(session, report);
+  simulate_and_compare(session, visit, report);
   report.intact = report.findings.empty() && !report.first_divergence;
   if (!report.closed)
     report.findings.push_back("table seal: none, the session was never closed; " + std::to_string(report.ticks) +

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/session/session_reader.h"
+#include "engine/session/simulation.h"
 
 namespace cavum {
 
@@ -38,7 +39,7 @@ struct VerifyReport {
 /// `expected_station_key` (hexadecimal) a session closed by any other station is not verified: whoever can
 /// simulate can also forge a whole new session, but not sign it with a key that is not theirs.
 [[nodiscard]] VerifyReport verify_session(const std::string& path, const std::string& expected_station_key = "");
-/// The same of a session that was read already.
-[[nodiscard]] VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key = "");
+/// The same of a session that was read already; `visit` sees each tick as it is simulated.
+[[nodiscard]] VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key = "", const TickVisitor& visit = {});
 
 }  // namespace cavum

@@ -28,6 +28,7 @@ void sit(const Student& student, const std::string& scenario) {
   ExamOptions options;
   options.candidate = student.candidate;
   options.device = "simulated Omni, operator " + student.skill;
+  options.source = {"operator", student.skill};
   options.position_quantum_mm = OmniModel{}.quantum_mm;
   options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {k_ticket_note, student.ticket}};
   const auto setup = prepare_exam(scenario, options);

@@ -5,14 +5,36 @@
 #include <set>
 
 #include "engine/base/file.h"
-#include "engine/session/verify.h"
+#include "engine/session/session_image.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/registry.h"
+#include "grading/grade.h"
+#include "grading/school_mark.h"
 
 namespace cavum {
 
+namespace {
+
+/// Simulates and marks a filed session again: it must hold, and be marked as it was. `image` is the file.
+void check_again(const FiledSession& s, const Bytes& image, const std::string& path, const std::string& name, ExamGrounds& grounds,
+                 LedgerCheck& out) {
+  const SchoolMark mark = mark_again(SessionReader(image, path), grounds);
+  for (const auto& f : mark.findings) out.findings.push_back(name + ": " + f);
+  const auto differ = s.filed.is_object() && mark.result.is_object() ? result_differences(s.filed, mark.result) : std::vector<std::string>();
+  if (differ.empty()) return;
+  const std::string more = differ.size() > 1 ? "; and " + std::to_string(differ.size() - 1) + " more" : "";
+  if (s.grading_version == k_grading_version)
+    out.findings.push_back(name + ": the result that was filed is not what marking it gives: filed " + differ[0] + more);
+  else
+    out.remarks.push_back(name + ": was marked by grading version " + std::to_string(s.grading_version) + "; version " +
+                          std::to_string(k_grading_version) + " gives another result: filed " + differ[0] + more);
+}
+
+}  // namespace
+
 LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
+  ExamGrounds grounds;
   const LedgerContent content = read_ledger(places);
   LedgerCheck out{content.findings, {}, content.remarks};
   auto& findings = out.findings;
@@ -27,17 +49,18 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   else if (!content.witnessed)
     out.not_checked.emplace_back("whether an older copy was put back: this computer has no witness of the ledger");
   if (!replay && !registry.sessions.empty())
-    out.not_checked.emplace_back("whether the filed sessions' motion gives their forces and teeth again: --replay simulates each");
+    out.not_checked.emplace_back(
+        "whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each");
   std::size_t filed_with_findings = 0;
   for (const auto& s : registry.sessions) {
     const std::string name = "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")", path = places.session(s.file_sha256);
     try {
       if (!std::filesystem::exists(path)) {
         findings.push_back(name + ": its file is gone: " + path);
-      } else if (to_hex(sha256(read_file(path))) != s.file_sha256) {
+      } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {
         findings.push_back(name + ": its file was changed: " + path);
       } else if (replay && s.findings.empty()) {
-        for (const auto& f : verify_session(path).findings) findings.push_back(name + ": " + f);
+        check_again(s, image, path, name, grounds, out);
       }
     } catch (const std::exception& e) {
       findings.push_back(name + ": its file cannot be read: " + e.what());

@@ -4,6 +4,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
+#include "engine/session/clock_check.h"
+#include "engine/session/motion_source.h"
 #include "engine/session/station_check.h"
 
 namespace cavum {
@@ -17,16 +19,24 @@ std::string ticket_text_in(const SessionSetup& setup) {
   return {};
 }
 
-constexpr std::int64_t k_patience_ns = 300'000'000'000;  // by which the clocks of station and ledger may differ
+constexpr std::int64_t k_patience_ns = 300'000'000'000;    // by which the clocks of station and ledger may differ
+constexpr std::int64_t k_hand_in_ns = 86'400'000'000'000;  // within which a finished exam reaches the ledger
 
 /// Times that contradict one another, and a gap that changed who or what sat the exam.
 std::vector<std::string> check_course(const SessionReader& session, const SessionSetup& setup, const std::optional<IssuedTicket>& ticket,
-                                      std::int64_t issued_utc_ns) {
+                                      std::int64_t issued_utc_ns, std::int64_t received_utc_ns) {
   std::vector<std::string> findings;
-  const std::int64_t begun = session.created().utc_ns, closed = session.seal()->clocks.utc_ns, now = read_clocks().utc_ns;
-  if (closed > now + k_patience_ns) findings.push_back("by the station's clock the exam ended on " + utc_text(closed) + ", after it was handed in");
+  const std::int64_t begun = session.created().utc_ns, closed = session.seal()->clocks.utc_ns;
+  if (closed > received_utc_ns + k_patience_ns)
+    findings.push_back("by the station's clock the exam ended on " + utc_text(closed) + ", after it was handed in");
+  if (closed < begun) findings.push_back("by the station's clock the exam ended on " + utc_text(closed) + ", before it began");
   if (ticket && begun < issued_utc_ns - k_patience_ns)
     findings.push_back("by the station's clock the exam began on " + utc_text(begun) + ", before its ticket was issued");
+  // A clock that was set back puts an exam into its window; that it reaches the ledger late is what is left to see.
+  if (ticket && received_utc_ns > std::max(closed, ticket->ticket.not_after_utc_ns) + k_hand_in_ns)
+    findings.push_back("it was handed in on " + utc_text(received_utc_ns) +
+                       ", more than a day after its ticket's time and after it ended by the station's clock (" + utc_text(closed) +
+                       "): nothing but that clock shows when it was sat");
   for (const auto& e : session.events()) {
     const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
     if (!detail.is_object()) continue;
@@ -37,6 +47,27 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
     if (!source.empty() && source != setup.device)
       findings.push_back("the exam was begun with " + setup.device + ", and taken up again with " + source);
   }
+  return findings;
+}
+
+/// What moved the stylus, at which station, and what the clocks say of it. What no hand moved is nobody's exam: no station has to answer for it.
+std::vector<std::string> check_hand(const Registry& registry, const SessionReader& session, const SessionSetup& setup, std::int64_t received_utc_ns,
+                                    const FilingOptions& options) {
+  std::vector<std::string> findings;
+  if (const std::string by = simulated_by(session, setup); !by.empty()) {
+    if (!options.simulated) findings.push_back("no candidate's hand moved this exam, but '" + by + "' (--simulated files it as that)");
+    return findings;
+  }
+  const std::string key = to_hex(session.seal()->public_key);
+  if (std::string why = registry.stations.problem(key, session.seal()->clocks.utc_ns, received_utc_ns); !why.empty()) {
+    findings.push_back(std::move(why));
+  } else if (const auto& known = registry.stations.of(key)->devices; !known.empty()) {
+    for (const auto& [tick, source] : sources_of(session))
+      if (std::find(known.begin(), known.end(), source) == known.end())
+        findings.push_back("the stylus " + source.name + " (serial number '" + source.serial + "') is none that the station was enrolled with");
+  }
+  for (const auto& remark : check_clocks(session))
+    if (remark.doubtful) findings.push_back("clocks, from tick " + std::to_string(remark.first_tick) + ": " + remark.what);
   return findings;
 }
 
@@ -78,46 +109,31 @@ std::string ticket_nonce_in(const SessionSetup& setup) {
 }
 
 std::string simulated_by(const SessionReader& session, const SessionSetup& setup) {
-  for (const auto& [key, value] : setup.notes)
-    if (key == "operator") return value;
-  for (const auto& e : session.events()) {
-    if (e.kind != "gap") continue;
-    const json detail = json::parse(e.detail_json, nullptr, false);
-    if (const auto& by = member_of(member_of(detail, "source"), "operator"); !by.is_null()) return by.is_string() ? by.get<std::string>() : by.dump();
+  for (const auto& [tick, source] : sources_of(session)) {
+    if (source.kind == "operator") return source.name;
+    if (!source.is_hand()) return source.in_words();
   }
+  for (const auto& [key, value] : setup.notes)  // beside a source that says otherwise
+    if (key == "operator" || key == "practice" || key == "motion_file") return key == "operator" ? value : key + " " + value;
   return {};
 }
 
-bool is_result(const json& r) {
-  const auto number = [](const json& j, const char* key) { return member_of(j, key).is_number(); };
-  const auto text = [](const json& j, const char* key) { return member_of(j, key).is_string(); };
-  const json& score = member_of(r, "score");
-  const json& criteria = member_of(r, "criteria");
-  if (!text(r, "verdict") || !number(score, "points") || !number(score, "max") || !criteria.is_array()) return false;
-  return std::all_of(criteria.begin(), criteria.end(), [&](const json& c) {
-    return text(c, "id") && text(c, "metric") && text(c, "unit") && text(c, "reason") && number(c, "points") && number(c, "max") &&
-           c.contains("value");
-  });
-}
-
-std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const FilingOptions& options,
-                                      const LedgerPlaces* filed) {
+std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
+                                      const FilingOptions& options, const LedgerPlaces* filed) {
   if (!session.closed()) return {"the session was never closed"};
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   std::vector<std::string> findings;
-  if (!is_result(json::parse(session.result_json(), nullptr, false))) findings.emplace_back("the session's result is none that grading writes");
   for (auto& f : check_stations(session)) findings.push_back(std::move(f));
   const Registry registry = read_registry(content);
   for (const auto& s : registry.sessions)
     if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));
   const std::string text = ticket_text_in(setup);
-  if (const std::string by = simulated_by(session, setup); !by.empty() && !options.simulated)
-    findings.push_back("no candidate sat this exam, but the simulated operator '" + by + "' (--simulated files it as that)");
+  for (auto& f : check_hand(registry, session, setup, received_utc_ns, options)) findings.push_back(std::move(f));
   if (text.empty()) {
     if (!options.without_ticket) findings.emplace_back("the session holds no ticket: nobody promised this exam");
     if (is_pseudonym(setup.candidate)) findings.emplace_back("the session bears a pseudonym, and no ticket that it was given by");
-    for (auto& f : check_course(session, setup, {}, 0)) findings.push_back(std::move(f));
+    for (auto& f : check_course(session, setup, {}, 0, received_utc_ns)) findings.push_back(std::move(f));
     return findings;
   }
   try {
@@ -128,7 +144,7 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Sessio
     for (const auto& t : registry.tickets) {
       if (t.ticket.nonce != nonce) continue;
       issued = true;
-      for (auto& f : check_course(session, setup, t, content.entries.at(t.seq).utc_ns)) findings.push_back(std::move(f));
+      for (auto& f : check_course(session, setup, t, content.entries.at(t.seq).utc_ns, received_utc_ns)) findings.push_back(std::move(f));
       if (t.used_by) {
         const auto other =
             std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == *t.used_by; });

@@ -12,20 +12,20 @@ namespace cavum {
 
 struct FilingOptions {
   bool without_ticket = false;  ///< for exams that nobody promised: practice, or before tickets were used
-  bool simulated = false;       ///< also what a simulated operator sat; it is marked as such
+  bool simulated = false;       ///< also what no candidate's hand moved; it is marked as such
   bool with_findings = false;   ///< files what does not hold, too, with what was found: for an appeal; it is released only by name
 };
 
-/// What a closed session's ticket, result and events claim and the entries so far contradict, in words: what filing asks beside the recording's
-/// truth. With `filed`, a second ending of an exam is compared with the one in the ledger's folder.
-[[nodiscard]] std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, const FilingOptions& options = {},
-                                                    const LedgerPlaces* filed = nullptr);
+/// What a closed session's station, source of motion, clocks and ticket claim and the entries so far contradict, in words: what filing asks beside
+/// the recording's truth. `received_utc_ns`: the ledger's own time. With `filed`, a second ending of an exam is compared with the one in the ledger's
+/// folder.
+[[nodiscard]] std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
+                                                    const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr);
 
 /// Number of the ticket in a session's notes; empty without one.
 [[nodiscard]] std::string ticket_nonce_in(const SessionSetup& setup);
-/// Operator that moved the stylus, in the beginning or after a gap; empty for a hand.
+/// What moved the stylus instead of a candidate's hand, in the beginning or after a gap: the operator's name, else the source in words. Empty for a
+/// hand.
 [[nodiscard]] std::string simulated_by(const SessionReader& session, const SessionSetup& setup);
-/// True for a result as grading writes it: everything that exports and figures of a class read is there, each of its type.
-[[nodiscard]] bool is_result(const nlohmann::json& result);
 
 }  // namespace cavum

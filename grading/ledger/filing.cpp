@@ -3,39 +3,71 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "engine/session/verify.h"
+#include "engine/base/json_fields.h"
+#include "engine/session/session_image.h"
+#include "grading/grade.h"
+#include "grading/school_mark.h"
 #include "scenarios/parse.h"
 
 namespace cavum {
+namespace {
 
 using nlohmann::json;
 
-Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options) {
+std::string scenario_id_of(const SessionSetup& setup, const SchoolMark& mark) {
+  if (mark.result.is_object()) return text_in(member_of(mark.result, "scenario"), "id");
+  try {
+    return parse_scenario(setup.scenario_toml, "scenario.toml", Reading::recorded).id;
+  } catch (const std::exception&) {
+    return "";  // a damaged session filed for an appeal
+  }
+}
+
+/// The entry's body, as far as the recording and its mark give it.
+json body_of(const SessionReader& session, const SessionSetup& setup, const SchoolMark& mark, const std::string& file_sha256) {
+  return {{"candidate", setup.candidate},
+          {"chain_sha256", to_hex(session.seal()->chain_sha256)},
+          {"file_sha256", file_sha256},
+          {"begun_utc_ns", session.created().utc_ns},
+          {"closed_utc_ns", session.seal()->clocks.utc_ns},
+          {"nonce", ticket_nonce_in(setup)},
+          {"simulated", simulated_by(session, setup)},
+          {"source", {{"kind", setup.source.kind}, {"name", setup.source.name}, {"serial", setup.source.serial}}},
+          {"result", mark.result},
+          {"sealed", mark.sealed_otherwise},
+          {"grading_version", k_grading_version},
+          {"physics_version", session.number("physics_version", 0)},
+          {"remarks", mark.remarks},
+          {"scenario_id", scenario_id_of(setup, mark)},
+          {"station_key", mark.replay.station_key},
+          {"ticks", mark.replay.ticks}};
+}
+
+}  // namespace
+
+Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, ExamGrounds& grounds) {
   Filing out;
   ledger.refresh();
-  const VerifyReport report = verify_session(path);
-  const SessionReader session(path);
-  if (!report.closed)
+  const Bytes image = read_session_image(path, out.findings);
+  const SessionReader session(image, path);
+  if (!session.closed())
     throw Error(path, "was never closed", "resume the exam, or close it as it stands: `cavum exam --resume --end --out " + path + "`");
-  out.findings = report.findings;
-  const Bytes bytes = read_file(path);
+  const SchoolMark mark = mark_again(session, grounds);
+  out.findings.insert(out.findings.end(), mark.findings.begin(), mark.findings.end());
+  out.remarks = mark.remarks;
   const SessionSetup setup = session.setup();
-  const std::string file_sha256 = to_hex(sha256(bytes)), chain = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
-  const std::int64_t begun = session.created().utc_ns;
+  const std::string file_sha256 = to_hex(sha256(image));
 
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
-  const auto claims = [&](const LedgerContent& c) { return check_claims(c, session, options, &ledger.places()); };
+  const auto claims = [&](const LedgerContent& c) { return check_claims(c, session, read_clocks().utc_ns, options, &ledger.places()); };
   for (auto& f : claims(ledger.content())) out.findings.push_back(std::move(f));
   if (refused()) return out;
 
+  const std::string kept = ledger.places().session(file_sha256);
   std::filesystem::create_directories(ledger.places().folder + "/sessions");
-  write_file(ledger.places().session(file_sha256), bytes);
-  std::string scenario_id;
-  try {
-    scenario_id = parse_scenario(setup.scenario_toml, "scenario.toml").id;
-  } catch (const std::exception&) {
-    scenario_id = "";  // a damaged session filed for an appeal
-  }
+  write_file(kept, image);
+  if (read_file(kept) != image) throw DatabaseError(kept, "does not hold what was written", "check the disk, and file the exam again", 0);
+  json body = body_of(session, setup, mark, file_sha256);
   struct Refused {};
   try {
     out.seq = ledger
@@ -45,19 +77,8 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
                             auto late = claims(now);
                             if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
                             if (refused()) throw Refused();
-                            json result = json::parse(session.result_json(), nullptr, false);
-                            return {{"candidate", setup.candidate},
-                                    {"chain_sha256", chain},
-                                    {"file_sha256", file_sha256},
-                                    {"findings", out.findings},
-                                    {"begun_utc_ns", begun},
-                                    {"closed_utc_ns", session.seal()->clocks.utc_ns},
-                                    {"nonce", nonce},
-                                    {"simulated", simulated_by(session, setup)},
-                                    {"result", is_result(result) ? result : json(nullptr)},
-                                    {"scenario_id", scenario_id},
-                                    {"station_key", report.station_key},
-                                    {"ticks", report.ticks}};
+                            body["findings"] = out.findings;
+                            return body;
                           })
                   .seq;
   } catch (const Refused&) {

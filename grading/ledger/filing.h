@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grading/exam_ground.h"
 #include "grading/ledger/claims.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
@@ -13,10 +14,17 @@ namespace cavum {
 
 struct Filing {
   std::vector<std::string> findings;  ///< why it was not filed, or with what it was; empty for a sound session
+  std::vector<std::string> remarks;   ///< what is to be known beside: it was sealed by another version of grading
   std::optional<std::uint64_t> seq;   ///< of the new entry; none: refused
 };
-/// Verifies `session` tick by tick, checks its ticket, copies the file into the ledger's folder and enters it. The entry is written after the copy is
-/// on disk. Throws Error when the file cannot be read as a session, DatabaseError when the disk refuses.
-[[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options = {});
+/// Simulates `session` tick by tick, runs its scenario and marks it again, checks station, source, clocks and ticket, keeps the file in the ledger's
+/// folder and enters it with the school's own mark. The file is read once: the bytes that are checked, with a log that lay beside them, are those
+/// that are kept and hashed. The entry is written after they are on disk. `grounds` are shared by a class. Throws Error when the file cannot be read
+/// as a session, DatabaseError when the disk refuses.
+[[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options, ExamGrounds& grounds);
+[[nodiscard]] inline Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options = {}) {
+  ExamGrounds grounds;
+  return file_session(ledger, session, options, grounds);
+}
 
 }  // namespace cavum

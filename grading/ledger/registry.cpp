@@ -73,7 +73,9 @@ Registry read_registry(const LedgerContent& content) {
         s.scenario_id = e.body.at("scenario_id");
         s.station_key = e.body.at("station_key");
         s.nonce = e.body.at("nonce");
-        s.result = s.sealed = e.body.at("result");
+        s.result = s.filed = e.body.at("result");
+        s.sealed = member_of(e.body, "sealed");
+        s.grading_version = whole_in(e.body, "grading_version");
         s.simulated = e.body.at("simulated");
         s.findings = e.body.at("findings").get<std::vector<std::string>>();
         if (!chains.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
@@ -105,6 +107,8 @@ Registry read_registry(const LedgerContent& content) {
           if (std::none_of(r.sessions.begin(), r.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
             say("releases a result that does not count");
         release(r, e.seq, e.utc_ns, results);
+      } else if (e.kind == "station") {
+        apply_station_entry(r.stations, e, content.public_key);
       } else if (e.kind != "init" && e.kind != "forget") {
         say("is of a kind that this version does not know: '" + e.kind + "'");
       }

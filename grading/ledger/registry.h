@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grading/ledger/ledger_content.h"
+#include "grading/ledger/stations.h"
 #include "grading/ledger/ticket.h"
 
 namespace cavum {
@@ -24,12 +25,14 @@ struct Regrade {
 struct FiledSession {
   std::uint64_t seq = 0;  ///< of its entry
   std::string file_sha256, chain_sha256, candidate, scenario_id, station_key;
-  std::string nonce;         ///< of its ticket; empty without one
-  nlohmann::json sealed;     ///< the result that was filed
-  nlohmann::json result;     ///< that counts: the sealed one, or the last regrade's
-  std::uint64_t result_seq;  ///< of the entry that holds it
+  std::string nonce;                 ///< of its ticket; empty without one
+  nlohmann::json filed;              ///< the school's own mark on filing; null when the recording could not be marked
+  nlohmann::json sealed;             ///< what the station sealed, where that is another one; null where it is the same
+  std::int64_t grading_version = 0;  ///< that marked it on filing; 0: older, the station's own result was filed
+  nlohmann::json result;             ///< that counts: the one that was filed, or the last regrade's
+  std::uint64_t result_seq;          ///< of the entry that holds it
   std::vector<std::string> findings;
-  std::string simulated;             ///< operator that sat it instead of a candidate; empty for people
+  std::string simulated;             ///< what moved the stylus instead of a candidate's hand: an operator, a motion file, practice; empty for people
   bool released = false;             ///< the result that counts
   nlohmann::json shown;              ///< the last one that was released: it stands until another is; null before
   std::uint64_t shown_seq = 0;       ///< of the entry that holds it
@@ -55,6 +58,7 @@ struct IssuedTicket {
   std::optional<std::uint64_t> used_by;  ///< entry of the session
 };
 struct Registry {
+  StationRegister stations;
   std::vector<IssuedTicket> tickets;
   std::vector<FiledSession> sessions;
   /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.

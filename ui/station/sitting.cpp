@@ -69,6 +69,7 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.grant = options_.grant;
   exam.notes = device_->notes();
   if (options_.practice) exam.notes.emplace_back("practice", "true");
+  exam.source = source();
   std::optional<HeldTicket> held;
   if (!options_.tickets.empty()) {
     held = ticket_of(options_.tickets, candidate_);
@@ -89,6 +90,11 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     device_->prepare(*setup);
     return setup;
   });
+}
+
+MotionSource Sitting::source() const {
+  const MotionSource hand = device_->source();
+  return options_.practice ? MotionSource{"practice", hand.name, hand.serial} : hand;
 }
 
 Sitting::~Sitting() {
@@ -154,7 +160,8 @@ void Sitting::begin() {
       });
       live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
-      SourceNotes notes = device_->notes();
+      SourceNotes notes = to_notes(source());
+      for (auto& said : device_->notes()) notes.push_back(std::move(said));
       notes.emplace_back("device", device_->name());
       for (auto& said : require_not_closed(setup_->session.notes, first)) notes.push_back(std::move(said));
       auto exam = Exam::resume(*setup_, first, notes);

@@ -89,6 +89,7 @@ class Sitting {
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
 
  private:
+  [[nodiscard]] MotionSource source() const;
   void end_running();
   void close_exam();
   [[nodiscard]] std::string new_path(const std::string& out) const;

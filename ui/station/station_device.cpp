@@ -21,6 +21,7 @@ class SimulatedHand final : public StationDevice {
  public:
   explicit SimulatedHand(DeviceChoice choice) : choice_(std::move(choice)) { static_cast<void>(make_skill(choice_.operator_name, choice_.seed)); }
   [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + choice_.operator_name; }
+  [[nodiscard]] MotionSource source() const override { return {"operator", choice_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
     return {{"operator", choice_.operator_name}, {"operator_seed", std::to_string(choice_.seed)}};
@@ -45,6 +46,7 @@ class SimulatedHand final : public StationDevice {
 class Mouse final : public StationDevice {
  public:
   [[nodiscard]] std::string name() const override { return "mouse and keyboard, simulated Omni"; }
+  [[nodiscard]] MotionSource source() const override { return {"pointer", "mouse and keyboard"}; }
   [[nodiscard]] double position_quantum_mm() const override { return omni().quantum_mm; }
   void prepare(const ExamSetup& setup) override {
     constexpr double k_above_mm = 4.0;
@@ -77,6 +79,7 @@ class PluggedIn final : public StationDevice {
  public:
   explicit PluggedIn(const DeviceChoice& choice) : source_(open_live_source({choice.name, "", 1, ""})) {}
   [[nodiscard]] std::string name() const override { return source_->name(); }
+  [[nodiscard]] MotionSource source() const override { return source_->source(); }
   [[nodiscard]] double position_quantum_mm() const override { return source_->position_quantum_mm(); }
   [[nodiscard]] double peak_n() const override { return source_->peak_n(); }
   [[nodiscard]] double continuous_n() const override { return source_->continuous_n(); }

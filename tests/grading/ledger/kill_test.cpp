@@ -28,13 +28,13 @@ void expect_nothing_lost(const School& school, const std::vector<std::string>& a
   const LedgerContent content = read_ledger(school.places());
   EXPECT_TRUE(content.findings.empty()) << when << ": " << content.findings[0];
   for (std::size_t i = 0; i < acknowledged.size(); ++i) {
-    ASSERT_GT(content.entries.size(), i + 1) << when;
-    EXPECT_EQ(content.entries[i + 1].text, acknowledged[i]) << when;
+    ASSERT_GT(content.entries.size(), i + k_first_entries) << when;
+    EXPECT_EQ(content.entries[i + k_first_entries].text, acknowledged[i]) << when;
   }
   std::vector<std::string> more;
   enter_three(school, more);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty()) << when;
-  EXPECT_GE(read_ledger(school.places()).entries.size(), 4 + acknowledged.size()) << when;
+  EXPECT_GE(read_ledger(school.places()).entries.size(), k_first_entries + 3 + acknowledged.size()) << when;
 }
 
 void try_all(DiskFault fault, const char* name) {

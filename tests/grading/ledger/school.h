@@ -1,4 +1,5 @@
-// A school for the ledger's tests: a folder with its own keys, a ledger, tickets, and a short exam on a block that simulated candidates sit.
+// A school for the ledger's tests: a folder with its own keys, a ledger, an enrolled station, tickets, and a short exam on a block. What sits it is a
+// simulated candidate in the place of a hand: the recording names a device, and its clocks run as they would in real time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
+#include "grading/ledger/stations.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/simulated_exam.h"
@@ -23,6 +25,19 @@ namespace cavum::testing_ledger {
 
 inline const std::string k_scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
 inline constexpr std::int64_t k_hour_ns = 3'600'000'000'000;
+inline constexpr std::size_t k_first_entries = 3;  ///< of a new school: its beginning, an invitation, an enrolled station
+
+/// Another station's folder of its own, while this lives.
+class AtStation {
+ public:
+  explicit AtStation(const std::string& home) : before_(getenv("CAVUM_HOME")) { setenv("CAVUM_HOME", home.c_str(), 1); }
+  ~AtStation() { setenv("CAVUM_HOME", before_.c_str(), 1); }
+  AtStation(const AtStation&) = delete;
+  AtStation& operator=(const AtStation&) = delete;
+
+ private:
+  std::string before_;
+};
 
 class School {
  public:
@@ -30,6 +45,7 @@ class School {
     Ledger::create(ledger_folder(), "School of Dentistry", key());
     Identities(places().identities(), true);
     write_text_file(school_public_key_path(), to_hex(key().public_key) + "\n");
+    enrol("Seat 1");
   }
   /// The same school with all its files, in a folder of its own; CAVUM_HOME points there.
   School(const School& other) : folder_() {
@@ -42,6 +58,14 @@ class School {
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
   [[nodiscard]] static SigningKey key() { return load_school_key(school_key_path(), true); }
   [[nodiscard]] Ledger ledger() const { return Ledger(ledger_folder(), key()); }
+
+  /// Invites and enrols the station whose key lies in the present CAVUM_HOME.
+  void enrol(const std::string& name, const std::vector<MotionSource>& devices = {}) const {
+    Ledger ledger = this->ledger();
+    const std::string code = invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
+    static_cast<void>(
+        enrol_station(ledger, station_request(load_station_key(station_key_path()), ledger.content().public_key, devices, code), 0, "request"));
+  }
 
   /// A ticket for an hour around now, issued in the ledger; `change` may spoil it before it is signed.
   std::string ticket(const std::string& candidate, const std::function<void(Ticket&)>& change = {}) const {
@@ -57,14 +81,22 @@ class School {
     const std::string path = folder_.file("exam-" + std::to_string(++number) + ".cavum");
     ExamOptions options;
     options.candidate = ticket.empty() ? "nobody" : parse_ticket(ticket, "", "ticket").candidate;
-    options.device = "simulated";
+    options.device = "emulated stylus";
+    options.source = {"device", "emulated stylus", "E1"};
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     if (!ticket.empty()) options.notes.emplace_back(k_ticket_note, ticket);
     if (change) change(options);
     const auto setup = prepare_exam(k_scenario, options);
     auto candidate = make_simulated_candidate(*setup, skill, 7, OmniModel{});
-    const auto exam = Exam::start(*setup, path, candidate.start_mm());
-    run_exam(*exam, candidate);
+    std::int64_t ticks = 0;
+    const Clocks begun = read_clocks();
+    const auto in_real_time = [&] {
+      const std::int64_t ns = ticks * 1'000'000;
+      return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + ns};
+    };
+    const auto exam = Exam::start(*setup, path, candidate.start_mm(), in_real_time);
+    for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
+    if (!exam->over()) exam->end();
     exam->recorder().flush();
     const auto graded = load_for_grading(SessionReader(path), exam->tooth_now());
     exam->close(to_json(grade(graded->input(), graded->rubric)).dump());

@@ -70,7 +70,7 @@ TEST_F(ReportData, SharesAreThoseOfTheOctreesLeavesBeforeAndAfter) {
   const std::uint64_t seed = testing_basics::drawn_seed("SharesAreThoseOfTheOctreesLeavesBeforeAndAfter");
   std::mt19937_64 random(seed);
   const json& g = data_["grid"];
-  const Octree &before = session_->before.octree, &after = session_->after.octree;
+  const Octree &before = session_->before->octree, &after = session_->after.octree;
   const std::vector<long> was = unpack(g["before"]), tissue = unpack(g["tissue"]), is = unpack(g["after"]);
   const int nx = g["size"][0], ny = g["size"][1], nz = g["size"][2];
   ASSERT_EQ(was.size(), static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz));
@@ -124,7 +124,7 @@ TEST_F(ReportData, SharesAreThoseOfTheOctreesLeavesBeforeAndAfter) {
 
 TEST_F(ReportData, TimesAndDistancesOfACellAreThoseOfItsLeaves) {
   const json& g = data_["grid"];
-  const Octree& tree = session_->before.octree;
+  const Octree& tree = session_->before->octree;
   const std::vector<long> first = unpack(g["first"]), last = unpack(g["last"]), distance = unpack(g["distance"]);
   const IVec3 low{g["box"]["low"][0], g["box"]["low"][1], g["box"]["low"][2]}, size{g["box"]["size"][0], g["box"]["size"][1], g["box"]["size"][2]};
   const double cell = g["cell_mm"], duration = data_["duration_s"];
@@ -156,8 +156,8 @@ TEST_F(ReportData, TimesAndDistancesOfACellAreThoseOfItsLeaves) {
         }
         // the target is a cylinder of radius 1.1 mm about the axis, 1.6 mm deep from the block's upper face
         const Vec3 at = origin + Vec3{double(low.x + x), double(low.y + y), double(low.z + z)} * cell;
-        const double floor_z = session_->zones.target_low_mm().z, beside = std::sqrt(at.x * at.x + at.y * at.y) - 1.1, below = floor_z - at.z;
-        if (at.z > session_->zones.target_high_mm().z - 0.1) continue;  // above it opens
+        const double floor_z = session_->zones->target_low_mm().z, beside = std::sqrt(at.x * at.x + at.y * at.y) - 1.1, below = floor_z - at.z;
+        if (at.z > session_->zones->target_high_mm().z - 0.1) continue;  // above it opens
         const double d = beside > 0 && below > 0 ? std::sqrt(beside * beside + below * below) : std::max(beside, below);
         const double expected = std::clamp(d, -2.54, 2.54);
         if (std::fabs(d) > 0.9) continue;  // zones are known near the target
@@ -186,7 +186,7 @@ TEST_F(ReportData, MotionKeepsEveryPeakOfTheForceAndThePlaceOfTheTip) {
     ASSERT_NEAR(static_cast<double>(force[i]) * 0.01, most, 0.00501) << i;
     ASSERT_NEAR(static_cast<double>(x[i]) * 1e3, inputs[begin].tip_nm[0], 501);
     ASSERT_NEAR(static_cast<double>(z[i]) * 1e3, inputs[begin].tip_nm[2], 501);
-    ASSERT_NEAR(static_cast<double>(depth[i]) * 1e-3, session_->zones.opening_z_mm() - inputs[begin].tip_nm[2] * 1e-6, 0.0006);
+    ASSERT_NEAR(static_cast<double>(depth[i]) * 1e-3, session_->zones->opening_z_mm() - inputs[begin].tip_nm[2] * 1e-6, 0.0006);
     ASSERT_NEAR(static_cast<double>(rpm[i]) * 10, records[begin].rpm, 5.01);
     const std::size_t next = std::min(end, inputs.size() - 1);
     double square = 0;

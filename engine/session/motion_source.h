@@ -1,0 +1,39 @@
+// What moved the stylus in an exam: a device in a hand, or something else. The station that begins a recording says so in what it signs, and again
+// whenever it takes the recording up; every chunk's hash covers what was said before it. Only a device can be a candidate's hand.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cavum {
+
+/// Facts of `meta`, and members of a gap's `source`.
+inline constexpr char k_source_fact[] = "source", k_source_name_fact[] = "source_name", k_source_serial_fact[] = "source_serial";
+
+struct MotionSource {
+  /// `device`: a stylus in a hand; `pointer`: mouse and keyboard; `practice`: any of them while nothing counts; `operator`: a simulated candidate;
+  /// `motion_file`: poses from a file; `program`: a program that uses the library and says no more. Empty: the recording does not say.
+  std::string kind = "program";
+  std::string name = {};    ///< of the device, operator or file
+  std::string serial = {};  ///< of the device; empty when it tells none
+
+  [[nodiscard]] bool is_hand() const { return kind == "device"; }
+  /// "operator expert", "motion_file poses.csv", "practice".
+  [[nodiscard]] std::string in_words() const { return (kind.empty() ? "a source that is not named" : kind) + (name.empty() ? "" : " " + name); }
+  friend bool operator==(const MotionSource&, const MotionSource&) = default;
+};
+/// True for one of the kinds above.
+[[nodiscard]] bool is_source_kind(const std::string& kind);
+
+/// Where a recording was begun or taken up, and what moved the stylus from there on.
+struct SourceFrom {
+  std::int64_t tick = 0;
+  MotionSource source;
+};
+class SessionReader;
+/// The source that the beginning names, and that of each gap after which something was recorded; a gap that names none gives one without kind.
+[[nodiscard]] std::vector<SourceFrom> sources_of(const SessionReader& session);
+
+}  // namespace cavum

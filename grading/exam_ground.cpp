@@ -1,0 +1,48 @@
+#include "grading/exam_ground.h"
+
+#include <algorithm>
+
+#include "engine/base/hash.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::size_t k_kept = 4;  // some 50 MB each at 0.05 mm
+
+/// SHA-256 of all that tooth and zones are made from.
+std::string content_of(const SessionSetup& session) {
+  ByteWriter all;
+  all.put_bytes(sha256(session.scenario_toml));
+  all.put_bytes(sha256(session.tooth));
+  for (const auto& [name, bytes] : session.attachments) {
+    all.put_string(name);
+    all.put_bytes(sha256(bytes));
+  }
+  return to_hex(sha256(all.bytes()));
+}
+
+}  // namespace
+
+std::shared_ptr<const ExamGround> ExamGrounds::of(const Scenario& scenario, const SessionSetup& session, const std::string& where) {
+  const std::string content = content_of(session);
+  Kept& kept = by_content_[content];
+  if (!kept.ground) {
+    try {
+      auto made = std::make_shared<ExamGround>();
+      made->tooth = load_tooth(session.tooth, where + ": tooth");
+      made->zones = build_zones(scenario, made->tooth);
+      kept.ground = std::move(made);
+    } catch (...) {
+      by_content_.erase(content);
+      throw;
+    }
+  }
+  kept.asked = ++asked_;
+  const auto ground = kept.ground;
+  if (by_content_.size() > k_kept)
+    by_content_.erase(
+        std::min_element(by_content_.begin(), by_content_.end(), [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; }));
+  return ground;
+}
+
+}  // namespace cavum

@@ -1,0 +1,35 @@
+// What all who sit one scenario on one tooth share: the tooth as it is read, and the scenario's zones in it. Both take longer to make than an exam to
+// mark, so whoever marks a class makes them once.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "engine/session/session.h"
+#include "scenarios/scenario.h"
+#include "scenarios/zone_map.h"
+
+namespace cavum {
+
+struct ExamGround {
+  Tooth tooth;  ///< before the first tick
+  ZoneMap zones;
+};
+
+/// Keeps the last few grounds that were asked for.
+class ExamGrounds {
+ public:
+  /// `scenario` is what the session's text and attachments say. Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
+  [[nodiscard]] std::shared_ptr<const ExamGround> of(const Scenario& scenario, const SessionSetup& session, const std::string& where);
+
+ private:
+  struct Kept {
+    std::shared_ptr<const ExamGround> ground;
+    std::uint64_t asked = 0;
+  };
+  std::map<std::string, Kept> by_content_;
+  std::uint64_t asked_ = 0;
+};
+
+}  // namespace cavum

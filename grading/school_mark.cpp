@@ -1,0 +1,196 @@
+#include "grading/school_mark.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "grading/result_json.h"
+#include "grading/session_input.h"
+#include "scenarios/exam.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_most_named = 12;  // differences: more of them say nothing new
+
+/// Kinds of event that the runner makes; the others are the station's word.
+bool is_runners(const std::string& kind) {
+  static const std::set<std::string> k_kinds = [] {
+    std::set<std::string> kinds;
+    for (int k = 0; k <= static_cast<int>(ExamEventKind::pause_refused); ++k) kinds.insert(event_name(static_cast<ExamEventKind>(k)));
+    return kinds;
+  }();
+  return k_kinds.contains(kind);
+}
+
+/// Tick at which the candidate, or who took the exam up, ended it by hand; -1 = nobody did.
+std::int64_t ended_by_hand(const std::vector<SessionEvent>& events) {
+  for (const auto& e : events)
+    if (e.kind == event_name(ExamEventKind::finished) && text_in(json::parse(e.detail_json, nullptr, false), "how") == finish_name(Finish::ended))
+      return e.tick;
+  return -1;
+}
+
+/// Runs the scenario over the motion while that is simulated.
+class EventsAgain {
+ public:
+  EventsAgain(const SessionReader& session, ExamGrounds& grounds)
+      : setup_(session.setup()),
+        scenario_(scenario_in(setup_, session.path())),
+        ground_(grounds.of(scenario_, setup_, session.path())),
+        runner_(scenario_, ground_->zones, ground_->tooth, tray(setup_, session.path())),
+        recorded_(session.events()),
+        ended_(ended_by_hand(recorded_)) {}
+
+  void see(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
+    if (tick == ended_) runner_.end(*state_);
+    runner_.advance(*state_, input, output, state.removed);
+    take();
+  }
+  /// What differs from the recorded events, in words.
+  [[nodiscard]] std::vector<std::string> differences(std::int64_t ticks) {
+    std::vector<std::string> findings;
+    if (ended_ >= 0 && ended_ < ticks)
+      findings.push_back("events: the exam is said to have been ended at tick " + std::to_string(ended_) + ", and it was recorded on to tick " +
+                         std::to_string(ticks));
+    if (ended_ == ticks) runner_.end(*state_);
+    take();
+    std::vector<SessionEvent> was;
+    std::copy_if(recorded_.begin(), recorded_.end(), std::back_inserter(was), [](const SessionEvent& e) { return is_runners(e.kind); });
+    for (std::size_t i = 0; i < std::max(was.size(), again_.size()) && findings.size() < k_most_named; ++i) {
+      if (i < was.size() && i < again_.size() && was[i] == again_[i]) continue;
+      findings.push_back("event " + std::to_string(i) + " of the exam: recorded " + (i < was.size() ? text_of(was[i]) : "none") +
+                         ", the motion gives " + (i < again_.size() ? text_of(again_[i]) : "none"));
+    }
+    return findings;
+  }
+
+  /// Those of the motion, and what else the station recorded.
+  [[nodiscard]] std::vector<SessionEvent> events() const {
+    std::vector<SessionEvent> all = again_;
+    std::copy_if(recorded_.begin(), recorded_.end(), std::back_inserter(all), [](const SessionEvent& e) { return !is_runners(e.kind); });
+    std::stable_sort(all.begin(), all.end(), [](const SessionEvent& a, const SessionEvent& b) { return a.tick < b.tick; });
+    return all;
+  }
+
+ private:
+  static std::vector<std::string> tray(const SessionSetup& setup, const std::string& where) {
+    std::vector<std::string> names;
+    for (const auto& text : setup.points_toml) names.push_back(parse_diamond_point(text, where + ": diamond point").name);
+    return names;
+  }
+  static std::string text_of(const SessionEvent& e) { return "'" + one_line(e.kind + " " + e.detail_json) + "' at tick " + std::to_string(e.tick); }
+  /// As an exam records them: each once, from the runner's list.
+  void take() {
+    for (; taken_ < state_->event_count; ++taken_) {
+      const ExamEvent& e = state_->events[taken_];
+      again_.push_back({e.tick, event_name(e.kind), event_detail(e, scenario_, ground_->tooth)});
+    }
+  }
+
+  SessionSetup setup_;
+  Scenario scenario_;
+  std::shared_ptr<const ExamGround> ground_;
+  Runner runner_;
+  std::unique_ptr<RunnerState> state_ = std::make_unique<RunnerState>();
+  std::uint32_t taken_ = 0;
+  std::vector<SessionEvent> recorded_, again_;
+  std::int64_t ended_;
+};
+
+std::string shown(const json& value) {
+  if (value.is_null()) return "none";
+  if (value.is_number()) return plain_number(value.get<double>());
+  if (value.is_string()) return one_line(value.get<std::string>());
+  constexpr std::size_t k_longest = 60;
+  return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, k_longest));
+}
+
+std::map<std::string, const json*> criteria_of(const json& result) {
+  std::map<std::string, const json*> by_id;
+  if (const json& list = member_of(result, "criteria"); list.is_array())
+    for (const auto& c : list) by_id.emplace(text_in(c, "id"), &c);
+  return by_id;
+}
+
+}  // namespace
+
+std::vector<std::string> result_differences(const json& sealed, const json& marked) {
+  std::vector<std::string> out;
+  const auto compare = [&](const std::string& name, const json& was, const json& is) {
+    if (was != is) out.push_back(name + " " + shown(was) + ", marked " + shown(is));
+  };
+  compare("verdict", member_of(sealed, "verdict"), member_of(marked, "verdict"));
+  for (const char* part : {"points", "max"}) compare(part, member_of(member_of(sealed, "score"), part), member_of(member_of(marked, "score"), part));
+  const auto was = criteria_of(sealed), is = criteria_of(marked);
+  for (const auto& [id, c] : is) {
+    const auto found = was.find(id);
+    if (found == was.end()) {
+      out.push_back("criterion " + one_line(id) + " missing");
+      continue;
+    }
+    for (const auto& [key, value] : c->items()) compare("criterion " + one_line(id) + ": " + key, member_of(*found->second, key.c_str()), value);
+  }
+  for (const auto& [id, c] : was)
+    if (!is.contains(id)) out.push_back("criterion " + one_line(id) + " that the exam does not have");
+  if (marked.is_object())
+    for (const auto& [key, value] : marked.items())
+      if (key != "verdict" && key != "score" && key != "criteria") compare(key, member_of(sealed, key.c_str()), value);
+  if (sealed.is_object() && marked.is_object())
+    for (const auto& [key, value] : sealed.items())
+      if (!marked.contains(key)) out.push_back(one_line(key) + ", which no result has");
+  if (out.empty() && sealed != marked) out.emplace_back("another shape than a result has");
+  return out;
+}
+
+SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
+  SchoolMark out;
+  std::optional<EventsAgain> events;
+  try {
+    events.emplace(session, grounds);
+  } catch (const std::exception& e) {
+    out.findings.push_back(std::string("scenario: ") + e.what());
+  }
+  out.replay = verify_session(session, "",
+                              events ? [&](std::int64_t tick, const TickInput& input, const TickOutput& output,
+                                           const ServoState& state) { events->see(tick, input, output, state); }
+                                     : TickVisitor{});
+  out.findings.insert(out.findings.begin(), out.replay.findings.begin(), out.replay.findings.end());
+  // Whole and repeated to the last tick: only such a motion is marked, damaged or forged facts beside it or not.
+  const bool repeated =
+      out.replay.closed && out.replay.ticks_replayed == out.replay.ticks && out.replay.ticks_different == 0 && !out.replay.first_divergence && events;
+  if (!repeated) return out;
+  for (auto& f : events->differences(session.ticks())) out.findings.push_back(std::move(f));
+  try {
+    const auto graded = load_for_grading(session, load_tooth(session.final_tooth(), session.path() + ": final tooth"), grounds);
+    graded->events = events->events();
+    out.result = json::parse(to_json(grade(graded->input(), graded->rubric)).dump());
+  } catch (const std::exception& e) {
+    out.findings.push_back(std::string("cannot be marked: ") + e.what());
+    return out;
+  }
+  const json sealed = json::parse(session.result_json(), nullptr, false);
+  auto differ = result_differences(sealed, out.result);
+  if (differ.empty()) return out;
+  out.sealed_otherwise = sealed.is_discarded() ? json(nullptr) : sealed;
+  std::string all;
+  const std::size_t named = std::min(differ.size(), k_most_named);
+  for (std::size_t i = 0; i < named; ++i) all += (i == 0 ? "" : "; ") + differ[i];
+  if (differ.size() > named) all += "; and " + std::to_string(differ.size() - named) + " more";
+  const auto version = whole_in(sealed, "grading_version");
+  if (version < 1)
+    out.findings.push_back("the sealed result names no version of grading, and is not what marking gives. Sealed " + all);
+  else if (version == k_grading_version)
+    out.findings.push_back("the sealed result was tampered with, or its station's program was: it is said to come from grading version " +
+                           std::to_string(version) + ", which gives another one. Sealed " + all);
+  else
+    out.remarks.push_back("the sealed result comes from grading version " + std::to_string(version) + ", and the school's mark by version " +
+                          std::to_string(k_grading_version) + " counts. Sealed " + all);
+  return out;
+}
+
+}  // namespace cavum

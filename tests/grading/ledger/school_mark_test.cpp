@@ -1,0 +1,285 @@
+// The school believes neither the sealed result nor the recorded events, and no station that it does not know. Each attempt is one that needs nothing
+// but a copy of the program.
+#include "grading/school_mark.h"
+
+#include "grading/ledger/claims.h"
+#include "grading/ledger/stations.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+/// The same exam recorded anew by a program of somebody's own: the same motion, signed by whatever key lies in CAVUM_HOME, with what he likes beside
+/// it.
+struct Forgery {
+  std::function<void(SessionSetup&)> setup = {};
+  std::function<void(std::vector<SessionEvent>&)> events = {};
+  std::function<void(json& result)> result = {};
+  std::int64_t later_s = 0;  ///< by which all clocks are put forward
+};
+std::string forged(const School& school, const std::string& session, const Forgery& how) {
+  static int number = 0;
+  const std::string path = school.file("forged-" + std::to_string(++number) + ".cavum");
+  const SessionReader real(session);
+  SessionSetup setup = real.setup();
+  if (how.setup) how.setup(setup);
+  auto events = real.events();
+  if (how.events) how.events(events);
+  json result = json::parse(real.result_json());
+  if (how.result) how.result(result);
+  Simulation simulation = make_simulation(setup, "forgery");
+  std::int64_t tick = 0;
+  const Clocks begun = real.created();
+  Recorder recorder = Recorder::create(path, setup, [&] {
+    const std::int64_t ns = tick * 1'000'000 + how.later_s * 1'000'000'000;
+    return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + ns};
+  });
+  std::size_t next = 0;
+  for (const auto& input : real.inputs()) {
+    const TickOutput output = step(simulation.model, simulation.state, input);
+    for (; next < events.size() && events[next].tick <= tick; ++next)
+      recorder.add_event(events[next].tick, events[next].kind, events[next].detail_json);
+    ++tick;
+    recorder.append(input, make_tick_record(output), simulation.state.removed, state_hash(simulation.state));
+  }
+  for (; next < events.size(); ++next) recorder.add_event(events[next].tick, events[next].kind, events[next].detail_json);
+  recorder.close(save_tooth(drilled_tooth(simulation)), result.dump());
+  return path;
+}
+
+class SchoolMarks : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    session_name_ = new std::string(std::filesystem::path(shared_->sit(shared_->ticket("4711"), "novice")).filename().string());
+  }
+  static void TearDownTestSuite() {
+    delete shared_;
+    delete session_name_;
+  }
+  Filing file(const std::string& path, const FilingOptions& options = {}) {
+    Ledger ledger = school_.ledger();
+    return file_session(ledger, path, options);
+  }
+  std::vector<std::string> refused(const std::string& path) {
+    const Filing f = file(path);
+    EXPECT_FALSE(f.seq);
+    EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
+    return f.findings;
+  }
+  static void improve(json& result) {
+    result["verdict"] = "pass";
+    result["score"]["points"] = 100.0;
+    for (auto& c : result["criteria"]) c["points"] = c["max"];
+  }
+
+  School school_{*shared_};
+  std::string session_ = school_.file(*session_name_);
+
+ private:
+  static inline School* shared_ = nullptr;
+  static inline std::string* session_name_ = nullptr;
+};
+
+TEST_F(SchoolMarks, TheSameAsTheStationWhereBothAreHonest) {
+  const std::string again = forged(school_, session_, {});
+  ExamGrounds grounds;
+  const SchoolMark mark = mark_again(SessionReader(again), grounds);
+  EXPECT_TRUE(mark.holds()) << (mark.findings.empty() ? "" : mark.findings[0]);
+  EXPECT_EQ(mark.result, json::parse(SessionReader(session_).result_json()));
+  EXPECT_TRUE(mark.sealed_otherwise.is_null());
+  EXPECT_TRUE(file(again).seq);
+}
+TEST_F(SchoolMarks, PointsThatWereSetInTheSealedResultByAStationThatIsKnown) {
+  const auto findings = refused(forged(school_, session_, {.result = improve}));
+  ASSERT_EQ(findings.size(), 1u);
+  expect_finding(findings, {"tampered with", "points 100, marked", "criterion"});
+}
+TEST_F(SchoolMarks, PointsThatWereSetAndSignedWithANewKey) {
+  const std::string path = [&] {
+    const AtStation forger(school_.file("forger"));
+    return forged(school_, session_, {.result = improve});
+  }();
+  const auto findings = refused(path);
+  expect_finding(findings, {"tampered with"});
+  expect_finding(findings, {"is not enrolled"});
+}
+TEST_F(SchoolMarks, AnHonestResultSignedWithANewKey) {
+  const std::string path = [&] {
+    const AtStation forger(school_.file("forger"));
+    return forged(school_, session_, {});
+  }();
+  expect_finding(refused(path), {"is not enrolled: anybody can make such a recording"});
+}
+TEST_F(SchoolMarks, AResultThatSaysToBeOfAnotherVersionCountsForNothing) {
+  const std::string path = forged(school_, session_, {.result = [](json& r) {
+                                    improve(r);
+                                    r["grading_version"] = k_grading_version + 1;
+                                  }});
+  const Filing f = file(path);
+  ASSERT_TRUE(f.seq);
+  expect_finding(f.remarks, {"grading version", "the school's mark", "counts"});
+  const FiledSession s = read_registry(read_ledger(school_.places())).sessions.at(0);
+  EXPECT_EQ(s.filed, json::parse(SessionReader(session_).result_json())) << "the school's own";
+  EXPECT_EQ(s.sealed["score"]["points"], 100.0) << "the old beside it";
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
+}
+TEST_F(SchoolMarks, AResultThatNamesNoVersion) {
+  expect_finding(refused(forged(school_, session_, {.result = [](json& r) { r.erase("grading_version"); }})), {"names no version of grading"});
+}
+TEST_F(SchoolMarks, AnEventLeftOut) {
+  expect_finding(refused(forged(school_, session_, {.events = [](auto& e) { e.erase(e.begin()); }})), {"event 0", "the motion gives 'step_started"});
+}
+TEST_F(SchoolMarks, AnEventThatNeverHappened) {
+  expect_finding(refused(forged(school_, session_,
+                                {.events =
+                                     [](auto& e) {
+                                       e.insert(e.begin() + 1, {5, "step_completed", "{\"step\":\"x\"}"});
+                                     }})),
+                 {"event 1", "recorded 'step_completed"});
+}
+TEST_F(SchoolMarks, AnEndThatHidesWhatCameAfterIt) {
+  expect_finding(refused(forged(school_, session_,
+                                {.events =
+                                     [](auto& e) {
+                                       e.insert(e.begin() + 1, {3000, "finished", R"({"how":"ended"})"});
+                                     }})),
+                 {"ended at tick 3000", "recorded on to tick"});
+}
+TEST_F(SchoolMarks, WhateverMovedItButAHand) {
+  for (const char* kind : {"operator", "motion_file", "practice", "pointer", "program"}) {
+    const std::string path = forged(school_, session_, {.setup = [&](SessionSetup& s) { s.source = {kind, "somewhat"}; }});
+    expect_finding(refused(path), {"no candidate's hand moved this exam", "somewhat"});
+    const AtStation here(school_.file("station"));
+    const School other(school_);
+    Ledger ledger = other.ledger();
+    ASSERT_TRUE(file_session(ledger, path, {.simulated = true}).seq) << kind;
+    EXPECT_NE(read_registry(ledger.content()).sessions.at(0).simulated, "") << "it stays marked";
+  }
+}
+TEST_F(SchoolMarks, ANoteOfAnOperatorBesideADevice) {
+  expect_finding(refused(forged(school_, session_, {.setup = [](SessionSetup& s) { s.notes.emplace_back("operator", "expert"); }})),
+                 {"no candidate's hand moved"});
+}
+TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
+  Ledger ledger = school_.ledger();
+  const std::string code = invite_station(ledger, "Seat 2", read_clocks().utc_ns + k_hour_ns), ticket = school_.ticket("4712");
+  const AtStation second(school_.file("second"));
+  const SigningKey key = load_station_key(station_key_path());
+  ledger.refresh();
+  static_cast<void>(enrol_station(ledger, station_request(key, ledger.content().public_key, {{"device", "falcon", "F7"}}, code), 0, "request"));
+  expect_finding(file_session(ledger, school_.sit(ticket)).findings, {"stylus emulated stylus", "E1", "none that the station was enrolled with"});
+}
+TEST_F(SchoolMarks, AnExamSatFasterThanTime) {
+  const std::string fast = school_.file("fast.cavum");
+  const SessionReader real(session_);
+  Simulation simulation = make_simulation(real.setup(), "test");
+  Recorder recorder = Recorder::create(fast, real.setup());  // the computer's own clocks
+  for (const auto& input : real.inputs()) {
+    const TickOutput output = step(simulation.model, simulation.state, input);
+    recorder.append(input, make_tick_record(output), simulation.state.removed, state_hash(simulation.state));
+  }
+  recorder.close(save_tooth(drilled_tooth(simulation)), real.result_json());
+  expect_finding(refused(fast), {"clocks", "faster than real time"});
+}
+TEST_F(SchoolMarks, AnExamHandedInAfterItsTime) {
+  const SessionReader session(session_);
+  const LedgerContent content = read_ledger(school_.places());
+  const std::int64_t now = read_clocks().utc_ns;
+  EXPECT_TRUE(check_claims(content, session, now).empty());
+  expect_finding(check_claims(content, session, now + 13 * 24 * k_hour_ns), {"was handed in on", "nothing but that clock shows when it was sat"});
+  expect_finding(check_claims(content, session, now - k_hour_ns), {"after it was handed in"});
+}
+TEST_F(SchoolMarks, ALogThatLiesBesideTheFileIsCheckedAndKeptWithIt) {
+  // a program that was killed between sealing and checkpoint leaves the seal in the log; so does who plants one
+  const std::string path = school_.file("logged.cavum");
+  std::filesystem::copy_file(session_, path);
+  const auto leave_log = [&](const char* sql) {
+    Database db = Database::open(path, false);
+    db.run("PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0");
+    db.run(sql);
+    const Bytes log = read_file(path + "-wal"), bare = read_file(path);
+    db.close();
+    write_file(path, bare);
+    write_file(path + "-wal", log);
+  };
+  leave_log("UPDATE result SET json = replace(json, '\"verdict\":\"fail\"', '\"verdict\":\"pass\"') WHERE 0; PRAGMA user_version = 1");
+  const Filing sound = file(path);
+  ASSERT_TRUE(sound.seq) << sound.findings[0];
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty()) << "what was kept is what was checked";
+  const AtStation here(school_.file("station"));
+  const School other(school_);
+  std::filesystem::remove(path + "-wal");
+  std::filesystem::copy_file(session_, path, std::filesystem::copy_options::overwrite_existing);
+  leave_log("UPDATE seal SET ticks = ticks + 1");
+  Ledger ledger = other.ledger();
+  const Filing planted = file_session(ledger, path, {.with_findings = true});
+  expect_finding(planted.findings, {"signature does not hold"});
+  const FiledSession kept = read_registry(ledger.content()).sessions.back();
+  EXPECT_EQ(SessionReader(other.places().session(kept.file_sha256)).seal()->ticks, SessionReader(session_).ticks() + 1)
+      << "the evidence is in the file that was kept";
+}
+
+TEST(Stations, ACodeIsGoodOnceAndForNobodyElse) {
+  const School school;
+  Ledger ledger = school.ledger();
+  const std::string us = ledger.content().public_key;
+  const auto key = [&](const char* name) { return load_signing_key(school.file(name), "station"); };
+  const auto why = [&](const std::string& request) {
+    return testing_basics::error_of([&] { static_cast<void>(enrol_station(ledger, request, 0, "request")); });
+  };
+  const std::string code = invite_station(ledger, "Seat 2", read_clocks().utc_ns + k_hour_ns);
+  const std::string request = station_request(key("a.key"), us, {}, code);
+  json other = json::parse(request);
+  other["request"]["public_key"] = to_hex(key("b.key").public_key);
+  EXPECT_NE(why(other.dump()).find("signature does not hold"), std::string::npos);
+  EXPECT_NE(why(station_request(key("b.key"), us, {}, new_station_code())).find("not given out"), std::string::npos);
+  EXPECT_NE(why(station_request(key("a.key"), std::string(64, '0'), {}, code)).find("another school"), std::string::npos);
+  EXPECT_EQ(why(request), "");
+  EXPECT_NE(why(station_request(key("b.key"), us, {}, code)).find("used before"), std::string::npos);
+  EXPECT_NE(why(request).find("enrolled before"), std::string::npos);
+  const std::string old = invite_station(ledger, "Seat 3", read_clocks().utc_ns - 1);
+  EXPECT_NE(why(station_request(key("b.key"), us, {}, old)).find("ran out"), std::string::npos);
+  EXPECT_NE(testing_basics::error_of([&] { static_cast<void>(station_request(key("b.key"), us, {}, "S-OOPS")); }).find("is none"), std::string::npos);
+  EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
+}
+TEST(Stations, AKeyThatWasRevokedReplacedOrRanOut) {
+  const School school;
+  Ledger ledger = school.ledger();
+  const std::string us = ledger.content().public_key;
+  const SigningKey first = load_station_key(station_key_path()), second = load_signing_key(school.file("second.key"), "station");
+  const auto now = [] { return read_clocks().utc_ns; };
+  const auto problem = [&](const SigningKey& key, std::int64_t closed, std::int64_t received) {
+    return read_registry(ledger.content()).stations.problem(to_hex(key.public_key), closed, received);
+  };
+  EXPECT_EQ(problem(first, now(), now()), "");
+  EXPECT_NE(problem(second, now(), now()), "");
+  static_cast<void>(enrol_station(ledger, station_request(second, us, {}, first), now() + 48 * k_hour_ns, "request"));
+  EXPECT_EQ(problem(second, now(), now()), "");
+  EXPECT_EQ(problem(first, now(), now()), "") << "what was sat under the old key may still come in";
+  EXPECT_NE(problem(first, now(), now() + 25 * k_hour_ns).find("was replaced"), std::string::npos);
+  EXPECT_NE(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns).find("ran out"), std::string::npos);
+  EXPECT_NE(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns).find("ran out"), std::string::npos) << "a clock that was set back";
+  static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "stolen"));
+  EXPECT_NE(problem(second, now() - k_hour_ns, now() + 1'000'000'000).find("revoked"), std::string::npos) << "whenever it says to have been sat";
+  EXPECT_THROW(static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "again")), Error);
+  EXPECT_THROW(static_cast<void>(revoke_station(ledger, std::string(64, 'a'), "unknown")), Error);
+  EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
+}
+TEST(Stations, AnEnrolledKeyThatIsGoneIsNotMadeAgain) {
+  const School school;
+  const SigningKey key = load_station_key(station_key_path());
+  remember_enrolled(station_key_path(), key);
+  EXPECT_EQ(load_station_key(station_key_path()).public_key, key.public_key);
+  std::filesystem::remove(station_key_path());
+  EXPECT_NE(testing_basics::error_of([] { static_cast<void>(load_station_key(station_key_path())); }).find("enrolled with is gone"),
+            std::string::npos);
+  static_cast<void>(load_signing_key(station_key_path(), "station"));  // somebody makes another
+  EXPECT_NE(testing_basics::error_of([] { static_cast<void>(load_station_key(station_key_path())); }).find("is not the key"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cavum
