@@ -28,8 +28,8 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   for (auto& f : claims(ledger.content())) out.findings.push_back(std::move(f));
   if (refused()) return out;
 
-  std::filesystem::create_directories(ledger.places().folder + "/sessions");
-  write_file(ledger.places().session(file_sha256), bytes);
+  make_private_folder(ledger.places().folder + "/sessions");
+  write_private_file(ledger.places().session(file_sha256), bytes);
   std::string scenario_id;
   try {
     scenario_id = parse_scenario(setup.scenario_toml, "scenario.toml").id;
