@@ -8,6 +8,9 @@
 
 #include "engine/base/text.h"
 #include "engine/session/sqlite.h"
+#include "grading/result_json.h"
+#include "grading/session_input.h"
+#include "scenarios/simulated_exam.h"
 #include "tests/ui/program.h"
 
 namespace cavum {
@@ -29,6 +32,23 @@ class HostileFiles : public testing_ui::Program {
   }
   testing_ui::Ran sit(const std::string& who, const std::string& out) const {
     return run("exam " + scenario() + " " + who + " --operator expert --quiet --out " + path(out));
+  }
+  /// A session that holds, with `text` as its verdict, the kind of an event, the candidate and the device: of a program other than this one.
+  void seal_with(const std::string& file, const std::string& text) const {
+    ExamOptions options;
+    options.candidate = options.device = text;
+    options.position_quantum_mm = OmniModel{}.quantum_mm;
+    const auto setup = prepare_exam(scenario(), options);
+    auto candidate = make_simulated_candidate(*setup, "expert", 7, OmniModel{});
+    const auto exam = Exam::start(*setup, file, candidate.start_mm());
+    run_exam(*exam, candidate);
+    exam->recorder().add_event(1, text, "{}");
+    exam->recorder().flush();
+    const auto graded = load_for_grading(SessionReader(file), exam->tooth_now());
+    json result = to_json(grade(graded->input(), graded->rubric));
+    result["verdict"] = text;
+    result["criteria"][0]["id"] = text;
+    exam->close(result.dump());
   }
   /// Changes a database as somebody with an SQLite shell would.
   void edit(const std::string& name, const std::string& sql) const {
@@ -128,9 +148,7 @@ TEST_F(HostileFiles, NoTextOfAFileCommandsTheTerminal) {
                                           "\\u001b[2J\\u0007\\n"
                                           "FORGED \\u009b31m\\u202e\\r" +
                                           mark;
-  ASSERT_EQ(sit("--candidate K1", "s.cavum").exit_code, 0);
-  edit("s.cavum", "UPDATE result SET json = replace(json, '\"verdict\":\"', '\"verdict\":\"" + evil + "')");
-  edit("s.cavum", "INSERT INTO event SELECT max(seq) + 1, max(tick), max(chunk), char(27) || '[31m' || char(10) || 'FORGED', '{}' FROM event");
+  seal_with(path("s.cavum"), json::parse("\"" + evil + "\""));
   std::string printed;
   for (const std::string verb :
        {"grade ", "grade --json ", "grade --why removed ", "verify ", "verify --json ", "replay --verify ", "replay --verify --json "}) {
