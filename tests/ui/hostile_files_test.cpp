@@ -3,8 +3,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "engine/base/text.h"
 #include "engine/session/sqlite.h"
@@ -102,7 +104,10 @@ TEST_F(HostileFiles, WhatIsTheSchoolsIsItsUsersAloneWhateverTheUmask) {
 
 TEST_F(HostileFiles, TwentyProgramsThatAddAtOnceAllAdd) {
   constexpr int k_programs = 20;
+  constexpr auto k_held = std::chrono::seconds(3);  // longer than the first of them need to ask for it
   std::vector<::pid_t> children;
+  Database held = Database::open(path("L/ledger.db"), false);
+  held.run("PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
   for (int i = 0; i < k_programs; ++i) {
     const std::string number = std::to_string(i);
     const ::pid_t child = ::fork();
@@ -115,6 +120,9 @@ TEST_F(HostileFiles, TwentyProgramsThatAddAtOnceAllAdd) {
     }
     children.push_back(child);
   }
+  std::this_thread::sleep_for(k_held);
+  held.run("COMMIT");
+  held.close();
   for (int i = 0; i < k_programs; ++i) {
     int status = 0;
     ASSERT_EQ(::waitpid(children[static_cast<std::size_t>(i)], &status, 0), children[static_cast<std::size_t>(i)]);
