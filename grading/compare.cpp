@@ -46,14 +46,14 @@ std::optional<OldResult> read_old_result(const std::string& json_text) {
   };
   if (!j.is_object() || !j.contains("verdict") || !j["verdict"].is_string() || !j.contains("score") || !j["score"].is_object()) return {};
   OldResult r;
-  r.verdict = j["verdict"].get<std::string>();
+  r.verdict = one_line(j["verdict"].get<std::string>());
   r.points = number_of(j["score"], "points");
   r.max = number_of(j["score"], "max");
   if (j.contains("criteria") && j["criteria"].is_array())
     for (const auto& c : j["criteria"]) {
       if (!c.is_object() || !c.contains("id") || !c["id"].is_string()) continue;
       OldCriterion o;
-      o.id = c["id"].get<std::string>();
+      o.id = one_line(c["id"].get<std::string>());
       if (c.contains("value") && c["value"].is_number()) o.value = c["value"].get<double>();
       o.points = number_of(c, "points");
       o.max = number_of(c, "max");

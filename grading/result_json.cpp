@@ -199,14 +199,14 @@ Json to_json(const Result& r) {
 }
 
 std::string to_text(const Result& r) {
-  std::string s = r.scenario_title + " (" + r.tooth_name + ")\n";
+  std::string s = one_line(r.scenario_title + " (" + r.tooth_name + ")") + "\n";
   s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points (± " +
        fixed(r.points_bound, 1) + " if every figure were off by its whole bound)\n";
-  for (const auto& reason : r.verdict_reasons) s += "  " + reason + "\n";
+  for (const auto& reason : r.verdict_reasons) s += "  " + one_line(reason) + "\n";
   s += "\n";
   for (const auto& c : r.criteria)
-    s += "  " + padded(c.id + " ", 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) + padded("± " + fixed(c.points_bound, 1), 9) +
-         c.reason + "\n";
+    s += "  " + padded(one_line(c.id) + " ", 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) +
+         padded("± " + fixed(c.points_bound, 1), 9) + one_line(c.reason) + "\n";
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
   const auto volume = [&](const std::string& name, const Volume& v) {
     return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";
@@ -256,7 +256,7 @@ std::string to_text(const Result& r) {
        " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
        " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +
        std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
-  for (const auto& note : r.notes) s += "note: " + note + "\n";
+  for (const auto& note : r.notes) s += "note: " + one_line(note) + "\n";
   return s;
 }
 

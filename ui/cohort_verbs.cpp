@@ -77,7 +77,7 @@ void report(const Options& o) {
     require_report_place(o.out);
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
     const auto tooth = cohort::class_tooth(registry, places, o.exam);
-    for (const auto& finding : tooth->findings) std::cerr << "cavum: notice: not in the pictures: " << finding << "\n";
+    for (const auto& finding : tooth->findings) std::cerr << "cavum: notice: not in the pictures: " << one_line(finding) << "\n";
     if (tooth->left_out > 0)
       std::cerr << "cavum: notice: not in the pictures: " << tooth->left_out << " who sat it with another text, tooth or leaf size than most\n";
     write_text_file(o.out, o.out.ends_with(".pdf") ? class_pdf(figures, *tooth) : class_html(figures, *tooth));
@@ -86,7 +86,7 @@ void report(const Options& o) {
     print_json(to_json(figures));
   } else {
     std::cout << cohort::to_text(figures);
-    if (!o.out.empty()) std::cout << "written: " << o.out << "\n";
+    if (!o.out.empty()) std::cout << "written: " << one_line(o.out) << "\n";
   }
 }
 

@@ -19,6 +19,7 @@
 #include "ui/number_check.h"
 #include "ui/print_json.h"
 #include "ui/stylus_devices.h"
+#include "ui/terminal.h"
 #include "ui/verbs.h"
 
 namespace cavum {
@@ -144,7 +145,7 @@ void calibrate(const Options& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
   if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be calibrated", pedal.problem);
   const std::string path = station_pedal_path();
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
   const auto listen = [&](const char* what) {
     std::cerr << what << " for " << plain_number(o.seconds) << " s, then press Enter\n";
@@ -168,7 +169,7 @@ void calibrate(const Options& o) {
   // Continuous only when it spoke all the time while the foot lay still.
   const bool continuous = off.reports > 1 && down.reports > 1 && std::max(off.longest_gap_s, down.longest_gap_s) < HidPedal::k_stale_after_s;
   const StationPedal made{.vendor = pedal.vendor, .product = pedal.product, .calibration = calibrate_pedal(axes, down.ranges, !continuous)};
-  write_text_file(path, to_toml(made));
+  write_private_text_file(path, to_toml(made));
   std::cout << "axis " << made.calibration.axis << ", released " << made.calibration.released << ", pressed " << made.calibration.pressed << ", "
             << (continuous ? "speaks continuously" : "speaks when it moves") << "\nwritten: " << path << "\n";
 }
@@ -177,7 +178,7 @@ void calibrate(const Options& o) {
 void watch(const Options& o) {
   const Interrupt interrupt;
   while (!Interrupt::asked()) {
-    if (::isatty(STDOUT_FILENO) == 1) std::cout << "\033[H\033[2J";
+    if (::isatty(STDOUT_FILENO) == 1) command_terminal("\033[H\033[2J");
     list(o);
     if (!o.json) std::cout << "\n";
     for (int i = 0; i < 25 && !Interrupt::asked(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -55,7 +55,7 @@ class ProgressBar {
     std::string bar(static_cast<std::size_t>(filled), '=');
     bar.resize(k_width, ' ');
     std::fprintf(stderr, "\r[%s] %3lld:%02lld  %-70.70s", bar.c_str(), static_cast<long long>(tick / 60000), static_cast<long long>(tick / 1000 % 60),
-                 what.c_str());
+                 one_line(what).c_str());
   }
   void clear() {
     if (shown_) std::fprintf(stderr, "\r%110s\r", "");
@@ -164,7 +164,7 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
     if (!servo.is_null()) j["servo"] = servo;
     print_json(j);
   } else {
-    std::cout << to_text(result) << "recorded: " << session << std::endl;
+    std::cout << to_text(result) << "recorded: " << one_line(session) << std::endl;
   }
   if (o.report.empty()) return;
   try {  // the exam is sealed by now, whatever becomes of its report

@@ -208,9 +208,9 @@ std::string causes_html(const explain::Explanation& e) {
     out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
     for (const auto& [parameter, i] : c.parameters) {
       const auto [name, unit] = name_and_unit(parameter);
-      out += "<tr><td>" + name + "</td>" +
-             printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>", i.value, i.low, i.high) + "<td>" + unit +
-             "</td></tr>\n";
+      out += "<tr><td>" + xml_text(name) + "</td>" +
+             printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>", i.value, i.low, i.high) + "<td>" +
+             xml_text(unit) + "</td></tr>\n";
     }
     out += "</table>\n";
     if (!c.aliases.empty()) {

@@ -37,7 +37,7 @@ int ledger_verify(const LedgerOptions& o) {
                     {"not_checked", check.not_checked},
                     {"remarks", check.remarks}});
   } else {
-    std::cout << o.folder << ": " << (check.findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size() << " entries"
+    std::cout << one_line(o.folder) << ": " << (check.findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size() << " entries"
               << (content.school.empty() ? "" : " of " + one_line(content.school))
               << (content.public_key.empty() ? ", whose they are could not be read" : ", key " + one_line(content.public_key)) << "\n";
     for (const auto& f : check.findings) std::cout << "  - " << one_line(f) << "\n";
@@ -80,11 +80,11 @@ int ledger_show(const LedgerOptions& o) {
   }
   const auto open = std::count_if(registry.tickets.begin(), registry.tickets.end(), [](const IssuedTicket& t) { return !t.used_by; });
   std::printf("ledger %s: %zu entries, %zu tickets (%td not used), %zu sessions\n",
-              content.id.empty() ? "whose id could not be read" : content.id.c_str(), content.entries.size(), registry.tickets.size(), open,
+              content.id.empty() ? "whose id could not be read" : one_line(content.id).c_str(), content.entries.size(), registry.tickets.size(), open,
               registry.sessions.size());
   for (const auto& s : registry.sessions)
-    std::printf("%6llu  %-16s %-28s %-7s %6.1f  %s%s%s\n", static_cast<unsigned long long>(s.seq), s.candidate.c_str(), s.scenario_id.c_str(),
-                s.result.is_object() ? s.result.value("verdict", "").c_str() : "?",
+    std::printf("%6llu  %-16s %-28s %-7s %6.1f  %s%s%s\n", static_cast<unsigned long long>(s.seq), one_line(s.candidate).c_str(),
+                one_line(s.scenario_id).c_str(), one_line(s.result.is_object() ? s.result.value("verdict", "") : "?").c_str(),
                 s.result.is_object() ? s.result["score"]["points"].get<double>() : 0.0, s.released ? "released" : "pending",
                 (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
                 ((s.findings.empty() ? std::string() : ", with findings") +

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "engine/base/file.h"
+#include "engine/base/file_name.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/filing.h"
@@ -28,6 +29,10 @@ void require_new(const LedgerOptions& o, const std::string& path) {
     if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
       throw Error("--out " + path, "holds a key, identities or entries", "name another file: it is never written over");
   if (!o.overwrite && std::filesystem::exists(path)) throw Error("--out " + path, "is there already", "name another file, or add --overwrite");
+}
+
+void write_school_file(const LedgerOptions& o, const std::string& path, const std::string& text) {
+  write_text_file(path, text, {.is_private = true, .may_replace = o.overwrite});
 }
 
 Identities sound_identities(const Ledger& ledger) {
@@ -80,14 +85,15 @@ void ledger_ticket(const LedgerOptions& o) {
   const Ticket ticket = promise(*setup, ledger.content(), from, until);
   const bool folder = !o.candidates.empty();
   if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
-  if (folder) std::filesystem::create_directories(o.out);
+  if (folder) make_private_folder(o.out);
   json printed = json::array();
   for (const auto& p : people) {
-    const std::string candidate = identities.enrol(p.id, p.name, ledger.key()), file = folder ? o.out + "/" + candidate + ".ticket" : o.out;
+    const std::string candidate = identities.enrol(p.id, p.name, ledger.key()),
+                      file = folder ? o.out + "/" + file_name_of(candidate) + ".ticket" : o.out;
     require_new(o, file);
-    write_text_file(file, issue(ledger, ticket, candidate) + "\n");
+    write_school_file(o, file, issue(ledger, ticket, candidate) + "\n");
     printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
-    if (!o.as_json) std::cout << candidate << "  " << file << "  " << p.id << (p.name.empty() ? "" : ", " + p.name) << "\n";
+    if (!o.as_json) std::cout << one_line(candidate + "  " + file + "  " + p.id + (p.name.empty() ? "" : ", " + p.name)) << "\n";
   }
   if (o.as_json) print_json(json{{"tickets", printed}});
 }
@@ -95,8 +101,7 @@ void ledger_ticket(const LedgerOptions& o) {
 int ledger_add(const LedgerOptions& o) {
   Ledger ledger(o.folder, key_of(o));
   if (!o.out.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
-    std::error_code none;
-    std::filesystem::create_directories(o.out, none);
+    make_private_folder(o.out);
     require_writable(o.out + "/receipt.json");
   }
   json printed = json::array();
@@ -116,12 +121,12 @@ int ledger_add(const LedgerOptions& o) {
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
-      if (!o.out.empty()) write_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
+      if (!o.out.empty()) write_private_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
     }
     if (!o.as_json) {
-      std::cout << path << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
-      for (const auto& f : filing.findings) std::cout << "  - " << f << "\n";
-      for (const auto& r : filing.remarks) std::cout << "  (" << r << ")\n";
+      std::cout << one_line(path) << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
+      for (const auto& f : filing.findings) std::cout << "  - " << one_line(f) << "\n";
+      for (const auto& r : filing.remarks) std::cout << "  (" << one_line(r) << ")\n";
     }
     printed.push_back(std::move(one));
   }
@@ -134,8 +139,8 @@ void ledger_receipt(const LedgerOptions& o) {
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
     throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
   require_new(o, o.out);
-  write_text_file(o.out, ledger.receipt(static_cast<std::uint64_t>(o.session_seq)).dump(2) + "\n");
-  std::cout << "written: " << o.out << "\n";
+  write_school_file(o, o.out, ledger.receipt(static_cast<std::uint64_t>(o.session_seq)).dump(2) + "\n");
+  std::cout << "written: " << one_line(o.out) << "\n";
 }
 
 }  // namespace cavum

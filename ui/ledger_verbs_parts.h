@@ -26,6 +26,8 @@ struct LedgerOptions {
 [[nodiscard]] SigningKey key_of(const LedgerOptions& options);
 /// Throws Error when `path` cannot be written, holds a key, identities or entries, or is there already and --overwrite does not allow it.
 void require_new(const LedgerOptions& options, const std::string& path);
+/// Writes what concerns the school alone, for its user alone; never over a file that came there meanwhile unless --overwrite allows it.
+void write_school_file(const LedgerOptions& options, const std::string& path, const std::string& text);
 /// The ledger's identities. Throws Error when one of them was changed by hand.
 [[nodiscard]] Identities sound_identities(const Ledger& ledger);
 

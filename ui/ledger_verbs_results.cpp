@@ -47,7 +47,8 @@ void ledger_release(const LedgerOptions& o) {
 std::string in_words(const json& result) {
   if (!result.is_object()) return "no result";
   const json& score = result.at("score");
-  return result.value("verdict", "") + ", " + fixed(score.at("points").get<double>(), 1) + " of " + plain_number(score.at("max").get<double>());
+  return one_line(result.value("verdict", "")) + ", " + fixed(score.at("points").get<double>(), 1) + " of " +
+         plain_number(score.at("max").get<double>());
 }
 
 void ledger_regrade(const LedgerOptions& o) {
@@ -91,8 +92,8 @@ void ledger_export(const LedgerOptions& o) {
   if (o.format == "csv") text = tidy_csv(registry);
   require_own_places({{"--out " + o.out, o.out}}, {{"", ledger.places().database()}, {"", ledger.places().identities()}});
   require_new(o, o.out);
-  write_text_file(o.out, text);
-  std::cout << "written: " << o.out << "\n";
+  write_school_file(o, o.out, text);
+  std::cout << "written: " << one_line(o.out) << "\n";
   if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const FiledSession& s) { return s.shown.is_object(); }))
     std::cout << "no result is released; " << registry.sessions.size() << (registry.sessions.size() == 1 ? " is" : " are") << " pending\n";
   if (const auto simulated = released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
@@ -107,7 +108,7 @@ void ledger_candidates(const LedgerOptions& o) {
   json all = json::array();
   for (const auto& i : identities.all()) {
     all.push_back({{"candidate", i.pseudonym}, {"id", i.id}, {"name", i.name}});
-    if (!o.as_json) std::cout << i.pseudonym << "  " << i.id << (i.name.empty() ? "" : ", " + i.name) << "\n";
+    if (!o.as_json) std::cout << one_line(i.pseudonym + "  " + i.id + (i.name.empty() ? "" : ", " + i.name)) << "\n";
   }
   if (o.as_json) print_json(json{{"candidates", all}});
 }
@@ -122,7 +123,7 @@ void ledger_forget(const LedgerOptions& o) {
     throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
   ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", pseudonym}}; });
   identities.forget(pseudonym);
-  std::cout << pseudonym << ": the identity is removed; sessions, results and proofs stay\n";
+  std::cout << one_line(pseudonym) << ": the identity is removed; sessions, results and proofs stay\n";
 }
 
 }  // namespace cavum

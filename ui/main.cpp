@@ -8,10 +8,12 @@
 #include "engine/base/text.h"
 #include "engine/servo/servo.h"
 #include "scenarios/parse.h"
+#include "ui/terminal.h"
 #include "ui/verbs.h"
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, not the end of an exam
+  const cavum::SafeTerminal terminal;
   CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
   app.set_version_flag("--version", std::string("cavum ") + CAVUM_VERSION + ", physics " + std::to_string(cavum::k_physics_version));
   app.require_subcommand(1);

@@ -126,12 +126,12 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
 
 void print(const Outcome& o) {
   const VerifyReport& r = o.report;
-  std::printf("%s: %s\n", r.file.c_str(), r.verified ? "verified" : "NOT VERIFIED");
+  std::printf("%s: %s\n", one_line(r.file).c_str(), r.verified ? "verified" : "NOT VERIFIED");
   if (r.ticks_replayed > 0)
     std::printf("  %lld of %lld ticks replayed, %.0f times real time\n", static_cast<long long>(r.ticks_replayed), static_cast<long long>(r.ticks),
                 r.speed_x_realtime);
-  if (r.closed) std::printf("  closed by station %s\n", r.station_key.c_str());
-  for (const auto& f : r.findings) std::printf("  - %s\n", f.c_str());
+  if (r.closed) std::printf("  closed by station %s\n", one_line(r.station_key).c_str());
+  for (const auto& f : r.findings) std::printf("  - %s\n", one_line(f).c_str());
 }
 
 int run(const Options& options) {

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_name.h"
 #include "engine/base/text.h"
 #include "grading/ledger/regrade.h"
 #include "ui/marked_session.h"
@@ -73,7 +74,7 @@ void write_report(const std::string& session, const std::string& out, const Opti
   write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));
   const bool holds = source.integrity.findings.empty();
   if (!holds) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(source.integrity.findings.front()) << "\n";
-  std::cout << "written: " << out << " (" << verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold") << ")\n";
+  std::cout << "written: " << one_line(out) << " (" << verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold") << ")\n";
 }
 
 void run_report(const Options& o) {
@@ -101,7 +102,7 @@ int run_all(const Options& o) {
   int written = 0, failed = 0;
   for (const auto& s : ledger.registry.sessions) {
     if (s.shown.is_null()) continue;
-    each.out = o.out + "/" + s.candidate + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
+    each.out = o.out + "/" + file_name_of(s.candidate) + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
     try {
       require_report_place(each.out, each.overwrite);
       write_report(ledger.places.session(s.file_sha256), each.out, each, &ledger, &s);

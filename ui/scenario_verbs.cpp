@@ -1,5 +1,5 @@
 // `cavum scenario check | show | solve | new`: authoring help.
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <array>
 #include <cmath>
@@ -116,8 +116,10 @@ int show(const Options& o) {
 /// Where a session is kept that nobody asked to keep; gone at the end.
 class ScratchSession {
  public:
-  ScratchSession() : folder_(std::filesystem::temp_directory_path() / ("cavum-solve-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
+  ScratchSession() {
+    std::string name = (std::filesystem::temp_directory_path() / "cavum-solve-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "set TMPDIR to a folder that is writable and has room");
+    folder_ = name;
   }
   ~ScratchSession() {
     std::error_code ignored;
@@ -278,7 +280,7 @@ int solve(const Options& o) {
     print_json(j);
     return answer;
   }
-  std::cout << setup->scenario.id << " on " << setup->tooth.name << ": "
+  std::cout << one_line(setup->scenario.id + " on " + setup->tooth.name) << ": "
             << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
   if (solved.result) {
     const Result& r = *solved.result;
@@ -287,10 +289,11 @@ int solve(const Options& o) {
               << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s (" << fixed(100 * r.motion.time_s / limit_s, 0)
               << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of " << r.progress.steps
               << " completed, ended: " << r.progress.finish << "\n";
-    for (const auto& c : r.criteria) std::cout << "  " << c.id << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << c.reason << "\n";
+    for (const auto& c : r.criteria)
+      std::cout << "  " << one_line(c.id) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
   }
-  for (const auto& reason : solved.reasons) std::cout << "because: " << reason << "\n";
-  if (!passed) std::cout << "what to do: " << solved.advice << "\n";
+  for (const auto& reason : solved.reasons) std::cout << "because: " << one_line(reason) << "\n";
+  if (!passed) std::cout << "what to do: " << one_line(solved.advice) << "\n";
   if (careless) std::cout << to_text(*careless);
   if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
   return answer;
@@ -311,7 +314,7 @@ std::string first_task(const std::string& tooth) {
 int make_new(const Options& o) {
   require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  write_text_file(o.out, scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task));
+  write_text_file(o.out, scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task), {.may_replace = o.force});
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
   return 0;
 }

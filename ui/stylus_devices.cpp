@@ -96,7 +96,7 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
 void place_stylus(const std::string& id) {
   if (id == "simulated") throw Error("--place", "the simulated stylus stands where its hand holds it", "place falcon or touch");
   const std::string path = station_stylus_path(id);
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
   StylusOptions options;
   options.station = load_station_stylus(id);
@@ -123,7 +123,7 @@ void place_stylus(const std::string& id) {
                 "measure them with a ruler, and begin again");
   options.station.placement = fit.placement;
   options.station.placement.tool = tool;
-  write_text_file(path, to_toml(options.station));
+  write_private_text_file(path, to_toml(options.station));
   std::cout << "marks fit within " << fixed(fit.worst_mm, 2) << " mm\nwritten: " << path << "\n";
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/base/text.h"
+
 namespace cavum {
 namespace {
 
@@ -46,14 +48,14 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
 }
 
 void print_tooth(const nlohmann::ordered_json& d) {
-  std::printf("%s\n", d["name"].get<std::string>().c_str());
-  std::printf("  from    %s\n", d["source"].get<std::string>().c_str());
+  std::printf("%s\n", one_line(d["name"].get<std::string>()).c_str());
+  std::printf("  from    %s\n", one_line(d["source"].get<std::string>()).c_str());
   const auto& low = d["bounds_mm"]["low"];
   const auto& high = d["bounds_mm"]["high"];
   std::printf("  leaf    %g mm; x %.2f..%.2f  y %.2f..%.2f  z %.2f..%.2f mm\n", d["leaf_mm"].get<double>(), low[0].get<double>(),
               high[0].get<double>(), low[1].get<double>(), high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
   for (const auto& t : d["tissues"])
-    std::printf("  %-14s %10.3f mm3%s\n", t["name"].get<std::string>().c_str(), t["volume_mm3"].get<double>(),
+    std::printf("  %-14s %10.3f mm3%s\n", one_line(t["name"].get<std::string>()).c_str(), t["volume_mm3"].get<double>(),
                 t["solid"].get<bool>() ? "" : "  (not solid)");
   std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
   std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
 #include "engine/base/error.h"
 
@@ -23,13 +22,6 @@ struct File {
 };
 
 std::string reason() { return std::strerror(errno); }
-
-/// Renaming onto a device, a pipe or a socket would replace it by a file.
-void require_no_node(const std::string& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
-    throw Error(path, "is no ordinary file but a device, a pipe or a socket", "name a file");
-}
 
 }  // namespace
 
@@ -59,46 +51,6 @@ Bytes read_file(const std::string& path) {
 std::string read_text_file(const std::string& path) {
   const Bytes b = read_file(path);
   return {reinterpret_cast<const char*>(b.data()), b.size()};
-}
-
-void require_writable(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  if (fs::is_directory(path, none)) throw Error(path, "is a folder", "name a file");
-  require_no_node(path);
-  const fs::path parent = fs::path(path).parent_path();
-  const std::string folder = parent.empty() ? "." : parent.string();
-  if (!fs::is_directory(folder, none)) throw Error(path, "cannot be written: there is no folder " + folder, "make it, or name another place");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw Error(path, "cannot be written: folder " + folder + " is closed to you (" + reason() + ")",
-                "change its permissions, or name another place");
-}
-
-void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-  require_no_node(path);
-  const std::string temporary = path + ".part";
-  const auto fail = [&](const std::string& what) {
-    const std::string why = reason();
-    ::unlink(temporary.c_str());
-    throw Error(path, what + " (" + why + ")", "check that the folder exists, is writable and has room, then try again");
-  };
-  {
-    const File file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
-    if (file.fd < 0) fail("cannot be created");
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const auto n = ::write(file.fd, bytes.data() + done, bytes.size() - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) fail("cannot be written");
-      done += static_cast<std::size_t>(n);
-    }
-    if (::fsync(file.fd) != 0) fail("cannot be written to disk");
-  }
-  if (::rename(temporary.c_str(), path.c_str()) != 0) fail("cannot be put in place");
-}
-
-void write_text_file(const std::string& path, const std::string& text) {
-  write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 }  // namespace cavum

@@ -1,5 +1,8 @@
 #include "engine/base/text.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 
 namespace cavum {
@@ -20,7 +23,15 @@ std::size_t utf8_length(std::string_view text) noexcept {
   return n;
 }
 
-bool is_control(char c) noexcept { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+/// Code point of a whole UTF-8 character of `n` bytes.
+char32_t code_of(std::string_view text, std::size_t n) noexcept {
+  const auto byte = [&](std::size_t i) { return static_cast<char32_t>(static_cast<unsigned char>(text[i])); };
+  char32_t code = n == 1 ? byte(0) : byte(0) & (0xffu >> (n + 1));
+  for (std::size_t i = 1; i < n; ++i) code = code << 6 | (byte(i) & 0x3f);
+  return code;
+}
+
+bool is_control(char32_t c) noexcept { return c < 0x20 || (c >= 0x7f && c < 0xa0) || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069); }
 
 /// Copies `text` character by character; `control` writes what stands for a control character, `plain` for another of one byte.
 template <class Control, class Plain>
@@ -28,15 +39,38 @@ std::string rewritten(std::string_view text, const Control& control, const Plain
   std::string out;
   while (!text.empty()) {
     const std::size_t n = utf8_length(text);
+    const char32_t code = n == 0 ? U'?' : code_of(text, n);
     if (n == 0)
       out += '?';
+    else if (is_control(code))
+      out += control(code);
     else if (n > 1)
       out += text.substr(0, n);
     else
-      out += is_control(text.front()) ? control(text.front()) : plain(text.front());
+      out += plain(text.front());
     text.remove_prefix(n == 0 ? 1 : n);
   }
   return out;
+}
+
+std::string json_escape(char32_t code) {
+  char escape[8];
+  std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(code) & 0xffffu);
+  return escape;
+}
+
+bool is_number(std::string_view text) noexcept {
+  double value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size() && std::isfinite(value);
+}
+
+/// What a spreadsheet reads as a formula: = + - @, and the wide ones of East Asian keyboards, behind spaces too.
+bool begins_formula(std::string_view text) noexcept {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  for (const std::string_view sign : {"=", "+", "@", "-", "\xef\xbc\x9d", "\xef\xbc\x8b", "\xef\xbc\x8d", "\xef\xbc\xa0"})
+    if (text.starts_with(sign)) return !is_number(text);
+  return false;
 }
 
 std::string xml_character(char c) {
@@ -61,7 +95,7 @@ std::string xml_character(char c) {
 bool is_plain_text(std::string_view text) noexcept {
   while (!text.empty()) {
     const std::size_t n = utf8_length(text);
-    if (n == 0 || is_control(text.front())) return false;
+    if (n == 0 || is_control(code_of(text, n))) return false;
     text.remove_prefix(n);
   }
   return true;
@@ -69,12 +103,50 @@ bool is_plain_text(std::string_view text) noexcept {
 
 std::string one_line(std::string_view text) {
   return rewritten(
-      text, [](char) { return ' '; }, [](char c) { return c; });
+      text, [](char32_t) { return ' '; }, [](char c) { return c; });
 }
 
 std::string xml_text(std::string_view text) {
-  const auto control = [](char c) -> std::string { return c == '\n' ? "&#10;" : c == '\r' ? "&#13;" : c == '\t' ? "&#9;" : "?"; };
-  return rewritten(text, control, xml_character);
+  const auto control = [](char32_t c) -> std::string { return c == '\n' ? "&#10;" : c == '\r' ? "&#13;" : c == '\t' ? "&#9;" : "?"; };
+  std::string out = rewritten(text, control, xml_character);
+  for (const std::string_view unknown : {"\xef\xbf\xbe", "\xef\xbf\xbf"})  // U+FFFE and U+FFFF
+    for (auto at = out.find(unknown); at != std::string::npos; at = out.find(unknown, at)) out.replace(at, unknown.size(), "?");
+  return out;
+}
+
+std::string csv_field(std::string_view text) {
+  std::string out = one_line(text);
+  for (std::size_t at = 0; at != std::string::npos;) {  // a spreadsheet that splits at semicolons sees a field after each
+    if (begins_formula(std::string_view(out).substr(at))) out.insert(at, 1, '\'');
+    const auto next = out.find(';', at);
+    at = next == std::string::npos ? next : next + 1;
+  }
+  if (out.find_first_of(",\";") == std::string::npos) return out;
+  std::string quoted = "\"";
+  for (const char c : out) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::size_t whole_characters(std::string_view text) noexcept {
+  for (std::size_t back = 1; back <= 3 && back <= text.size(); ++back) {
+    const auto byte = static_cast<unsigned char>(text[text.size() - back]);
+    const std::size_t wanted = byte >= 0xf0 ? 4 : byte >= 0xe0 ? 3 : byte >= 0xc0 ? 2 : 1;
+    if ((byte & 0xc0) != 0x80) return wanted > back ? text.size() - back : text.size();
+  }
+  return text.size();
+}
+
+std::string terminal_text(std::string_view text) {
+  return rewritten(
+      text, [](char32_t c) { return c == '\n' || c == '\t' || c == '\r' ? static_cast<char>(c) : '?'; }, [](char c) { return c; });
+}
+
+std::string terminal_json(std::string_view json) {
+  return rewritten(
+      json, [](char32_t c) { return c == '\n' ? std::string("\n") : json_escape(c); }, [](char c) { return c; });
 }
 
 std::string plain_number(double v) {

@@ -1,9 +1,11 @@
 #include "engine/explain/model_file.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace cavum::explain {
 namespace {
@@ -52,6 +54,16 @@ std::pair<std::string, Parameters> live_term(const Cause& cause) {
   return {name, given};
 }
 
+/// A string of TOML, whatever it holds; also a key. JSON's strings are TOML's, but for one character that TOML wants escaped.
+std::string quoted(const std::string& text) {
+  return terminal_json(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::string key_of(const std::string& name) {
+  constexpr char k_bare[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return name.empty() || name.find_first_not_of(k_bare) != std::string::npos ? quoted(name) : name;
+}
+
 void write(std::ostream& out, const char* key, const std::vector<double>& values) {
   out << key << " = [";
   for (std::size_t i = 0; i < values.size(); ++i) out << (i > 0 ? ", " : "") << std::showpoint << values[i] << std::noshowpoint;
@@ -75,9 +87,9 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
                 "would have " + std::to_string(terms) + " terms, " + std::to_string(k_max_terms) + " are the most", "leave out the smallest");
   std::ostringstream out;
   out.precision(17);
-  out << "# Written by `cavum explain`: verdict " << e.verdict << ".\nname = \""
-      << (start.name.ends_with("-extended") ? start.name : start.name + "-extended") << "\"\n\n[cutting]\nrpm_ref = " << start.rpm_ref
-      << "\n\n[rendering]\nkvc_n_per_mm = " << start.rendering.kvc_n_per_mm
+  out << "# Written by `cavum explain`: verdict " << e.verdict
+      << ".\nname = " << quoted(start.name.ends_with("-extended") ? start.name : start.name + "-extended")
+      << "\n\n[cutting]\nrpm_ref = " << start.rpm_ref << "\n\n[rendering]\nkvc_n_per_mm = " << start.rendering.kvc_n_per_mm
       << "\nfiltered_damping_n_s_per_mm = " << start.rendering.filtered_damping_n_s_per_mm << "\nspeed_filter_s = " << start.rendering.speed_filter_s
       << "\ndrag_n_per_mm = " << start.rendering.drag_n_per_mm << "\n";
   // What was measured is the one material; the others keep their ratio to it.
@@ -85,12 +97,13 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
   const Viscoelastic of_measured = start.materials.contains(measured) ? start.materials.at(measured).voigt : Viscoelastic{};
   const auto scaled = [](double value, double from, double to) { return from > 0.0 ? std::max(0.0, to) * (value / from) : value; };
   for (const auto& [name, m] : start.materials) {
-    out << "\n[materials." << name << "]\nk_n_per_mm = " << scaled(m.voigt.stiffness_n_per_mm, of_measured.stiffness_n_per_mm, e.base.k_n_per_mm)
+    out << "\n[materials." << key_of(name)
+        << "]\nk_n_per_mm = " << scaled(m.voigt.stiffness_n_per_mm, of_measured.stiffness_n_per_mm, e.base.k_n_per_mm)
         << "\nc_n_s_per_mm = " << scaled(m.voigt.damping_n_s_per_mm, of_measured.damping_n_s_per_mm, e.base.c_n_s_per_mm) << "\n";
     if (m.tau_s > 0.0) out << "tau_s = " << m.tau_s << "\n";
   }
   const auto effect = [&](const MeasurementEffect& m, const std::string& why) {
-    out << "\n# " << why << "\n[[measurement]]\nkind = \"" << m.kind << "\"\n";
+    out << "\n# " << why << "\n[[measurement]]\nkind = " << quoted(m.kind) << "\n";
     write(out, "shape", m.shape);
     write(out, "values", m.values);
   };

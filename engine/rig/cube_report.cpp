@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/text.h"
 #include "engine/rig/cube_rig.h"
 #include "engine/rig/print.h"
 
@@ -241,7 +242,7 @@ std::string recordings_rig_toml(const CubeResult& r) {
   std::string out = printed(
       "# Virtual testing machine, cubes cut at %.2f mm/s: model '%s' on a simulated Omni (joint friction %.2f N in f_n).\n"
       "# The surface recedes while it is cut: x_mm is the penetration into what is left, v_mm_s the way of the tip.\n",
-      m.speed_mm_s, r.sets.front().name.c_str(), m.omni.coulomb_n);
+      m.speed_mm_s, one_line(r.sets.front().name).c_str(), m.omni.coulomb_n);
   for (const auto& row : r.sets.front().rows)
     if (!row.runs.empty() && !row.runs.front().recording.empty())
       out += printed("k_n_per_mm = %.12g\nc_n_s_per_mm = %.12g\n", row.k_n_per_mm, row.c_n_s_per_mm);

@@ -1,21 +1,19 @@
 #include "engine/session/recorder.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/base/text.h"
+#include "engine/base/write_file.h"
 #include "engine/servo/servo.h"
 #include "engine/session/chain.h"
 #include "engine/session/schema.h"
@@ -74,26 +72,18 @@ void write_setup(const std::string& path, const std::map<std::string, std::strin
   transaction.commit();
 }
 
-// A file never appears under its name before its setup is complete, and never replaces another.
-void put_in_place(const std::string& made, const std::string& path) {
-  if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return;
-  const bool unsupported = errno == EINVAL || errno == ENOSYS;
-  if (unsupported && ::access(path.c_str(), F_OK) != 0 && ::rename(made.c_str(), path.c_str()) == 0) return;
-  const bool there = errno == EEXIST || ::access(path.c_str(), F_OK) == 0;
-  const std::string why = std::strerror(errno);
+/// A file never appears under its name before its setup is complete, and never replaces another.
+void put_session_in_place(const std::string& made, const std::string& path) {
+  bool placed = false;
+  try {
+    placed = put_in_place(made, path);
+  } catch (const Error&) {
+    ::unlink(made.c_str());
+    throw;
+  }
+  if (placed) return;
   ::unlink(made.c_str());
-  if (there)
-    throw Error(path, "exists already: another exam began to record into it", "choose another name; an existing session is never overwritten");
-  throw Error(path, "cannot be put in place (" + why + ")", "check the folder and the disk");
-}
-
-void sync_folder_of(const std::string& path) {
-  auto folder = std::filesystem::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
+  throw Error(path, "exists already: another exam began to record into it", "choose another name; an existing session is never overwritten");
 }
 
 constexpr char k_being_made[] = ".new-";
@@ -166,8 +156,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
     ::unlink((made + "-journal").c_str());
     throw;
   }
-  put_in_place(made, path);
-  sync_folder_of(path);
+  put_session_in_place(made, path);
   recorder.chain_ = genesis_hash(meta, artifacts);
   recorder.next_artifact_ = static_cast<std::int64_t>(artifacts.size());
   try {
@@ -263,8 +252,7 @@ void Recorder::move_to(const std::string& path, const std::string& why) {
     throw;
   }
   for (const char* end : {"-wal", "-shm"}) ::unlink((made + end).c_str());
-  put_in_place(made, path);
-  sync_folder_of(path);
+  put_session_in_place(made, path);
   const nlohmann::json detail{{"from", std::filesystem::path(path_).filename().string()}, {"ticks", ticks_on_disk_}, {"why", one_line(why)}};
   insert_chunk_.reset();
   insert_event_.reset();

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <thread>
+
+#include "engine/base/write_file.h"
+#include "engine/session/lock_holder.h"
 
 namespace cavum {
 namespace {
@@ -25,8 +29,8 @@ constexpr int k_most_calls = 2000;
       break;
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      detail = "another program is recording into it";
-      to_do = "close that program first";
+      detail = "is held by " + holder_of(where);
+      to_do = "try again when it is done, or close it";
       break;
     case SQLITE_CANTOPEN:
       to_do = "check that the path exists and is writable";
@@ -112,11 +116,13 @@ void Database::connect(const std::string& name, int flags) {
   sqlite3_db_config(db, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
 }
 
-Database Database::open(const std::string& path, bool make) {
+Database Database::open(const std::string& path, bool make, std::chrono::milliseconds wait) {
   Database database;
   database.where_ = path;
-  database.connect(path, SQLITE_OPEN_READWRITE | (make ? SQLITE_OPEN_CREATE : 0));
-  sqlite3_busy_timeout(database.db_.get(), 200);
+  database.wait_ = wait;
+  if (make && path != ":memory:") make_private_file(path);
+  database.connect(path, SQLITE_OPEN_READWRITE);
+  sqlite3_busy_timeout(database.db_.get(), static_cast<int>(wait.count()));
   return database;
 }
 
@@ -141,7 +147,15 @@ Database Database::from_image(Bytes image, const std::string& where) {
 }
 
 void Database::run(const char* sql) {
-  const int code = sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr);
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + wait_;
+  const bool alone = !in_transaction();
+  int code = sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr);
+  // SQLite does not wait by itself where two that wait could wait for each other, as when both turn a file to its write-ahead log
+  while ((code & 0xff) == SQLITE_BUSY && alone && !in_transaction() && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    code = sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr);
+  }
   if (code != SQLITE_OK) fail(db_.get(), where_, code);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -63,10 +64,17 @@ class Statement {
   std::string where_;
 };
 
+/// For a file that one program records into: another has no business there.
+inline constexpr std::chrono::milliseconds k_short_wait{200};
+/// For a file that many programs add to: each holds it for milliseconds.
+inline constexpr std::chrono::milliseconds k_long_wait{30'000};
+
 class Database {
  public:
-  /// An existing or (`make`) new file, for writing.
-  [[nodiscard]] static Database open(const std::string& path, bool make);
+  /// An existing or (`make`) new file, for writing; a new one is its user's alone (mode 0600, and so its logs), and Error when there is something at
+  /// the path already. While another program holds it this waits and tries again, for as long as `wait`; then it says who that is, if it can be
+  /// known.
+  [[nodiscard]] static Database open(const std::string& path, bool make, std::chrono::milliseconds wait = k_short_wait);
   /// A whole database file held in memory, read-only. Damage shows as DatabaseError while reading.
   [[nodiscard]] static Database from_image(Bytes image, const std::string& where);
 
@@ -90,6 +98,7 @@ class Database {
 
   std::unique_ptr<Bytes> image_;  // both must outlive the connection
   std::unique_ptr<int> work_;     // calls of the progress handler
+  std::chrono::milliseconds wait_{0};
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> db_{nullptr, sqlite3_close_v2};
   std::string where_;
 };

@@ -27,13 +27,12 @@ void make_key(const std::string& path, const std::string& owner) {
   const auto fail = [&](const std::string& what) {
     throw Error(path, what + " (" + std::strerror(errno) + ")", "make its folder writable, or set CAVUM_HOME to a folder that is");
   };
-  std::error_code ignored;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+  make_private_folder(std::filesystem::path(path).parent_path().string());
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
   randombytes_buf(seed.data(), seed.size());
   const std::string text = heading_of(owner) + to_hex(seed) + "\n";
-  const std::string temporary = path + "." + std::to_string(::getpid()) + "." + std::to_string(randombytes_random());  // threads make keys, too
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const std::string temporary = temporary_name_beside(path);
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (fd < 0) fail("the " + owner + "'s key cannot be made");
   const bool written = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
   ::close(fd);
@@ -42,6 +41,7 @@ void make_key(const std::string& path, const std::string& owner) {
   ::unlink(temporary.c_str());
   errno = why;
   if (!placed) fail("the " + owner + "'s key cannot be written");
+  sync_folder_of(path);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/file.h"
+#include "engine/base/file_name.h"
 #include "engine/base/random.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/filing.h"
@@ -41,7 +42,7 @@ void sit(const Student& student, const std::string& scenario) {
 }  // namespace
 
 ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities& identities, const std::function<void(int)>& done) {
-  std::filesystem::create_directories(wanted.sessions);
+  make_private_folder(wanted.sessions);
   const auto setup = prepare_exam(wanted.scenario, {});
   const std::int64_t now = read_clocks().utc_ns;
   const Ticket ticket = promise(*setup, ledger.content(), now - k_day_ns, now + k_day_ns);
@@ -56,7 +57,7 @@ ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities
     s.seed = random.next() >> 1;
     s.skill = "student-" + std::to_string(level[static_cast<std::size_t>(i)]);
     s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ledger.key());
-    s.path = wanted.sessions + "/" + s.candidate + ".cavum";
+    s.path = wanted.sessions + "/" + file_name_of(s.candidate) + ".cavum";
     if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
     s.ticket = issue(ledger, ticket, s.candidate);
     students.push_back(std::move(s));

@@ -1,6 +1,5 @@
 #include "grading/ledger/csv.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "engine/base/error.h"
@@ -15,14 +14,26 @@ std::string trimmed(const std::string& s) {
   return from == std::string::npos ? std::string() : s.substr(from, to - from + 1);
 }
 
+/// The one that stands more often outside quotes.
+char separator_of(std::string_view heading) {
+  int commas = 0, semicolons = 0;
+  bool quoted = false;
+  for (const char c : heading) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    commas += c == ',' ? 1 : 0;
+    semicolons += c == ';' ? 1 : 0;
+  }
+  return semicolons > commas ? ';' : ',';
+}
+
 }  // namespace
 
 std::vector<CsvRow> parse_csv(const std::string& whole, const std::string& where) {
   constexpr std::string_view k_mark = "\xef\xbb\xbf";
   std::string_view text = whole;
   if (text.starts_with(k_mark)) text.remove_prefix(k_mark.size());
-  const std::string_view heading = text.substr(0, text.find_first_of("\r\n"));
-  const char separator = std::count(heading.begin(), heading.end(), ';') > std::count(heading.begin(), heading.end(), ',') ? ';' : ',';
+  const char separator = separator_of(text.substr(0, text.find_first_of("\r\n")));
 
   std::vector<CsvRow> rows;
   int line = 1;

@@ -77,11 +77,11 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
 }
 
 std::string to_text(const SessionExplanation& e) {
-  std::string out = e.file + ": " + (e.holds ? "holds" : "DOES NOT HOLD") + "\n";
+  std::string out = one_line(e.file) + ": " + (e.holds ? "holds" : "DOES NOT HOLD") + "\n";
   const auto list = [&](const char* title, const std::vector<std::string>& lines) {
     if (lines.empty()) return;
     out += std::string(title) + "\n";
-    for (const auto& l : lines) out += "  - " + l + "\n";
+    for (const auto& l : lines) out += "  - " + one_line(l) + "\n";
   };
   list("what does not hold", e.findings);
   list("what is proved", e.proved);

@@ -43,21 +43,6 @@ Bytes results_message(const json& facts) {
 
 }  // namespace
 
-std::string csv_field(const std::string& text) {
-  std::string out = text;
-  // a minus sign before a number is a number
-  const bool formula = !out.empty() && (out[0] == '=' || out[0] == '+' || out[0] == '@' || out[0] == '\t' || out[0] == '\r' ||
-                                        (out[0] == '-' && out.find_first_not_of("-0123456789.eE+") != std::string::npos));
-  if (formula) out.insert(out.begin(), '\'');
-  if (out.find_first_of(",\"\r\n;") == std::string::npos) return out;
-  std::string quoted = "\"";
-  for (const char c : out) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated) {
   struct Exam {
     std::vector<std::string> criteria;
@@ -219,9 +204,9 @@ std::string tidy_csv(const Registry& registry) {
   for (const auto& s : registry.sessions) {
     if (!s.result.is_object()) continue;
     for (const auto& c : s.result.at("criteria"))
-      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + s.station_key.substr(0, 16) + "," +
-             csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
-             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + s.result.value("verdict", "") + "," +
+      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + csv_field(s.station_key.substr(0, 16)) +
+             "," + csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
+             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + csv_field(s.result.value("verdict", "")) + "," +
              (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
              "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }

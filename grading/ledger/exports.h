@@ -39,7 +39,4 @@ namespace cavum {
 /// chosen, verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.
 [[nodiscard]] std::string tidy_csv(const Registry& registry);
 
-/// A field of a CSV file: quoted where it must be, and never a formula to a spreadsheet that opens it.
-[[nodiscard]] std::string csv_field(const std::string& text);
-
 }  // namespace cavum

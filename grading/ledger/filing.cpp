@@ -64,8 +64,8 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   if (refused()) return out;
 
   const std::string kept = ledger.places().session(file_sha256);
-  std::filesystem::create_directories(ledger.places().folder + "/sessions");
-  write_file(kept, image);
+  make_private_folder(ledger.places().folder + "/sessions");
+  write_private_file(kept, image);
   if (read_file(kept) != image) throw DatabaseError(kept, "does not hold what was written", "check the disk, and file the exam again", 0);
   json body = body_of(session, setup, mark, file_sha256);
   struct Refused {};

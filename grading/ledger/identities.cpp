@@ -1,7 +1,5 @@
 #include "grading/ledger/identities.h"
 
-#include <sys/stat.h>
-
 #include <filesystem>
 
 #include "engine/base/text.h"
@@ -23,13 +21,11 @@ Identities::Identities(const std::string& path, bool may_make)
         const bool make = !std::filesystem::exists(path);
         if (make && !may_make)
           throw Error(path, "the identities are not there", "restore them from their backup: without them nobody knows whose marks these are");
-        const ::mode_t before = ::umask(0077);  // the file and its log are the school's alone
-        Database db = Database::open(path, make);
+        Database db = Database::open(path, make, k_long_wait);
         if (make) {
           db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
           db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
         }
-        ::umask(before);
         return db;
       }()) {
   if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");

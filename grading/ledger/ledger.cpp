@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "engine/base/write_file.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_file.h"
 
@@ -14,12 +15,14 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
   if (std::filesystem::exists(places.database())) throw Error(folder, "holds a ledger already", "choose another folder");
   if (holds_parts_of_a_ledger(places))
     throw Error(folder, "holds sessions or identities of a ledger whose ledger.db is gone", instead_of_none(places.database()));
-  std::error_code ignored;
-  std::filesystem::create_directories(folder + "/sessions", ignored);
+  make_private_folder(folder + "/sessions");
   // complete under another name first: a process killed here leaves no half a ledger
-  const std::string fresh = places.database() + ".new";
-  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(fresh + end, ignored);
-  {
+  const std::string fresh = temporary_name_beside(places.database());
+  const auto remove_fresh = [&] {
+    std::error_code ignored;
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(fresh + end, ignored);
+  };
+  try {
     Database db = open_for_adding(fresh, true);
     db.run(("PRAGMA application_id = " + std::to_string(k_ledger_application_id)).c_str());
     migrate(db, fresh);
@@ -35,8 +38,11 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
     db.run("PRAGMA journal_mode = DELETE");  // one file, to be renamed whole
     db.close();
     tell_witness(id, p);
+    if (!put_in_place(fresh, places.database())) throw Error(folder, "holds a ledger already", "choose another folder");
+  } catch (const std::exception&) {
+    remove_fresh();
+    throw;
   }
-  std::filesystem::rename(fresh, places.database());
 }
 
 Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)

@@ -80,7 +80,7 @@ Database open_for_adding(const std::string& path, bool make) {
   if (!make && !std::filesystem::exists(path)) throw Error(path, "there is no ledger", instead_of_none(path));
   std::error_code none;  // an empty file would become a database below
   if (!make && std::filesystem::file_size(path, none) == 0 && !none) throw Error(path, "is empty", instead_of_none(path));
-  Database db = Database::open(path, make);
+  Database db = Database::open(path, make, k_long_wait);
   db.run("PRAGMA journal_mode = WAL");
   db.run("PRAGMA synchronous = FULL");
   return db;

@@ -60,9 +60,8 @@ namespace {
 class UsedTickets {
  public:
   UsedTickets() {
-    std::error_code none;
-    std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), none);
-    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    make_private_folder(std::filesystem::path(path_).parent_path().string());
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (file_ < 0 || ::flock(file_, LOCK_EX) != 0) fail();
   }
   ~UsedTickets() { ::close(file_); }

@@ -9,12 +9,13 @@
 #include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/file_name.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum {
 
-std::string witness_path(const std::string& ledger_id) { return station_path("witness/" + ledger_id); }
+std::string witness_path(const std::string& ledger_id) { return station_path("witness/" + file_name_of(ledger_id)); }
 
 std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::string>& findings) {
   std::vector<Checkpoint> out;
@@ -39,10 +40,9 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
 
 void tell_witness(const std::string& id, const Checkpoint& p) {
   const std::string path = witness_path(id);
-  std::error_code ignored;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+  make_private_folder(std::filesystem::path(path).parent_path().string());
   const std::string line = std::to_string(p.size) + " " + to_hex(p.root) + " " + std::to_string(p.utc_ns) + "\n";
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
   const bool told = fd >= 0 && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fsync(fd) == 0;
   const int why = errno;
   if (fd >= 0) ::close(fd);

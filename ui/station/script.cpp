@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/file_name.h"
 #include "ui/station/window.h"
 
 namespace cavum {
@@ -151,7 +152,7 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
   if (c.word == "show") window.set_visible(true);
   if (c.word == "picture" && !pictures_.empty()) {
     std::filesystem::create_directories(pictures_);
-    window.keep_picture((std::filesystem::path(pictures_) / (c.text + ".png")).string());
+    window.keep_picture((std::filesystem::path(pictures_) / (file_name_of(c.text) + ".png")).string());
   }
   if (c.word == "memory") std::printf("%s: %.1f MB\n", c.text.c_str(), memory_mb());
   if (c.word == "fail") throw Error(where, "the script let the window fail", "leave 'fail' out");

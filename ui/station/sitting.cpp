@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/file_name.h"
 #include "engine/base/text.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/station_ticket.h"
@@ -18,18 +19,11 @@ bool is_ready(const std::future<T>& f) {
   return f.valid() && f.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// Letters and digits of a code, for the name of a file.
-std::string file_part(const std::string& candidate) {
-  std::string part;
-  for (const char c : candidate) part += (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ? c : '_';
-  return part;
-}
-
 /// The ticket of a candidate who typed this code, in capitals or not.
 HeldTicket ticket_of(const std::string& folder, const std::string& code) {
-  std::string name = file_part(code);
+  std::string name = code;
   for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const std::string path = folder + "/" + name + ".ticket";
+  const std::string path = folder + "/" + file_name_of(name) + ".ticket";
   if (!std::filesystem::exists(path)) throw Error("candidate '" + one_line(code) + "'", "has no ticket here", "check the code, or ask the school");
   return read_ticket(path);
 }
@@ -143,7 +137,7 @@ std::string Sitting::new_path(const std::string& out) const {
   localtime_r(&now, &local);
   std::string when(32, '\0');
   when.resize(std::strftime(when.data(), when.size(), "%Y%m%d-%H%M%S", &local));
-  const std::string name = setup_->scenario.id + "-" + file_part(candidate_) + "-" + when + ".cavum";
+  const std::string name = file_name_of(setup_->scenario.id) + "-" + file_name_of(candidate_) + "-" + when + ".cavum";
   return (std::filesystem::path(out) / name).string();
 }
 

@@ -28,6 +28,73 @@ TEST(Text, XmlKeepsWhatXmlKnowsAndNothingElse) {
   EXPECT_EQ(xml_text("\xff\x01" + k_tooth), "??" + k_tooth);
 }
 
+// CSI as one character of C1, an override and an isolate of direction, a line separator
+const char* const k_controls_of_unicode[] = {
+    "a\xc2\x9b"
+    "31m",
+    "\xe2\x80\xae"
+    "ssap",
+    "\xe2\x81\xa6"
+    "x",
+    "a\xe2\x80\xa8"
+    "b"};
+
+TEST(Text, ControlsOfUnicodeAreControls) {
+  for (const std::string text : k_controls_of_unicode) {
+    EXPECT_FALSE(is_plain_text(text)) << text;
+    EXPECT_TRUE(is_plain_text(one_line(text))) << text;
+    EXPECT_TRUE(is_plain_text(xml_text(text))) << text;
+    EXPECT_TRUE(is_plain_text(terminal_text(text))) << text;
+  }
+  EXPECT_EQ(one_line("\xe2\x80\xae"
+                     "ssap"),
+            " ssap");
+  const std::string beside = "\xc2\xa0\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa";  // the characters next to those
+  EXPECT_EQ(one_line(beside), beside);
+}
+
+TEST(Text, XmlKnowsNoNoncharacters) {
+  EXPECT_EQ(xml_text("a\xef\xbf\xbe"
+                     "b\xef\xbf\xbf"),
+            "a?b?");
+}
+
+TEST(Text, ForATerminalKeepsItsLayoutAndCommandsNothing) {
+  EXPECT_EQ(terminal_text("a\tb\r\n" + k_umlaut), "a\tb\r\n" + k_umlaut);
+  EXPECT_EQ(terminal_text("\x1b[2J\x07\x7f\xff"), "?[2J???");
+}
+
+TEST(Text, JsonForATerminalReadsTheSame) {
+  EXPECT_EQ(terminal_json("{\n \"a\": \"" + k_umlaut + "\xc2\x9b\xe2\x80\xae\x7f\"\n}"), "{\n \"a\": \"" + k_umlaut + "\\u009b\\u202e\\u007f\"\n}");
+}
+
+TEST(Text, WholeCharactersEndWhereOneEnds) {
+  const std::string text = "a" + k_tooth + "\xc3\xa4";
+  const std::size_t whole[] = {0, 1, 1, 1, 1, 5, 5, 7};
+  for (std::size_t n = 0; n <= text.size(); ++n) EXPECT_EQ(whole_characters(std::string_view(text).substr(0, n)), whole[n]) << n;
+  EXPECT_EQ(whole_characters("\x80\x80\x80\x80\x80"), 5u) << "what is no UTF-8 is not waited for";
+}
+
+TEST(Text, ACsvFieldIsQuotedOnOneLineAndNeverAFormula) {
+  EXPECT_EQ(csv_field("plain"), "plain");
+  EXPECT_EQ(csv_field("-0.25"), "-0.25");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("say \"so\""), "\"say \"\"so\"\"\"");
+  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_field("-1+cmd"), "'-1+cmd");
+  EXPECT_EQ(csv_field("-1-1"), "'-1-1") << "no number, but made of the letters of one";
+  EXPECT_EQ(csv_field("@x"), "'@x");
+  EXPECT_EQ(csv_field("+4912"), "'+4912");
+  EXPECT_EQ(csv_field("\t=x"), "' =x");
+  EXPECT_EQ(csv_field("\r=x"), "' =x");
+  EXPECT_EQ(csv_field("\xef\xbc\x9d"
+                      "x"),
+            "'\xef\xbc\x9d"
+            "x");
+  EXPECT_EQ(csv_field("pass\n1,2,3\r\n"), "\"pass 1,2,3  \"");
+  EXPECT_EQ(csv_field("a;=x;-3;b"), "\"a;'=x;'-3;b\"") << "another program splits at semicolons";
+}
+
 TEST(Text, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(plain_number(60.0), "60");
   EXPECT_EQ(plain_number(3.5), "3.5");

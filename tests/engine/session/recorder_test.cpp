@@ -178,7 +178,7 @@ TEST(Session, EndedWithoutClosingResumesAndVerifies) {
   });
   EXPECT_EQ(visited, 2300);
   EXPECT_EQ(exam.ticks, 2300);
-  EXPECT_NE(error_of([&] { (void)resume_session(path); }).find("another program"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)resume_session(path); }).find("is held by "), std::string::npos);
   test::drill(exam.simulation, exam.recorder, exam.ticks, 1900);
   exam.recorder.close(save_tooth(drilled_tooth(exam.simulation)), "{}");
 

@@ -507,16 +507,6 @@ TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
     EXPECT_THROW(static_cast<void>(parse_csv(bad, "c.csv")), Error) << bad;
 }
 
-TEST(CsvField, IsQuotedAndNeverAFormula) {
-  EXPECT_EQ(csv_field("plain"), "plain");
-  EXPECT_EQ(csv_field("-0.25"), "-0.25");
-  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
-  EXPECT_EQ(csv_field("say \"so\""), "\"say \"\"so\"\"\"");
-  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
-  EXPECT_EQ(csv_field("-1+cmd"), "'-1+cmd");
-  EXPECT_EQ(csv_field("@x"), "'@x");
-}
-
 TEST(ParseUtc, AgreesWithTheCalendar) {
   EXPECT_EQ(parse_utc("1970-01-01T00:00:00Z", "t"), 0);
   EXPECT_EQ(parse_utc("2000-02-29T12:00Z", "t"), 951825600'000'000'000);
