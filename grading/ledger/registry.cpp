@@ -105,7 +105,7 @@ Registry read_registry(const LedgerContent& content) {
           if (std::none_of(r.sessions.begin(), r.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
             say("releases a result that does not count");
         release(r, e.seq, e.utc_ns, results);
-      } else if (e.kind != "init" && e.kind != "forget") {
+      } else if (e.kind != "init" && e.kind != "forget" && e.kind != "restore") {
         say("is of a kind that this version does not know: '" + e.kind + "'");
       }
     } catch (const std::out_of_range&) {

@@ -1,0 +1,150 @@
+#include "grading/ledger/history.h"
+
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/session/session.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/merkle.h"
+#include "grading/ledger/witness.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+/// Roots of the first 1, 2, 3 … leaves, for the price of one tree: complete subtrees from the left, joined from the right.
+class GrowingRoot {
+ public:
+  Sha256 add(const Sha256& leaf) {
+    complete_.push_back(leaf);
+    for (std::uint64_t n = ++size_; (n & 1) == 0; n >>= 1) {
+      const Sha256 right = complete_.back();
+      complete_.pop_back();
+      complete_.back() = node_hash(complete_.back(), right);
+    }
+    Sha256 root = complete_.back();
+    for (std::size_t i = complete_.size() - 1; i-- > 0;) root = node_hash(complete_[i], root);
+    return root;
+  }
+
+ private:
+  std::vector<Sha256> complete_;
+  std::uint64_t size_ = 0;
+};
+
+bool begins_with(const std::vector<Sha256>& roots, const Checkpoint& p) {
+  return p.size > 0 && p.size <= roots.size() && roots[p.size - 1] == p.root;
+}
+
+}  // namespace
+
+std::vector<Sha256> roots_of(const LedgerContent& c) {
+  GrowingRoot growing;
+  std::vector<Sha256> roots;
+  for (const auto& e : c.entries) roots.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
+  return roots;
+}
+
+std::vector<RestoredHere> restores_of(const LedgerContent& c) {
+  std::vector<RestoredHere> out;
+  for (const auto& e : c.entries) {
+    if (e.kind != "restore") continue;
+    RestoredHere r{e.seq, e.utc_ns, text_in(e.body, "reason"), 0, {}};
+    const json& lost = member_of(e.body, "lost");
+    if (lost.is_object()) {
+      r.lost_size = static_cast<std::uint64_t>(std::max<std::int64_t>(whole_in(lost, "size"), 0));
+      try {
+        r.lost_root = fixed_from_hex<32>(text_in(lost, "root"), "restore");
+      } catch (const Error&) {  // it then stands for no loss
+        r.lost_size = 0;
+      }
+    }
+    out.push_back(std::move(r));
+  }
+  return out;
+}
+
+std::string in_words(const RestoredHere& r) {
+  const std::string begin = "entry " + std::to_string(r.seq) + ": on " + utc_text(r.utc_ns) + " the ledger went on from a backup of " +
+                            std::to_string(r.seq) + (r.seq == 1 ? " entry; " : " entries; ");
+  if (r.lost_size == 0) return begin + "nothing was known to be lost";
+  return begin + std::to_string(r.lost_size - std::min(r.lost_size, r.seq)) +
+         " later ones were lost, which the school accepted: " + one_line(r.reason);
+}
+
+std::optional<RestoredHere> recorded_loss(const std::vector<RestoredHere>& restores, const Checkpoint& seen) {
+  for (const auto& r : restores)
+    if (r.seq < seen.size && seen.size <= r.lost_size && (seen.size < r.lost_size || seen.root == r.lost_root)) return r;
+  return {};
+}
+
+Standing standing_of(const LedgerContent& ledger, const Checkpoint& seen) {
+  const auto roots = roots_of(ledger);
+  if (begins_with(roots, seen)) return Standing::begins_with_it;
+  if (recorded_loss(restores_of(ledger), seen)) return Standing::loss_on_record;
+  return seen.size > roots.size() ? Standing::older_copy : Standing::rewritten;
+}
+
+Standing check_history(const LedgerContent& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
+                       std::vector<std::string>& findings) {
+  if (ledger.id != id) {
+    findings.push_back(what + " is of another ledger");
+    return Standing::begins_with_it;
+  }
+  const Standing standing = standing_of(ledger, seen);
+  if (standing == Standing::older_copy)
+    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.entries.size()) + " entries, " + what + " saw " +
+                       std::to_string(seen.size));
+  if (standing == Standing::rewritten) findings.push_back("the ledger no longer begins with what " + what + " saw: history was rewritten");
+  return standing;
+}
+
+void check_checkpoints(LedgerContent& c) {
+  const auto roots = roots_of(c);
+  if (c.public_key.size() != 64 || c.public_key.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    c.findings.push_back("entry 0: names no school's public key");
+    return;
+  }
+  std::uint64_t expected = 0;
+  for (const auto& p : c.checkpoints) {
+    const std::string name = "checkpoint " + std::to_string(p.size);
+    const bool again = p.is_note && p.size == expected;  // the last one before notes were signed has both forms
+    if (!again && p.size != ++expected) {
+      c.findings.push_back("checkpoint " + std::to_string(expected) + ": is missing");
+      expected = p.size;
+    }
+    if (!is_signed_by_school(c.id, c.public_key, p)) c.findings.push_back(name + ": the school's signature does not hold");
+    if (p.size > roots.size())
+      c.findings.push_back(name + ": signed for " + std::to_string(p.size) + " entries, and there are " + std::to_string(roots.size()) +
+                           ": entries were taken out");
+    else if (p.size > 0 && roots[p.size - 1] != p.root)
+      c.findings.push_back(name + ": an entry up to number " + std::to_string(p.size - 1) + " is not what the school signed");
+  }
+  if (expected < c.entries.size()) c.findings.push_back("entry " + std::to_string(expected) + ": the school has signed nothing from here on");
+}
+
+void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
+  c.witnessed = !witnessed.empty();
+  const auto roots = roots_of(c);
+  const auto restores = restores_of(c);
+  const Checkpoint *ahead = nullptr, *other = nullptr;
+  for (const auto& w : witnessed) {
+    if (begins_with(roots, w) || recorded_loss(restores, w)) continue;
+    if (w.is_note && !is_signed_by_school(c.id, c.public_key, w)) {
+      c.findings.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
+      return;
+    }
+    const Checkpoint*& first = w.size > roots.size() ? ahead : other;
+    if (first == nullptr || (w.size > roots.size() && w.size > first->size)) first = &w;
+  }
+  if (ahead != nullptr)
+    c.findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(roots.size()) + " entries, and had " +
+                         std::to_string(ahead->size) + " on " + utc_text(ahead->utc_ns));
+  if (other != nullptr)
+    c.findings.push_back("the ledger's first " + std::to_string(other->size) + " entries are not those of " + utc_text(other->utc_ns) +
+                         ": history was rewritten");
+}
+
+}  // namespace cavum

@@ -1,0 +1,43 @@
+// Is the ledger still what somebody saw of it? It was put back to an older copy, its history was rewritten, or it was continued from a backup and
+// says so itself in a `restore` entry.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/ledger/ledger_content.h"
+
+namespace cavum {
+
+/// Where a ledger goes on from a backup: what its `restore` entry says.
+struct RestoredHere {
+  std::uint64_t seq = 0;  ///< of the entry; the backup held the entries before it
+  std::int64_t utc_ns = 0;
+  std::string reason;           ///< why the school accepted the loss; empty when nothing was known to be lost
+  std::uint64_t lost_size = 0;  ///< the largest size that anything at hand had seen; 0: nothing was known to be lost
+  Sha256 lost_root{};           ///< and its root
+};
+[[nodiscard]] std::vector<RestoredHere> restores_of(const LedgerContent& content);
+/// For people who check the ledger.
+[[nodiscard]] std::string in_words(const RestoredHere& restored);
+/// The restore that says that `seen` was lost; nothing when none does.
+[[nodiscard]] std::optional<RestoredHere> recorded_loss(const std::vector<RestoredHere>& restores, const Checkpoint& seen);
+
+/// Roots of the first 1, 2, 3 … entries.
+[[nodiscard]] std::vector<Sha256> roots_of(const LedgerContent& content);
+
+/// How the ledger stands to a checkpoint that somebody saw.
+enum class Standing { begins_with_it, older_copy, rewritten, loss_on_record };
+[[nodiscard]] Standing standing_of(const LedgerContent& ledger, const Checkpoint& seen);
+/// Adds to `findings` what is wrong when the ledger is not `id`, or no longer begins with the entries of the checkpoint `seen`, and no `restore`
+/// entry says so. `what`: what bears it ("the receipt"). Returns how it stands; begins_with_it for another ledger.
+Standing check_history(const LedgerContent& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
+                       std::vector<std::string>& findings);
+
+/// Adds findings to `content`: checkpoints whose signature does not hold, that miss, or that are not of its entries.
+void check_checkpoints(LedgerContent& content);
+/// The same of what this computer's witness remembers.
+void check_witness(LedgerContent& content, const std::vector<Checkpoint>& witnessed);
+
+}  // namespace cavum
