@@ -48,6 +48,8 @@ int ledger_restore(const LedgerOptions& o) {
   for (const auto& l : plan.lost_entries) std::cout << "  - lost: " << one_line(l) << "\n";
   for (const auto& m : plan.missing_sessions) std::cout << "  - session " << m << ": its file is not in the backup, or was changed\n";
   if (!plan.identities) std::cout << "  not in it: who is behind the pseudonyms; copy identities.db from where it is kept\n";
+  if (plan.identities && (plan.last_seen || !plan.compared))
+    std::cout << "  whoever was forgotten after it was taken is known in it: forget them again\n";
   if (!plan.compared)
     std::cout << "  not checked: whether entries are lost, for this computer has no witness of the ledger; name receipts or cosigned notes\n";
   if (refused)

@@ -125,6 +125,7 @@ void compare(RestorePlan& plan, const std::string& id, const Checkpoint& seen, c
     return;
   }
   if (!entry.empty()) plan.lost_entries.push_back(entry);
+  plan.lost.push_back(seen);
   if (!plan.last_seen || seen.size > plan.last_seen->checkpoint.size) plan.last_seen = Seen{what, seen};
 }
 
@@ -218,12 +219,10 @@ void restore(const std::string& backup, const std::string& folder, const Restore
   static_cast<void>(copy_sessions(plan.content, from, to, copied));
   static_cast<void>(copy_identities(plan.content, from, to));
   copy_database(from.database(), to.database());
-  json lost = nullptr;
-  if (plan.last_seen) {
-    const Checkpoint& p = plan.last_seen->checkpoint;
-    lost = {
-        {"size", p.size}, {"root", to_hex(p.root)}, {"utc_ns", p.utc_ns}, {"seen_by", plan.last_seen->what == "the witness" ? "witness" : "note"}};
-  }
+  std::set<std::pair<std::uint64_t, std::string>> seen;
+  for (const auto& p : plan.lost) seen.emplace(p.size, to_hex(p.root));
+  json lost = json::array();
+  for (const auto& [size, root] : seen) lost.push_back({{"size", size}, {"root", root}});
   Ledger ledger(folder, key, LedgerUse::restore);
   ledger.append("restore", [&](const LedgerContent& c) {
     return json{{"backup", {{"size", c.entries.size()}, {"root", to_hex(merkle_root(leaves_of(c)))}}},

@@ -31,7 +31,8 @@ struct RestorePlan {
   std::vector<std::string> findings;          ///< the backup does not hold, or is another history than what was seen: it is not restored
   std::vector<std::string> missing_sessions;  ///< filed in it, and their files are gone or changed: SHA-256
   std::vector<std::string> lost_entries;      ///< in words: entries after the backup
-  std::optional<Seen> last_seen;              ///< of the lost entries, the one with most
+  std::vector<Checkpoint> lost;               ///< every checkpoint that was seen of them
+  std::optional<Seen> last_seen;              ///< the one with most entries
   bool identities = false;
   bool compared = false;  ///< a witness, receipt or note was at hand
 };
@@ -39,7 +40,7 @@ struct RestorePlan {
 /// ledger, or a file cannot be read.
 [[nodiscard]] RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes);
 /// Makes the ledger anew in `folder`, which must not be there, and enters there that it goes on from a backup and what was lost: body
-/// {backup{root, size}, lost{root, seen_by, size, utc_ns} or null, missing_sessions[], reason}. Throws Error when the plan has findings, or entries
+/// {backup{root, size}, lost[{root, size}], missing_sessions[], reason}. Throws Error when the plan has findings, or entries
 /// were lost and `reason` does not say why the school accepts it; one line of UTF-8, 1000 bytes at most.
 void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key);
 

@@ -51,15 +51,15 @@ std::vector<RestoredHere> restores_of(const LedgerContent& c) {
   std::vector<RestoredHere> out;
   for (const auto& e : c.entries) {
     if (e.kind != "restore") continue;
-    RestoredHere r{e.seq, e.utc_ns, text_in(e.body, "reason"), 0, {}};
-    const json& lost = member_of(e.body, "lost");
-    if (lost.is_object()) {
-      r.lost_size = static_cast<std::uint64_t>(std::max<std::int64_t>(whole_in(lost, "size"), 0));
-      try {
-        r.lost_root = fixed_from_hex<32>(text_in(lost, "root"), "restore");
-      } catch (const Error&) {  // it then stands for no loss
-        r.lost_size = 0;
+    RestoredHere r{e.seq, e.utc_ns, text_in(e.body, "reason"), {}, 0};
+    try {
+      for (const json& seen : member_of(e.body, "lost")) {
+        r.lost.emplace_back(require_whole<std::uint64_t>(seen, "size", "restore"), fixed_from_hex<32>(text_in(seen, "root"), "restore"));
+        r.lost_size = std::max(r.lost_size, r.lost.back().first);
       }
+    } catch (const Error&) {  // it then stands for no loss
+      r.lost.clear();
+      r.lost_size = 0;
     }
     out.push_back(std::move(r));
   }
@@ -70,13 +70,21 @@ std::string in_words(const RestoredHere& r) {
   const std::string begin = "entry " + std::to_string(r.seq) + ": on " + utc_text(r.utc_ns) + " the ledger went on from a backup of " +
                             std::to_string(r.seq) + (r.seq == 1 ? " entry; " : " entries; ");
   if (r.lost_size == 0) return begin + "nothing was known to be lost";
-  return begin + std::to_string(r.lost_size - std::min(r.lost_size, r.seq)) +
-         " later ones were lost, which the school accepted: " + one_line(r.reason);
+  const std::uint64_t lost = r.lost_size - std::min(r.lost_size, r.seq);
+  return begin + std::to_string(lost) + (lost == 1 ? " later entry was lost" : " later entries were lost") +
+         ", which the school accepted: " + one_line(r.reason);
 }
 
 std::optional<RestoredHere> recorded_loss(const std::vector<RestoredHere>& restores, const Checkpoint& seen) {
-  for (const auto& r : restores)
-    if (r.seq < seen.size && seen.size <= r.lost_size && (seen.size < r.lost_size || seen.root == r.lost_root)) return r;
+  for (const auto& r : restores) {
+    if (seen.size <= r.seq || seen.size > r.lost_size) continue;
+    bool same_size = false, same = false;
+    for (const auto& [size, root] : r.lost) {
+      same_size = same_size || size == seen.size;
+      same = same || (size == seen.size && root == seen.root);
+    }
+    if (same || !same_size) return r;
+  }
   return {};
 }
 

@@ -14,14 +14,15 @@ namespace cavum {
 struct RestoredHere {
   std::uint64_t seq = 0;  ///< of the entry; the backup held the entries before it
   std::int64_t utc_ns = 0;
-  std::string reason;           ///< why the school accepted the loss; empty when nothing was known to be lost
-  std::uint64_t lost_size = 0;  ///< the largest size that anything at hand had seen; 0: nothing was known to be lost
-  Sha256 lost_root{};           ///< and its root
+  std::string reason;  ///< why the school accepted the loss; empty when nothing was known to be lost
+  /// What anything at hand had seen of the lost entries: sizes and roots, a size twice when two histories were lost.
+  std::vector<std::pair<std::uint64_t, Sha256>> lost;
+  std::uint64_t lost_size = 0;  ///< the largest of them; 0: nothing was known to be lost
 };
 [[nodiscard]] std::vector<RestoredHere> restores_of(const LedgerContent& content);
 /// For people who check the ledger.
 [[nodiscard]] std::string in_words(const RestoredHere& restored);
-/// The restore that says that `seen` was lost; nothing when none does.
+/// The restore that says that `seen` was lost: with this root, or, of a size that nobody had seen then, among smaller ones; nothing when none does.
 [[nodiscard]] std::optional<RestoredHere> recorded_loss(const std::vector<RestoredHere>& restores, const Checkpoint& seen);
 
 /// Roots of the first 1, 2, 3 … entries.
