@@ -166,6 +166,9 @@ TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAn
   expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"history was rewritten"});
   now = content();
   expect_finding(check_receipt(receipt, school_key(), &now), {"history was rewritten"});
+  std::filesystem::remove(witness_path(now.id));
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+  expect_finding(check_ledger(school_.places(), false).not_checked, {"whether an older copy was put back", "no witness"});
 }
 
 TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
