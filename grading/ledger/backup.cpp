@@ -116,10 +116,11 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
 }
 
 /// Adds what a checkpoint from outside tells of the backup.
-void compare(RestorePlan& plan, const std::string& id, const Checkpoint& seen, const std::string& what, const std::string& entry) {
+void compare(RestorePlan& plan, const History& history, const std::string& id, const Checkpoint& seen, const std::string& what,
+             const std::string& entry) {
   plan.compared = true;
   std::vector<std::string> wrong;
-  const Standing standing = check_history(plan.content, id, seen, what, wrong);
+  const Standing standing = check_history(history, id, seen, what, wrong);
   if (standing != Standing::older_copy) {
     for (auto& w : wrong) plan.findings.push_back(std::move(w));
     return;
@@ -164,6 +165,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   plan.findings = plan.content.findings;
   if (!plan.findings.empty()) return plan;
   const LedgerContent& c = plan.content;
+  const History history(c);
   for (const auto& hash : filed_sessions(c))
     if (!has_session(places, hash)) plan.missing_sessions.push_back(hash);
   plan.identities = fs::exists(places.identities());
@@ -172,7 +174,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     if (w.is_note && !is_signed_by_school(c.id, c.public_key, w))
       changed.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
     else
-      compare(plan, c.id, w, "the witness", "");
+      compare(plan, history, c.id, w, "the witness", "");
   }
   for (auto& f : changed) plan.findings.push_back(std::move(f));
   for (const auto& path : receipts) {
@@ -186,13 +188,13 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
                                                     : "entry " + std::to_string(seq) + ": " + one_line(text_in(entry, "kind")) +
                                                           (candidate.empty() ? "" : " of " + one_line(candidate)) +
                                                           (file.empty() ? "" : ", file " + one_line(file)) + " (" + path + ")";
-    compare(plan, id, checkpoint_in(receipt.at("checkpoint"), id, c.public_key, path), path, told);
+    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, c.public_key, path), path, told);
   }
   for (const auto& path : notes) {
     const ReadCheckpoint read = parse_checkpoint(read_text_file(path), c.public_key, path);
     if (!is_signed_by_school(read.ledger_id, c.public_key, read.checkpoint))
       throw Error(path, "the school's signature on it does not hold", "use an intact copy");
-    compare(plan, read.ledger_id, read.checkpoint, path, "");
+    compare(plan, history, read.ledger_id, read.checkpoint, path, "");
   }
   if (plan.last_seen) {
     const auto first = c.entries.size(), last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);

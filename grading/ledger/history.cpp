@@ -34,17 +34,11 @@ class GrowingRoot {
   std::uint64_t size_ = 0;
 };
 
-bool begins_with(const std::vector<Sha256>& roots, const Checkpoint& p) {
-  return p.size > 0 && p.size <= roots.size() && roots[p.size - 1] == p.root;
-}
-
 }  // namespace
 
-std::vector<Sha256> roots_of(const LedgerContent& c) {
+History::History(const LedgerContent& c) : id_(c.id), restores_(restores_of(c)) {
   GrowingRoot growing;
-  std::vector<Sha256> roots;
-  for (const auto& e : c.entries) roots.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
-  return roots;
+  for (const auto& e : c.entries) roots_.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
 }
 
 std::vector<RestoredHere> restores_of(const LedgerContent& c) {
@@ -75,42 +69,42 @@ std::string in_words(const RestoredHere& r) {
          ", which the school accepted: " + one_line(r.reason);
 }
 
-std::optional<RestoredHere> recorded_loss(const std::vector<RestoredHere>& restores, const Checkpoint& seen) {
-  for (const auto& r : restores) {
+const RestoredHere* History::recorded_loss(const Checkpoint& seen) const {
+  for (const auto& r : restores_) {
     if (seen.size <= r.seq || seen.size > r.lost_size) continue;
     bool same_size = false, same = false;
     for (const auto& [size, root] : r.lost) {
       same_size = same_size || size == seen.size;
       same = same || (size == seen.size && root == seen.root);
     }
-    if (same || !same_size) return r;
+    if (same || !same_size) return &r;
   }
-  return {};
+  return nullptr;
 }
 
-Standing standing_of(const LedgerContent& ledger, const Checkpoint& seen) {
-  const auto roots = roots_of(ledger);
-  if (begins_with(roots, seen)) return Standing::begins_with_it;
-  if (recorded_loss(restores_of(ledger), seen)) return Standing::loss_on_record;
-  return seen.size > roots.size() ? Standing::older_copy : Standing::rewritten;
+Standing History::standing_of(const Checkpoint& seen) const {
+  if (seen.size > 0 && seen.size <= roots_.size() && roots_[seen.size - 1] == seen.root) return Standing::begins_with_it;
+  if (recorded_loss(seen) != nullptr) return Standing::loss_on_record;
+  return seen.size > roots_.size() ? Standing::older_copy : Standing::rewritten;
 }
 
-Standing check_history(const LedgerContent& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
+Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
                        std::vector<std::string>& findings) {
-  if (ledger.id != id) {
+  if (ledger.ledger_id() != id) {
     findings.push_back(what + " is of another ledger");
     return Standing::begins_with_it;
   }
-  const Standing standing = standing_of(ledger, seen);
+  const Standing standing = ledger.standing_of(seen);
   if (standing == Standing::older_copy)
-    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.entries.size()) + " entries, " + what + " saw " +
+    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.roots().size()) + " entries, " + what + " saw " +
                        std::to_string(seen.size));
   if (standing == Standing::rewritten) findings.push_back("the ledger no longer begins with what " + what + " saw: history was rewritten");
   return standing;
 }
 
 void check_checkpoints(LedgerContent& c) {
-  const auto roots = roots_of(c);
+  const History history(c);
+  const auto& roots = history.roots();
   if (c.public_key.size() != 64 || c.public_key.find_first_not_of("0123456789abcdef") != std::string::npos) {
     c.findings.push_back("entry 0: names no school's public key");
     return;
@@ -135,17 +129,18 @@ void check_checkpoints(LedgerContent& c) {
 
 void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
   c.witnessed = !witnessed.empty();
-  const auto roots = roots_of(c);
-  const auto restores = restores_of(c);
+  const History history(c);
+  const auto& roots = history.roots();
   const Checkpoint *ahead = nullptr, *other = nullptr;
   for (const auto& w : witnessed) {
-    if (begins_with(roots, w) || recorded_loss(restores, w)) continue;
+    const Standing standing = history.standing_of(w);
+    if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
     if (w.is_note && !is_signed_by_school(c.id, c.public_key, w)) {
       c.findings.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
       return;
     }
-    const Checkpoint*& first = w.size > roots.size() ? ahead : other;
-    if (first == nullptr || (w.size > roots.size() && w.size > first->size)) first = &w;
+    if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;
+    if (standing == Standing::rewritten && other == nullptr) other = &w;
   }
   if (ahead != nullptr)
     c.findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(roots.size()) + " entries, and had " +

@@ -22,18 +22,26 @@ struct RestoredHere {
 [[nodiscard]] std::vector<RestoredHere> restores_of(const LedgerContent& content);
 /// For people who check the ledger.
 [[nodiscard]] std::string in_words(const RestoredHere& restored);
-/// The restore that says that `seen` was lost: with this root, or, of a size that nobody had seen then, among smaller ones; nothing when none does.
-[[nodiscard]] std::optional<RestoredHere> recorded_loss(const std::vector<RestoredHere>& restores, const Checkpoint& seen);
-
-/// Roots of the first 1, 2, 3 … entries.
-[[nodiscard]] std::vector<Sha256> roots_of(const LedgerContent& content);
-
-/// How the ledger stands to a checkpoint that somebody saw.
+/// How a ledger stands to a checkpoint that somebody saw.
 enum class Standing { begins_with_it, older_copy, rewritten, loss_on_record };
-[[nodiscard]] Standing standing_of(const LedgerContent& ledger, const Checkpoint& seen);
+/// A ledger's roots at every size, and what it says was lost; made once for many questions.
+class History {
+ public:
+  History(const LedgerContent& content);  // NOLINT(google-explicit-constructor): a ledger's content is asked as it is
+  [[nodiscard]] Standing standing_of(const Checkpoint& seen) const;
+  /// The restore that says that `seen` was lost: with this root, or, of a size that nobody had seen then, among smaller ones; null when none does.
+  [[nodiscard]] const RestoredHere* recorded_loss(const Checkpoint& seen) const;
+  [[nodiscard]] const std::string& ledger_id() const noexcept { return id_; }
+  [[nodiscard]] const std::vector<Sha256>& roots() const noexcept { return roots_; }  ///< of the first 1, 2, 3 … entries
+
+ private:
+  std::string id_;
+  std::vector<Sha256> roots_;
+  std::vector<RestoredHere> restores_;
+};
 /// Adds to `findings` what is wrong when the ledger is not `id`, or no longer begins with the entries of the checkpoint `seen`, and no `restore`
 /// entry says so. `what`: what bears it ("the receipt"). Returns how it stands; begins_with_it for another ledger.
-Standing check_history(const LedgerContent& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
+Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
                        std::vector<std::string>& findings);
 
 /// Adds findings to `content`: checkpoints whose signature does not hold, that miss, or that are not of its entries.

@@ -69,9 +69,12 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
       if (!is_consistent(from.size, from.root, p.size, p.root, hashes_in(consistency.at("proof"), "receipt: consistency")))
         findings.emplace_back("the earlier entries on the receipt are not the beginning of the later ones");
     }
-    if (ledger != nullptr && check_history(*ledger, id, p, "the receipt", findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
-      findings.push_back("the entry on the receipt was lost when the ledger went on from a backup (entry " +
-                         std::to_string(recorded_loss(restores_of(*ledger), p)->seq) + "): file its session again");
+    if (ledger != nullptr) {
+      const History history(*ledger);
+      if (check_history(history, id, p, "the receipt", findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
+        findings.push_back("the entry on the receipt was lost when the ledger went on from a backup (entry " +
+                           std::to_string(history.recorded_loss(p)->seq) + "): file its session again");
+    }
   } catch (const json::exception&) {
     findings.emplace_back("is no receipt: a part of it is missing or of another kind than `cavum ledger add --receipts` writes");
   } catch (const std::exception& e) {

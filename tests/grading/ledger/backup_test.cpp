@@ -116,7 +116,7 @@ TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
   const LedgerContent all = read_ledger(school_.places());
   EXPECT_TRUE(all.findings.empty());
   EXPECT_EQ(all.entries.size(), 4u + 3 * k_each);
-  for (const auto& p : copies) EXPECT_EQ(standing_of(all, p), Standing::begins_with_it) << p.size;
+  for (const auto& p : copies) EXPECT_EQ(History(all).standing_of(p), Standing::begins_with_it) << p.size;
   std::cout << copies.size() << " backups, " << different << " of them of a ledger that had grown\n";
   EXPECT_GE(different, 3) << "they were to be taken while it grows";
 }
@@ -230,13 +230,13 @@ TEST_F(BackedUp, WhereNoWitnessIsANoteOrAReceiptTells) {
   EXPECT_EQ(plan.last_seen->checkpoint.size, 7u);
   restore(backup(), restored().folder, plan, "moved to another computer", School::key());
   const LedgerContent c = read_ledger(restored());
-  EXPECT_EQ(standing_of(c, last), Standing::loss_on_record);
+  EXPECT_EQ(History(c).standing_of(last), Standing::loss_on_record);
   Checkpoint other = last;
   other.root[0] ^= 1;
-  EXPECT_NE(standing_of(c, other), Standing::loss_on_record) << "what was lost had that root and no other";
+  EXPECT_NE(History(c).standing_of(other), Standing::loss_on_record) << "what was lost had that root and no other";
   other = last;
   other.size = 8;
-  EXPECT_EQ(standing_of(c, other), Standing::older_copy) << "nor was more on record than what was seen";
+  EXPECT_EQ(History(c).standing_of(other), Standing::older_copy) << "nor was more on record than what was seen";
   std::string changed = read_text_file(school_.file("note"));
   changed.replace(changed.find("\n7\n"), 3, "\n9\n");
   write_text_file(school_.file("note"), changed);
@@ -285,6 +285,24 @@ TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
   back_up(true);
   EXPECT_FALSE(Identities(LedgerPlaces{backup()}.identities()).of_pseudonym(candidate));
   EXPECT_TRUE(Identities(school_.places().identities()).of_pseudonym(candidate)) << "the ledger's own file is not touched";
+}
+
+TEST_F(BackedUp, ACosignerRefusesARestoredLedgerUntilAPersonMovesWhatItRemembers) {
+  const std::string school = to_hex(School::key().public_key), id = read_ledger(school_.places()).id;
+  const Cosigner cosigner{"cosigner.example/one", load_signing_key(school_.file("cosigner.key"), "cosigner"), school_.file("memory"), school};
+  back_up();
+  add(2);
+  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
+  restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died", School::key());
+  Ledger ledger(restored().folder, School::key());
+  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 5), "request", 1).findings, {"older copy"});
+  for (int i = 0; i < 3; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-a"}}; });
+  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 6), "request", 1).findings, {"history was rewritten"});
+  fs::rename(school_.file("memory/" + id), school_.file("kept"));
+  EXPECT_TRUE(cosign(cosigner, cosign_request(ledger.content(), 0), "request", 1).findings.empty());
+  const auto check =
+      check_cosigned(read_text_file(school_.file("kept")).substr(read_text_file(school_.file("kept")).find('\n') + 1), {}, ledger.content());
+  EXPECT_TRUE(check.findings.empty()) << "what it signed before is on record as lost";
 }
 
 TEST_F(BackedUp, AnotherSchoolsKeyRestoresNothing) {

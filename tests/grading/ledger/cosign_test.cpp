@@ -146,6 +146,19 @@ TEST_F(Cosigning, TrustsNoKeyThatTheFileItselfNames) {
     EXPECT_THROW(static_cast<void>(sign(bad, school_key())), Error) << bad;
 }
 
+TEST_F(Cosigning, AMemoryThatWasPutBackIsNotNoticed) {
+  ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
+  const std::string path = school_.file("memory/" + content().id), memory = read_text_file(path);
+  const Copy old = copy();
+  add(2);
+  ASSERT_TRUE(sign(cosign_request(content(), 1)).findings.empty());
+  put_back(old);
+  add(3);
+  expect_finding(sign(cosign_request(content(), 3)).findings, {"history was rewritten"});
+  write_text_file(path, memory);
+  EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty()) << "its own backups are the cosigner's affair";
+}
+
 /// The rows of the page about rollback: by which means each is seen.
 TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAndByNothingElse) {
   add(1);
