@@ -12,14 +12,19 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<LedgerOptions>();
   auto* ledger = app.add_subcommand("ledger", "Tickets, filed exams, results and their release, kept so that no change goes unseen");
   ledger->require_subcommand(1);
-  const auto verb = [&](const char* name, const char* what, const std::function<int(const LedgerOptions&)>& run) {
+  const auto keyless = [&](const char* name, const char* what, const char* folder, const std::function<int(const LedgerOptions&)>& run) {
     auto* v = ledger->add_subcommand(name, what);
-    v->add_option("folder", o->folder, "the ledger's folder")->required();
-    v->add_option("--key", o->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
+    v->add_option("folder", o->folder, folder)->required();
     v->callback([o, run, name, &exit_code] {
       if (o->folder.empty()) throw Error(std::string("cavum ledger ") + name, "no folder named", "name the ledger's folder");
       exit_code = run(*o);
     });
+    return v;
+  };
+  const auto verb = [&](const char* name, const char* what, const std::function<int(const LedgerOptions&)>& run,
+                        const char* folder = "the ledger's folder") {
+    auto* v = keyless(name, what, folder, run);
+    v->add_option("--key", o->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
     return v;
   };
   const auto done = [](void (*run)(const LedgerOptions&)) {
@@ -90,7 +95,9 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
 
   v = verb("verify", "Check every entry, signature, ticket and filed session", ledger_verify);
   v->add_flag("--replay", o->replay, "simulate every session again, too");
-  v->add_option("--receipt", o->receipt, "check this receipt, and that the ledger still begins with what it saw");
+  v->add_option("--receipt", o->receipts, "check this receipt, and that the ledger still begins with what it saw; may be repeated");
+  v->add_option("--cosigned", o->cosigned, "check this note of a cosigner, and that the ledger still begins with what it saw; may be repeated");
+  v->add_option("--cosigners", o->cosigners, "key lines of the cosigners whose word counts (default: $CAVUM_HOME/cosigners)");
   v->add_option("--results", o->results, "check this file of `export --format json`: signed by this school and unchanged");
   json_flag(v);
 
@@ -103,8 +110,9 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_flag("--with-simulated", o->with_simulated, "moodle and lti: also what simulated operators sat, marked, under no student's number");
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
 
-  v = verb("receipt", "Write an entry's receipt again", done(ledger_receipt));
+  v = verb("receipt", "Write an entry's receipt again: it proves without the ledger that the entry is in it", done(ledger_receipt));
   v->add_option("--entry", o->session_seq, "its number")->required();
+  v->add_option("--from-size", o->from_size, "prove also that the ledger's first entries, this many, are the beginning of it");
   v->add_option("--out", o->out, "file to write")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
 
@@ -113,6 +121,40 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
 
   v = verb("forget", "Remove a candidate's identity; all proofs stay valid", done(ledger_forget));
   v->add_option("--candidate", o->candidate, "pseudonym or the school's own number")->required();
+
+  v = verb("checkpoint", "Write what the school signs of the ledger, for a cosigner: with the proof that it goes on from what he signed before",
+           done(ledger_checkpoint));
+  v->add_option("--since", o->since, "entries that the cosigner signed before (default: those of the last cosignature in the ledger)");
+  v->add_option("--out", o->out, "file to write")->required();
+  v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+
+  v = keyless("cosign", "For another party, on another computer: sign a ledger's checkpoint, if it goes on from the one that was signed before",
+              "what `cavum ledger checkpoint` wrote", ledger_cosign);
+  v->add_option("--key", o->key, "the cosigner's own key, made when there is none (default: $CAVUM_HOME/cosigner.key)");
+  v->add_option("--name", o->name_of_cosigner, "name that stands in the signature (default: cavum.cosigner/ and the key's first digits)");
+  v->add_option("--school-key", o->school_key, "the school's public key, the first time: 64 hexadecimal digits, from the school itself");
+  v->add_option("--state", o->state, "folder that remembers what was signed (default: $CAVUM_HOME/cosigned)");
+  v->add_option("--out", o->out, "the note with the cosignature, to write")->required();
+  v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+  json_flag(v);
+
+  v = verb("add-cosignature", "Keep what a cosigner has signed, so that receipts show it", ledger_add_cosignature);
+  v->add_option("note", o->cosigned, "what `cavum ledger cosign` wrote")->required();
+  v->add_option("--cosigners", o->cosigners, "key lines of the cosigners whose word counts (default: $CAVUM_HOME/cosigners)");
+
+  v = keyless("backup", "Copy the ledger while it is in use: its entries at one moment, their checkpoint, the filed sessions", "the ledger's folder",
+              ledger_backup);
+  v->add_option("--out", o->out, "folder: a new one, or an earlier backup of the ledger, which is brought up to date")->required();
+  v->add_flag("--with-identities", o->with_identities, "also who is behind the pseudonyms: then keep the backup as you keep names");
+  json_flag(v);
+
+  v = verb("restore", "Go on from a backup: checks it, says what is missing, and enters that", ledger_restore, "the backup's folder");
+  v->add_option("--out", o->out, "folder of the ledger to make")->required();
+  v->add_option("--receipt", o->receipts, "a receipt at hand: shows entries that the backup lacks; may be repeated");
+  v->add_option("--cosigned", o->cosigned, "a cosigned note at hand, for the same; may be repeated");
+  v->add_option("--accept-loss", o->accept_loss,
+                "why the school goes on without entries that are lost, in one line; it is kept for ever, so no names");
+  json_flag(v);
 
   v = verb("show", "List what is filed", ledger_show);
   json_flag(v);

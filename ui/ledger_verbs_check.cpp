@@ -6,6 +6,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "grading/ledger/check_ledger.h"
+#include "grading/ledger/cosign.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/registry.h"
 #include "ui/ledger_verbs_parts.h"
@@ -21,9 +22,16 @@ int ledger_verify(const LedgerOptions& o) {
   const LedgerContent content = read_ledger(places);
   LedgerCheck check = check_ledger(places, o.replay);
   check_owner(check, places, content, o.key.empty() ? school_key_path() : o.key, school_public_key_path());
-  if (!o.receipt.empty()) {
-    const json receipt = json::parse(read_text_file(o.receipt), nullptr, false);
-    for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(o.receipt + ": " + f);
+  for (const auto& path : o.receipts) {
+    const json receipt = json::parse(read_text_file(path), nullptr, false);
+    for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(path + ": " + f);
+  }
+  const auto cosigners = cosigners_of(o);
+  check_cosignatures(content, cosigners, check.findings, check.not_checked);
+  for (const auto& path : o.cosigned) {
+    const auto note = check_cosigned(read_text_file(path), cosigners, content);
+    for (const auto& f : note.findings) check.findings.push_back(path + ": " + f);
+    for (const auto& n : note.not_checked) check.not_checked.push_back(path + ": " + n);
   }
   if (!o.results.empty())
     for (auto& f : check_results(read_text_file(o.results), content.public_key, &content)) check.findings.push_back(o.results + ": " + f);

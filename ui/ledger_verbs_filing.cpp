@@ -138,8 +138,12 @@ void ledger_receipt(const LedgerOptions& o) {
   const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
     throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
+  if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
+    throw Error("--from-size " + std::to_string(o.from_size), "is no number of entries that this ledger has had",
+                "give 1 to " + std::to_string(ledger.content().entries.size()));
   require_new(o, o.out);
-  write_school_file(o, o.out, ledger.receipt(static_cast<std::uint64_t>(o.session_seq)).dump(2) + "\n");
+  const json receipt = make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
+  write_school_file(o, o.out, receipt.dump(2) + "\n");
   std::cout << "written: " << one_line(o.out) << "\n";
 }
 

@@ -1,5 +1,6 @@
 // What the verbs of `cavum ledger` share: their options, and the functions behind them, by file: _filing (init, ticket, add, receipt), _results
-// (release, regrade, export, candidates, forget), _check (verify, show), _station (station).
+// (release, regrade, export, candidates, forget), _check (verify, show), _station (station), _cosign (checkpoint, cosign, add-cosignature), _backup
+// (backup, restore).
 #pragma once
 
 #include <string>
@@ -13,13 +14,13 @@ namespace cavum {
 
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
-                           receipt, results, reason, invite, enrol, revoke;
-  std::vector<std::string> sessions, chosen;
+                           results, reason, invite, enrol, revoke, name_of_cosigner, state, school_key, cosigners, accept_loss;
+  std::vector<std::string> sessions, chosen, receipts, cosigned;
   Grant grant;
   std::vector<std::uint64_t> chosen_sessions;
-  std::int64_t session_seq = -1;
+  std::int64_t session_seq = -1, since = -1, from_size = 0;
   bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
-       another_task = false, with_simulated = false;
+       another_task = false, with_simulated = false, with_identities = false;
 };
 
 /// The school's key: --key, else the one in its place. Throws Error when there is none.
@@ -28,6 +29,8 @@ struct LedgerOptions {
 void require_new(const LedgerOptions& options, const std::string& path);
 /// Writes what concerns the school alone, for its user alone; never over a file that came there meanwhile unless --overwrite allows it.
 void write_school_file(const LedgerOptions& options, const std::string& path, const std::string& text);
+/// Cosigners whose word counts: --cosigners, else those in their place. Throws Error when a file that was named is not there.
+[[nodiscard]] std::vector<NoteKey> cosigners_of(const LedgerOptions& options);
 /// The ledger's identities. Throws Error when one of them was changed by hand.
 [[nodiscard]] Identities sound_identities(const Ledger& ledger);
 
@@ -44,5 +47,10 @@ void ledger_forget(const LedgerOptions& options);
 int ledger_verify(const LedgerOptions& options);
 int ledger_show(const LedgerOptions& options);
 void ledger_station(const LedgerOptions& options);
+void ledger_checkpoint(const LedgerOptions& options);
+int ledger_cosign(const LedgerOptions& options);
+int ledger_add_cosignature(const LedgerOptions& options);
+int ledger_backup(const LedgerOptions& options);
+int ledger_restore(const LedgerOptions& options);
 
 }  // namespace cavum

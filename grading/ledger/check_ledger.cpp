@@ -6,6 +6,7 @@
 
 #include "engine/base/file.h"
 #include "engine/session/session_image.h"
+#include "grading/ledger/history.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/registry.h"
@@ -40,6 +41,7 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   auto& findings = out.findings;
   const Registry registry = read_registry(content);
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
+  for (const auto& r : restores_of(content)) out.remarks.push_back(in_words(r));
   const bool has_id = !content.id.empty();
   out.remarks.insert(out.remarks.end(), registry.remarks.begin(), registry.remarks.end());
   if (!has_id)

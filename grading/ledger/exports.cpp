@@ -8,7 +8,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/exported_grade.h"
-#include "grading/ledger/receipt.h"
+#include "grading/ledger/history.h"
 
 namespace cavum {
 namespace {
@@ -166,7 +166,7 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
                 {"public_key", ledger.content().public_key},
-                {"checkpoint", {{"size", p.size}, {"root", to_hex(p.root)}}}};
+                {"checkpoint", checkpoint_json(ledger.content().id, ledger.content().public_key, p, cosignatures_of(ledger.content(), p.size))}};
   const std::string signature = to_hex(ledger.key().sign(results_message(facts)));
   facts["signature"] = signature;
   return facts.dump();
@@ -185,10 +185,10 @@ std::vector<std::string> check_results(const std::string& text, const std::strin
     if (!is_signed_by(fixed_from_hex<32>(key, "public_key"), results_message(facts), signature))
       findings.emplace_back("the school's signature on the results does not hold: something was changed");
     if (ledger != nullptr) {
-      Checkpoint seen;
-      seen.size = require_whole<std::uint64_t>(facts.at("checkpoint"), "size", "results");
-      seen.root = fixed_from_hex<32>(facts.at("checkpoint").at("root"), "root");
-      check_history(*ledger, facts.at("ledger"), seen, "the export", findings);
+      const std::string id = facts.at("ledger");
+      const Checkpoint seen = checkpoint_in(facts.at("checkpoint"), id, key, "results");
+      if (seen.is_note && !is_signed_by_school(id, key, seen)) findings.emplace_back("the school's signature on the checkpoint does not hold");
+      check_history(*ledger, id, seen, "the export", findings);
     }
   } catch (const json::exception&) {
     findings.emplace_back("are no exported results: name a file that `cavum ledger export --format json` wrote");

@@ -28,11 +28,10 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
     migrate(db, fresh);
     const std::string id = random_hex(16);
     const LedgerEntry e = make_entry(0, "init", {{"ledger", id}, {"public_key", to_hex(key.public_key)}, {"school", school_name}});
-    Checkpoint p{1, merkle_root(std::span(&e.leaf, 1)), e.utc_ns, {}};
-    p.signature = key.sign(checkpoint_message(id, p));
+    const Checkpoint p = sign_checkpoint(id, 1, merkle_root(std::span(&e.leaf, 1)), e.utc_ns, key);
     {
       Transaction all(db);
-      insert(db, e, p, {});
+      insert(db, e, checkpoint_note(id, to_hex(key.public_key), p), {});
       all.commit();
     }
     db.run("PRAGMA journal_mode = DELETE");  // one file, to be renamed whole
@@ -50,18 +49,39 @@ Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)
   require_ledger(database_, places_.database());
   migrate(database_, places_.database());
   reload();
+  sign_last_as_note();
+}
+
+/// A ledger from before format 4, opened for the first time: what was signed last is signed as a note, too, so that it can be shown and cosigned.
+void Ledger::sign_last_as_note() {
+  if (content_.checkpoints.back().is_note) return;
+  Transaction all(database_);
+  refresh();
+  if (content_.checkpoints.back().is_note) return;
+  const Checkpoint last = content_.checkpoints.back();
+  const Checkpoint p = sign_checkpoint(content_.id, last.size, last.root, last.utc_ns, key_);
+  insert_note(database_, p.size, checkpoint_note(content_.id, content_.public_key, p));
+  all.commit();
+  content_.checkpoints.push_back(p);
+}
+
+void Ledger::keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures) {
+  Transaction all(database_);
+  for (const auto& s : cosignatures) insert_cosignature(database_, size, signature_line(s));
+  all.commit();
+  reload();
 }
 
 void Ledger::reload() {
   try {
-    content_ = read_content(database_, places_.database());
+    content_ = read_content(database_, places_.database(), use_ == LedgerUse::restore ? AskWitness::no : AskWitness::yes);
   } catch (const DatabaseError&) {
     content_.findings = schema_findings(database_);  // the cause, when tables were altered
     if (content_.findings.empty()) throw;
   }
   if (!content_.findings.empty())
     throw Error(places_.folder,
-                (use_ == LedgerUse::add ? "nothing is added to a ledger that does not hold (" : "nothing is told of a ledger that does not hold (") +
+                (use_ != LedgerUse::tell ? "nothing is added to a ledger that does not hold (" : "nothing is told of a ledger that does not hold (") +
                     content_.findings.front() + ")",
                 "see `cavum ledger verify " + places_.folder + "`, and go back to the copy that holds");
   if (content_.public_key != to_hex(key_.public_key))
@@ -78,9 +98,8 @@ const LedgerEntry& Ledger::append(const std::string& kind, const std::function<j
   LedgerEntry e = make_entry(content_.entries.size(), kind, body(content_));
   auto leaves = leaves_of(content_);
   leaves.push_back(e.leaf);
-  Checkpoint p{leaves.size(), merkle_root(leaves), e.utc_ns, {}};
-  p.signature = key_.sign(checkpoint_message(content_.id, p));
-  insert(database_, e, p, documents);
+  const Checkpoint p = sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key_);
+  insert(database_, e, checkpoint_note(content_.id, content_.public_key, p), documents);
   all.commit();
   content_.entries.push_back(std::move(e));
   content_.checkpoints.push_back(p);

@@ -16,8 +16,9 @@
 
 namespace cavum {
 
-/// What a ledger is opened for: to add to it, or to write of it what the school signs or knows by name.
-enum class LedgerUse { add, tell };
+/// What a ledger is opened for: to add to it, to write of it what the school signs or knows by name, or to let it go on from a backup, which the
+/// witness is not asked about.
+enum class LedgerUse { add, tell, restore };
 
 class Ledger {
  public:
@@ -37,9 +38,12 @@ class Ledger {
   const LedgerEntry& append(const std::string& kind, const std::function<nlohmann::json(const LedgerContent&)>& body,
                             std::span<const Bytes> documents = {});
   [[nodiscard]] nlohmann::json receipt(std::uint64_t seq) const { return make_receipt(content_, seq); }
+  /// Keeps what other parties have signed of the checkpoint of `size` entries. They were checked before.
+  void keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures);
 
  private:
   void reload();
+  void sign_last_as_note();
 
   LedgerPlaces places_;
   SigningKey key_;

@@ -1,11 +1,13 @@
 #include "grading/ledger/ledger_content.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "engine/base/json_fields.h"
 #include "engine/session/session.h"
 #include "engine/session/session_image.h"
+#include "grading/ledger/history.h"
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
@@ -15,26 +17,6 @@ namespace cavum {
 namespace {
 
 using nlohmann::json;
-
-/// Roots of the first 1, 2, 3 … leaves, for the price of one tree: complete subtrees from the left, joined from the right.
-class GrowingRoot {
- public:
-  Sha256 add(const Sha256& leaf) {
-    complete_.push_back(leaf);
-    for (std::uint64_t n = ++size_; (n & 1) == 0; n >>= 1) {
-      const Sha256 right = complete_.back();
-      complete_.pop_back();
-      complete_.back() = node_hash(complete_.back(), right);
-    }
-    Sha256 root = complete_.back();
-    for (std::size_t i = complete_.size() - 1; i-- > 0;) root = node_hash(complete_[i], root);
-    return root;
-  }
-
- private:
-  std::vector<Sha256> complete_;
-  std::uint64_t size_ = 0;
-};
 
 /// What the row says, as far as it can be read; else a finding.
 LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf, std::string attachment, std::vector<std::string>& findings) {
@@ -61,35 +43,6 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     findings.push_back(name + ": is no JSON object with kind, seq, utc_ns and body");
   }
   return e;
-}
-
-void check_tree(LedgerContent& c) {
-  GrowingRoot growing;
-  std::vector<Sha256> roots;
-  for (const auto& e : c.entries) roots.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
-  std::array<std::uint8_t, 32> key{};
-  try {
-    key = fixed_from_hex<32>(c.public_key, "public key");
-  } catch (const Error&) {
-    c.findings.push_back("entry 0: names no school's public key");
-    return;
-  }
-  std::uint64_t expected = 0;
-  for (const auto& p : c.checkpoints) {
-    const std::string name = "checkpoint " + std::to_string(p.size);
-    if (p.size != ++expected) {
-      c.findings.push_back("checkpoint " + std::to_string(expected) + ": is missing");
-      expected = p.size;
-    }
-    if (!is_signed_by(key, checkpoint_message(c.id, p), p.signature)) c.findings.push_back(name + ": the school's signature does not hold");
-    if (p.size > roots.size())
-      c.findings.push_back(name + ": signed for " + std::to_string(p.size) + " entries, and there are " + std::to_string(roots.size()) +
-                           ": entries were taken out");
-    else if (p.size > 0 && roots[p.size - 1] != p.root)
-      c.findings.push_back(name + ": an entry up to number " + std::to_string(p.size - 1) + " is not what the school signed");
-  }
-  if (c.checkpoints.size() < c.entries.size() && expected < c.entries.size())
-    c.findings.push_back("entry " + std::to_string(expected) + ": the school has signed nothing from here on");
 }
 
 /// A table that was taken out is a finding of check_schema; the others are read all the same.
@@ -119,22 +72,43 @@ void read_documents(Database& db, LedgerContent& c) {
     if (!named.contains(hash)) c.findings.push_back("document " + hash + ": belongs to no entry; it was put into the ledger's file");
 }
 
-void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
-  c.witnessed = !witnessed.empty();
-  if (witnessed.empty()) return;
-  GrowingRoot growing;
-  std::vector<Sha256> roots;
-  for (const auto& e : c.entries) roots.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
-  const Checkpoint& last = witnessed.back();
-  if (last.size > roots.size())
-    c.findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(roots.size()) + " entries, and had " +
-                         std::to_string(last.size) + " on " + utc_text(last.utc_ns));
-  for (const auto& w : witnessed)
-    if (w.size >= 1 && w.size <= roots.size() && roots[w.size - 1] != w.root) {
-      c.findings.push_back("the ledger's first " + std::to_string(w.size) + " entries are not those of " + utc_text(w.utc_ns) +
-                           ": history was rewritten");
-      break;
+/// Notes and cosignatures as they are stored; read when the ledger's id and key are known.
+struct StoredNotes {
+  std::vector<std::pair<std::uint64_t, std::string>> notes, cosignatures;
+};
+StoredNotes stored_notes(Database& db) {
+  StoredNotes out;
+  const auto read = [&](const char* table, const char* sql, auto& into) {
+    if (!has_table(db, table)) return;
+    auto rows = db.prepare(sql);
+    while (rows.step()) into.emplace_back(static_cast<std::uint64_t>(rows.integer(0)), rows.text(1));
+  };
+  read("note", "SELECT size, text FROM note ORDER BY size", out.notes);
+  read("cosignature", "SELECT size, line FROM cosignature ORDER BY size, line", out.cosignatures);
+  return out;
+}
+
+void take_notes(LedgerContent& c, const StoredNotes& stored) {
+  for (const auto& [size, text] : stored.notes) {
+    const std::string name = "checkpoint " + std::to_string(size);
+    try {
+      const ReadCheckpoint read = parse_checkpoint(text, c.public_key, name);
+      if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.public_key, read.checkpoint))
+        c.findings.push_back(name + ": its note is not as the school wrote it");
+      c.checkpoints.push_back(read.checkpoint);
+    } catch (const Error& e) {
+      c.findings.push_back(without_advice(e.what()));
     }
+  }
+  std::stable_sort(c.checkpoints.begin(), c.checkpoints.end(), [](const Checkpoint& a, const Checkpoint& b) { return a.size < b.size; });
+  for (const auto& [size, line] : stored.cosignatures) {
+    const std::string name = "cosignature under " + std::to_string(size) + " entries";
+    try {
+      c.cosignatures.push_back({size, parse_signature_line(line, name)});
+    } catch (const Error& e) {
+      c.findings.push_back(without_advice(e.what()));
+    }
+  }
 }
 
 }  // namespace
@@ -162,15 +136,11 @@ std::vector<Sha256> leaves_of(const LedgerContent& c) {
   return leaves;
 }
 
-Bytes checkpoint_message(const std::string& ledger_id, const Checkpoint& p) {
-  ByteWriter out;
-  static constexpr char k_purpose[] = "CVCHKPT1";
-  out.put_bytes({reinterpret_cast<const std::uint8_t*>(k_purpose), 8});
-  out.put_string(ledger_id);
-  out.put(p.size);
-  out.put_bytes(p.root);
-  out.put(p.utc_ns);
-  return out.take();
+std::vector<NoteSignature> cosignatures_of(const LedgerContent& c, std::uint64_t size) {
+  std::vector<NoteSignature> out;
+  for (const auto& s : c.cosignatures)
+    if (s.size == size) out.push_back(s.by);
+  return out;
 }
 
 std::map<std::string, std::string> documents_of(const LedgerEntry& e) {
@@ -182,7 +152,7 @@ std::map<std::string, std::string> documents_of(const LedgerEntry& e) {
   return out;
 }
 
-LedgerContent read_content(Database& db, const std::string& where) {
+LedgerContent read_content(Database& db, const std::string& where, AskWitness ask) {
   require_ledger(db, where);
   static_cast<void>(ledger_format(db, where));
   LedgerContent c;
@@ -193,7 +163,8 @@ LedgerContent read_content(Database& db, const std::string& where) {
   const std::string first = has_entries ? db.text("SELECT text FROM entry WHERE seq = 0") : "";
   const json begin = json::parse(first, nullptr, false);
   const std::string id = text_in(member_of(begin, "body"), "ledger");
-  const auto witnessed = id.size() == 32 && id.find('/') == std::string::npos ? read_witness(id, c.findings) : std::vector<Checkpoint>();
+  const bool known = ask == AskWitness::yes && id.size() == 32 && id.find('/') == std::string::npos;
+  const auto witnessed = known ? read_witness(id, c.findings) : std::vector<Checkpoint>();
   const bool alone = !db.in_transaction();
   if (alone) db.run("BEGIN");
   if (has_entries) {
@@ -210,6 +181,7 @@ LedgerContent read_content(Database& db, const std::string& where) {
     while (points.step())
       c.checkpoints.push_back({static_cast<std::uint64_t>(points.integer(0)), points.fixed_blob<32>(1), points.integer(2), points.fixed_blob<64>(3)});
   }
+  const StoredNotes notes = stored_notes(db);
   if (ledger_format(db, where) >= 3) read_documents(db, c);
   if (alone) db.run("COMMIT");
   if (c.entries.empty() || c.entries[0].kind != "init") {
@@ -219,7 +191,8 @@ LedgerContent read_content(Database& db, const std::string& where) {
   c.id = text_in(c.entries[0].body, "ledger");
   c.public_key = text_in(c.entries[0].body, "public_key");
   c.school = text_in(c.entries[0].body, "school");
-  check_tree(c);
+  take_notes(c, notes);
+  check_checkpoints(c);
   check_witness(c, witnessed);
   std::int64_t before = 0;
   for (const auto& e : c.entries) {
@@ -236,17 +209,17 @@ bool holds_parts_of_a_ledger(const LedgerPlaces& places) {
   return std::filesystem::exists(places.identities(), none) || sessions != std::filesystem::directory_iterator();
 }
 
-LedgerContent read_ledger(const LedgerPlaces& places) {
+LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
   if (!std::filesystem::exists(places.database())) throw Error(places.folder, "holds no ledger", instead_of_none(places.database()));
   try {
     Database live = Database::open(places.database(), false, k_long_wait);
-    return read_content(live, places.database());
+    return read_content(live, places.database(), ask);
   } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy in memory
   }
   std::vector<std::string> findings;
   Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
   try {
-    LedgerContent c = read_content(copy, places.database());
+    LedgerContent c = read_content(copy, places.database(), ask);
     c.findings.insert(c.findings.begin(), findings.begin(), findings.end());
     return c;
   } catch (const DatabaseError& e) {

@@ -11,6 +11,7 @@
 #include "engine/base/bytes.h"
 #include "engine/base/hash.h"
 #include "engine/session/sqlite.h"
+#include "grading/ledger/checkpoint.h"
 
 namespace cavum {
 
@@ -20,25 +21,21 @@ struct LedgerEntry {
   std::string text;
   Sha256 leaf{};
   std::string attachment;  ///< a result's JSON text, or nothing; its SHA-256 is in the text
-  std::string kind;        ///< `init`, `ticket`, `session`, `regrade`, `release`, `forget`
+  std::string kind;        ///< `init`, `ticket`, `session`, `regrade`, `release`, `forget`, `restore`
   nlohmann::json body;     ///< with `result` out of the attachment in place of `result_sha256`
   std::int64_t utc_ns = 0;
 };
-
-/// The school's word that the first `size` entries have this root.
-struct Checkpoint {
-  std::uint64_t size = 0;
-  Sha256 root{};
-  std::int64_t utc_ns = 0;
-  std::array<std::uint8_t, 64> signature{};
-};
-/// What is signed: "CVCHKPT1", the ledger's id, size, root, utc_ns.
-[[nodiscard]] Bytes checkpoint_message(const std::string& ledger_id, const Checkpoint& checkpoint);
 
 /// A text as it is hashed.
 [[nodiscard]] inline std::span<const std::uint8_t> ledger_bytes(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
+
+/// What another party has signed of a checkpoint. Outside the tree: anybody may take it out.
+struct Cosignature {
+  std::uint64_t size = 0;
+  NoteSignature by;
+};
 
 /// All that a ledger file holds, and what in it does not hold.
 struct LedgerContent {
@@ -47,7 +44,8 @@ struct LedgerContent {
   std::string school;      ///< its name
   bool witnessed = false;  ///< this computer has a witness of the ledger
   std::vector<LedgerEntry> entries;
-  std::vector<Checkpoint> checkpoints;
+  std::vector<Checkpoint> checkpoints;     ///< by size; the last one before format 4 in both forms
+  std::vector<Cosignature> cosignatures;   ///< by size; whose they are is not checked here
   std::map<std::string, Bytes> documents;  ///< by SHA-256 (hexadecimal): what results were marked anew by
   std::vector<std::string> findings;       ///< in words; empty when entries, tree and signatures hold
   std::vector<std::string> remarks;        ///< what is odd and may be harmless: a clock that was set back
@@ -66,13 +64,17 @@ struct LedgerPlaces {
 };
 /// True where filed sessions or identities are, whose ledger may be gone.
 [[nodiscard]] bool holds_parts_of_a_ledger(const LedgerPlaces& places);
+/// Is the witness of this computer asked? A copy that was taken while others go on adding is behind it and sound.
+enum class AskWitness { yes, no };
 /// Reads and checks a ledger file without changing it; with the witness, when this computer has one. Throws Error only when it is no ledger at all.
-[[nodiscard]] LedgerContent read_ledger(const LedgerPlaces& places);
+[[nodiscard]] LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask = AskWitness::yes);
 /// The same of a database that is open. Throws DatabaseError when it cannot be read.
-[[nodiscard]] LedgerContent read_content(Database& database, const std::string& where);
+[[nodiscard]] LedgerContent read_content(Database& database, const std::string& where, AskWitness ask = AskWitness::yes);
 
 /// The next entry, as it will be hashed. A `result` in the body goes into the attachment.
 [[nodiscard]] LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, nlohmann::json body);
+/// The cosignatures of one size.
+[[nodiscard]] std::vector<NoteSignature> cosignatures_of(const LedgerContent& content, std::uint64_t size);
 /// The tree's leaves, in order.
 [[nodiscard]] std::vector<Sha256> leaves_of(const LedgerContent& content);
 

@@ -86,7 +86,7 @@ Database open_for_adding(const std::string& path, bool make) {
   return db;
 }
 
-void insert(Database& db, const LedgerEntry& e, const Checkpoint& p, std::span<const Bytes> documents) {
+void insert(Database& db, const LedgerEntry& e, const std::string& note, std::span<const Bytes> documents) {
   for (const Bytes& d : documents) db.prepare("INSERT OR IGNORE INTO document (sha256, bytes) VALUES (?, ?)").bind(1, sha256(d)).bind(2, d).run();
   db.prepare("INSERT INTO entry (seq, text, leaf_sha256, attachment) VALUES (?, ?, ?, nullif(?, ''))")
       .bind(1, static_cast<std::int64_t>(e.seq))
@@ -94,12 +94,15 @@ void insert(Database& db, const LedgerEntry& e, const Checkpoint& p, std::span<c
       .bind(3, e.leaf)
       .bind(4, e.attachment)
       .run();
-  db.prepare("INSERT INTO checkpoint (size, root_sha256, utc_ns, signature) VALUES (?, ?, ?, ?)")
-      .bind(1, static_cast<std::int64_t>(p.size))
-      .bind(2, p.root)
-      .bind(3, p.utc_ns)
-      .bind(4, p.signature)
-      .run();
+  db.prepare("INSERT INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(e.seq + 1)).bind(2, note).run();
+}
+
+void insert_note(Database& db, std::uint64_t size, const std::string& note) {
+  db.prepare("INSERT OR IGNORE INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, note).run();
+}
+
+void insert_cosignature(Database& db, std::uint64_t size, const std::string& line) {
+  db.prepare("INSERT OR IGNORE INTO cosignature (size, line) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, line).run();
 }
 
 }  // namespace cavum

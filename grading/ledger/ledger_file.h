@@ -6,7 +6,7 @@
 namespace cavum {
 
 /// Version of the ledger's tables (SQLite `user_version`).
-inline constexpr int k_ledger_format = 3;
+inline constexpr int k_ledger_format = 4;
 /// SQLite `application_id`: "CavL".
 inline constexpr std::int64_t k_ledger_application_id = 0x4361764c;
 
@@ -20,8 +20,12 @@ void require_ledger(Database& database, const std::string& where);
 [[nodiscard]] std::int64_t ledger_format(Database& database, const std::string& where);
 /// Brings an older format up to date, in one transaction.
 void migrate(Database& database, const std::string& where);
-/// Adds an entry, its checkpoint, and the documents that the entry names, each unless it is there already.
-void insert(Database& database, const LedgerEntry& entry, const Checkpoint& checkpoint, std::span<const Bytes> documents);
+/// Adds an entry, the note of its checkpoint, and the documents that the entry names, each unless it is there already.
+void insert(Database& database, const LedgerEntry& entry, const std::string& note, std::span<const Bytes> documents);
+/// Adds the note of a checkpoint, unless it is there already.
+void insert_note(Database& database, std::uint64_t size, const std::string& note);
+/// Adds what another party signed of a checkpoint, unless it is there already.
+void insert_cosignature(Database& database, std::uint64_t size, const std::string& line);
 /// Tables, triggers, views and indexes that are not those that this version made: a view that shows people other figures, a trigger that is gone.
 void check_schema(Database& database, std::vector<std::string>& findings);
 /// The same of a database that could not be read: nothing when not even that can be told.

@@ -5,7 +5,7 @@
 
 namespace cavum {
 
-inline constexpr std::array<const char*, 3> k_ledger_migrations = {
+inline constexpr std::array<const char*, 4> k_ledger_migrations = {
     R"(CREATE TABLE entry (      -- append only
   seq INTEGER PRIMARY KEY,   -- 0, 1, 2 ...
   text TEXT NOT NULL,        -- {"body":...,"kind":...,"seq":...,"utc_ns":...}: the leaf of the tree
@@ -35,6 +35,20 @@ CREATE VIEW ticket AS SELECT seq, text ->> '$.body.ticket.candidate' AS candidat
   bytes BLOB NOT NULL
 ) STRICT;
 CREATE TRIGGER document_stays BEFORE UPDATE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
-CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)"};
+CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)",
+    // what the school signs can be checked by any program, and others can sign it, too
+    R"(CREATE TABLE note (       -- the checkpoint after each entry, as a C2SP signed note; table checkpoint holds those of before
+  size INTEGER PRIMARY KEY,  -- number of entries
+  text TEXT NOT NULL
+) STRICT;
+CREATE TABLE cosignature (   -- what other parties have signed of the notes; bound by nothing: anybody may take it out
+  size INTEGER NOT NULL,
+  line TEXT NOT NULL,        -- of the signature, with its line end
+  PRIMARY KEY (size, line)
+) STRICT;
+CREATE TRIGGER note_stays BEFORE UPDATE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER note_is_kept BEFORE DELETE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER cosignature_stays BEFORE UPDATE ON cosignature BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER cosignature_is_kept BEFORE DELETE ON cosignature BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)"};
 
 }  // namespace cavum

@@ -1,41 +1,55 @@
 #include "grading/ledger/receipt.h"
 
+#include <algorithm>
+
 #include "engine/base/json_fields.h"
 #include "engine/session/session.h"
+#include "grading/ledger/history.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
 
 namespace cavum {
+namespace {
 
 using nlohmann::json;
 
-json make_receipt(const LedgerContent& content, std::uint64_t seq) {
-  const auto leaves = leaves_of(content);
-  const Checkpoint& p = content.checkpoints.back();
-  json path = json::array();
-  for (const auto& h : inclusion_proof(leaves, seq)) path.push_back(to_hex(h));
-  return {{"ledger", content.id},
-          {"public_key", content.public_key},
-          {"entry", content.entries.at(seq).text},
-          {"seq", seq},
-          {"inclusion", path},
-          {"checkpoint",
-           {{"size", p.size}, {"root", to_hex(p.root)}, {"utc", utc_text(p.utc_ns)}, {"utc_ns", p.utc_ns}, {"signature", to_hex(p.signature)}}}};
+json hex_list(const std::vector<Sha256>& hashes) {
+  json out = json::array();
+  for (const auto& h : hashes) out.push_back(to_hex(h));
+  return out;
 }
 
-void check_history(const LedgerContent& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
-                   std::vector<std::string>& findings) {
-  if (ledger.id != id) {
-    findings.push_back(what + " is of another ledger");
-  } else if (ledger.entries.size() < seen.size) {
-    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.entries.size()) + " entries, " + what + " saw " +
-                       std::to_string(seen.size));
-  } else {
-    std::vector<Sha256> leaves;
-    for (const auto& e : ledger.entries) leaves.push_back(leaf_hash(ledger_bytes(e.text)));
-    if (!is_consistent(seen.size, seen.root, leaves.size(), merkle_root(leaves), consistency_proof(leaves, seen.size)))
-      findings.push_back("the ledger no longer begins with what " + what + " saw: history was rewritten");
-  }
+std::vector<Sha256> hashes_in(const json& list, const std::string& where) {
+  std::vector<Sha256> out;
+  for (const auto& h : list) out.push_back(fixed_from_hex<32>(h, where));
+  return out;
+}
+
+json told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_json(c.id, c.public_key, p, cosignatures_of(c, p.size)); }
+
+/// The entry that holds the same session as the text of a lost one.
+bool is_filed_again(const LedgerContent& ledger, const std::string& lost) {
+  const json entry = json::parse(lost, nullptr, false);
+  const std::string file = text_in(member_of(entry, "body"), "file_sha256");
+  return !file.empty() && std::any_of(ledger.entries.begin(), ledger.entries.end(),
+                                      [&](const LedgerEntry& e) { return e.kind == "session" && text_in(e.body, "file_sha256") == file; });
+}
+
+}  // namespace
+
+json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t from_size) {
+  const auto leaves = leaves_of(content);
+  json receipt = {{"ledger", content.id},
+                  {"public_key", content.public_key},
+                  {"entry", content.entries.at(seq).text},
+                  {"seq", seq},
+                  {"inclusion", hex_list(inclusion_proof(leaves, seq))},
+                  {"checkpoint", told(content, content.checkpoints.back())}};
+  if (from_size == 0) return receipt;
+  const auto from = std::find_if(content.checkpoints.rbegin(), content.checkpoints.rend(), [&](const Checkpoint& p) { return p.size == from_size; });
+  if (from == content.checkpoints.rend()) throw std::out_of_range("no such checkpoint");
+  receipt["consistency"] = {{"from", told(content, *from)}, {"proof", hex_list(consistency_proof(leaves, from_size))}};
+  return receipt;
 }
 
 std::vector<std::string> check_receipt(const json& receipt, const std::string& public_key, const LedgerContent* ledger) {
@@ -43,17 +57,24 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
   if (!receipt.is_object()) return {"is no receipt, for it is not JSON text of an object: name a file that `cavum ledger add --receipts` wrote"};
   try {
     const std::string id = receipt.at("ledger"), key = receipt.at("public_key"), entry = receipt.at("entry");
-    const json& c = receipt.at("checkpoint");
-    const Checkpoint p{require_whole<std::uint64_t>(c, "size", "receipt"), fixed_from_hex<32>(c.at("root"), "receipt: root"),
-                       require_whole<std::int64_t>(c, "utc_ns", "receipt"), fixed_from_hex<64>(c.at("signature"), "receipt: signature")};
-    std::vector<Sha256> path;
-    for (const auto& h : receipt.at("inclusion")) path.push_back(fixed_from_hex<32>(h, "receipt: inclusion"));
+    const Checkpoint p = checkpoint_in(receipt.at("checkpoint"), id, key, "receipt");
+    const auto path = hashes_in(receipt.at("inclusion"), "receipt: inclusion");
     if (!public_key.empty() && key != public_key) findings.emplace_back("the receipt is of another school's key");
-    if (!is_signed_by(fixed_from_hex<32>(key, "receipt: public_key"), checkpoint_message(id, p), p.signature))
-      findings.emplace_back("the school's signature on the receipt does not hold");
+    if (!is_signed_by_school(id, key, p)) findings.emplace_back("the school's signature on the receipt does not hold");
     if (!is_included(leaf_hash(ledger_bytes(entry)), require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
       findings.emplace_back("the entry on the receipt is not the one that the school signed");
-    if (ledger != nullptr) check_history(*ledger, id, p, "the receipt", findings);
+    if (const json& consistency = member_of(receipt, "consistency"); !consistency.is_null()) {
+      const Checkpoint from = checkpoint_in(consistency.at("from"), id, key, "receipt: consistency");
+      if (!is_signed_by_school(id, key, from)) findings.emplace_back("the school's signature under the earlier entries does not hold");
+      if (!is_consistent(from.size, from.root, p.size, p.root, hashes_in(consistency.at("proof"), "receipt: consistency")))
+        findings.emplace_back("the earlier entries on the receipt are not the beginning of the later ones");
+    }
+    if (ledger != nullptr) {
+      const History history(*ledger);
+      if (check_history(history, id, p, "the receipt", findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
+        findings.push_back("the entry on the receipt was lost when the ledger went on from a backup (entry " +
+                           std::to_string(history.recorded_loss(p)->seq) + "): file its session again");
+    }
   } catch (const json::exception&) {
     findings.emplace_back("is no receipt: a part of it is missing or of another kind than `cavum ledger add --receipts` writes");
   } catch (const std::exception& e) {

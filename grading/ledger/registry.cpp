@@ -109,7 +109,7 @@ Registry read_registry(const LedgerContent& content) {
         release(r, e.seq, e.utc_ns, results);
       } else if (e.kind == "station") {
         apply_station_entry(r.stations, e, content.public_key);
-      } else if (e.kind != "init" && e.kind != "forget") {
+      } else if (e.kind != "init" && e.kind != "forget" && e.kind != "restore") {
         say("is of a kind that this version does not know: '" + e.kind + "'");
       }
     } catch (const std::out_of_range&) {

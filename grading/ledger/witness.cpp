@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -25,8 +26,14 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     Checkpoint p;
-    std::string root;
-    if (!(words >> p.size >> root >> p.utc_ns)) break;  // a line that a power cut left short
+    std::string root, signature;
+    if (!(words >> p.size >> root >> p.utc_ns)) continue;
+    if (words >> signature) {
+      const auto bytes = from_base64(signature);
+      if (!bytes || bytes->size() != p.signature.size()) continue;
+      std::copy(bytes->begin(), bytes->end(), p.signature.begin());
+      p.is_note = true;
+    }
     try {
       p.root = fixed_from_hex<32>(root, path);
     } catch (const Error&) {
@@ -41,8 +48,11 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
 void tell_witness(const std::string& id, const Checkpoint& p) {
   const std::string path = witness_path(id);
   make_private_folder(std::filesystem::path(path).parent_path().string());
-  const std::string line = std::to_string(p.size) + " " + to_hex(p.root) + " " + std::to_string(p.utc_ns) + "\n";
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
+  std::string line = std::to_string(p.size) + " " + to_hex(p.root) + " " + std::to_string(p.utc_ns) + " " + to_base64(p.signature) + "\n";
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
+  char last = '\n';  // after a line that a power cut left short, a new one begins
+  const off_t end = fd >= 0 ? ::lseek(fd, 0, SEEK_END) : 0;
+  if (end > 0 && ::pread(fd, &last, 1, end - 1) == 1 && last != '\n') line.insert(0, "\n");
   const bool told = fd >= 0 && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fsync(fd) == 0;
   const int why = errno;
   if (fd >= 0) ::close(fd);

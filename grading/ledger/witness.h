@@ -6,10 +6,12 @@
 
 namespace cavum {
 
-/// $CAVUM_HOME/witness/ID, or below ~/.config/cavum: one line for each checkpoint, "size root utc_ns".
+/// $CAVUM_HOME/witness/ID, or below ~/.config/cavum: one line for each checkpoint, "size root utc_ns signature", root in hexadecimal digits. The
+/// signature, in base64, is the one under the checkpoint's note; lines of before format 4 have none.
 [[nodiscard]] std::string witness_path(const std::string& ledger_id);
 
-/// What it remembers, the oldest first; nothing when this computer has none. A line that was changed is a finding.
+/// What it remembers, the oldest first; nothing when this computer has none. A root that is none is a finding; a line that a
+/// power cut left short is left out.
 [[nodiscard]] std::vector<Checkpoint> read_witness(const std::string& ledger_id, std::vector<std::string>& findings);
 /// Adds a line, synced. Throws Error when that cannot be done; the next entry tells it again.
 void tell_witness(const std::string& ledger_id, const Checkpoint& checkpoint);

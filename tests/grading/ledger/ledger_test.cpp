@@ -9,9 +9,8 @@
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/csv.h"
 #include "grading/ledger/exports.h"
-#include "grading/ledger/ledger_file.h"
 #include "grading/ledger/ledger_schema.h"
-#include "tests/grading/ledger/school.h"
+#include "tests/grading/ledger/old_ledger.h"
 
 namespace cavum {
 namespace {
@@ -66,10 +65,7 @@ TEST(Ledger, AnotherSchoolsKeyIsRefused) {
 
 TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
   const School school;
-  {
-    Database old = Database::open(school.places().database(), false);
-    old.run("DROP VIEW session; DROP VIEW ticket; DROP TABLE document; PRAGMA user_version = 1");
-  }
+  make_old(school, 1);
   school.ticket("1");
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
   Database db = Database::open(school.places().database(), false);
@@ -86,7 +82,7 @@ TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
 TEST(Ledger, TheTablesRefuseChanges) {
   const School school;
   Database db = Database::open(school.places().database(), false);
-  for (const char* sql : {"UPDATE entry SET text = 'x'", "DELETE FROM entry", "UPDATE checkpoint SET size = 7", "DELETE FROM checkpoint"})
+  for (const char* sql : {"UPDATE entry SET text = 'x'", "DELETE FROM entry", "UPDATE note SET size = 7", "DELETE FROM note"})
     EXPECT_THROW(db.run(sql), DatabaseError) << sql;
 }
 

@@ -2,7 +2,7 @@
 #include "grading/ledger/regrade.h"
 
 #include "grading/ledger/ledger_file.h"
-#include "tests/grading/ledger/school.h"
+#include "tests/grading/ledger/old_ledger.h"
 
 namespace cavum {
 namespace {
@@ -13,31 +13,6 @@ using nlohmann::json;
 const std::string k_rubric =
     "[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = \"target_removed_percent\"\nfull = 50\n"
     "zero = 0\npoints = 10\n";
-
-/// Format 2, as it was before documents were kept: two programs apart, it must still be read and brought up to date.
-constexpr char k_format_2[] = R"(CREATE TABLE entry (      -- append only
-  seq INTEGER PRIMARY KEY,   -- 0, 1, 2 ...
-  text TEXT NOT NULL,        -- {"body":...,"kind":...,"seq":...,"utc_ns":...}: the leaf of the tree
-  leaf_sha256 BLOB NOT NULL, -- SHA-256(0x00 || text)
-  attachment TEXT            -- a result (JSON), bound by text's body.result_sha256: a receipt shows the text, and no marks
-) STRICT;
-CREATE TABLE checkpoint (    -- one after each entry: the school's signature over the tree so far
-  size INTEGER PRIMARY KEY,  -- number of entries, 1, 2, 3 ...
-  root_sha256 BLOB NOT NULL,
-  utc_ns INTEGER NOT NULL,   -- since 1970
-  signature BLOB NOT NULL    -- Ed25519
-) STRICT;
-CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
-CREATE TRIGGER entry_is_kept BEFORE DELETE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
-CREATE TRIGGER checkpoint_stays BEFORE UPDATE ON checkpoint BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
-CREATE TRIGGER checkpoint_is_kept BEFORE DELETE ON checkpoint BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
-CREATE VIEW session AS SELECT seq, text ->> '$.body.candidate' AS candidate, text ->> '$.body.scenario_id' AS scenario,
-  text ->> '$.body.file_sha256' AS file_sha256, attachment ->> '$.verdict' AS verdict, attachment ->> '$.score.points' AS points,
-  attachment ->> '$.score.max' AS points_max FROM entry WHERE text ->> '$.kind' = 'session';
-CREATE VIEW ticket AS SELECT seq, text ->> '$.body.ticket.candidate' AS candidate, text ->> '$.body.ticket.exam' AS scenario,
-  text ->> '$.body.ticket.nonce' AS nonce, text ->> '$.body.ticket.not_before' AS not_before, text ->> '$.body.ticket.not_after' AS not_after
-  FROM entry WHERE text ->> '$.kind' = 'ticket';
-PRAGMA application_id = 1130460748; PRAGMA user_version = 2)";
 
 /// A school with one filed exam; each test works on a copy.
 class KeptRegrade : public testing::Test {
@@ -143,25 +118,7 @@ TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
     receipt = ledger.receipt(session_);
   }
   const LedgerContent before = read_ledger(school_.places());
-  for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(school_.places().database() + end);
-  {
-    Database old = Database::open(school_.places().database(), true);
-    old.run(k_format_2);
-    for (const auto& e : before.entries)
-      old.prepare("INSERT INTO entry VALUES (?, ?, ?, nullif(?, ''))")
-          .bind(1, static_cast<std::int64_t>(e.seq))
-          .bind(2, e.text)
-          .bind(3, e.leaf)
-          .bind(4, e.attachment)
-          .run();
-    for (const auto& p : before.checkpoints)
-      old.prepare("INSERT INTO checkpoint VALUES (?, ?, ?, ?)")
-          .bind(1, static_cast<std::int64_t>(p.size))
-          .bind(2, p.root)
-          .bind(3, p.utc_ns)
-          .bind(4, p.signature)
-          .run();
-  }
+  make_old(school_, 2);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "it is read as it is";
   {
     Ledger ledger = school_.ledger();

@@ -1,0 +1,237 @@
+#include "grading/ledger/backup.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <set>
+
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/session/session_image.h"
+#include "grading/ledger/history.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/ledger_file.h"
+#include "grading/ledger/merkle.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t k_longest_acceptance = 1000;
+
+std::string checkpoint_path(const std::string& folder) { return folder + "/checkpoint"; }
+
+void make_private_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || ::chmod(path.c_str(), 0700) != 0) throw Error(path, "the folder cannot be made", "check the path, its permissions and the disk");
+}
+
+/// A database at one moment, whoever writes to it, under another name first. One file without a log.
+void copy_database(const std::string& from, const std::string& to) {
+  const std::string fresh = to + ".new";
+  std::error_code ignored;
+  for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(fresh + end, ignored);
+  const int fd = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (fd < 0) throw Error(to, "cannot be made", "check that the folder is writable and has room");
+  ::close(fd);
+  {
+    Database copy = Database::open(fresh, false);
+    copy.run("PRAGMA synchronous = FULL");
+    try {
+      Database source = Database::open(from, false);
+      source.copy_to(copy);
+    } catch (const DatabaseError& e) {
+      if (e.code() == SQLITE_FULL || e.code() == SQLITE_IOERR) throw;
+      std::vector<std::string> findings;  // a folder that may only be read
+      Database source = Database::from_image(read_session_image(from, findings), from);
+      source.copy_to(copy);
+    }
+    copy.run("PRAGMA journal_mode = DELETE");
+    copy.close();
+  }
+  fs::rename(fresh, to);
+}
+
+/// SHA-256 of the files of all filed sessions, each once.
+std::set<std::string> filed_sessions(const LedgerContent& c) {
+  std::set<std::string> out;
+  for (const auto& e : c.entries) {
+    const std::string hash = e.kind == "session" ? text_in(e.body, "file_sha256") : "";
+    if (hash.size() == 64 && hash.find_first_not_of("0123456789abcdef") == std::string::npos) out.insert(hash);
+  }
+  return out;
+}
+
+bool has_session(const LedgerPlaces& places, const std::string& hash) {
+  const std::string path = places.session(hash);
+  std::error_code none;
+  return fs::is_regular_file(path, none) && to_hex(sha256(read_file(path))) == hash;
+}
+
+/// Those that are not in `from`, or changed there. `copied` counts those that were not in `to` before.
+std::vector<std::string> copy_sessions(const LedgerContent& c, const LedgerPlaces& from, const LedgerPlaces& to, std::size_t& copied) {
+  std::vector<std::string> missing;
+  make_private_folder(to.folder + "/sessions");
+  for (const auto& hash : filed_sessions(c)) {
+    if (has_session(to, hash)) continue;
+    std::error_code none;
+    const Bytes bytes = fs::is_regular_file(from.session(hash), none) ? read_file(from.session(hash)) : Bytes();
+    if (to_hex(sha256(bytes)) != hash) {
+      missing.push_back(hash);
+      continue;
+    }
+    write_file(to.session(hash), bytes);
+    ::chmod(to.session(hash).c_str(), 0600);
+    ++copied;
+  }
+  return missing;
+}
+
+/// The identities, without those whom the ledger says were forgotten.
+bool copy_identities(const LedgerContent& c, const LedgerPlaces& from, const LedgerPlaces& to) {
+  if (!fs::exists(from.identities())) return false;
+  copy_database(from.identities(), to.identities());
+  Identities identities(to.identities());
+  for (const auto& e : c.entries)
+    if (e.kind == "forget") identities.forget(text_in(e.body, "candidate"));
+  return true;
+}
+
+/// Throws Error unless what is in the folder is an earlier state of the same ledger, or nothing.
+void require_place_for(const LedgerContent& content, const std::string& folder) {
+  std::error_code none;
+  if (!fs::exists(folder, none) || fs::is_empty(folder, none)) return;
+  if (!fs::exists(checkpoint_path(folder))) throw Error(folder, "holds something else than a backup", "name a new folder");
+  const LedgerContent before = read_ledger({folder}, AskWitness::no);
+  std::vector<std::string> findings;
+  if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), "the backup that is there", findings);
+  if (before.checkpoints.empty() || !findings.empty())
+    throw Error(folder, findings.empty() ? "holds a backup that cannot be read" : findings[0], "keep it, and name a new folder");
+}
+
+/// Adds what a checkpoint from outside tells of the backup.
+void compare(RestorePlan& plan, const History& history, const std::string& id, const Checkpoint& seen, const std::string& what,
+             const std::string& entry) {
+  plan.compared = true;
+  std::vector<std::string> wrong;
+  const Standing standing = check_history(history, id, seen, what, wrong);
+  if (standing != Standing::older_copy) {
+    for (auto& w : wrong) plan.findings.push_back(std::move(w));
+    return;
+  }
+  if (!entry.empty()) plan.lost_entries.push_back(entry);
+  plan.lost.push_back(seen);
+  if (!plan.last_seen || seen.size > plan.last_seen->checkpoint.size) plan.last_seen = Seen{what, seen};
+}
+
+}  // namespace
+
+Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_identities) {
+  const LedgerPlaces to{folder};
+  if (!fs::exists(from.database())) throw Error(from.folder, "holds no ledger", instead_of_none(from.database()));
+  std::error_code none;
+  if (fs::weakly_canonical(folder, none) == fs::weakly_canonical(from.folder, none))
+    throw Error(folder, "is the ledger itself", "name another folder");
+  const LedgerContent now = read_ledger(from);
+  if (!now.findings.empty())
+    throw Error(from.folder, "the ledger does not hold (" + now.findings[0] + "), and a backup of it would be taken for one that does",
+                "see `cavum ledger verify`; to keep it as evidence, copy the folder");
+  require_place_for(now, folder);
+  make_private_folder(folder);
+  copy_database(from.database(), to.database());
+  const LedgerContent copy = read_ledger(to, AskWitness::no);
+  if (!copy.findings.empty()) throw Error(to.database(), "the copy does not hold (" + copy.findings[0] + ")", "check the disk, and take it again");
+  Backup out;
+  out.ledger_id = copy.id;
+  out.checkpoint = copy.checkpoints.back();
+  out.missing = copy_sessions(copy, from, to, out.copied);
+  out.sessions = filed_sessions(copy).size() - out.missing.size();
+  if (with_identities) out.identities = copy_identities(copy, from, to);
+  const json told = checkpoint_json(copy.id, copy.public_key, out.checkpoint, cosignatures_of(copy, out.checkpoint.size));
+  write_text_file(checkpoint_path(folder), told.is_string() ? told.get<std::string>() : told.dump() + "\n");
+  return out;
+}
+
+RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes) {
+  const LedgerPlaces places{backup};
+  RestorePlan plan;
+  plan.content = read_ledger(places, AskWitness::no);
+  plan.findings = plan.content.findings;
+  if (!plan.findings.empty()) return plan;
+  const LedgerContent& c = plan.content;
+  const History history(c);
+  for (const auto& hash : filed_sessions(c))
+    if (!has_session(places, hash)) plan.missing_sessions.push_back(hash);
+  plan.identities = fs::exists(places.identities());
+  std::vector<std::string> changed;
+  for (const auto& w : read_witness(c.id, changed)) {
+    if (w.is_note && !is_signed_by_school(c.id, c.public_key, w))
+      changed.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
+    else
+      compare(plan, history, c.id, w, "the witness", "");
+  }
+  for (auto& f : changed) plan.findings.push_back(std::move(f));
+  for (const auto& path : receipts) {
+    const json receipt = json::parse(read_text_file(path), nullptr, false);
+    if (const auto wrong = check_receipt(receipt, c.public_key, nullptr); !wrong.empty()) throw Error(path, wrong[0], "use an intact copy");
+    const std::string id = receipt.at("ledger"), text = receipt.at("entry");
+    const json entry = json::parse(text, nullptr, false), &body = member_of(entry, "body");
+    const auto seq = receipt.at("seq").get<std::uint64_t>();
+    const std::string candidate = text_in(body, "candidate"), file = text_in(body, "file_sha256");
+    const std::string told = seq < c.entries.size() ? ""
+                                                    : "entry " + std::to_string(seq) + ": " + one_line(text_in(entry, "kind")) +
+                                                          (candidate.empty() ? "" : " of " + one_line(candidate)) +
+                                                          (file.empty() ? "" : ", file " + one_line(file)) + " (" + path + ")";
+    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, c.public_key, path), path, told);
+  }
+  for (const auto& path : notes) {
+    const ReadCheckpoint read = parse_checkpoint(read_text_file(path), c.public_key, path);
+    if (!is_signed_by_school(read.ledger_id, c.public_key, read.checkpoint))
+      throw Error(path, "the school's signature on it does not hold", "use an intact copy");
+    compare(plan, history, read.ledger_id, read.checkpoint, path, "");
+  }
+  if (plan.last_seen) {
+    const auto first = c.entries.size(), last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);
+    plan.lost_entries.insert(plan.lost_entries.begin(),
+                             "entr" +
+                                 (first == last ? "y " + std::to_string(first) : "ies " + std::to_string(first) + " to " + std::to_string(last)) +
+                                 ": seen by " + plan.last_seen->what);
+  }
+  return plan;
+}
+
+void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key) {
+  if (!plan.findings.empty()) throw Error(backup, plan.findings[0], "restore another backup");
+  if (plan.last_seen && (reason.empty() || reason.size() > k_longest_acceptance || !is_plain_text(reason)))
+    throw Error("--accept-loss", "gives no reason",
+                "say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names");
+  std::error_code none;
+  if (fs::exists(folder, none)) throw Error(folder, "is there already", "name a new folder");
+  if (plan.content.public_key != to_hex(key.public_key))
+    throw Error(backup, "belongs to another school's key", "name that key's file with --key, or restore it");
+  const LedgerPlaces from{backup}, to{folder};
+  make_private_folder(folder);
+  std::size_t copied = 0;
+  static_cast<void>(copy_sessions(plan.content, from, to, copied));
+  static_cast<void>(copy_identities(plan.content, from, to));
+  copy_database(from.database(), to.database());
+  std::set<std::pair<std::uint64_t, std::string>> seen;
+  for (const auto& p : plan.lost) seen.emplace(p.size, to_hex(p.root));
+  json lost = json::array();
+  for (const auto& [size, root] : seen) lost.push_back({{"size", size}, {"root", root}});
+  Ledger ledger(folder, key, LedgerUse::restore);
+  ledger.append("restore", [&](const LedgerContent& c) {
+    return json{{"backup", {{"size", c.entries.size()}, {"root", to_hex(merkle_root(leaves_of(c)))}}},
+                {"lost", lost},
+                {"missing_sessions", plan.missing_sessions},
+                {"reason", reason}};
+  });
+}
+
+}  // namespace cavum

@@ -1,0 +1,117 @@
+#include "grading/ledger/checkpoint.h"
+
+#include <charconv>
+#include <vector>
+
+#include "engine/base/json_fields.h"
+#include "engine/session/session.h"
+#include "grading/ledger/ledger_key.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::string_view k_origin = "cavum.ledger/", k_time = "utc_ns ";
+constexpr std::size_t k_id_digits = 32;
+
+[[noreturn]] void no_checkpoint(const std::string& where, const std::string& why) {
+  throw Error(where, "is no checkpoint of a ledger: " + why, "name a note that `cavum ledger` wrote, unchanged");
+}
+
+template <class Whole>
+Whole whole(std::string_view digits, const std::string& where, const std::string& what) {
+  Whole out{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
+  if (error != std::errc() || end != digits.data() + digits.size()) no_checkpoint(where, what + " is no whole number");
+  return out;
+}
+
+}  // namespace
+
+std::string ledger_origin(const std::string& id) { return std::string(k_origin) + id; }
+
+NoteKey checkpoint_key(const std::string& id, const std::string& public_key) {
+  return {ledger_origin(id), NoteKind::signature, fixed_from_hex<32>(public_key, "public key")};
+}
+
+std::string checkpoint_text(const std::string& id, const Checkpoint& p) {
+  return ledger_origin(id) + "\n" + std::to_string(p.size) + "\n" + to_base64(p.root) + "\n" + std::string(k_time) + std::to_string(p.utc_ns) + "\n";
+}
+
+Bytes checkpoint_message(const std::string& id, const Checkpoint& p) {
+  ByteWriter out;
+  static constexpr char k_purpose[] = "CVCHKPT1";
+  out.put_bytes({reinterpret_cast<const std::uint8_t*>(k_purpose), 8});
+  out.put_string(id);
+  out.put(p.size);
+  out.put_bytes(p.root);
+  out.put(p.utc_ns);
+  return out.take();
+}
+
+Checkpoint sign_checkpoint(const std::string& id, std::uint64_t size, const Sha256& root, std::int64_t utc_ns, const SigningKey& key) {
+  Checkpoint p{size, root, utc_ns, {}, true};
+  const std::string text = checkpoint_text(id, p);
+  p.signature = key.sign({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return p;
+}
+
+bool is_signed_by_school(const std::string& id, const std::string& public_key, const Checkpoint& p) {
+  const auto key = fixed_from_hex<32>(public_key, "public key");
+  if (!p.is_note) return is_signed_by(key, checkpoint_message(id, p), p.signature);
+  const std::string text = checkpoint_text(id, p);
+  return is_signed_by(key, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, p.signature);
+}
+
+std::string checkpoint_note(const std::string& id, const std::string& public_key, const Checkpoint& p, std::span<const NoteSignature> cosignatures) {
+  const NoteKey key = checkpoint_key(id, public_key);
+  SignedNote note{checkpoint_text(id, p), {{key.name, key_id_of(key), Bytes(p.signature.begin(), p.signature.end())}}};
+  note.signatures.insert(note.signatures.end(), cosignatures.begin(), cosignatures.end());
+  return write_note(note);
+}
+
+ReadCheckpoint parse_checkpoint(const std::string& text, const std::string& public_key, const std::string& where) {
+  ReadCheckpoint out{{}, {}, parse_note(text, where)};
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from < out.note.text.size();) {
+    const auto end = out.note.text.find('\n', from);
+    lines.push_back(out.note.text.substr(from, end - from));
+    from = end + 1;
+  }
+  if (lines.size() != 4 || !lines[0].starts_with(k_origin) || !lines[3].starts_with(k_time))
+    no_checkpoint(where, "its text is not the four lines origin, size, root and time");
+  out.ledger_id = lines[0].substr(k_origin.size());
+  if (out.ledger_id.size() != k_id_digits || out.ledger_id.find_first_not_of("0123456789abcdef") != std::string::npos)
+    no_checkpoint(where, "its origin names no ledger");
+  Checkpoint& p = out.checkpoint;
+  p.is_note = true;
+  p.size = whole<std::uint64_t>(lines[1], where, "its size");
+  p.utc_ns = whole<std::int64_t>(std::string_view(lines[3]).substr(k_time.size()), where, "its time");
+  const auto root = from_base64(lines[2]);
+  if (!root || root->size() != p.root.size()) no_checkpoint(where, "its root is not base64 of 32 bytes");
+  std::copy(root->begin(), root->end(), p.root.begin());
+  if (checkpoint_text(out.ledger_id, p) != out.note.text) no_checkpoint(where, "its numbers are not written as the school writes them");
+  const NoteKey key = checkpoint_key(out.ledger_id, public_key);
+  for (const auto& s : out.note.signatures)
+    if (is_of(s, key) && s.signature.size() == p.signature.size()) std::copy(s.signature.begin(), s.signature.end(), p.signature.begin());
+  return out;
+}
+
+nlohmann::json checkpoint_json(const std::string& id, const std::string& public_key, const Checkpoint& p,
+                               std::span<const NoteSignature> cosignatures) {
+  if (p.is_note) return checkpoint_note(id, public_key, p, cosignatures);
+  return {{"size", p.size}, {"root", to_hex(p.root)}, {"utc", utc_text(p.utc_ns)}, {"utc_ns", p.utc_ns}, {"signature", to_hex(p.signature)}};
+}
+
+Checkpoint checkpoint_in(const nlohmann::json& told, const std::string& id, const std::string& public_key, const std::string& where) {
+  if (told.is_string()) {
+    const ReadCheckpoint read = parse_checkpoint(told.get<std::string>(), public_key, where);
+    if (read.ledger_id != id) throw Error(where, "its checkpoint is of another ledger", "use an intact copy");
+    return read.checkpoint;
+  }
+  Checkpoint p{
+      require_whole<std::uint64_t>(told, "size", where), fixed_from_hex<32>(text_in(told, "root"), where + ": root"), whole_in(told, "utc_ns"), {}};
+  if (told.contains("signature")) p.signature = fixed_from_hex<64>(text_in(told, "signature"), where + ": signature");
+  return p;
+}
+
+}  // namespace cavum

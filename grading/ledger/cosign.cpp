@@ -1,0 +1,229 @@
+#include "grading/ledger/cosign.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/merkle.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::size_t k_longest_proof = 63;
+constexpr std::string_view k_old = "old ";
+
+struct Request {
+  std::uint64_t since = 0;
+  std::vector<Sha256> proof;
+  std::string note;
+};
+
+[[noreturn]] void no_request(const std::string& where, const std::string& why) {
+  throw Error(where, "is no checkpoint to be cosigned: " + why, "name a file that `cavum ledger checkpoint` wrote, unchanged");
+}
+
+Request parse_request(const std::string& text, const std::string& where) {
+  Request out;
+  const auto gap = text.find("\n\n");
+  if (!text.starts_with(k_old) || gap == std::string::npos) no_request(where, "it does not begin with 'old SIZE', a proof and an empty line");
+  std::istringstream lines(text.substr(0, gap + 1));
+  std::string line;
+  std::getline(lines, line);
+  const auto [end, error] = std::from_chars(line.data() + k_old.size(), line.data() + line.size(), out.since);
+  if (error != std::errc() || line != std::string(k_old) + std::to_string(out.since)) no_request(where, "its old size is no whole number");
+  while (std::getline(lines, line)) {
+    const auto hash = from_base64(line);
+    if (!hash || hash->size() != 32 || out.proof.size() == k_longest_proof) no_request(where, "its proof is not at most 63 hashes in base64");
+    std::copy(hash->begin(), hash->end(), out.proof.emplace_back().begin());
+  }
+  out.note = text.substr(gap + 2);
+  return out;
+}
+
+/// One cosigner at a time looks at its memory and changes it.
+class MemoryLock {
+ public:
+  explicit MemoryLock(const std::string& folder) {
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    fd_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd_ < 0 || ::flock(fd_, LOCK_EX) != 0) {
+      const std::string why = std::strerror(errno);
+      if (fd_ >= 0) ::close(fd_);
+      throw Error(folder, "the cosigner's memory cannot be kept there (" + why + ")", "name a folder with --state");
+    }
+  }
+  ~MemoryLock() { ::close(fd_); }
+  MemoryLock(const MemoryLock&) = delete;
+  MemoryLock& operator=(const MemoryLock&) = delete;
+
+ private:
+  int fd_ = -1;
+};
+
+/// What is remembered of a ledger.
+struct Memory {
+  std::string school_key;  // hexadecimal
+  Checkpoint last;
+};
+
+std::optional<Memory> remembered(const std::string& path, const std::string& ledger_id) {
+  if (!std::filesystem::exists(path)) return {};
+  const std::string text = read_text_file(path);
+  const auto first = text.find('\n');
+  const NoteKey key = parse_key_line(text.substr(0, first), path);
+  Memory m{to_hex(key.public_key), {}};
+  const ReadCheckpoint read = parse_checkpoint(text.substr(first + 1), m.school_key, path);
+  m.last = read.checkpoint;
+  if (read.ledger_id != ledger_id || key.name != ledger_origin(ledger_id) || !is_signed_by_school(ledger_id, m.school_key, m.last))
+    throw Error(path, "what was cosigned of this ledger was changed", "restore it from its backup");
+  return m;
+}
+
+std::string entries(std::uint64_t n) { return std::to_string(n) + (n == 1 ? " entry" : " entries"); }
+
+/// Why the checkpoint does not go on from what is remembered.
+std::vector<std::string> fork_of(const Memory& m, const Checkpoint& p, const Request& r, const std::string& path) {
+  const std::string evidence = "; keep this file and " + path + ": both bear the school's signature";
+  if (p.size < m.last.size)
+    return {"the ledger was put back to an older copy, or this is an older file: it has " + entries(p.size) + ", and " + entries(m.last.size) +
+            " were cosigned" + evidence};
+  if (!is_consistent(m.last.size, m.last.root, p.size, p.root, r.proof))
+    return {(p.size == m.last.size ? "the ledger has other entries than those that were cosigned: history was rewritten"
+                                   : "the proof does not lead from the " + entries(m.last.size) +
+                                         " that were cosigned to these: history was rewritten, or the file was damaged") +
+            evidence};
+  return {};
+}
+
+}  // namespace
+
+std::uint64_t last_cosigned(const LedgerContent& c) {
+  std::uint64_t last = 0;
+  for (const auto& s : c.cosignatures) last = std::max(last, s.size);
+  return last;
+}
+
+std::string cosign_request(const LedgerContent& c, std::uint64_t since) {
+  const Checkpoint& p = c.checkpoints.back();
+  if (since > p.size) throw Error("--since " + std::to_string(since), "the ledger has " + entries(p.size), "name a size that it has had");
+  std::string out = std::string(k_old) + std::to_string(since) + "\n";
+  if (since > 0)
+    for (const auto& h : consistency_proof(leaves_of(c), since)) out += to_base64(h) + "\n";
+  return out + "\n" + checkpoint_note(c.id, c.public_key, p, cosignatures_of(c, p.size));
+}
+
+std::string cosigner_memory_path() { return station_path("cosigned"); }
+
+Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::string& where, std::uint64_t utc_s) {
+  require_note_name(cosigner.name, "--name");
+  const Request request = parse_request(text, where);
+  const std::string no_key(64, '0');
+  const std::string id = parse_checkpoint(request.note, no_key, where).ledger_id, path = cosigner.memory + "/" + id;
+  const MemoryLock lock(cosigner.memory);
+  const auto memory = remembered(path, id);
+  if (!memory && cosigner.school_key.empty())
+    throw Error(where, "is of a ledger that this cosigner does not know", "name its school's public key with --school-key, from the school itself");
+  if (memory && !cosigner.school_key.empty() && cosigner.school_key != memory->school_key)
+    throw Error("--school-key", "is not the key of the ledger that was cosigned before", "leave it out, or ask the school");
+  const std::string school = memory ? memory->school_key : cosigner.school_key;
+  const ReadCheckpoint read = parse_checkpoint(request.note, school, where);
+  const Checkpoint& p = read.checkpoint;
+  Cosigned out{{}, id, p.size, {}};
+  if (!is_signed_by_school(id, school, p)) {
+    out.findings.emplace_back("the school's signature does not hold: the checkpoint was changed, or is signed by another key");
+    return out;
+  }
+  const std::uint64_t last = memory ? memory->last.size : 0;
+  if (memory && p.size < last) {
+    out.findings = fork_of(*memory, p, request, path);
+    return out;
+  }
+  if (request.since != last)
+    throw Error(where, "proves what was added since " + entries(request.since) + ", and this cosigner has signed " + entries(last),
+                "ask for `cavum ledger checkpoint LEDGER --since " + std::to_string(last) + "`");
+  if (memory) out.findings = fork_of(*memory, p, request, path);
+  if (!memory && !request.proof.empty()) no_request(where, "it proves something of no earlier entries");
+  if (!out.findings.empty()) return out;
+  SignedNote note{read.note.text, {}};
+  const NoteKey own{cosigner.name, NoteKind::cosignature, cosigner.key.public_key};
+  std::copy_if(read.note.signatures.begin(), read.note.signatures.end(), std::back_inserter(note.signatures),
+               [&](const NoteSignature& s) { return !is_of(s, own); });
+  note.signatures.push_back(cosign_note(note.text, cosigner.name, cosigner.key, utc_s));
+  out.note = write_note(note);
+  write_text_file(path, key_line(checkpoint_key(id, school)) + "\n" + out.note);
+  return out;
+}
+
+std::string known_cosigners_path() { return station_path("cosigners"); }
+
+std::vector<NoteKey> read_cosigners(const std::string& path) {
+  std::vector<NoteKey> out;
+  if (!std::filesystem::exists(path)) return out;
+  std::istringstream lines(read_text_file(path));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.empty() || line[0] == '#') continue;
+    const std::string where = path + ":" + std::to_string(number);
+    out.push_back(parse_key_line(line, where));
+    if (out.back().kind != NoteKind::cosignature) throw Error(where, "is no cosigner's key", "copy the line that `cavum ledger cosign` shows");
+  }
+  return out;
+}
+
+CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<NoteKey>& known, const LedgerContent& ledger) {
+  CosignedNoteCheck out;
+  try {
+    const ReadCheckpoint read = parse_checkpoint(text, ledger.public_key, "cosigned note");
+    const auto school = check_note(read.note, checkpoint_key(read.ledger_id, ledger.public_key));
+    if (school != NoteVerdict::holds)
+      out.findings.emplace_back(school == NoteVerdict::absent ? "the ledger's school has not signed it" : "the school's signature does not hold");
+    else
+      out.checkpoint = read.checkpoint;
+    for (const auto& key : known) {
+      const auto verdict = check_note(read.note, key);
+      if (verdict == NoteVerdict::broken) out.findings.push_back("the cosignature of " + key.name + " does not hold");
+      if (verdict != NoteVerdict::holds) continue;
+      std::copy_if(read.note.signatures.begin(), read.note.signatures.end(), std::back_inserter(out.cosignatures),
+                   [&](const NoteSignature& s) { return is_of(s, key); });
+    }
+    if (out.cosignatures.empty())
+      out.not_checked.emplace_back("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here");
+    if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, "the cosigned note", out.findings);
+  } catch (const Error& e) {
+    out.findings.push_back(without_advice(e.what()));
+  }
+  return out;
+}
+
+void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, std::vector<std::string>& findings,
+                        std::vector<std::string>& not_checked) {
+  std::size_t strange = 0;
+  for (const auto& s : ledger.cosignatures) {
+    const std::string name = "cosignature of " + one_line(s.by.name) + " under " + entries(s.size);
+    const auto p = std::find_if(ledger.checkpoints.rbegin(), ledger.checkpoints.rend(), [&](const Checkpoint& c) { return c.size == s.size; });
+    const auto key = std::find_if(known.begin(), known.end(), [&](const NoteKey& k) { return is_of(s.by, k); });
+    if (p == ledger.checkpoints.rend() || !p->is_note)
+      findings.push_back(name + ": there is no such checkpoint");
+    else if (key == known.end())
+      ++strange;
+    else if (!holds(s.by, *key, checkpoint_text(ledger.id, *p)))
+      findings.push_back(name + ": does not hold");
+  }
+  if (strange > 0)
+    not_checked.push_back(std::to_string(strange) + (strange == 1 ? " cosignature is of a cosigner" : " cosignatures are of cosigners") +
+                          " not known here: put the key lines into " + known_cosigners_path());
+}
+
+}  // namespace cavum

@@ -1,0 +1,153 @@
+#include "grading/ledger/history.h"
+
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/session/session.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/merkle.h"
+#include "grading/ledger/witness.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+/// Roots of the first 1, 2, 3 … leaves, for the price of one tree: complete subtrees from the left, joined from the right.
+class GrowingRoot {
+ public:
+  Sha256 add(const Sha256& leaf) {
+    complete_.push_back(leaf);
+    for (std::uint64_t n = ++size_; (n & 1) == 0; n >>= 1) {
+      const Sha256 right = complete_.back();
+      complete_.pop_back();
+      complete_.back() = node_hash(complete_.back(), right);
+    }
+    Sha256 root = complete_.back();
+    for (std::size_t i = complete_.size() - 1; i-- > 0;) root = node_hash(complete_[i], root);
+    return root;
+  }
+
+ private:
+  std::vector<Sha256> complete_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace
+
+History::History(const LedgerContent& c) : id_(c.id), restores_(restores_of(c)) {
+  GrowingRoot growing;
+  for (const auto& e : c.entries) roots_.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
+}
+
+std::vector<RestoredHere> restores_of(const LedgerContent& c) {
+  std::vector<RestoredHere> out;
+  for (const auto& e : c.entries) {
+    if (e.kind != "restore") continue;
+    RestoredHere r{e.seq, e.utc_ns, text_in(e.body, "reason"), {}, 0};
+    try {
+      for (const json& seen : member_of(e.body, "lost")) {
+        r.lost.emplace_back(require_whole<std::uint64_t>(seen, "size", "restore"), fixed_from_hex<32>(text_in(seen, "root"), "restore"));
+        r.lost_size = std::max(r.lost_size, r.lost.back().first);
+      }
+    } catch (const Error&) {  // it then stands for no loss
+      r.lost.clear();
+      r.lost_size = 0;
+    }
+    out.push_back(std::move(r));
+  }
+  return out;
+}
+
+std::string in_words(const RestoredHere& r) {
+  const std::string begin = "entry " + std::to_string(r.seq) + ": on " + utc_text(r.utc_ns) + " the ledger went on from a backup of " +
+                            std::to_string(r.seq) + (r.seq == 1 ? " entry; " : " entries; ");
+  if (r.lost_size == 0) return begin + "nothing was known to be lost";
+  const std::uint64_t lost = r.lost_size - std::min(r.lost_size, r.seq);
+  return begin + std::to_string(lost) + (lost == 1 ? " later entry was lost" : " later entries were lost") +
+         ", which the school accepted: " + one_line(r.reason);
+}
+
+const RestoredHere* History::recorded_loss(const Checkpoint& seen) const {
+  for (const auto& r : restores_) {
+    if (seen.size <= r.seq || seen.size > r.lost_size) continue;
+    bool same_size = false, same = false;
+    for (const auto& [size, root] : r.lost) {
+      same_size = same_size || size == seen.size;
+      same = same || (size == seen.size && root == seen.root);
+    }
+    if (same || !same_size) return &r;
+  }
+  return nullptr;
+}
+
+Standing History::standing_of(const Checkpoint& seen) const {
+  if (seen.size > 0 && seen.size <= roots_.size() && roots_[seen.size - 1] == seen.root) return Standing::begins_with_it;
+  if (recorded_loss(seen) != nullptr) return Standing::loss_on_record;
+  return seen.size > roots_.size() ? Standing::older_copy : Standing::rewritten;
+}
+
+Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
+                       std::vector<std::string>& findings) {
+  if (ledger.ledger_id() != id) {
+    findings.push_back(what + " is of another ledger");
+    return Standing::begins_with_it;
+  }
+  const Standing standing = ledger.standing_of(seen);
+  if (standing == Standing::older_copy)
+    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.roots().size()) + " entries, " + what + " saw " +
+                       std::to_string(seen.size));
+  if (standing == Standing::rewritten) findings.push_back("the ledger no longer begins with what " + what + " saw: history was rewritten");
+  return standing;
+}
+
+void check_checkpoints(LedgerContent& c) {
+  const History history(c);
+  const auto& roots = history.roots();
+  if (c.public_key.size() != 64 || c.public_key.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    c.findings.push_back("entry 0: names no school's public key");
+    return;
+  }
+  std::uint64_t expected = 0;
+  for (const auto& p : c.checkpoints) {
+    const std::string name = "checkpoint " + std::to_string(p.size);
+    const bool again = p.is_note && p.size == expected;  // the last one before notes were signed has both forms
+    if (!again && p.size != ++expected) {
+      c.findings.push_back("checkpoint " + std::to_string(expected) + ": is missing");
+      expected = p.size;
+    }
+    if (!is_signed_by_school(c.id, c.public_key, p)) c.findings.push_back(name + ": the school's signature does not hold");
+    if (p.size > roots.size())
+      c.findings.push_back(name + ": signed for " + std::to_string(p.size) + " entries, and there are " + std::to_string(roots.size()) +
+                           ": entries were taken out");
+    else if (p.size > 0 && roots[p.size - 1] != p.root)
+      c.findings.push_back(name + ": an entry up to number " + std::to_string(p.size - 1) + " is not what the school signed");
+  }
+  if (expected < c.entries.size()) c.findings.push_back("entry " + std::to_string(expected) + ": the school has signed nothing from here on");
+}
+
+void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
+  c.witnessed = !witnessed.empty();
+  const History history(c);
+  const auto& roots = history.roots();
+  const Checkpoint *ahead = nullptr, *other = nullptr;
+  for (const auto& w : witnessed) {
+    const Standing standing = history.standing_of(w);
+    if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
+    if (w.is_note && !is_signed_by_school(c.id, c.public_key, w)) {
+      c.findings.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
+      return;
+    }
+    if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;
+    if (standing == Standing::rewritten && other == nullptr) other = &w;
+  }
+  if (ahead != nullptr)
+    c.findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(roots.size()) + " entries, and had " +
+                         std::to_string(ahead->size) + " on " + utc_text(ahead->utc_ns));
+  if (other != nullptr)
+    c.findings.push_back("the ledger's first " + std::to_string(other->size) + " entries are not those of " + utc_text(other->utc_ns) +
+                         ": history was rewritten");
+}
+
+}  // namespace cavum

@@ -1,0 +1,316 @@
+// A ledger is copied while others add to it, and goes on from a copy with an honest record of what was lost.
+#include "grading/ledger/backup.h"
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "grading/ledger/cosign.h"
+#include "grading/ledger/history.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing_ledger;
+using nlohmann::json;
+
+/// One school, one filed session (entry 2), and another that is not filed yet; each test works on a copy.
+class BackedUp : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    Ledger ledger = shared_->ledger();
+    ASSERT_TRUE(file_session(ledger, shared_->sit(shared_->ticket("4711"))).seq);
+    shared_later_ = new std::string(fs::path(shared_->sit(shared_->ticket("4712"), "novice")).filename().string());
+  }
+  static void TearDownTestSuite() {
+    delete shared_;
+    delete shared_later_;
+  }
+  Backup back_up(bool with_identities = false) const { return cavum::back_up(school_.places(), backup(), with_identities); }
+  std::string backup() const { return school_.file("backup"); }
+  LedgerPlaces restored() const { return {school_.file("restored")}; }
+  void add(int entries) const {
+    Ledger ledger = school_.ledger();
+    for (int i = 0; i < entries; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-" + random_hex(4)}}; });
+  }
+  json file_later() const {
+    Ledger ledger = school_.ledger();
+    const auto filed = file_session(ledger, school_.file(*shared_later_));
+    EXPECT_TRUE(filed.seq) << (filed.findings.empty() ? "" : filed.findings[0]);
+    return ledger.receipt(*filed.seq);
+  }
+  std::string later() const { return school_.file(*shared_later_); }
+
+  School school_{*shared_};
+
+ private:
+  static inline School* shared_ = nullptr;
+  static inline std::string* shared_later_ = nullptr;
+};
+
+TEST_F(BackedUp, IsALedgerThatHoldsAndItsOwnersAlone) {
+  const Backup b = back_up();
+  EXPECT_EQ(b.checkpoint.size, 4u);
+  EXPECT_EQ(b.sessions, 1u);
+  EXPECT_TRUE(b.missing.empty());
+  EXPECT_FALSE(fs::exists(backup() + "/identities.db")) << "names are copied only when asked for";
+  EXPECT_TRUE(check_ledger({backup()}, true).findings.empty());
+  const ReadCheckpoint note = parse_checkpoint(read_text_file(backup() + "/checkpoint"), to_hex(School::key().public_key), "checkpoint");
+  EXPECT_EQ(note.checkpoint.root, b.checkpoint.root);
+  struct stat info {};
+  for (const std::string& f :
+       {backup() + "/ledger.db", LedgerPlaces{backup()}.session(read_registry(read_ledger({backup()})).sessions[0].file_sha256)}) {
+    ASSERT_EQ(::stat(f.c_str(), &info), 0) << f;
+    EXPECT_EQ(info.st_mode & 077, 0u) << f;
+  }
+  ASSERT_EQ(::stat(backup().c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 077, 0u);
+  EXPECT_TRUE(back_up(true).identities);
+  EXPECT_EQ(Identities(LedgerPlaces{backup()}.identities()).all().size(), 2u);
+}
+
+TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
+  constexpr int k_each = 40;
+  std::vector<pid_t> programs;
+  for (int i = 0; i < 3; ++i) {
+    const pid_t pid = ::fork();
+    ASSERT_GE(pid, 0);
+    if (pid == 0) {
+      int added = 0;
+      try {
+        Ledger ledger = school_.ledger();
+        while (added < k_each) try {
+            ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", "C-" + random_hex(200)}}; });
+            ++added;
+          } catch (const DatabaseError& e) {  // another one has it at the moment
+            if (e.code() != SQLITE_BUSY) ::_exit(2);
+          }
+      } catch (const std::exception&) {
+        ::_exit(1);
+      }
+      ::_exit(0);
+    }
+    programs.push_back(pid);
+  }
+  std::vector<Checkpoint> copies;
+  int different = 0;
+  std::size_t ended = 0;
+  while (ended < programs.size()) {
+    const Backup b = back_up();
+    const LedgerContent copy = read_ledger({backup()}, AskWitness::no);
+    ASSERT_TRUE(copy.findings.empty()) << copy.findings[0];
+    ASSERT_EQ(copy.entries.size(), b.checkpoint.size);
+    different += copies.empty() || copies.back().size < b.checkpoint.size ? 1 : 0;
+    copies.push_back(b.checkpoint);
+    int status = 0;
+    while (ended < programs.size() && ::waitpid(-1, &status, WNOHANG) > 0) {
+      ++ended;
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    }
+  }
+  const LedgerContent all = read_ledger(school_.places());
+  EXPECT_TRUE(all.findings.empty());
+  EXPECT_EQ(all.entries.size(), 4u + 3 * k_each);
+  for (const auto& p : copies) EXPECT_EQ(History(all).standing_of(p), Standing::begins_with_it) << p.size;
+  std::cout << copies.size() << " backups, " << different << " of them of a ledger that had grown\n";
+  EXPECT_GE(different, 3) << "they were to be taken while it grows";
+}
+
+TEST_F(BackedUp, IsBroughtUpToDateAndCopiesWhatIsNew) {
+  EXPECT_EQ(back_up().copied, 1u);
+  file_later();
+  const Backup again = back_up();
+  EXPECT_EQ(again.copied, 1u);
+  EXPECT_EQ(again.sessions, 2u);
+  EXPECT_EQ(again.checkpoint.size, 5u);
+  const std::string other = school_.file("other");
+  fs::create_directories(other);
+  write_text_file(other + "/mine", "x");
+  EXPECT_THROW(cavum::back_up(school_.places(), other, false), Error);
+  EXPECT_THROW(cavum::back_up(school_.places(), school_.ledger_folder(), false), Error);
+}
+
+TEST_F(BackedUp, IsNotReplacedByALedgerThatWasPutBack) {
+  const Bytes old = read_file(school_.places().database());
+  add(1);
+  back_up();
+  fs::remove(witness_path(read_ledger(school_.places()).id));
+  write_file(school_.places().database(), old);
+  EXPECT_NE(testing_basics::error_of([&] { back_up(); }).find("put back to an older copy"), std::string::npos);
+  EXPECT_EQ(read_ledger({backup()}).entries.size(), 5u) << "what was there still stands";
+}
+
+TEST_F(BackedUp, ALedgerThatDoesNotHoldIsNotBackedUp) {
+  test::tamper(school_.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET text = replace(text, 'C-', 'D-') WHERE seq = 1");
+  EXPECT_THROW(back_up(), Error);
+  EXPECT_FALSE(fs::exists(backup()));
+}
+
+TEST_F(BackedUp, ASessionThatIsGoneIsNamed) {
+  const auto filed = read_registry(read_ledger(school_.places())).sessions.at(0);
+  write_text_file(school_.places().session(filed.file_sha256), "changed");
+  EXPECT_EQ(back_up().missing, std::vector<std::string>{filed.file_sha256});
+  const RestorePlan plan = plan_restore(backup(), {}, {});
+  EXPECT_EQ(plan.missing_sessions, std::vector<std::string>{filed.file_sha256});
+  restore(backup(), restored().folder, plan, "", School::key());
+  const LedgerContent c = read_ledger(restored());
+  EXPECT_EQ(c.entries.back().body["missing_sessions"], json{filed.file_sha256});
+  expect_finding(check_ledger(restored(), false).findings, {"its file is gone"});
+}
+
+TEST_F(BackedUp, NothingIsLostWhenNothingWasAdded) {
+  back_up(true);
+  const RestorePlan plan = plan_restore(backup(), {}, {});
+  EXPECT_TRUE(plan.compared && plan.identities);
+  EXPECT_TRUE(plan.findings.empty() && plan.lost_entries.empty() && plan.missing_sessions.empty());
+  restore(backup(), restored().folder, plan, "", School::key());
+  const auto check = check_ledger(restored(), true);
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0];
+  expect_finding(check.remarks, {"entry 4", "went on from a backup of 4 entries", "nothing was known to be lost"});
+  Ledger ledger(restored().folder, School::key());
+  EXPECT_TRUE(file_session(ledger, later()).seq) << "it goes on";
+}
+
+TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
+  back_up(true);
+  add(1);
+  const json receipt = file_later();
+  add(2);
+  write_text_file(school_.file("r.json"), receipt.dump());
+  const std::vector<std::string> receipts{school_.file("r.json")};
+  const Checkpoint lost = read_ledger(school_.places()).checkpoints.back();
+  const RestorePlan plan = plan_restore(backup(), receipts, {});
+  ASSERT_TRUE(plan.findings.empty());
+  ASSERT_TRUE(plan.last_seen);
+  EXPECT_EQ(plan.last_seen->checkpoint.size, 8u) << "the witness has seen more than the receipt";
+  expect_finding(plan.lost_entries, {"entries 4 to 7", "the witness"});
+  expect_finding(plan.lost_entries, {"entry 5: session of " + read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
+  EXPECT_THROW(restore(backup(), restored().folder, plan, "", School::key()), Error) << "a person accepts the loss";
+  EXPECT_FALSE(fs::exists(restored().folder));
+
+  restore(backup(), restored().folder, plan, "the disk died", School::key());
+  const LedgerContent c = read_ledger(restored());
+  ASSERT_TRUE(c.findings.empty()) << c.findings[0];
+  const LedgerEntry& e = c.entries.at(4);
+  EXPECT_EQ(e.kind, "restore");
+  ASSERT_EQ(e.body["lost"].size(), 4u) << "each that the witness saw";
+  EXPECT_EQ(e.body["lost"][3], (json{{"size", 8}, {"root", to_hex(lost.root)}}));
+  EXPECT_EQ(e.body["backup"]["size"], 4);
+  EXPECT_TRUE(read_registry(c).findings.empty());
+  expect_finding(check_ledger(restored(), false).remarks, {"4 later entries were lost", "the disk died"});
+
+  // the lost session's receipt is heard until the session is filed again
+  expect_finding(check_receipt(receipt, c.public_key, &c), {"lost when the ledger went on from a backup (entry 4)", "file its session again"});
+  Ledger ledger(restored().folder, School::key());
+  ASSERT_TRUE(file_session(ledger, later()).seq);
+  EXPECT_TRUE(check_receipt(receipt, c.public_key, &ledger.content()).empty());
+  // the witness remembers both, and the ledger that was left is no longer added to
+  std::vector<std::string> findings;
+  EXPECT_EQ(read_witness(c.id, findings).size(), 10u) << "eight of before, the restore and what was added since";
+  EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
+  expect_finding(check_ledger(school_.places(), false).findings, {"history was rewritten"});
+  EXPECT_THROW(school_.ledger(), Error);
+}
+
+TEST_F(BackedUp, WhereNoWitnessIsANoteOrAReceiptTells) {
+  back_up();
+  add(3);
+  const LedgerContent before = read_ledger(school_.places());
+  const Checkpoint last = before.checkpoints.back();
+  write_text_file(school_.file("note"), checkpoint_note(before.id, before.public_key, last));
+  fs::remove(witness_path(before.id));
+  EXPECT_FALSE(plan_restore(backup(), {}, {}).compared);
+  const RestorePlan plan = plan_restore(backup(), {}, {school_.file("note")});
+  ASSERT_TRUE(plan.last_seen);
+  EXPECT_EQ(plan.last_seen->checkpoint.size, 7u);
+  restore(backup(), restored().folder, plan, "moved to another computer", School::key());
+  const LedgerContent c = read_ledger(restored());
+  EXPECT_EQ(History(c).standing_of(last), Standing::loss_on_record);
+  Checkpoint other = last;
+  other.root[0] ^= 1;
+  EXPECT_NE(History(c).standing_of(other), Standing::loss_on_record) << "what was lost had that root and no other";
+  other = last;
+  other.size = 8;
+  EXPECT_EQ(History(c).standing_of(other), Standing::older_copy) << "nor was more on record than what was seen";
+  std::string changed = read_text_file(school_.file("note"));
+  changed.replace(changed.find("\n7\n"), 3, "\n9\n");
+  write_text_file(school_.file("note"), changed);
+  EXPECT_THROW(static_cast<void>(plan_restore(backup(), {}, {school_.file("note")})), Error) << "a note that the school did not sign tells nothing";
+}
+
+TEST_F(BackedUp, OfAnotherHistoryIsNotRestored) {
+  const Bytes old = read_file(school_.places().database());
+  add(1);
+  back_up();
+  const std::string witness = witness_path(read_ledger(school_.places()).id);
+  fs::remove(witness);
+  write_file(school_.places().database(), old);
+  add(2);
+  const RestorePlan plan = plan_restore(backup(), {}, {});
+  expect_finding(plan.findings, {"history was rewritten"});
+  EXPECT_THROW(restore(backup(), restored().folder, plan, "r", School::key()), Error);
+  EXPECT_FALSE(fs::exists(restored().folder));
+}
+
+TEST_F(BackedUp, IsRestoredAgainAfterTheRestoredOneWasLost) {
+  back_up();
+  add(2);
+  restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "first", School::key());
+  {
+    Ledger ledger(restored().folder, School::key());
+    for (int i = 0; i < 5; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-a"}}; });
+  }
+  const RestorePlan plan = plan_restore(backup(), {}, {});
+  ASSERT_TRUE(plan.last_seen);
+  EXPECT_EQ(plan.last_seen->checkpoint.size, 10u);
+  restore(backup(), school_.file("again"), plan, "second", School::key());
+  EXPECT_TRUE(check_ledger({school_.file("again")}, false).findings.empty());
+  EXPECT_FALSE(check_ledger(restored(), false).findings.empty());
+}
+
+TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
+  const std::string candidate = read_registry(read_ledger(school_.places())).sessions.at(0).candidate;
+  const Bytes names = read_file(school_.places().identities());
+  Identities(school_.places().identities()).forget(candidate);
+  {
+    Ledger ledger = school_.ledger();
+    ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", candidate}}; });
+  }
+  write_file(school_.places().identities(), names);  // somebody restored an old copy of these alone
+  back_up(true);
+  EXPECT_FALSE(Identities(LedgerPlaces{backup()}.identities()).of_pseudonym(candidate));
+  EXPECT_TRUE(Identities(school_.places().identities()).of_pseudonym(candidate)) << "the ledger's own file is not touched";
+}
+
+TEST_F(BackedUp, ACosignerRefusesARestoredLedgerUntilAPersonMovesWhatItRemembers) {
+  const std::string school = to_hex(School::key().public_key), id = read_ledger(school_.places()).id;
+  const Cosigner cosigner{"cosigner.example/one", load_signing_key(school_.file("cosigner.key"), "cosigner"), school_.file("memory"), school};
+  back_up();
+  add(2);
+  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
+  restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died", School::key());
+  Ledger ledger(restored().folder, School::key());
+  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 5), "request", 1).findings, {"older copy"});
+  for (int i = 0; i < 3; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-a"}}; });
+  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 6), "request", 1).findings, {"history was rewritten"});
+  fs::rename(school_.file("memory/" + id), school_.file("kept"));
+  EXPECT_TRUE(cosign(cosigner, cosign_request(ledger.content(), 0), "request", 1).findings.empty());
+  const auto check =
+      check_cosigned(read_text_file(school_.file("kept")).substr(read_text_file(school_.file("kept")).find('\n') + 1), {}, ledger.content());
+  EXPECT_TRUE(check.findings.empty()) << "what it signed before is on record as lost";
+}
+
+TEST_F(BackedUp, AnotherSchoolsKeyRestoresNothing) {
+  back_up();
+  const SigningKey other = load_signing_key(school_.file("other.key"), "school");
+  EXPECT_THROW(restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "", other), Error);
+  EXPECT_FALSE(fs::exists(restored().folder));
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,295 @@
+// Checkpoints as notes, and what other parties' word for them finds: a ledger that was put back together with its witness, a history that was
+// rewritten.
+#include "grading/ledger/cosign.h"
+
+#include "grading/ledger/exports.h"
+#include "tests/grading/ledger/old_ledger.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+constexpr std::uint64_t k_now_s = 1'800'000'000;
+
+/// A school, and a cosigner with a memory of its own.
+class Cosigning : public testing::Test {
+ protected:
+  void add(int entries) {
+    Ledger ledger = school_.ledger();
+    for (int i = 0; i < entries; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-" + random_hex(4)}}; });
+  }
+  LedgerContent content() const { return read_ledger(school_.places()); }
+  Cosigned sign(const std::string& request, const std::string& school_key = "") const {
+    return cosign({"cosigner.example/one", key_, school_.file("memory"), school_key}, request, "request", k_now_s);
+  }
+  std::string school_key() const { return to_hex(School::key().public_key); }
+  std::vector<NoteKey> known() const { return {{"cosigner.example/one", NoteKind::cosignature, key_.public_key}}; }
+  /// The ledger and its witness, as somebody copies them who wants to put them back.
+  struct Copy {
+    Bytes database, witness;
+  };
+  Copy copy() const { return {read_file(school_.places().database()), read_file(witness_path(content().id))}; }
+  void put_back(const Copy& c) const {
+    const std::string witness = witness_path(content().id);
+    for (const char* end : {"-wal", "-shm"}) std::filesystem::remove(school_.places().database() + end);
+    write_file(school_.places().database(), c.database);
+    write_file(witness, c.witness);
+  }
+
+  School school_;
+  SigningKey key_ = load_signing_key(school_.file("cosigner.key"), "cosigner");
+};
+
+TEST_F(Cosigning, ACheckpointIsANoteOfFourLines) {
+  const LedgerContent c = content();
+  ASSERT_EQ(c.checkpoints.size(), 1u);
+  const Checkpoint& p = c.checkpoints[0];
+  EXPECT_TRUE(p.is_note);
+  const std::string note = checkpoint_note(c.id, c.public_key, p);
+  EXPECT_TRUE(note.starts_with("cavum.ledger/" + c.id + "\n1\n" + to_base64(p.root) + "\nutc_ns " + std::to_string(p.utc_ns) + "\n\n— cavum.ledger/" +
+                               c.id + " "))
+      << note;
+  const ReadCheckpoint read = parse_checkpoint(note, c.public_key, "note");
+  EXPECT_EQ(read.ledger_id, c.id);
+  EXPECT_TRUE(is_signed_by_school(c.id, c.public_key, read.checkpoint));
+  EXPECT_EQ(check_note(read.note, checkpoint_key(c.id, c.public_key)), NoteVerdict::holds);
+  const auto refused = [&](const std::string& what, const std::string& by) {
+    std::string other = note;
+    other.replace(other.find(what), what.size(), by);
+    EXPECT_THROW(static_cast<void>(parse_checkpoint(other, c.public_key, "note")), Error) << by;
+  };
+  refused("cavum.ledger/", "cavum.other/");
+  refused("\n1\n", "\n01\n");
+  refused("\n1\n", "\n-1\n");
+  refused("\nutc_ns ", "\nutc_ns +");
+  refused("\nutc_ns ", "\nmore\nutc_ns ");
+  refused("=\nutc", "\nutc");
+  Checkpoint other = p;
+  other.utc_ns += 1;
+  EXPECT_FALSE(is_signed_by_school(c.id, c.public_key, other));
+}
+
+TEST_F(Cosigning, GoesOnFromWhatWasSignedBefore) {
+  const Cosigned first = sign(cosign_request(content(), 0), school_key());
+  ASSERT_TRUE(first.findings.empty()) << first.findings[0];
+  EXPECT_EQ(first.size, 1u);
+  std::uint64_t before = 1;
+  for (const int more : {1, 2, 5, 0, 9}) {
+    add(more);
+    const Cosigned next = sign(cosign_request(content(), before));
+    before = next.size;
+    ASSERT_TRUE(next.findings.empty()) << next.findings[0];
+    EXPECT_EQ(next.size, content().entries.size());
+    const CosignedNoteCheck check = check_cosigned(next.note, known(), content());
+    EXPECT_TRUE(check.findings.empty() && check.not_checked.empty());
+    ASSERT_EQ(check.cosignatures.size(), 1u);
+    EXPECT_EQ(cosigned_at(check.cosignatures[0]), k_now_s);
+  }
+}
+
+TEST_F(Cosigning, AForkIsRefused) {
+  add(3);
+  const Copy old = copy();
+  add(2);
+  ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
+  const std::string memory = read_text_file(school_.file("memory/" + content().id));
+  put_back(old);
+  add(4);  // another history, which the school's own key has signed, and which its witness knows nothing against
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+  const std::string request = cosign_request(content(), 6);
+  expect_finding(sign(request).findings, {"history was rewritten", "both bear the school's signature"});
+  // nor with a proof that is left out, or is somebody's own
+  std::string bare = request;
+  bare.erase(bare.find('\n') + 1, bare.find("\n\n") - bare.find('\n'));
+  expect_finding(sign(bare).findings, {"history was rewritten"});
+  EXPECT_EQ(read_text_file(school_.file("memory/" + content().id)), memory) << "what was refused is not remembered";
+}
+
+TEST_F(Cosigning, AnotherRootOfTheSameSizeIsRefused) {
+  const Copy old = copy();
+  add(2);
+  ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
+  put_back(old);
+  add(2);
+  expect_finding(sign(cosign_request(content(), 3)).findings, {"other entries than those that were cosigned"});
+}
+
+TEST_F(Cosigning, ASmallerOneIsRefused) {
+  add(2);
+  const Copy old = copy();
+  const std::string request = cosign_request(content(), 0);
+  add(1);
+  ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
+  expect_finding(sign(request).findings, {"older copy", "it has 3 entries, and 4 entries were cosigned"});
+  put_back(old);
+  expect_finding(sign(cosign_request(content(), 3)).findings, {"older copy"});
+}
+
+TEST_F(Cosigning, TrustsNoKeyThatTheFileItselfNames) {
+  const std::string request = cosign_request(content(), 0);
+  const auto said = [&](const std::string& text, const std::string& key = "") {
+    return testing_basics::error_of([&] { static_cast<void>(sign(text, key)); });
+  };
+  EXPECT_NE(said(request).find("does not know"), std::string::npos);
+  expect_finding(sign(request, std::string(64, 'a')).findings, {"the school's signature does not hold"});
+  ASSERT_TRUE(sign(request, school_key()).findings.empty());
+  EXPECT_NE(said(request, std::string(64, 'a')).find("is not the key of the ledger that was cosigned before"), std::string::npos);
+  EXPECT_NE(said(request).find("--since 1"), std::string::npos) << "the proof has to begin where this cosigner stopped";
+  const std::string path = school_.file("memory/" + content().id);
+  std::string memory = read_text_file(path);
+  memory.replace(memory.find("\n1\n"), 3, "\n0\n");
+  write_text_file(path, memory);
+  EXPECT_NE(said(cosign_request(content(), 1)).find("was changed"), std::string::npos) << "somebody has put its memory back";
+  for (const char* bad : {"", "old 0\n", "old x\n\n", "old 01\n\nx", "new 0\n\nx", "old 0\nAAAA\n\nx"})
+    EXPECT_THROW(static_cast<void>(sign(bad, school_key())), Error) << bad;
+}
+
+TEST_F(Cosigning, AMemoryThatWasPutBackIsNotNoticed) {
+  ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
+  const std::string path = school_.file("memory/" + content().id), memory = read_text_file(path);
+  const Copy old = copy();
+  add(2);
+  ASSERT_TRUE(sign(cosign_request(content(), 1)).findings.empty());
+  put_back(old);
+  add(3);
+  expect_finding(sign(cosign_request(content(), 3)).findings, {"history was rewritten"});
+  write_text_file(path, memory);
+  EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty()) << "its own backups are the cosigner's affair";
+}
+
+/// The rows of the page about rollback: by which means each is seen.
+TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAndByNothingElse) {
+  add(1);
+  const Copy old = copy();
+  add(1);
+  const Cosigned cosigned = sign(cosign_request(content(), 0), school_key());
+  ASSERT_TRUE(cosigned.findings.empty());
+  Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(3, check_cosigned(cosigned.note, known(), content()).cosignatures);
+  EXPECT_EQ(last_cosigned(content()), 3u);
+  const json receipt = make_receipt(content(), 2);
+  put_back(old);
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "the cosignature in the ledger went with it";
+  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"older copy", "has 2 entries, the cosigned note saw 3"});
+  LedgerContent now = content();
+  expect_finding(check_receipt(receipt, school_key(), &now), {"older copy", "the receipt saw 3"});
+  add(3);
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"history was rewritten"});
+  now = content();
+  expect_finding(check_receipt(receipt, school_key(), &now), {"history was rewritten"});
+  std::filesystem::remove(witness_path(now.id));
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+  expect_finding(check_ledger(school_.places(), false).not_checked, {"whether an older copy was put back", "no witness"});
+}
+
+TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
+  const Cosigned cosigned = sign(cosign_request(content(), 0), school_key());
+  const auto unknown = check_cosigned(cosigned.note, {}, content());
+  EXPECT_TRUE(unknown.findings.empty() && unknown.cosignatures.empty());
+  EXPECT_EQ(unknown.not_checked.size(), 1u);
+  SignedNote changed = parse_note(cosigned.note, "note");
+  changed.signatures.at(1).signature[20] ^= 1;
+  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"cosignature of cosigner.example/one does not hold"});
+  changed = parse_note(cosigned.note, "note");
+  changed.signatures.erase(changed.signatures.begin());
+  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"the ledger's school has not signed it"});
+  changed = parse_note(cosigned.note, "note");
+  changed.signatures.at(0).signature[20] ^= 1;
+  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"the school's signature does not hold"});
+  expect_finding(check_cosigned("no note", known(), content()).findings, {"is no signed note"});
+}
+
+TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
+  const auto check = check_cosigned(sign(cosign_request(content(), 0), school_key()).note, known(), content());
+  {
+    Ledger ledger = school_.ledger();
+    ledger.keep_cosignatures(1, check.cosignatures);
+    ledger.keep_cosignatures(1, check.cosignatures);
+    ASSERT_EQ(ledger.content().cosignatures.size(), 1u) << "once";
+  }
+  const std::string note = make_receipt(content(), 0).at("checkpoint");
+  EXPECT_EQ(check_note(parse_note(note, "receipt"), known()[0]), NoteVerdict::holds);
+  std::vector<std::string> findings, not_checked;
+  check_cosignatures(content(), known(), findings, not_checked);
+  EXPECT_TRUE(findings.empty() && not_checked.empty());
+  check_cosignatures(content(), {}, findings, not_checked);
+  EXPECT_EQ(not_checked.size(), 1u);
+  NoteSignature other = check.cosignatures[0];
+  other.signature[30] ^= 1;
+  Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(1, {{other}});
+  check_cosignatures(content(), known(), findings, not_checked);
+  expect_finding(findings, {"cosigner.example/one under 1 entry: does not hold"});
+  Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(7, check.cosignatures);
+  check_cosignatures(content(), known(), findings, not_checked);
+  expect_finding(findings, {"under 7 entries: there is no such checkpoint"});
+}
+
+TEST_F(Cosigning, AnOlderLedgerGoesOnWithNotesAndItsProofsStay) {
+  add(4);
+  make_old(school_, 3);
+  const LedgerContent before = content();
+  ASSERT_TRUE(before.findings.empty()) << before.findings[0];
+  ASSERT_FALSE(before.checkpoints.back().is_note);
+  const json receipt = make_receipt(before, 3), with_proof = make_receipt(before, 3, 2);
+  ASSERT_TRUE(receipt.at("checkpoint").is_object());
+  for (const json& r : {receipt, with_proof}) EXPECT_TRUE(check_receipt(r, school_key(), &before).empty());
+  {
+    const Ledger opened = school_.ledger();  // nothing is added, and yet there is something to cosign
+    EXPECT_TRUE(sign(cosign_request(opened.content(), 0), school_key()).findings.empty());
+  }
+  add(2);
+  const LedgerContent after = content();
+  ASSERT_TRUE(after.findings.empty()) << after.findings[0];
+  EXPECT_EQ(after.checkpoints.size(), 8u) << "five of before, the last of them again as a note, two new";
+  for (const json& r : {receipt, with_proof, make_receipt(after, 6), make_receipt(after, 6, 3), make_receipt(after, 0, 5), make_receipt(after, 0, 7)})
+    EXPECT_TRUE(check_receipt(r, school_key(), &after).empty()) << r.dump(2);
+  EXPECT_TRUE(sign(cosign_request(after, 5)).findings.empty());
+  json other = receipt;
+  other["checkpoint"]["utc_ns"] = 1;
+  expect_finding(check_receipt(other, school_key(), nullptr), {"signature on the receipt does not hold"});
+  // an older checkpoint that is edited, and a note that is taken out
+  test::tamper(school_.places().database(), "DROP TRIGGER checkpoint_stays; UPDATE checkpoint SET utc_ns = 1 WHERE size = 2");
+  expect_finding(content().findings, {"checkpoint 2", "signature does not hold"});
+  test::tamper(school_.places().database(), "DROP TRIGGER note_is_kept; DELETE FROM note WHERE size = 6");
+  expect_finding(content().findings, {"checkpoint 6", "is missing"});
+}
+
+TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {
+  add(6);
+  const LedgerContent c = content();
+  for (std::uint64_t from = 1; from <= 7; ++from) {
+    const json r = make_receipt(c, 4, from);
+    EXPECT_TRUE(check_receipt(r, school_key(), nullptr).empty()) << from;
+    json other = r;
+    other["consistency"]["from"] = make_receipt(c, 4, from == 7 ? 6 : from + 1)["consistency"]["from"];
+    expect_finding(check_receipt(other, school_key(), nullptr), {"not the beginning"});
+    other = r;
+    other["consistency"]["proof"].push_back(std::string(64, '0'));
+    expect_finding(check_receipt(other, school_key(), nullptr), {"not the beginning"});
+  }
+  EXPECT_THROW(static_cast<void>(make_receipt(c, 4, 8)), std::out_of_range);
+}
+
+TEST_F(Cosigning, TheWitnessRemembersWhatWasSigned) {
+  add(2);
+  const std::string path = witness_path(content().id);
+  const std::string sound = read_text_file(path);
+  // a line of somebody else's making accuses nobody
+  write_text_file(path, sound + "9 " + std::string(64, '1') + " 1 " + to_base64(Bytes(64, 7)) + "\n");
+  expect_finding(content().findings, {"the witness was changed at entry 9"});
+  // a line that a power cut left short, and what was told after it
+  write_text_file(path, sound.substr(0, sound.size() - 40));
+  EXPECT_TRUE(content().findings.empty());
+  add(1);
+  std::vector<std::string> findings;
+  const auto seen = read_witness(content().id, findings);
+  ASSERT_EQ(seen.size(), 3u);
+  EXPECT_EQ(seen.back().size, 4u);
+  EXPECT_TRUE(is_signed_by_school(content().id, school_key(), seen.back()));
+  EXPECT_TRUE(content().findings.empty() && findings.empty());
+}
+
+}  // namespace
+}  // namespace cavum
