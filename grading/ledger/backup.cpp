@@ -26,12 +26,6 @@ constexpr std::size_t k_longest_acceptance = 1000;
 
 std::string checkpoint_path(const std::string& folder) { return folder + "/checkpoint"; }
 
-void make_private_folder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error || ::chmod(path.c_str(), 0700) != 0) throw Error(path, "the folder cannot be made", "check the path, its permissions and the disk");
-}
-
 /// A database at one moment, whoever writes to it, under another name first. One file without a log.
 void copy_database(const std::string& from, const std::string& to) {
   const std::string fresh = to + ".new";

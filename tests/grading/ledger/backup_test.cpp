@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using namespace testing_ledger;
 using nlohmann::json;
 
-/// One school, one filed session (entry 2), and another that is not filed yet; each test works on a copy.
+/// One school, one filed session (entry 4), and another that is not filed yet; each test works on a copy.
 class BackedUp : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -55,7 +55,7 @@ class BackedUp : public testing::Test {
 
 TEST_F(BackedUp, IsALedgerThatHoldsAndItsOwnersAlone) {
   const Backup b = back_up();
-  EXPECT_EQ(b.checkpoint.size, 4u);
+  EXPECT_EQ(b.checkpoint.size, 6u);
   EXPECT_EQ(b.sessions, 1u);
   EXPECT_TRUE(b.missing.empty());
   EXPECT_FALSE(fs::exists(backup() + "/identities.db")) << "names are copied only when asked for";
@@ -115,7 +115,7 @@ TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
   }
   const LedgerContent all = read_ledger(school_.places());
   EXPECT_TRUE(all.findings.empty());
-  EXPECT_EQ(all.entries.size(), 4u + 3 * k_each);
+  EXPECT_EQ(all.entries.size(), 6u + 3 * k_each);
   for (const auto& p : copies) EXPECT_EQ(History(all).standing_of(p), Standing::begins_with_it) << p.size;
   std::cout << copies.size() << " backups, " << different << " of them of a ledger that had grown\n";
   EXPECT_GE(different, 3) << "they were to be taken while it grows";
@@ -127,7 +127,7 @@ TEST_F(BackedUp, IsBroughtUpToDateAndCopiesWhatIsNew) {
   const Backup again = back_up();
   EXPECT_EQ(again.copied, 1u);
   EXPECT_EQ(again.sessions, 2u);
-  EXPECT_EQ(again.checkpoint.size, 5u);
+  EXPECT_EQ(again.checkpoint.size, 7u);
   const std::string other = school_.file("other");
   fs::create_directories(other);
   write_text_file(other + "/mine", "x");
@@ -142,7 +142,7 @@ TEST_F(BackedUp, IsNotReplacedByALedgerThatWasPutBack) {
   fs::remove(witness_path(read_ledger(school_.places()).id));
   write_file(school_.places().database(), old);
   EXPECT_NE(testing_basics::error_of([&] { back_up(); }).find("put back to an older copy"), std::string::npos);
-  EXPECT_EQ(read_ledger({backup()}).entries.size(), 5u) << "what was there still stands";
+  EXPECT_EQ(read_ledger({backup()}).entries.size(), 7u) << "what was there still stands";
 }
 
 TEST_F(BackedUp, ALedgerThatDoesNotHoldIsNotBackedUp) {
@@ -171,7 +171,7 @@ TEST_F(BackedUp, NothingIsLostWhenNothingWasAdded) {
   restore(backup(), restored().folder, plan, "", School::key());
   const auto check = check_ledger(restored(), true);
   EXPECT_TRUE(check.findings.empty()) << check.findings[0];
-  expect_finding(check.remarks, {"entry 4", "went on from a backup of 4 entries", "nothing was known to be lost"});
+  expect_finding(check.remarks, {"entry 6", "went on from a backup of 6 entries", "nothing was known to be lost"});
   Ledger ledger(restored().folder, School::key());
   EXPECT_TRUE(file_session(ledger, later()).seq) << "it goes on";
 }
@@ -187,31 +187,31 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   const RestorePlan plan = plan_restore(backup(), receipts, {});
   ASSERT_TRUE(plan.findings.empty());
   ASSERT_TRUE(plan.last_seen);
-  EXPECT_EQ(plan.last_seen->checkpoint.size, 8u) << "the witness has seen more than the receipt";
-  expect_finding(plan.lost_entries, {"entries 4 to 7", "the witness"});
-  expect_finding(plan.lost_entries, {"entry 5: session of " + read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
+  EXPECT_EQ(plan.last_seen->checkpoint.size, 10u) << "the witness has seen more than the receipt";
+  expect_finding(plan.lost_entries, {"entries 6 to 9", "the witness"});
+  expect_finding(plan.lost_entries, {"entry 7: session of " + read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
   EXPECT_THROW(restore(backup(), restored().folder, plan, "", School::key()), Error) << "a person accepts the loss";
   EXPECT_FALSE(fs::exists(restored().folder));
 
   restore(backup(), restored().folder, plan, "the disk died", School::key());
   const LedgerContent c = read_ledger(restored());
   ASSERT_TRUE(c.findings.empty()) << c.findings[0];
-  const LedgerEntry& e = c.entries.at(4);
+  const LedgerEntry& e = c.entries.at(6);
   EXPECT_EQ(e.kind, "restore");
   ASSERT_EQ(e.body["lost"].size(), 4u) << "each that the witness saw";
-  EXPECT_EQ(e.body["lost"][3], (json{{"size", 8}, {"root", to_hex(lost.root)}}));
-  EXPECT_EQ(e.body["backup"]["size"], 4);
+  EXPECT_EQ(e.body["lost"][3], (json{{"size", 10}, {"root", to_hex(lost.root)}}));
+  EXPECT_EQ(e.body["backup"]["size"], 6);
   EXPECT_TRUE(read_registry(c).findings.empty());
   expect_finding(check_ledger(restored(), false).remarks, {"4 later entries were lost", "the disk died"});
 
   // the lost session's receipt is heard until the session is filed again
-  expect_finding(check_receipt(receipt, c.public_key, &c), {"lost when the ledger went on from a backup (entry 4)", "file its session again"});
+  expect_finding(check_receipt(receipt, c.public_key, &c), {"lost when the ledger went on from a backup (entry 6)", "file its session again"});
   Ledger ledger(restored().folder, School::key());
   ASSERT_TRUE(file_session(ledger, later()).seq);
   EXPECT_TRUE(check_receipt(receipt, c.public_key, &ledger.content()).empty());
   // the witness remembers both, and the ledger that was left is no longer added to
   std::vector<std::string> findings;
-  EXPECT_EQ(read_witness(c.id, findings).size(), 10u) << "eight of before, the restore and what was added since";
+  EXPECT_EQ(read_witness(c.id, findings).size(), 12u) << "ten of before, the restore and what was added since";
   EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
   expect_finding(check_ledger(school_.places(), false).findings, {"history was rewritten"});
   EXPECT_THROW(school_.ledger(), Error);
@@ -227,7 +227,7 @@ TEST_F(BackedUp, WhereNoWitnessIsANoteOrAReceiptTells) {
   EXPECT_FALSE(plan_restore(backup(), {}, {}).compared);
   const RestorePlan plan = plan_restore(backup(), {}, {school_.file("note")});
   ASSERT_TRUE(plan.last_seen);
-  EXPECT_EQ(plan.last_seen->checkpoint.size, 7u);
+  EXPECT_EQ(plan.last_seen->checkpoint.size, 9u);
   restore(backup(), restored().folder, plan, "moved to another computer", School::key());
   const LedgerContent c = read_ledger(restored());
   EXPECT_EQ(History(c).standing_of(last), Standing::loss_on_record);
@@ -235,10 +235,10 @@ TEST_F(BackedUp, WhereNoWitnessIsANoteOrAReceiptTells) {
   other.root[0] ^= 1;
   EXPECT_NE(History(c).standing_of(other), Standing::loss_on_record) << "what was lost had that root and no other";
   other = last;
-  other.size = 8;
+  other.size = 10;
   EXPECT_EQ(History(c).standing_of(other), Standing::older_copy) << "nor was more on record than what was seen";
   std::string changed = read_text_file(school_.file("note"));
-  changed.replace(changed.find("\n7\n"), 3, "\n9\n");
+  changed.replace(changed.find("\n9\n"), 3, "\n7\n");
   write_text_file(school_.file("note"), changed);
   EXPECT_THROW(static_cast<void>(plan_restore(backup(), {}, {school_.file("note")})), Error) << "a note that the school did not sign tells nothing";
 }
@@ -267,7 +267,7 @@ TEST_F(BackedUp, IsRestoredAgainAfterTheRestoredOneWasLost) {
   }
   const RestorePlan plan = plan_restore(backup(), {}, {});
   ASSERT_TRUE(plan.last_seen);
-  EXPECT_EQ(plan.last_seen->checkpoint.size, 10u);
+  EXPECT_EQ(plan.last_seen->checkpoint.size, 12u);
   restore(backup(), school_.file("again"), plan, "second", School::key());
   EXPECT_TRUE(check_ledger({school_.file("again")}, false).findings.empty());
   EXPECT_FALSE(check_ledger(restored(), false).findings.empty());
@@ -295,9 +295,9 @@ TEST_F(BackedUp, ACosignerRefusesARestoredLedgerUntilAPersonMovesWhatItRemembers
   ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
   restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died", School::key());
   Ledger ledger(restored().folder, School::key());
-  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 5), "request", 1).findings, {"older copy"});
+  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 7), "request", 1).findings, {"older copy"});
   for (int i = 0; i < 3; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-a"}}; });
-  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 6), "request", 1).findings, {"history was rewritten"});
+  expect_finding(cosign(cosigner, cosign_request(ledger.content(), 8), "request", 1).findings, {"history was rewritten"});
   fs::rename(school_.file("memory/" + id), school_.file("kept"));
   EXPECT_TRUE(cosign(cosigner, cosign_request(ledger.content(), 0), "request", 1).findings.empty());
   const auto check =

@@ -38,7 +38,7 @@ class Cosigning : public testing::Test {
     write_file(witness, c.witness);
   }
 
-  School school_;
+  School school_{false};
   SigningKey key_ = load_signing_key(school_.file("cosigner.key"), "cosigner");
 };
 

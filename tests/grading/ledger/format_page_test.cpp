@@ -52,7 +52,7 @@ TEST(LedgerFormatPage, ItsExampleIsWhatTheProgramSigns) {
 }
 
 TEST(LedgerFormatPage, SignedResultsAreCheckedAsItSays) {
-  const School school;
+  const School school{false};
   const Ledger ledger = school.ledger();
   const std::string line = signed_results(read_registry(ledger.content()), ledger);
   const auto facts = nlohmann::json::parse(line);

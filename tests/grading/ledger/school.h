@@ -41,11 +41,12 @@ class AtStation {
 
 class School {
  public:
-  School() {
+  /// With its first station enrolled, which takes two entries.
+  explicit School(bool with_station = true) {
     Ledger::create(ledger_folder(), "School of Dentistry", key());
     Identities(places().identities(), true);
     write_text_file(school_public_key_path(), to_hex(key().public_key) + "\n");
-    enrol("Seat 1");
+    if (with_station) enrol("Seat 1");
   }
   /// The same school with all its files, in a folder of its own; CAVUM_HOME points there.
   School(const School& other) : folder_() {
