@@ -6,11 +6,11 @@
 
 #include "engine/base/file.h"
 #include "engine/session/session_image.h"
+#include "grading/grade.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/registry.h"
-#include "grading/grade.h"
 #include "grading/school_mark.h"
 
 namespace cavum {

@@ -145,6 +145,8 @@ std::vector<NoteSignature> cosignatures_of(const LedgerContent& c, std::uint64_t
 
 std::map<std::string, std::string> documents_of(const LedgerEntry& e) {
   std::map<std::string, std::string> out;
+  if (e.kind == "session")
+    if (const std::string hash = text_in(e.body, "sealed_sha256"); !hash.empty()) out["sealed result"] = hash;
   const json& by = e.kind == "regrade" ? member_of(e.body, "by") : json();
   if (by.is_object())
     for (const auto& [name, hash] : by.items())

@@ -51,8 +51,9 @@ struct LedgerContent {
   std::vector<std::string> remarks;        ///< what is odd and may be harmless: a clock that was set back
 };
 
-/// What a regrade's entry was marked by: SHA-256 (hexadecimal) of each document by its name, `rubric.toml`, `scenario.toml`, `attachment/NAME`. Empty
-/// when the entry is older than the ledger's documents (format 3).
+/// What lies beside an entry. Of a session's the result that its station sealed, where that is another than the school's mark. Of a regrade's what it
+/// was marked by: SHA-256 (hexadecimal) of each document by its name, `rubric.toml`, `scenario.toml`, `attachment/NAME`. Empty when the entry is
+/// older than the ledger's documents (format 3).
 [[nodiscard]] std::map<std::string, std::string> documents_of(const LedgerEntry& entry);
 
 /// Places of a ledger in its folder.

@@ -74,7 +74,8 @@ Registry read_registry(const LedgerContent& content) {
         s.station_key = e.body.at("station_key");
         s.nonce = e.body.at("nonce");
         s.result = s.filed = e.body.at("result");
-        s.sealed = member_of(e.body, "sealed");
+        if (const auto sealed = content.documents.find(text_in(e.body, "sealed_sha256")); sealed != content.documents.end())
+          s.sealed = json::parse(sealed->second.begin(), sealed->second.end(), nullptr, false);
         s.grading_version = whole_in(e.body, "grading_version");
         s.simulated = e.body.at("simulated");
         s.findings = e.body.at("findings").get<std::vector<std::string>>();

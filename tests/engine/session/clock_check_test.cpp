@@ -33,17 +33,58 @@ TEST_F(ClockCheck, AnExamInRealTimeIsNotRemarkedOn) { EXPECT_TRUE(after("").empt
 TEST_F(ClockCheck, ASuspendIsNamedWithItsLength) {
   expect_one(after("UPDATE chunk SET boot_ns = boot_ns + 5000000000, utc_ns = utc_ns + 5000000000 WHERE seq >= 2"), 2000, "slept for 5.0 s");
 }
-TEST_F(ClockCheck, SlowMotionIsNamed) {
-  expect_one(
-      after("UPDATE chunk SET monotonic_ns = monotonic_ns + 3000000000, boot_ns = boot_ns + 3000000000, utc_ns = utc_ns + 3000000000 WHERE seq >= 4"),
-      4000, "1.0 s of the exam took 4.0 s");
+TEST_F(ClockCheck, SlowMotionIsNamedAndLongerIsDoubtful) {
+  const auto slow = [](const char* by) {
+    const std::string more = std::string(" + ") + by;
+    return "UPDATE chunk SET monotonic_ns = monotonic_ns" + more + ", boot_ns = boot_ns" + more + ", utc_ns = utc_ns" + more + " WHERE seq >= 4";
+  };
+  const auto once = after(slow("1500000000"));
+  expect_one(once, 4000, "1.0 s of the exam took 2.5 s");
+  EXPECT_FALSE(once[0].doubtful) << "a station may be slow for a moment";
+  const auto twice = after(slow("1500000000"));
+  ASSERT_EQ(twice.size(), 2u);
+  EXPECT_NE(twice[1].what.find("3.0 s passed that the recording does not account for"), std::string::npos) << twice[1].what;
+  EXPECT_TRUE(twice[1].doubtful);
 }
 TEST_F(ClockCheck, AWallClockThatWasSetIsNamed) {
   expect_one(after("UPDATE chunk SET utc_ns = utc_ns - 3600000000000 WHERE seq >= 1"), 1000, "set back by 3600.0 s");
 }
-TEST_F(ClockCheck, ARecordingFasterThanTimeIsSimulated) {
-  expect_one(after("UPDATE chunk SET monotonic_ns = monotonic_ns / 10, boot_ns = boot_ns / 10, utc_ns = utc_ns / 10"), 0,
-             "6.0 s of the exam were recorded in 0.6 s");
+TEST_F(ClockCheck, ARecordingFasterThanTimeIsDoubtful) {
+  const auto remarks = after("UPDATE chunk SET monotonic_ns = monotonic_ns / 10, boot_ns = boot_ns / 10, utc_ns = utc_ns / 10");
+  expect_one(remarks, 1000, "5.4 s ahead of the station's clock");
+  EXPECT_TRUE(remarks[0].doubtful);
+}
+TEST_F(ClockCheck, AFastEndOfAnExamThatBeganInRealTimeIsDoubtful) {
+  const auto remarks = after("UPDATE chunk SET monotonic_ns = 3000000000, boot_ns = 3000000000, utc_ns = 3000000000 WHERE seq >= 3");
+  expect_one(remarks, 4000, "3.0 s ahead of the station's clock");
+  EXPECT_TRUE(remarks[0].doubtful);
+}
+TEST_F(ClockCheck, AWriterThatWaitedForItsDiskIsNot) {
+  // the fourth second is written late, those after it at once
+  EXPECT_TRUE(after("UPDATE chunk SET monotonic_ns = 5400000000, boot_ns = 5400000000, utc_ns = 5400000000 WHERE seq = 4").empty());
+}
+TEST_F(ClockCheck, TimeThatTheServoOwnsUpToIsAccountedFor) {
+  const std::string path = folder_.file("stopped.cavum");
+  {
+    const SessionSetup setup = test::block_setup();
+    Simulation simulation = make_simulation(setup, "test");
+    std::int64_t tick = 0, lost_ms = 0;
+    Recorder recorder = Recorder::create(path, setup, [&] {
+      const std::int64_t ns = (tick + lost_ms) * 1'000'000;
+      return Clocks{ns, ns, ns};
+    });
+    for (; tick < 3000; ++tick) {
+      if (tick == 1500) {
+        lost_ms = 4000;
+        recorder.add_event(tick, k_servo_gap_event, R"({"periods":4000,"times":1,"first_tick":1500})");
+      }
+      test::drill(simulation, recorder, tick, 1);
+    }
+    recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
+  }
+  const SessionReader session(path);
+  EXPECT_NEAR(admitted_lost_s(session), 4.0, 1e-9);
+  for (const auto& r : check_clocks(session)) EXPECT_FALSE(r.doubtful) << r.what;
 }
 
 }  // namespace
