@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 
 namespace cavum {
 namespace {
@@ -33,7 +34,7 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
   for (const auto& e : session.events()) {
     if (e.kind != "gap") continue;
     gaps.push_back(e.tick);
-    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
+    const auto detail = parse_json_or_null(e.detail_json);
     const auto& gap_s = member_of(detail, "gap_utc_s");
     const bool told = gap_s.is_number();
     const std::string source = told ? text_in(member_of(detail, "source"), "device") : "";

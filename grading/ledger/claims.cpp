@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/station_check.h"
 
 namespace cavum {
@@ -28,7 +29,7 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
   if (ticket && begun < issued_utc_ns - k_patience_ns)
     findings.push_back("by the station's clock the exam began on " + utc_text(begun) + ", before its ticket was issued");
   for (const auto& e : session.events()) {
-    const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
+    const json detail = e.kind == "gap" ? parse_json_or_null(e.detail_json) : json();
     if (!detail.is_object()) continue;
     const std::int64_t resumed = whole_in(detail, "resumed_utc_ns");
     if (ticket && resumed > ticket->ticket.not_after_utc_ns)
@@ -73,7 +74,7 @@ std::string other_ending(const SessionReader& session, std::uint64_t seq, const 
 std::string ticket_nonce_in(const SessionSetup& setup) {
   const std::string text = ticket_text_in(setup);
   if (text.empty()) return {};
-  const json j = json::parse(text, nullptr, false);
+  const json j = parse_json_or_null(text);
   return text_in(member_of(j, "ticket"), "nonce");
 }
 
@@ -82,7 +83,7 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
     if (key == "operator") return value;
   for (const auto& e : session.events()) {
     if (e.kind != "gap") continue;
-    const json detail = json::parse(e.detail_json, nullptr, false);
+    const json detail = parse_json_or_null(e.detail_json);
     if (const auto& by = member_of(member_of(detail, "source"), "operator"); !by.is_null()) return by.is_string() ? by.get<std::string>() : by.dump();
   }
   return {};
@@ -106,7 +107,7 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Sessio
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   std::vector<std::string> findings;
-  if (!is_result(json::parse(session.result_json(), nullptr, false))) findings.emplace_back("the session's result is none that grading writes");
+  if (!is_result(parse_json_or_null(session.result_json(), k_json_part))) findings.emplace_back("the session's result is none that grading writes");
   for (auto& f : check_stations(session)) findings.push_back(std::move(f));
   const Registry registry = read_registry(content);
   for (const auto& s : registry.sessions)

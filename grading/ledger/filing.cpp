@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/verify.h"
 #include "scenarios/parse.h"
 
@@ -45,7 +46,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
                             auto late = claims(now);
                             if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
                             if (refused()) throw Refused();
-                            json result = json::parse(session.result_json(), nullptr, false);
+                            json result = parse_json_or_null(session.result_json(), k_json_part);
                             return {{"candidate", setup.candidate},
                                     {"chain_sha256", chain},
                                     {"file_sha256", file_sha256},
