@@ -37,14 +37,15 @@ struct Mat3 {
 }
 
 /// Shortest rotation that carries unit vector `from` onto unit vector `to`; of opposite ones, half a turn about some axis across `from`. Right to
-/// 1e-14 everywhere: w = |from + to| / 2 and the axis is along from x (from + to), for near the opposite 1 + from·to has lost its digits.
+/// 1e-12 everywhere. Near the opposite 1 + from·to has lost its digits: there w = |from + to| / 2, and the axis is along from x (from + to).
 [[nodiscard]] inline Quat rotation_between(Vec3 from, Vec3 to) noexcept {
   const double d = dot(from, to);
-  if (d < -0.9) {
-    const Vec3 sum = from + to, axis = cross(from, sum);
-    const double w = 0.5 * length(sum), across = length(axis);
-    if (across > w) {  // else nothing is left of the sum but rounding
-      const double s = 0.5 * length(to - from) / across;
+  if (d < -0.999999) {
+    const Vec3 sum = from + to;
+    const double w = 0.5 * length(sum);
+    if (w > 1e-15) {  // else nothing is left of the sum but rounding
+      const Vec3 axis = cross(from, sum);
+      const double s = 0.5 * length(to - from) / length(axis);
       return normalized(Quat{w, axis.x * s, axis.y * s, axis.z * s});
     }
     const Vec3 side = normalized(std::fabs(from.x) < 0.6 ? cross(from, {1, 0, 0}) : cross(from, {0, 1, 0}));

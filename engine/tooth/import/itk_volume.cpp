@@ -19,6 +19,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <new>
 #include <set>
 #include <sstream>
@@ -152,21 +153,33 @@ void require_alike(const DicomSlice& first, const std::string& first_file, const
   throw Error(file, "has fields that " + first_file + " of the same series does not have", "export the complete series again");
 }
 
-/// All bytes of a DICOM file; throws as check_dicom_bytes does, and when the series would have too many voxels.
-DicomSlice whole_slice(const std::string& file, std::uint64_t slices, std::uint64_t bytes) {
-  const DicomSlice slice = check_dicom_bytes(read_file(file, k_largest_slice), file);
-  require_voxels(slice.rows * slice.columns * slice.frames * slices, bytes, file);
-  return slice;
+bool is_dicom_file(const std::string& file) {
+  std::array<std::uint8_t, 132> head{};
+  std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
+  return says_dicom(head);
 }
 
-Read read_dicom(const std::string& folder, const std::string& series, const std::vector<std::string>& files, std::uint64_t bytes) {
-  DicomSlice first;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    DicomSlice slice = whole_slice(files[i], files.size(), bytes);
-    if (i == 0)
-      first = std::move(slice);
-    else
-      require_alike(first, files[0], slice, files[i]);
+void require_voxels(const DicomSlice& slice, std::uint64_t slices, std::uint64_t bytes, const std::string& file) {
+  require_voxels(slice.rows * slice.columns * slice.frames * slices, bytes, file);
+}
+
+DicomSlice whole_slice(const std::string& file) { return check_dicom_bytes(read_file(file, k_largest_slice), file); }
+
+using WholeSlices = std::map<std::string, DicomSlice>;  ///< by their files
+
+/// All that say that they are DICOM: GDCM aborts on some damaged ones while it only looks for series, so they are walked before.
+WholeSlices whole_slices(const std::vector<std::string>& files) {
+  WholeSlices whole;
+  for (const auto& file : files)
+    if (is_dicom_file(file) && fs::path(file).filename() != "DICOMDIR") whole[file] = whole_slice(file);
+  return whole;
+}
+
+Read read_dicom(const std::string& folder, const std::string& series, const std::vector<std::string>& files, WholeSlices whole, std::uint64_t bytes) {
+  for (const auto& file : files) {
+    if (!whole.contains(file)) whole[file] = whole_slice(file);  // some have no preamble
+    require_voxels(whole[file], files.size(), bytes, file);
+    require_alike(whole[files[0]], files[0], whole[file], file);
   }
   Read out;
   auto io = itk::GDCMImageIO::New();
@@ -201,18 +214,13 @@ std::vector<std::string> files_of(const std::string& folder, std::uint64_t& byte
   return files;
 }
 
-bool is_dicom_file(const std::string& file) {
-  std::array<std::uint8_t, 132> head{};
-  std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
-  return says_dicom(head);
-}
-
 itk::ImageIOBase::Pointer slice_reader(const std::string& extension) {
   if (extension == ".png") return itk::PNGImageIO::New().GetPointer();
   return itk::TIFFImageIO::New().GetPointer();
 }
 
 Read read_folder(const std::string& folder, std::uint64_t bytes, const std::vector<std::string>& files) {
+  WholeSlices whole = whole_slices(files);
   auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(false);
   names->SetDirectory(folder);
@@ -224,10 +232,10 @@ Read read_folder(const std::string& folder, std::uint64_t bytes, const std::vect
   const auto named_as_slice = [&](const std::string& file) { return !slices.empty() && lower_extension(file) == lower_extension(slices[0]); };
   for (const auto& file : files)
     if (!known.contains(file) && (is_dicom_file(file) || named_as_slice(file)) && fs::path(file).filename() != "DICOMDIR") {
-      static_cast<void>(check_dicom_bytes(read_file(file, k_largest_slice), file));
+      if (!whole.contains(file)) static_cast<void>(whole_slice(file));
       throw Error(file, "is DICOM and belongs to no series: its header is damaged", "export the complete series again");
     }
-  if (!slices.empty()) return read_dicom(folder, series[0], slices, bytes);
+  if (!slices.empty()) return read_dicom(folder, series[0], slices, std::move(whole), bytes);
   std::vector<std::string> pictures;
   for (const auto& file : files)
     if (const auto e = lower_extension(file); e == ".tif" || e == ".tiff" || e == ".png") pictures.push_back(file);
@@ -259,20 +267,22 @@ itk::ImageIOBase::Pointer reader_of(const std::string& path, std::uint64_t bytes
   if (e == ".tif" || e == ".tiff") return itk::TIFFImageIO::New().GetPointer();
   if (!is_dicom_file(path))
     throw Error(path, "is no volume by its name, nor DICOM", "name a .mhd, .mha, .nrrd, .nhdr, .nii, .nii.gz, .tif or DICOM file");
-  static_cast<void>(whole_slice(path, 1, bytes));
+  require_voxels(whole_slice(path), 1, bytes, path);
   return itk::GDCMImageIO::New().GetPointer();
 }
 
 Read read_one(const std::string& path, std::uint64_t bytes) {
   const auto io = reader_of(path, bytes);
+  const auto e = lower_extension(path);
+  const bool tiff = e == ".tif" || e == ".tiff";
+  if (tiff) check_volume_bytes(path);  // libtiff does not open a file that was cut, and does not say why
   require_claim(*io, path, 1, bytes);
-  check_volume_bytes(path);
+  if (!tiff) check_volume_bytes(path);  // what is packed is unpacked in this, so its claim comes before
   auto reader = itk::ImageFileReader<Image>::New();
   reader->SetImageIO(io);
   reader->SetFileName(path);
   reader->Update();
-  const auto e = lower_extension(path);
-  return {reader->GetOutput(), e == ".tif" || e == ".tiff", 0.0};
+  return {reader->GetOutput(), tiff, 0.0};
 }
 
 /// Everything of the volume but its voxels.

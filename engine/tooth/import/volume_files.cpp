@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -126,8 +127,8 @@ class Inflated {
     out.resize(most - stream_.avail_out);
     return out;
   }
-  /// All of them, and the sum that the stream ends with.
-  void require(const std::string& header, std::uint64_t needed) {
+  /// All of them, and the sum that the stream ends with. Returns how many packed bytes those are.
+  std::uint64_t require(const std::string& header, std::uint64_t needed) {
     constexpr std::uint64_t k_portion = 1U << 20;
     std::uint64_t held = 0;
     while (held < needed) {
@@ -141,6 +142,7 @@ class Inflated {
     }
     static_cast<void>(take(k_portion));
     if (ended_ ? !whole_ : stream_.avail_out > 0) throw Error(file_, "truncated or damaged: its checksum is missing or wrong", "use a complete copy");
+    return stream_.total_in;
   }
 
  private:
@@ -189,10 +191,16 @@ void check_meta(const std::string& path) {
   if (const auto channels = or_empty(h, "elementnumberofchannels"); !channels.empty())
     needed *= std::min<std::uint64_t>(product(channels, path), 1 << 16);
   const std::uint64_t skip = (data == path ? h.end : 0) + skipped(h, "headersize");
-  if (lower(or_empty(h, "compresseddata")) == "true")
-    Inflated(data, skip).require(path, needed);
-  else
-    compare(path, data, skip, needed);
+  if (lower(or_empty(h, "compresseddata")) != "true") return compare(path, data, skip, needed);
+  const std::uint64_t packed = Inflated(data, skip).require(path, needed);
+  // MetaIO unpacks as many bytes as the header says, and from the header itself when it says nothing
+  const auto said = or_empty(h, "compresseddatasize");
+  if (said.empty() && data != path) return;
+  if (const std::uint64_t size = std::strtoull(said.c_str(), nullptr, 10); said.empty() || size < packed || size > fs::file_size(data) - skip)
+    throw Error(
+        path,
+        "its CompressedDataSize is " + (said.empty() ? "missing" : std::to_string(size)) + ", the data have " + std::to_string(packed) + " bytes",
+        "use an intact file");
 }
 
 void check_nrrd(const std::string& path) {
@@ -202,7 +210,7 @@ void check_nrrd(const std::string& path) {
   const std::uint64_t from = data == path ? h.end : 0, skip = skipped(h, "byte skip") + skipped(h, "byteskip");
   const std::uint64_t needed = product(or_empty(h, "sizes"), path) * bytes_of_type(or_empty(h, "type"));
   if (encoding == "raw") compare(path, data, from + skip, needed);
-  if (encoding == "gzip" || encoding == "gz") Inflated(data, from).require(path, skip + needed);
+  if (encoding == "gzip" || encoding == "gz") static_cast<void>(Inflated(data, from).require(path, skip + needed));
 }
 
 constexpr std::size_t k_nifti_head = 544;
@@ -246,7 +254,9 @@ void check_nifti(const std::string& path) {
   compare(path, path, 0, nifti_bytes(path, head));
 }
 
-void check_packed_nifti(const std::string& path) { Inflated(path, 0).require(path, nifti_bytes(path, Inflated(path, 0).take(k_nifti_head))); }
+void check_packed_nifti(const std::string& path) {
+  static_cast<void>(Inflated(path, 0).require(path, nifti_bytes(path, Inflated(path, 0).take(k_nifti_head))));
+}
 
 std::string lower_path(const std::string& path) { return lower(fs::path(path).filename().string()); }
 

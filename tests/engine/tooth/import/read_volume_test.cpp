@@ -131,8 +131,7 @@ TEST(ReadVolume, SizesThatAreClaimedAreRefusedBeforeTheyAreTaken) {
 }
 
 /// Packed by gzip: 4096 bytes, of which byte i is i % 7. Made by Python: gzip.compress(bytes(i % 7 for i in range(4096)), mtime=0).
-constexpr const char* k_packed =
-    "1f8b0800000000000203edc5c1110030040030b4ec3fb23d5cf24964bddf139224499224e96e0b77d3c17400100000";
+constexpr const char* k_packed = "1f8b0800000000000203edc5c1110030040030b4ec3fb23d5cf24964bddf139224499224e96e0b77d3c17400100000";
 
 Bytes from_hex(const std::string& hex) {
   Bytes out;
@@ -140,12 +139,29 @@ Bytes from_hex(const std::string& hex) {
   return out;
 }
 
+std::string packed_meta(std::size_t size) {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\n" +
+         (size == 0 ? std::string() : "CompressedDataSize = " + std::to_string(size) + "\n") +
+         "DimSize = 16 16 16\nElementSpacing = 0.2 0.2 0.2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+}
+
+// MetaIO unpacks the header when the size is missing, and gives whatever that makes for a volume.
+TEST(ReadVolume, AMetaImageThatMisstatesItsPackedBytesIsRefused) {
+  const auto folder = fresh_folder();
+  const Bytes packed = from_hex(k_packed);
+  for (const std::size_t said : {std::size_t{0}, std::size_t{1}, packed.size() - 1, packed.size() + 1, std::size_t{1'000'000'000'000}}) {
+    const std::string head = packed_meta(said);
+    Bytes all(head.begin(), head.end());
+    all.insert(all.end(), packed.begin(), packed.end());
+    write_bytes(folder / "v.mha", all);
+    EXPECT_NE(refused(folder / "v.mha").find("its CompressedDataSize is "), std::string::npos) << said << ": " << refused(folder / "v.mha");
+  }
+}
+
 TEST(ReadVolume, PackedDataThatWereCutOrDamagedAreRefused) {
   const auto folder = fresh_folder();
   const Bytes packed = from_hex(k_packed);
-  const std::string meta =
-      "ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\nDimSize = 16 16 16\nElementSpacing = 0.2 0.2 0.2\nElementType = "
-      "MET_UCHAR\nElementDataFile = LOCAL\n";
+  const std::string meta = packed_meta(packed.size());
   const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 0.2 0.2 0.2\nencoding: gzip\n\n";
   for (const auto& [name, head] : {std::pair("v.mha", meta), std::pair("v.nrrd", nrrd)}) {
     const auto write = [&](const Bytes& data) {
