@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "grading/access.h"
 #include "grading/cut_surface.h"
@@ -51,8 +52,8 @@ std::vector<PauseMeasure> find_pauses(const GradeInput& input, std::int64_t tick
 LateWork find_late_work(const GradeInput& input) {
   for (const auto& e : input.events) {
     if (e.kind != k_late_work) continue;
-    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
-    if (detail.is_object()) return {detail.value("ticks", std::int64_t{0}), detail.value("pedal_ticks", std::int64_t{0})};
+    const auto detail = parse_json_or_null(e.detail_json);
+    if (detail.is_object()) return {whole_in(detail, "ticks"), whole_in(detail, "pedal_ticks")};
   }
   return {};
 }
@@ -82,8 +83,7 @@ double lost_s(std::span<const SessionEvent> events) {
   constexpr std::int64_t k_day = 86'400'000;  // whatever a file says
   std::int64_t periods = 0;
   for (const auto& e : events)
-    if (e.kind == k_servo_gap_event)
-      periods += std::clamp<std::int64_t>(whole_in(nlohmann::json::parse(e.detail_json, nullptr, false), "periods"), 0, k_day);
+    if (e.kind == k_servo_gap_event) periods += std::clamp<std::int64_t>(whole_in(parse_json_or_null(e.detail_json), "periods"), 0, k_day);
   return static_cast<double>(periods) * k_tick_s;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "grading/result_json.h"
 #include "grading/session_input.h"
@@ -30,7 +31,7 @@ bool is_runners(const std::string& kind) {
 /// Tick at which the candidate, or who took the exam up, ended it by hand; -1 = nobody did.
 std::int64_t ended_by_hand(const std::vector<SessionEvent>& events) {
   for (const auto& e : events)
-    if (e.kind == event_name(ExamEventKind::finished) && text_in(json::parse(e.detail_json, nullptr, false), "how") == finish_name(Finish::ended))
+    if (e.kind == event_name(ExamEventKind::finished) && text_in(parse_json_or_null(e.detail_json), "how") == finish_name(Finish::ended))
       return e.tick;
   return -1;
 }
@@ -168,15 +169,15 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   try {
     const auto graded = load_for_grading(session, load_tooth(session.final_tooth(), session.path() + ": final tooth"), grounds);
     graded->events = events->events();
-    out.result = json::parse(to_json(grade(graded->input(), graded->rubric)).dump());
+    out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), "result");
   } catch (const std::exception& e) {
     out.findings.push_back(std::string("cannot be marked: ") + e.what());
     return out;
   }
-  const json sealed = json::parse(session.result_json(), nullptr, false);
+  const json sealed = parse_json_or_null(session.result_json(), k_json_part);
   auto differ = result_differences(sealed, out.result);
   if (differ.empty()) return out;
-  out.sealed_otherwise = sealed.is_discarded() ? json(nullptr) : sealed;
+  out.sealed_otherwise = sealed;
   std::string all;
   const std::size_t named = std::min(differ.size(), k_most_named);
   for (std::size_t i = 0; i < named; ++i) all += (i == 0 ? "" : "; ") + differ[i];

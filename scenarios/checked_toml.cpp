@@ -153,6 +153,12 @@ std::size_t CheckedTable::word(std::string_view key, const std::vector<std::stri
   return k_wrong;
 }
 
+bool CheckedTable::too_many(std::string_view key, std::size_t count, std::size_t most) {
+  if (count <= most) return false;
+  problem(key, "'" + std::string(key) + "' has " + std::to_string(count) + " items", "list at most " + std::to_string(most));
+  return true;
+}
+
 std::vector<std::string> CheckedTable::texts(std::string_view key, bool required) {
   const auto* node = ask(key, required);
   std::vector<std::string> list;
@@ -162,6 +168,7 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
     problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a list of texts, [\"a\", \"b\"]");
     return list;
   }
+  if (too_many(key, array->size(), k_most_items)) return list;
   for (const auto& item : *array) {
     if (item.is_string())
       list.push_back(item.value<std::string>().value_or(""));
@@ -208,6 +215,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
     problem(key, "'" + std::string(key) + "' needs at least " + std::to_string(at_least) + " points", "write [[x, y], [x, y], ...]");
     return list;
   }
+  if (too_many(key, array->size(), k_most_points)) return list;
   for (const auto& item : *array) {
     Vec3 v;
     if (read_vector(item, 2, v))
@@ -235,6 +243,7 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
     problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write tables, [[" + std::string(key) + "]]");
     return list;
   }
+  if (too_many(key, array->size(), k_most_items)) return list;
   for (const auto& item : *array) {
     if (const auto* t = item.as_table())
       list.push_back(t);

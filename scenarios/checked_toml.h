@@ -14,6 +14,11 @@
 
 namespace cavum {
 
+/// Items of one list, of texts or of tables: a tray, steps, criteria, bodies. Some are compared with all others, and each body with each leaf.
+inline constexpr std::size_t k_most_items = 100;
+/// Points of one outline: the distance to each side is taken at each leaf of the target's box, some 25 ms a side on a molar.
+inline constexpr std::size_t k_most_points = 100;
+
 class ProblemList {
  public:
   explicit ProblemList(std::string path, Reading reading = Reading::to_be_run) : path_(std::move(path)), reading_(reading) {}
@@ -66,6 +71,8 @@ class CheckedTable {
 
  private:
   const toml::node* ask(std::string_view key, bool required);
+  /// Notes a list longer than `most`, whose items are then not looked at.
+  bool too_many(std::string_view key, std::size_t count, std::size_t most);
   const toml::table& table_;
   std::string name_;
   ProblemList& problems_;

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/base/toml_limits.h"
 
 namespace cavum {
 namespace {
@@ -62,6 +63,7 @@ std::size_t after_value(const std::string& text, std::size_t i) {
 class ReadToml {
  public:
   ReadToml(const std::string& text, const std::string& path) : text_(text), path_(path) {
+    if (const auto beyond = beyond_toml_limits(text)) throw Error(path + ":" + std::to_string(beyond->line) + ":1", beyond->what, beyond->what_to_do);
     try {
       table_ = toml::parse(std::string_view(text), path);
     } catch (const toml::parse_error& e) {

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/toml_limits.h"
 #include "scenarios/checked_toml.h"
 #include "scenarios/names.h"
 #include "scenarios/parse_steps.h"
@@ -176,6 +177,10 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
     const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
     problems.add(Place{1, 1}, wide ? "this is a text in UTF-16" : "this is no text: it holds zero bytes",
                  wide ? "save it as UTF-8" : "give a scenario or rubric, a text file (TOML)");
+    return false;
+  }
+  if (const auto beyond = beyond_toml_limits(text)) {
+    problems.add(Place{static_cast<int>(beyond->line), 1}, beyond->what, beyond->what_to_do);
     return false;
   }
   try {

@@ -17,7 +17,7 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
   for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
   constexpr std::size_t k_longest = 2000;
-  if (text.size() > k_longest && problems.strict()) {
+  if (text.size() > k_longest) {
     t.problem(key, "'" + std::string(key) + "' has " + std::to_string(text.size()) + " characters", "write at most 2000");
     return;
   }

@@ -7,6 +7,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_largest_mm = 100.0;
+constexpr std::size_t k_most_bodies = 12;  // of all zones: the distance to each is taken at each leaf, up to 0.4 s and 30 MB on a molar
 
 using Places = std::map<std::string, Place>;
 
@@ -205,6 +206,20 @@ std::vector<ShapeSpec> read_shapes(CheckedTable& zones, const char* key, bool re
   return list;
 }
 
+/// Each list may be as long as is allowed, and all together take too long.
+void check_sum(CheckedTable& zones, const ZoneSpec& z) {
+  std::size_t bodies = 0, points = 0;
+  for (const auto* list : {&z.target, &z.protected_shapes})
+    for (const auto& shape : *list) {
+      ++bodies;
+      points += shape.outline.points_mm.size();
+    }
+  if (bodies > k_most_bodies)
+    zones.problem("target", "the zones have " + std::to_string(bodies) + " bodies", "use at most " + std::to_string(k_most_bodies));
+  if (points > k_most_points)
+    zones.problem("target", "the outlines have " + std::to_string(points) + " points in all", "use at most " + std::to_string(k_most_points));
+}
+
 MarginSpec read_margin(CheckedTable& zones, const char* key, ProblemList& problems) {
   MarginSpec m;
   if (const auto* table = zones.table(key, true)) {
@@ -229,6 +244,7 @@ ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& plac
   if (problems.size() == before && (z.container.sides_mm < z.leeway.sides_mm || z.container.bottom_mm < z.leeway.bottom_mm))
     t.problem("container", "the container is narrower than the leeway", "make it at least as wide: it is measured from the target too");
   z.protected_shapes = read_shapes(t, "protected", false, places, problems);
+  check_sum(t, z);
   t.finish();
   return z;
 }

@@ -84,7 +84,7 @@ std::size_t line_of_sample(std::string_view text, std::size_t sample) {
 
 /// A motion file whose diamond points are all on the tray; else throws Error.
 std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
-  const std::string text = read_text_file(path);
+  const std::string text = read_text_file(path, k_largest_table);
   Motion motion = parse_motion(text, path);
   for (std::size_t i = 0; i < motion.samples.size(); ++i)
     if (const int point = motion.samples[i].point; point >= static_cast<int>(tray.size()))

@@ -85,7 +85,7 @@ explain::Recording read_data(const ExplainArgs& a) {
 /// A table of force over stiffness. False: the data are none.
 bool ran_table(const ExplainArgs& a) {
   if (a.data.ends_with(".cavum")) return false;
-  const std::string text = read_text_file(a.data);
+  const std::string text = read_text_file(a.data, k_largest_table);
   if (!explain::is_stiffness_table(text)) return false;
   if (!a.model.empty() || !a.model_out.empty())
     throw Error(a.data, "is a table of means, without motion", "leave out --model and --model-out; no force model follows from it");

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "engine/base/file.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "grading/ledger/check_ledger.h"
 #include "grading/ledger/cosign.h"
@@ -23,7 +24,7 @@ int ledger_verify(const LedgerOptions& o) {
   LedgerCheck check = check_ledger(places, o.replay);
   check_owner(check, places, content, o.key.empty() ? school_key_path() : o.key, school_public_key_path());
   for (const auto& path : o.receipts) {
-    const json receipt = json::parse(read_text_file(path), nullptr, false);
+    const json receipt = parse_json_or_null(read_text_file(path));
     for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(path + ": " + f);
   }
   const auto cosigners = cosigners_of(o);

@@ -185,7 +185,7 @@ void run_record(const RecordArgs& a) {
     throw Error("--csv " + a.csv, "is the name of the description beside it", "use a name ending in .csv");
   require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.motion}, {"", a.model}, {"", a.point}});
   require_rigs_own(rig_toml);
-  const Motion motion = parse_motion(read_text_file(a.motion), a.motion);
+  const Motion motion = parse_motion(read_text_file(a.motion, k_largest_table), a.motion);
   const RecordResult result = run_record_rig(motion, load_model(a.model), load_point(a.point), a.options);
   write_text_file(a.csv, record_csv(result));
   write_text_file(rig_toml, record_rig_toml(result));

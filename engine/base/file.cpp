@@ -23,6 +23,34 @@ struct File {
 
 std::string reason() { return std::strerror(errno); }
 
+/// All of the file, as bytes or as text. What fstat says of the size is only a guess: files of /sys say 4096, and one may grow meanwhile.
+template <class Content>
+Content read_as(const std::string& path, std::uint64_t largest) {
+  if (path.empty()) throw Error("file", "its name is empty", "name a file");
+  const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};  // a pipe that nobody writes to must not hold us
+  if (file.fd < 0) throw Error(path, "cannot be opened (" + reason() + ")", "check the path and its permissions");
+  struct stat info {};
+  if (::fstat(file.fd, &info) != 0) throw Error(path, "cannot be read (" + reason() + ")", "check the disk and the permissions");
+  if (S_ISDIR(info.st_mode)) throw Error(path, "is a folder", "name a file");
+  if (!S_ISREG(info.st_mode)) throw Error(path, "is no ordinary file but a device, a pipe or a socket", "name a file");
+  const auto require_size = [&](std::uint64_t size) {
+    if (size > largest)
+      throw Error(path, "is larger than " + std::to_string(largest) + " bytes, the most that is read of such a file", "name an intact file");
+  };
+  require_size(static_cast<std::uint64_t>(info.st_size));
+  Content content;
+  content.reserve(static_cast<std::size_t>(info.st_size));
+  std::uint8_t block[1 << 16];
+  for (;;) {
+    const auto n = ::read(file.fd, block, sizeof block);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(path, "cannot be read (" + reason() + ")", "check the disk and the permissions");
+    if (n == 0) return content;
+    require_size(content.size() + static_cast<std::uint64_t>(n));
+    content.insert(content.end(), block, block + n);
+  }
+}
+
 }  // namespace
 
 std::string station_path(const std::string& name) {
@@ -31,26 +59,8 @@ std::string station_path(const std::string& name) {
   throw Error(name, "neither CAVUM_HOME nor HOME is set", "set CAVUM_HOME to the station's own folder");
 }
 
-Bytes read_file(const std::string& path) {
-  if (path.empty()) throw Error("file", "its name is empty", "name a file");
-  const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.fd < 0) throw Error(path, "cannot be opened (" + reason() + ")", "check the path and its permissions");
-  struct stat info {};
-  if (::fstat(file.fd, &info) == 0 && S_ISDIR(info.st_mode)) throw Error(path, "is a folder", "name a file");
-  Bytes bytes;
-  std::uint8_t block[1 << 16];
-  for (;;) {
-    const auto n = ::read(file.fd, block, sizeof block);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(path, "cannot be read (" + reason() + ")", "check the disk and the permissions");
-    if (n == 0) return bytes;
-    bytes.insert(bytes.end(), block, block + n);
-  }
-}
+Bytes read_file(const std::string& path, std::uint64_t largest) { return read_as<Bytes>(path, largest); }
 
-std::string read_text_file(const std::string& path) {
-  const Bytes b = read_file(path);
-  return {reinterpret_cast<const char*>(b.data()), b.size()};
-}
+std::string read_text_file(const std::string& path, std::uint64_t largest) { return read_as<std::string>(path, largest); }
 
 }  // namespace cavum

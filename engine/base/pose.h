@@ -36,10 +36,18 @@ struct Mat3 {
           {2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}};
 }
 
-/// Shortest rotation that carries unit vector `from` onto unit vector `to`.
+/// Shortest rotation that carries unit vector `from` onto unit vector `to`; of opposite ones, half a turn about some axis across `from`. Right to
+/// 1e-12 everywhere. Near the opposite 1 + from·to has lost its digits: there w = |from + to| / 2, and the axis is along from x (from + to).
 [[nodiscard]] inline Quat rotation_between(Vec3 from, Vec3 to) noexcept {
   const double d = dot(from, to);
-  if (d < -0.999999) {  // opposite: half a turn about any axis across `from`
+  if (d < -0.999999) {
+    const Vec3 sum = from + to;
+    const double w = 0.5 * length(sum);
+    if (w > 1e-15) {  // else nothing is left of the sum but rounding
+      const Vec3 axis = cross(from, sum);
+      const double s = 0.5 * length(to - from) / length(axis);
+      return normalized(Quat{w, axis.x * s, axis.y * s, axis.z * s});
+    }
     const Vec3 side = normalized(std::fabs(from.x) < 0.6 ? cross(from, {1, 0, 0}) : cross(from, {0, 1, 0}));
     return {0.0, side.x, side.y, side.z};
   }

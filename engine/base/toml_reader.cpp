@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "engine/base/toml_limits.h"
 
 namespace cavum {
 namespace {
@@ -14,6 +15,7 @@ std::string place(const std::string& where, const toml::source_region& source) {
 }  // namespace
 
 toml::table parse_toml(const std::string& text, const std::string& where) {
+  if (const auto beyond = beyond_toml_limits(text)) throw Error(where + ":" + std::to_string(beyond->line) + ":1", beyond->what, beyond->what_to_do);
   try {
     return toml::parse(text, where);
   } catch (const toml::parse_error& e) {

@@ -13,7 +13,7 @@
 
 namespace cavum {
 
-/// Parses a whole document. Throws Error(`where:line:column`, ...) on a syntax error.
+/// Parses a whole document. Throws Error(`where:line:column`, ...) on a syntax error, and when it is beyond a limit of toml_limits.h.
 [[nodiscard]] toml::table parse_toml(const std::string& text, const std::string& where);
 
 /// One table of a document. Call `finish` when all known keys were asked for.

@@ -17,6 +17,7 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t k_max_sessions = 1000, k_max_columns = 200;
 constexpr std::size_t k_max_rows = 5'000'000;  // 7 hours at 200 Hz; beyond that memory, not time, is the limit
 
 std::string_view trimmed(std::string_view s) {
@@ -101,6 +102,8 @@ Recording parse_recording(const std::string& csv, const std::string& where, cons
         const auto it = ours.find(std::string(cell));
         read.push_back({it == ours.end() ? std::string(cell) : it->second, {}, {}, 0, 0});
         if (!seen.insert(read.back().name).second) throw Error(at, "there are two columns '" + one_line(read.back().name) + "'", "rename one");
+        if (read.size() > k_max_columns)
+          throw Error(at, "has more than " + std::to_string(k_max_columns) + " columns", "leave out those that say nothing of the force");
         if (read.back().name == "session") session_at = static_cast<std::ptrdiff_t>(read.size()) - 1;
       }
       for (const auto& [contract, theirs] : names)
@@ -128,12 +131,15 @@ Recording parse_recording(const std::string& csv, const std::string& where, cons
   if (read.empty()) throw Error(where, "is empty", "give a CSV with a header such as session,t_s,x_mm,f_n");
   if (session_of_row.empty()) throw Error(where, "has a header and no rows", "give a recording");
 
+  std::set<std::string> named;
   for (std::size_t i = 0; i < session_of_row.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     if (i == 0 || session_of_row[i] != session_of_row[i - 1]) {
-      for (const auto& s : out.sessions)
-        if (s.name == session_of_row[i])
-          throw Error(where, "session '" + one_line(s.name) + "' is in two places", "sort the rows by session, then by time");
+      if (!named.insert(session_of_row[i]).second)
+        throw Error(where, "session '" + one_line(session_of_row[i]) + "' is in two places", "sort the rows by session, then by time");
+      if (named.size() > k_max_sessions)
+        throw Error(where, "has more than " + std::to_string(k_max_sessions) + " sessions",
+                    "give column 'session' a name for each run, not for each row");
       out.sessions.push_back({session_of_row[i], row, row});
     }
     out.sessions.back().end = row + 1;
@@ -184,7 +190,7 @@ Rig parse_rig(const std::string& toml_text, const std::string& where) {
 
 Recording read_recording(const std::string& path, const std::string& rig_path, const ColumnNames& names) {
   namespace fs = std::filesystem;
-  Recording out = parse_recording(read_text_file(path), path, names);
+  Recording out = parse_recording(read_text_file(path, k_largest_table), path, names);
   const std::string beside = rig_path.empty() ? (fs::path(path).parent_path() / "rig.toml").string() : rig_path;
   std::error_code ignored;
   if (!rig_path.empty() || fs::exists(beside, ignored))

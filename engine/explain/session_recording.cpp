@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/simulation.h"
 
@@ -31,7 +32,7 @@ struct Force {
 };
 
 Force force_of_csv(const std::string& path) {
-  const Recording r = parse_recording(read_text_file(path), path, {}, false);
+  const Recording r = parse_recording(read_text_file(path, k_largest_table), path, {}, false);
   Force out{{r.t_s.data(), r.t_s.data() + r.rows()}, {r.f_n.data(), r.f_n.data() + r.rows()}, "measured, " + path};
   if (!std::is_sorted(out.t_s.begin(), out.t_s.end())) throw Error(path, "its times do not grow", "sort the rows by t_s");
   return out;
@@ -42,18 +43,19 @@ Force force_of_events(const SessionReader& session, double tick_s) {
   out.source = "measured, in the session";
   for (const auto& event : session.events()) {
     if (event.kind != k_measured_force_event) continue;
-    const auto detail = nlohmann::json::parse(event.detail_json, nullptr, false);
+    const auto detail = parse_json_or_null(event.detail_json);
     const std::string where = session.path() + ": event " + k_measured_force_event + " at tick " + std::to_string(event.tick);
     if (!detail.is_object() || !detail.contains("f_n") || !detail["f_n"].is_array())
       throw Error(where, "holds no list f_n", "record {\"f_n\": [...], \"every_ticks\": N}");
-    const double every = detail.value("every_ticks", 1.0);
+    const auto& told = member_of(detail, "every_ticks");
+    const double every = told.is_number() ? std::clamp(told.get<double>(), 1.0, 1e9) : 1.0;
     double at = static_cast<double>(event.tick);
     for (const auto& value : detail["f_n"]) {
       if (!value.is_number()) throw Error(where, "f_n holds something that is no number", "record forces in N");
       if (!out.t_s.empty() && !(at * tick_s > out.t_s.back())) throw Error(where, "overlaps the one before", "record each tick once");
       out.t_s.push_back(at * tick_s);
       out.f_n.push_back(value.get<double>());
-      at += std::max(1.0, every);
+      at += every;
     }
   }
   return out;

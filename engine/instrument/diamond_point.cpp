@@ -13,6 +13,9 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   point.cutting_length_mm = in.number("cutting_length_mm", 0.1, 20);
   const toml::array* pieces = in.array("profile");
   if (pieces == nullptr) in.fail("profile", "is missing", "list {r_mm, z_mm} from the tip upwards");
+  constexpr std::size_t k_most_pieces = 64;  // the distance to each is taken at each node of the head's table
+  if (pieces->size() > k_most_pieces)
+    in.fail("profile", "has " + std::to_string(pieces->size()) + " pieces", "list at most " + std::to_string(k_most_pieces));
   std::vector<ProfileSegment> segments;
   for (const auto& node : *pieces) {
     if (!node.is_table()) in.fail("profile", "has an entry that is not a table", "write {r_mm = .., z_mm = ..}");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 
 namespace cavum {
 namespace {
@@ -36,7 +37,7 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
   for (const auto& e : session.events()) {
     if (e.kind != "gap") continue;
     gaps.push_back(e.tick);
-    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
+    const auto detail = parse_json_or_null(e.detail_json);
     const auto& gap_s = member_of(detail, "gap_utc_s");
     const bool told = gap_s.is_number();
     const std::string source = told ? text_in(member_of(detail, "source"), "device") : "";
@@ -92,7 +93,7 @@ double admitted_lost_s(const SessionReader& session) {
   double s = 0.0;
   const double tick_s = std::strtod(session.fact("tick_s").c_str(), nullptr);
   for (const auto& e : session.events())
-    if (e.kind == k_servo_gap_event) s += static_cast<double>(whole_in(nlohmann::json::parse(e.detail_json, nullptr, false), "periods")) * tick_s;
+    if (e.kind == k_servo_gap_event) s += static_cast<double>(whole_in(parse_json_or_null(e.detail_json), "periods")) * tick_s;
   return s;
 }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/base/write_file.h"
 #include "engine/servo/servo.h"
@@ -220,7 +221,7 @@ void Recorder::append(const TickInput& input, const TickRecord& record, std::spa
 
 void Recorder::add_event(std::int64_t tick, const std::string& kind, const std::string& detail_json) {
   require_open();
-  if (!nlohmann::json::accept(detail_json)) throw Error("event " + kind, "its detail is not JSON: " + detail_json, "give one JSON value");
+  if (!is_json(detail_json)) throw Error("event " + kind, "its detail is not JSON: " + detail_json, "give one JSON value");
   pending_.back().events.push_back({tick, kind, detail_json});
 }
 
@@ -334,7 +335,7 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
 
 void Recorder::close(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
   if (final_tooth.empty()) throw Error(path_, "the final tooth is missing", "give save_tooth of the drilled tooth");
-  if (!nlohmann::json::accept(result_json)) throw Error(path_, "the result is not JSON", "give one JSON value");
+  if (!is_json(result_json, k_json_part)) throw Error(path_, "the result is not JSON", "give one JSON value");
   require_database();
   if (!sealed_) write_seal(final_tooth, result_json);
   insert_chunk_.reset();

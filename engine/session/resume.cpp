@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
@@ -61,7 +62,7 @@ std::string gap_detail(const SessionReader& session, const SourceNotes& source, 
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
     if (e.event.kind == "gap")
-      if (const auto boot = text_in(nlohmann::json::parse(e.event.detail_json, nullptr, false), "boot_id"); !boot.empty()) last_boot = boot;
+      if (const auto boot = text_in(parse_json_or_null(e.event.detail_json), "boot_id"); !boot.empty()) last_boot = boot;
   const std::string this_boot = boot_id();
   nlohmann::json detail;
   detail["last_utc_ns"] = last.utc_ns;

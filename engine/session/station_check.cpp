@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/chain.h"
 
 namespace cavum {
@@ -12,7 +13,7 @@ std::vector<std::string> check_stations(const SessionReader& session) {
   const std::string begun = session.fact(k_station_fact);
   for (const auto& e : session.events()) {
     if (e.kind != "gap") continue;
-    const auto detail = nlohmann::json::parse(e.detail_json, nullptr, false);
+    const auto detail = parse_json_or_null(e.detail_json);
     const std::string by = text_in(detail, "station_key"), when = "the exam was taken up again at tick " + std::to_string(e.tick);
     if (begun.empty())
       findings.push_back(when + ", and the recording does not say which station began it");

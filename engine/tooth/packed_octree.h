@@ -9,7 +9,7 @@
 
 namespace cavum {
 
-/// Appends the packed form (layout in packed_octree.cpp) of what `Octree::write` wrote. Throws Error above 2^24 bricks.
+/// Appends the packed form (layout in packed_octree.cpp) of what `Octree::write` wrote. Throws Error above 2^18 bricks.
 void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, ByteWriter& out);
 /// The canonical bytes again. Throws Error, of `in`, on damage; needs memory in proportion to the bricks that `in` really codes.
 [[nodiscard]] Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues);

@@ -24,7 +24,7 @@ namespace cavum {
 namespace {
 
 constexpr std::string_view k_magic = "CVTOOTH2", k_magic_1 = "CVTOOTH1";
-constexpr std::uint64_t k_largest_body_1 = 1ULL << 31;
+constexpr std::uint64_t k_largest_body_1 = 1ULL << 28;  // the octree of a molar has 7 MB
 
 void write_tissues(const Tooth& tooth, ByteWriter& out) {
   out.put(static_cast<std::uint8_t>(tooth.tissues.size()));

@@ -9,6 +9,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/history.h"
@@ -172,10 +173,10 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   }
   for (auto& f : changed) plan.findings.push_back(std::move(f));
   for (const auto& path : receipts) {
-    const json receipt = json::parse(read_text_file(path), nullptr, false);
+    const json receipt = parse_json_or_null(read_text_file(path));
     if (const auto wrong = check_receipt(receipt, c.public_key, nullptr); !wrong.empty()) throw Error(path, wrong[0], "use an intact copy");
     const std::string id = receipt.at("ledger"), text = receipt.at("entry");
-    const json entry = json::parse(text, nullptr, false), &body = member_of(entry, "body");
+    const json entry = parse_json_or_null(text), &body = member_of(entry, "body");
     const auto seq = receipt.at("seq").get<std::uint64_t>();
     const std::string candidate = text_in(body, "candidate"), file = text_in(body, "file_sha256");
     const std::string told = seq < c.entries.size() ? ""

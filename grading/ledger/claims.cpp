@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/motion_source.h"
 #include "engine/session/station_check.h"
@@ -38,7 +39,7 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
                        ", more than a day after its ticket's time and after it ended by the station's clock (" + utc_text(closed) +
                        "): nothing but that clock shows when it was sat");
   for (const auto& e : session.events()) {
-    const json detail = e.kind == "gap" ? json::parse(e.detail_json, nullptr, false) : json();
+    const json detail = e.kind == "gap" ? parse_json_or_null(e.detail_json) : json();
     if (!detail.is_object()) continue;
     const std::int64_t resumed = whole_in(detail, "resumed_utc_ns");
     if (ticket && resumed > ticket->ticket.not_after_utc_ns)
@@ -104,7 +105,7 @@ std::string other_ending(const SessionReader& session, std::uint64_t seq, const 
 std::string ticket_nonce_in(const SessionSetup& setup) {
   const std::string text = ticket_text_in(setup);
   if (text.empty()) return {};
-  const json j = json::parse(text, nullptr, false);
+  const json j = parse_json_or_null(text);
   return text_in(member_of(j, "ticket"), "nonce");
 }
 

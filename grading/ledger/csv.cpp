@@ -8,6 +8,8 @@
 namespace cavum {
 namespace {
 
+constexpr std::size_t k_most_fields = 100, k_most_rows = 20'000;  // each row may ask a database
+
 /// Spaces around a field that was not in quotes mean nothing.
 std::string trimmed(const std::string& s) {
   const auto from = s.find_first_not_of(" \t"), to = s.find_last_not_of(" \t");
@@ -61,6 +63,8 @@ std::vector<CsvRow> parse_csv(const std::string& whole, const std::string& where
         quoted = was_quoted = any = true;
       } else if (c == separator) {
         row.fields.push_back(was_quoted ? field : trimmed(field));
+        if (row.fields.size() >= k_most_fields)
+          fail(line, "has more than " + std::to_string(k_most_fields) + " fields", "leave out what is not asked for");
         field.clear();
         was_quoted = false;
         any = true;
@@ -84,6 +88,7 @@ std::vector<CsvRow> parse_csv(const std::string& whole, const std::string& where
     if (!rows.empty() && row.fields.size() != rows[0].fields.size())
       fail(row.line, "has " + std::to_string(row.fields.size()) + " fields, the heading " + std::to_string(rows[0].fields.size()),
            "give each row all of them");
+    if (rows.size() > k_most_rows) fail(row.line, "is beyond the limit of " + std::to_string(k_most_rows) + " rows", "split the table");
     rows.push_back(std::move(row));
   }
   return rows;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/json_reader.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/csv.h"
 
@@ -25,7 +26,7 @@ std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate) {
   ticket.candidate = candidate;
   ticket.nonce = random_hex(16);
   std::string text = sign_ticket(ticket, ledger.key());
-  ledger.append("ticket", [&](const LedgerContent&) { return nlohmann::json::parse(text); });
+  ledger.append("ticket", [&](const LedgerContent&) { return parse_json(text, "the ticket"); });
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/session.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/history.h"
@@ -27,7 +28,7 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
   const std::string name = "entry " + std::to_string(seq);
   if (leaf_hash(ledger_bytes(e.text)) != leaf) findings.push_back(name + ": its text was changed after it was entered");
   try {
-    const json j = json::parse(e.text);
+    const json j = parse_json(e.text, name);
     e.kind = j.at("kind").get<std::string>();
     e.body = j.at("body");
     e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", name);
@@ -36,7 +37,7 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     if (bound != (e.attachment.empty() ? "" : to_hex(sha256(e.attachment))))
       findings.push_back(name + ": its result was changed, added or removed after it was entered");
     else if (!bound.empty())
-      e.body["result"] = json::parse(e.attachment);
+      e.body["result"] = parse_json(e.attachment, name);
     if (require_whole<std::uint64_t>(j, "seq", name) != seq)
       findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
   } catch (const std::exception&) {
@@ -163,7 +164,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   // reason.
   const bool has_entries = has_table(db, "entry");
   const std::string first = has_entries ? db.text("SELECT text FROM entry WHERE seq = 0") : "";
-  const json begin = json::parse(first, nullptr, false);
+  const json begin = parse_json_or_null(first);
   const std::string id = text_in(member_of(begin, "body"), "ledger");
   const bool known = ask == AskWitness::yes && id.size() == 32 && id.find('/') == std::string::npos;
   const auto witnessed = known ? read_witness(id, c.findings) : std::vector<Checkpoint>();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/session.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/ledger_key.h"
@@ -29,7 +30,7 @@ json told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_json(
 
 /// The entry that holds the same session as the text of a lost one.
 bool is_filed_again(const LedgerContent& ledger, const std::string& lost) {
-  const json entry = json::parse(lost, nullptr, false);
+  const json entry = parse_json_or_null(lost);
   const std::string file = text_in(member_of(entry, "body"), "file_sha256");
   return !file.empty() && std::any_of(ledger.entries.begin(), ledger.entries.end(),
                                       [&](const LedgerEntry& e) { return e.kind == "session" && text_in(e.body, "file_sha256") == file; });

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 
 namespace cavum {
 
@@ -75,7 +76,7 @@ Registry read_registry(const LedgerContent& content) {
         s.nonce = e.body.at("nonce");
         s.result = s.filed = e.body.at("result");
         if (const auto sealed = content.documents.find(text_in(e.body, "sealed_sha256")); sealed != content.documents.end())
-          s.sealed = json::parse(sealed->second.begin(), sealed->second.end(), nullptr, false);
+          s.sealed = parse_json_or_null({reinterpret_cast<const char*>(sealed->second.data()), sealed->second.size()}, k_json_part);
         s.grading_version = whole_in(e.body, "grading_version");
         s.simulated = e.body.at("simulated");
         s.findings = e.body.at("findings").get<std::vector<std::string>>();

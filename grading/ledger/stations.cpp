@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger.h"
@@ -179,7 +180,7 @@ std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t
 }
 
 const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::int64_t until_utc_ns, const std::string& where) {
-  const json asked = json::parse(text, nullptr, false);
+  const json asked = parse_json_or_null(text, k_json_part);
   return ledger.append("station", [&](const LedgerContent& now) -> json {
     const Request request = parse_request(asked, where);
     if (request.school != now.public_key)

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "engine/base/error.h"
+#include "engine/base/json_reader.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum {
@@ -68,7 +69,7 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
   json facts;
   std::string signature;
   try {
-    const json j = json::parse(text);
+    const json j = parse_json_or_null(text);
     facts = j.at("ticket");
     signature = j.at("signature");
     if (facts.at("format") != k_format) throw Error(where, "is a ticket of another format", "use the version of Cavum that issued it");

@@ -39,6 +39,41 @@ TEST(Scenario, TemplateAndShippedScenariosAreSound) {
     EXPECT_NO_THROW(static_cast<void>(load_scenario(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/" + name))) << name;
 }
 
+/// The first problem of the good scenario with a piece of its text replaced.
+std::string first_problem(const std::string& from, const std::string& to) {
+  const auto problems = check_scenario(with(from, to), "s.toml");
+  return problems.empty() ? "" : problems[0].text();
+}
+
+std::string list_of(std::size_t count, const std::string& item) {
+  std::string list;
+  for (std::size_t i = 0; i < count; ++i) list += item;
+  return list;
+}
+
+std::string stroke(std::size_t points) {
+  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"stroke\", width_mm = 1, points_mm = [" + list_of(points, "[0, 1], ") +
+         "] }\nbottom = { kind = \"level\", z_mm = 0 }\n";
+}
+
+// A tray of 50,000 names took 46 s and 2.1 GB, a stroke of 4,000 points over 100 s.
+TEST(ScenarioLimits, LongListsAreRefusedWithTheLimitNamed) {
+  const std::string tray = first_problem("points = [\"round-1.0\"]", "points = [" + list_of(50'000, "\"p\", ") + "]");
+  EXPECT_NE(tray.find("'points' has 50000 items; list at most 100"), std::string::npos) << tray;
+  const std::string outline = first_problem(k_ball, stroke(4000));
+  EXPECT_NE(outline.find("'points_mm' has 4000 items; list at most 100"), std::string::npos) << outline;
+  const std::string bodies = first_problem(k_ball, list_of(101, k_ball));
+  EXPECT_NE(bodies.find("'target' has 101 items; list at most 100"), std::string::npos) << bodies;
+  EXPECT_EQ(first_problem(k_ball, stroke(100)), "");
+}
+
+TEST(ScenarioLimits, BodiesAndPointsOfAllZonesAreCountedTogether) {
+  EXPECT_EQ(first_problem(k_ball, list_of(11, k_ball)), "");
+  const std::string bodies = first_problem(k_ball, list_of(13, k_ball)), points = first_problem(k_ball, stroke(60) + stroke(41));
+  EXPECT_NE(bodies.find(" bodies; use at most 12"), std::string::npos) << bodies;
+  EXPECT_NE(points.find("the outlines have 101 points in all; use at most 100"), std::string::npos) << points;
+}
+
 struct Broken {
   const char *from, *to, *message;
 };

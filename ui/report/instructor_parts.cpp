@@ -1,6 +1,7 @@
 // What only an instructor's report shows: every figure with its bound, perforation by force and by tissue, the work, the device.
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "scenarios/accommodations.h"
 #include "ui/report/report_document.h"
@@ -143,7 +144,7 @@ void add_work(Document& d, const ReportSource& s) {
 
 /// Of a live exam: how punctual the servo was, as the session's own event says it.
 void add_servo(ReportTable& t, const SessionEvent& e) {
-  const json j = json::parse(e.detail_json, nullptr, false);
+  const json j = parse_json_or_null(e.detail_json);
   if (!j.is_object()) return;
   const json lateness = j.value("lateness", json::object());
   const auto us = [&](const char* key) {

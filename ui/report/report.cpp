@@ -19,7 +19,7 @@ std::string report_pdf(const ReportSource& source) { return pdf_of(report_docume
 void require_report_place(const std::string& path, bool overwrite) {
   require_writable(path);
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path) == 0 || overwrite) return;
-  const std::string text = read_text_file(path), head = text.substr(0, 200);
+  const std::string text = read_text_file(path, k_largest_file), head = text.substr(0, 200);
   const bool report = path.ends_with(".svg")   ? head.starts_with("<svg") && text.find("of the target removed") != std::string::npos
                       : path.ends_with(".pdf") ? head.starts_with("%PDF") && text.find("(Cavum ") != std::string::npos
                                                : head.starts_with("<!doctype html>") && text.find("README.md of Cavum") != std::string::npos;

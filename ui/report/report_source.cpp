@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/instrument/diamond_point.h"
 #include "scenarios/runner.h"
@@ -30,7 +31,7 @@ std::string spaced(std::string kind) {
 }
 
 ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::vector<std::string>& points_toml) {
-  const json detail = json::parse(e.detail_json, nullptr, false);
+  const json detail = parse_json_or_null(e.detail_json);
   const std::string step = text_of(detail, "step");
   const auto is = [&](ExamEventKind kind) { return e.kind == event_name(kind); };
   ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, "device", spaced(e.kind), site_of(detail)};

@@ -3,6 +3,7 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -75,20 +76,48 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
               "copy or export the whole file again, as STL");
 }
 
+/// OpenMesh walks around a corner for each triangle that it joins there: at one that 190,000 share it would walk for minutes.
+constexpr std::size_t k_most_at_corner = 2000;
+
+[[noreturn]] void fail_crowded(const std::string& name) {
+  throw Error(name, "more than " + std::to_string(k_most_at_corner) + " triangles meet at one corner", "remesh the surface in a mesh editor");
+}
+
+using Corner = std::array<float, 3>;
+/// `corners` of all triangles, in any order.
+void require_few_at_each(std::vector<Corner> corners, const std::string& name) {
+  std::sort(corners.begin(), corners.end());
+  for (std::size_t i = k_most_at_corner; i < corners.size(); ++i)
+    if (corners[i] == corners[i - k_most_at_corner]) fail_crowded(name);
+}
+
+/// The same of polygons, which become fans about their first corners.
+void require_few_at_each(const Polygons& polygons, const std::string& name) {
+  std::vector<std::size_t> at(polygons.corners_mm.size());
+  for (const auto& polygon : polygons.polygons)
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      if ((at[polygon[i]] += i == 0 ? polygon.size() - 2 : 1) > k_most_at_corner) fail_crowded(name);
+}
+
 /// OpenMesh joins the equal corners of an STL while it reads; a corner that is no number is equal to any other, vanishes in that, and
 /// leaves a hole. So they are looked for in the file itself.
 void require_numbers_in_stl(const Bytes& file, const std::string& name) {
   require_whole_stl(file, name);
   const auto fail = [&](const std::string& where) { throw Error(name, where + " has a corner that is no number", "export the mesh again, in mm"); };
-  constexpr std::size_t k_normal = 12, k_corners = 9;
+  constexpr std::size_t k_normal = 12;
+  std::vector<Corner> corners;
   if (is_binary_stl(file)) {
     for (std::size_t f = 0; f < stl_facets(file); ++f)
-      for (std::size_t i = 0; i < k_corners; ++i) {
-        float value = 0;
-        std::memcpy(&value, file.data() + k_stl_head + f * k_stl_facet + k_normal + i * sizeof value, sizeof value);
-        if (!std::isfinite(value)) fail("facet " + std::to_string(f + 1));
+      for (std::size_t i = 0; i < 3; ++i) {
+        Corner c{};
+        std::memcpy(c.data(), file.data() + k_stl_head + f * k_stl_facet + k_normal + i * sizeof c, sizeof c);
+        for (float& value : c) {
+          if (!std::isfinite(value)) fail("facet " + std::to_string(f + 1));
+          value += 0.0F;  // no zero below zero
+        }
+        corners.push_back(c);
       }
-    return;
+    return require_few_at_each(std::move(corners), name);
   }
   std::istringstream text(std::string(file.begin(), file.end()));
   std::size_t number = 0;
@@ -96,13 +125,20 @@ void require_numbers_in_stl(const Bytes& file, const std::string& name) {
     ++number;
     std::istringstream words(line);
     std::string word;
-    if (!(words >> word) || word != "vertex") continue;
-    for (int i = 0; i < 3; ++i) {
-      words >> word;
-      char* end = nullptr;
-      if (!words || !std::isfinite(std::strtod(word.c_str(), &end)) || *end != '\0') fail("line " + std::to_string(number));
+    for (bool first = true; words >> word; first = false) {
+      if (first && (word == "solid" || word == "endsolid")) break;  // its name may be anything
+      if (word != "vertex") continue;
+      Corner c{};
+      for (float& value : c) {
+        words >> word;
+        char* end = nullptr;
+        value = static_cast<float>(std::clamp(std::strtod(word.c_str(), &end), -1e30, 1e30)) + 0.0F;
+        if (!words || !std::isfinite(std::strtod(word.c_str(), nullptr)) || *end != '\0') fail("line " + std::to_string(number));
+      }
+      corners.push_back(c);
     }
   }
+  require_few_at_each(std::move(corners), name);
 }
 
 std::string extension_of(const std::string& path) {
@@ -131,7 +167,8 @@ Surface surface_of_stl(const Bytes& file, const std::string& name) {
 }
 
 /// Polygons as triangles. One that does not fit among its neighbours gets corners of its own, and so shows as open.
-Surface surface_of(const Polygons& polygons) {
+Surface surface_of(const Polygons& polygons, const std::string& name) {
+  require_few_at_each(polygons, name);
   quieten_openmesh();
   Surface surface;
   for (const Vec3& p : polygons.corners_mm) surface.add_vertex({p.x, p.y, p.z});
@@ -156,11 +193,11 @@ Surface load(const std::string& path) {
   if (extension == ".stl")
     surface = surface_of_stl(file, path);
   else if (extension == ".ply")
-    surface = surface_of(read_ply(file, path));
+    surface = surface_of(read_ply(file, path), path);
   else if (extension == ".obj")
-    surface = surface_of(read_obj(file, path));
+    surface = surface_of(read_obj(file, path), path);
   else if (extension == ".off")
-    surface = surface_of(read_off(file, path));
+    surface = surface_of(read_off(file, path), path);
   if (surface.n_faces() == 0) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
   return surface;
 }

@@ -1,48 +1,28 @@
-// Gray volumes and label maps from files, read by ITK: MetaImage, NRRD, NIfTI, DICOM series (a folder), TIFF
-// (a file of several pages, or a folder). What ITK lets pass is checked here: raw data that are too short,
-// series with a hole, spacing that the format cannot carry.
+// Gray volumes and label maps from files: MetaImage, NRRD, NIfTI, DICOM (a file of several frames, or a folder), TIFF (a file of several pages, or a
+// folder), PNG (a folder). ITK reads them, in a process of its own (`cavum-read-volume`) with limits to its time and memory: damaged files make its
+// libraries abort, spin or fill the memory. What ITK lets pass is checked there, too: data that are too short, series with a hole, slices that
+// differ.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "engine/base/pose.h"
+#include "engine/tooth/import/volume.h"
 
 namespace cavum {
-
-/// A volume in the file's physical frame: see place_mm.
-struct Volume {
-  IVec3 size;                                                             ///< voxels
-  std::array<double, 3> spacing_mm{1, 1, 1};                              ///< > 0
-  std::array<Vec3, 3> axis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< unit directions of i, j, k
-  Vec3 origin_mm;                                                         ///< centre of voxel (0,0,0)
-  std::vector<float> gray;                                                ///< x fastest
-  std::string spacing_note;                                               ///< for Tooth::source: where the spacing comes from
-  bool spacing_assumed = false;                                           ///< neither the file nor the user gave one
-
-  [[nodiscard]] std::size_t index(IVec3 v) const noexcept {
-    return (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(v.y)) * static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(v.x);
-  }
-  [[nodiscard]] Vec3 place_mm(Vec3 voxel) const noexcept {
-    return origin_mm + axis[0] * (spacing_mm[0] * voxel.x) + axis[1] * (spacing_mm[1] * voxel.y) + axis[2] * (spacing_mm[2] * voxel.z);
-  }
-  /// Inverse of place_mm (the axes are orthonormal).
-  [[nodiscard]] Vec3 voxel_at(Vec3 mm) const noexcept {
-    const Vec3 d = mm - origin_mm;
-    return {dot(axis[0], d) / spacing_mm[0], dot(axis[1], d) / spacing_mm[1], dot(axis[2], d) / spacing_mm[2]};
-  }
-};
 
 /// The voxel edge assumed when a file has none and the user gives none: usual for micro-CT of whole teeth.
 inline constexpr double k_assumed_spacing_mm = 0.125;
 
 /// Reads a file or folder. `spacing_mm` overrides the file's. A spacing that is missing, not positive, or exactly
 /// 1,1,1 (what every format writes when it knows none) becomes k_assumed_spacing_mm and is marked as assumed.
-/// Throws Error naming file and place: missing, not a volume, raw data shorter than the header says, a DICOM
-/// series with a hole or with several series, gray values that are not finite.
+/// Throws Error naming file and place: missing, not a volume, data shorter than the header says, a DICOM series with a hole or with several series,
+/// gray values that are not finite, more voxels, time or memory than volume_limits.h allows.
 [[nodiscard]] Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_mm);
+
+/// The program that reads: $CAVUM_READ_VOLUME, else `cavum-read-volume` beside the running program. Throws Error when it is not there.
+[[nodiscard]] std::string read_volume_program();
+/// Where that program writes to.
+inline constexpr int k_volume_descriptor = 3;
 
 }  // namespace cavum

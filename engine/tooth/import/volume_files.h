@@ -2,12 +2,16 @@
 // the headers of MetaImage, NRRD and NIfTI are compared with the data's size before ITK sees them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace cavum {
 
-/// Throws Error naming the data file when it is missing or too short. Formats and encodings whose size cannot
-/// be told from the header (compressed data, DICOM, TIFF) pass; their own readers notice.
+/// Bytes of the files that hold the volume: `path`, and the data file that it names. Throws Error when that is missing or no ordinary file, and when
+/// the data are spread over several files.
+[[nodiscard]] std::uint64_t bytes_of_volume(const std::string& path);
+/// Throws Error naming the data file when it is too short, packed ones included. DICOM has check_dicom_bytes; PNG and
+/// NRRD in text or packed by bzip2 pass, for their own readers notice.
 void check_volume_bytes(const std::string& path);
 
 }  // namespace cavum

@@ -45,6 +45,31 @@ TEST(File, MissingFileAndFolderAreErrorsThatNameThem) {
   EXPECT_EQ(error_of([&] { (void)read_file(folder.path().string()); }).rfind(folder.path().string() + ": is a folder", 0), 0u);
 }
 
+TEST(File, OnlyOrdinaryFilesAreRead) {
+  const Folder folder;
+  const std::string pipe = folder.file("pipe"), link = folder.file("link");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", link);
+  for (const std::string& node : {pipe, link, std::string("/dev/zero"), std::string("/dev/null")}) {
+    EXPECT_EQ(error_of([&] { (void)read_file(node); }).rfind(node + ": is no ordinary file", 0), 0u);
+    EXPECT_EQ(error_of([&] { (void)read_text_file(node); }).rfind(node + ": is no ordinary file", 0), 0u);
+  }
+  EXPECT_FALSE(read_file("/proc/self/cmdline").empty()) << "fstat says that it has no bytes";
+}
+
+TEST(File, LargerThanTheCallersLimitIsRefusedWithTheLimitNamed) {
+  const Folder folder;
+  write_text_file(folder.file("a"), std::string(1000, 'x'));
+  EXPECT_EQ(read_file(folder.file("a"), 1000).size(), 1000u);
+  EXPECT_NE(error_of([&] { (void)read_file(folder.file("a"), 999); }).find("larger than 999 bytes"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)read_text_file(folder.file("a"), 999); }).find("larger than 999 bytes"), std::string::npos);
+  write_text_file(folder.file("sparse"), "");
+  std::filesystem::resize_file(folder.file("sparse"), std::uintmax_t{1} << 36);  // 64 GB that take no room on the disk
+  EXPECT_NE(error_of([&] { (void)read_file(folder.file("sparse")); }).find("larger than 1073741824 bytes"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)read_text_file(folder.file("sparse")); }).find("larger than 16777216 bytes"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)read_file("/proc/self/status", 10); }).find("larger than 10 bytes"), std::string::npos) << "fstat knows no size";
+}
+
 TEST(File, FolderThatCannotBeWrittenLeavesTheOldFileIntact) {
   const Folder folder;
   EXPECT_NE(error_of([&] { write_text_file(folder.file("no/such/folder/a"), "new"); }), "");
