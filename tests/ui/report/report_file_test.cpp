@@ -218,7 +218,9 @@ TEST_F(ReportFile, NothingThatPeopleWroteBecomesMarkupOrScript) {
     s.facts.candidate = s.facts.device = s.facts.calibration = s.facts.created = evil;
     s.facts.notes.emplace_back(evil, evil);
     s.scenario.title = evil;
-    s.before.name = evil;
+    auto named = std::make_shared<Tooth>(*s.before);
+    named->name = evil;
+    s.before = std::move(named);
     for (auto& c : s.rubric.criteria) c.title = evil;
     for (auto& e : s.events)
       if (e.kind == "step_started") e.detail_json = json{{"step", evil}}.dump();
