@@ -146,7 +146,12 @@ bool put_in_place(const std::string& made, const std::string& path) {
     if (errno == EEXIST) return false;
     throw Error(path, "cannot be put in place (" + words_of(errno) + ")", "check the folder and the disk");
   }
-  sync_folder_of(path);
+  try {
+    sync_folder_of(path);
+  } catch (const Error&) {
+    ::rename(path.c_str(), made.c_str());
+    throw;
+  }
   return true;
 }
 

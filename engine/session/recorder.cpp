@@ -78,9 +78,9 @@ void put_session_in_place(const std::string& made, const std::string& path) {
   bool placed = false;
   try {
     placed = put_in_place(made, path);
-  } catch (const Error&) {
+  } catch (const Error& refusal) {
     ::unlink(made.c_str());
-    throw;
+    throw DatabaseError(refusal, SQLITE_IOERR);  // the disk's, as any while recording: an exam then begins at its second place
   }
   if (placed) return;
   ::unlink(made.c_str());

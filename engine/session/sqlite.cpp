@@ -120,7 +120,11 @@ Database Database::open(const std::string& path, bool make, std::chrono::millise
   Database database;
   database.where_ = path;
   database.wait_ = wait;
-  if (make && path != ":memory:") make_private_file(path);
+  try {
+    if (make && path != ":memory:") make_private_file(path);
+  } catch (const Error& refusal) {
+    throw DatabaseError(refusal, SQLITE_CANTOPEN);
+  }
   database.connect(path, SQLITE_OPEN_READWRITE);
   sqlite3_busy_timeout(database.db_.get(), static_cast<int>(wait.count()));
   return database;

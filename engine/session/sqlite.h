@@ -22,6 +22,8 @@ class DatabaseError : public Error {
  public:
   DatabaseError(const std::string& where, const std::string& what_happened, const std::string& what_to_do, int code)
       : Error(where, what_happened, what_to_do), code_(code) {}
+  /// A file of a database that the system refused before SQLite saw it.
+  DatabaseError(const Error& refusal, int code) : Error(refusal), code_(code) {}
   [[nodiscard]] int code() const noexcept { return code_; }
 
  private:

@@ -76,6 +76,17 @@ TEST(Database, IsItsUsersAloneWithItsLogAndFollowsNoPlantedLink) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("victim")));
 }
 
+TEST(Database, AFileThatTheSystemRefusesIsRefusedAsADatabase) {
+  const Folder folder;  // who records asks for another place then
+  try {
+    static_cast<void>(Database::open(folder.file("no/such/folder/a.db"), true));
+    FAIL() << "there is no such folder";
+  } catch (const DatabaseError& e) {
+    EXPECT_EQ(std::string(e.what()).rfind(folder.file("no/such/folder/a.db") + ": cannot be created", 0), 0u) << e.what();
+    EXPECT_EQ(e.code(), SQLITE_CANTOPEN);
+  }
+}
+
 class HeldDatabase : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
