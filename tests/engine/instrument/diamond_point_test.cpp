@@ -103,6 +103,17 @@ TEST(DiamondPoint, BrokenFilesAreErrorsWithLineAndColumn) {
     expect_error_with_place(b);
 }
 
+TEST(DiamondPoint, MorePiecesThanTheLimitAreRefusedByIt) {
+  std::string text = "name = \"many\"\ntitle = \"Many\"\ncutting_length_mm = 1\nprofile = [";
+  for (int i = 0; i < 65; ++i) text += "{ r_mm = 0.3, z_mm = 1.2 }, ";
+  try {
+    static_cast<void>(parse_diamond_point(text + "]\n", "p.toml"));
+    FAIL() << "taken";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("has 65 pieces; list at most 64"), std::string::npos) << e.what();
+  }
+}
+
 TEST(DiamondPoint, ImpossibleOutlinesAreErrorsWithLineAndColumn) {
   for (const Broken& b : {Broken{"heights fall", "z_mm = 11 }", "z_mm = 1.0 }"},
                           {"arc that does not fit", "centre = [0, 0.5]", "centre = [0, 0.4]"},
