@@ -63,7 +63,8 @@ std::optional<Bytes> from_base64(const std::string& text) {
   std::size_t n = 0;
   if (sodium_base642bin(out.data(), out.size(), text.data(), text.size(), nullptr, &n, nullptr, sodium_base64_VARIANT_ORIGINAL) != 0) return {};
   out.resize(n);
-  return out;
+  // libsodium reads bytes above 127 as '/'
+  return to_base64(out) == text ? std::optional(std::move(out)) : std::nullopt;
 }
 
 void require_note_name(const std::string& name, const std::string& where) {

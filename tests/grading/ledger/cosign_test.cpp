@@ -2,6 +2,8 @@
 // rewritten.
 #include "grading/ledger/cosign.h"
 
+#include <random>
+
 #include "grading/ledger/exports.h"
 #include "tests/grading/ledger/old_ledger.h"
 
@@ -12,6 +14,7 @@ using namespace testing_ledger;
 using nlohmann::json;
 
 constexpr std::uint64_t k_now_s = 1'800'000'000;
+constexpr int k_changes = 2000;
 
 /// A school, and a cosigner with a memory of its own.
 class Cosigning : public testing::Test {
@@ -157,6 +160,58 @@ TEST_F(Cosigning, AMemoryThatWasPutBackIsNotNoticed) {
   expect_finding(sign(cosign_request(content(), 3)).findings, {"history was rewritten"});
   write_text_file(path, memory);
   EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty()) << "its own backups are the cosigner's affair";
+}
+
+TEST_F(Cosigning, AnyBytesAreAnsweredWithAnErrorOrAFindingAndNeverSigned) {
+  add(4);
+  const Cosigned sound = sign(cosign_request(content(), 0), school_key());
+  ASSERT_TRUE(sound.findings.empty());
+  add(3);
+  const LedgerContent c = content();
+  const std::string request = cosign_request(c, 5), memory_path = school_.file("memory/" + c.id), memory = read_text_file(memory_path);
+  const std::string key = key_line(known()[0]);
+  std::mt19937_64 draw(testing_basics::drawn_seed("cosign"));
+  const auto changed = [&](std::string text) {
+    const std::string before = text;
+    while (text == before)
+      for (auto n = 1 + draw() % 3; n > 0; --n) {
+        const std::size_t at = draw() % (text.size() + 1), length = draw() % 40;
+        switch (text.empty() ? 1 : draw() % 4) {
+          case 0:
+            text.erase(at, length);
+            break;
+          case 1:
+            text.insert(at, before.substr(draw() % before.size(), length));
+            break;
+          case 2:
+            text.resize(at);
+            break;
+          default:
+            text[draw() % text.size()] = static_cast<char>(draw() % 256);
+        }
+      }
+    return text;
+  };
+  const auto answer = [](const std::function<void()>& ask) {
+    try {
+      ask();
+    } catch (const Error&) {
+    }
+  };
+  for (int i = 0; i < k_changes; ++i) {
+    answer([&] { EXPECT_FALSE(sign(changed(request)).findings.empty()) << "a request that was changed, however little, is not signed"; });
+    const auto note = check_cosigned(changed(sound.note), known(), c);
+    if (note.checkpoint) {
+      EXPECT_EQ(note.checkpoint->root, c.checkpoints.at(4).root);
+    }
+    answer([&] { EXPECT_NE(key_line(parse_key_line(changed(key), "key")), key); });
+    answer([&] {
+      write_text_file(school_.file("cosigners"), changed("# a comment\n" + key + "\n"));
+      static_cast<void>(read_cosigners(school_.file("cosigners")));
+    });
+  }
+  EXPECT_EQ(read_text_file(memory_path), memory);
+  EXPECT_TRUE(sign(request).findings.empty());
 }
 
 /// The rows of the page about rollback: by which means each is seen.

@@ -110,7 +110,10 @@ TEST(Cosignature, BearsItsTime) {
 }
 
 TEST(Base64, IsCanonicalOrNone) {
-  for (const char* bad : {"A", "AA", "AAA", "AA=", "AB==", "AAB=", "AAAA\n", " AAAA", "AA-_", "AAAA=", "===="}) EXPECT_FALSE(from_base64(bad)) << bad;
+  for (const char* bad : {"A", "AA", "AAA", "AA=", "AB==", "AAB=", "AAAA\n", " AAAA", "AA-_", "AAAA=", "====", "AAA\x93",
+                          "\xd2"
+                          "AAA"})
+    EXPECT_FALSE(from_base64(bad)) << bad;
   for (const char* good : {"", "AA==", "AAE=", "AAEC", "+/+/"}) EXPECT_EQ(to_base64(*from_base64(good)), good);
 }
 
