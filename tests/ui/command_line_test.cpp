@@ -328,7 +328,11 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
   for (const auto& row : done.event_rows())
     if (row.event.kind == "gap") {
       ++gaps;
-      EXPECT_EQ(json::parse(row.event.detail_json)["source"], (json{{"device", "motion file"}, {"motion_file", "go_on.csv"}}));
+      EXPECT_EQ(json::parse(row.event.detail_json)["source"], (json{{"device", "motion file"},
+                                                                    {"motion_file", "go_on.csv"},
+                                                                    {"source", "motion_file"},
+                                                                    {"source_name", "go_on.csv"},
+                                                                    {"source_serial", ""}}));
     }
   EXPECT_EQ(gaps, 1) << "a refused call leaves no gap";
   EXPECT_EQ(run("replay " + session + " --verify").exit_code, 0);
