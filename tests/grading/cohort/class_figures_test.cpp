@@ -22,7 +22,7 @@ FiledSession session(std::uint64_t seq, const std::string& candidate, double fir
               {"score", {{"points", first + second}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 2.0}}},
               {"criteria", json::array({{{"id", "a"}, {"metric", "dice"}, {"points", first}, {"max", 60.0}},
                                         {{"id", "b"}, {"metric", "time_s"}, {"points", second}, {"max", 40.0}}})}};
-  s.sealed = s.result;
+  s.filed = s.result;
   return s;
 }
 

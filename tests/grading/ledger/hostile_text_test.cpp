@@ -48,7 +48,7 @@ Registry registry_of(const std::string& text, const std::string& candidate) {
   s.seq = s.result_seq = s.shown_seq = 3;
   s.candidate = candidate;
   s.scenario_id = s.station_key = text;
-  s.sealed = s.result = s.shown = result_of(text);
+  s.filed = s.sealed = s.result = s.shown = result_of(text);
   s.released = true;
   registry.sessions.push_back(s);
   s.simulated = text;
