@@ -60,7 +60,7 @@ void report(const Options& o) {
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {
     Identities identities(places.identities());
-    marks = cohort::parse_marks(read_text_file(o.marks), identities, o.marks, cohort::points_of_exam(registry, o.exam));
+    marks = cohort::parse_marks(read_text_file(o.marks), identities, o.exam, o.marks, cohort::points_of_exam(registry, o.exam));
   }
   if (o.borderline_given) {
     const auto rating_is = [&](auto holds) {

@@ -51,7 +51,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--reason", o->reason, "with --revoke: why, in one line; it is kept for ever");
   json_flag(v);
 
-  v = verb("ticket", "Promise an exam to a candidate, or to a list of them", done(ledger_ticket));
+  v = verb("ticket", "Promise an exam to a candidate, or to a list of them", ledger_ticket);
   v->add_option("scenario", o->scenario, "scenario file (.toml)")->required();
   v->add_option("--candidate", o->candidate, "matriculation number or mail address; kept with the identities only");
   v->add_option("--name", o->name, "for people; kept with the identities only");
@@ -62,9 +62,24 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--model", o->model, "force model")->capture_default_str();
   v->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   add_grant_options(v, o->grant);
+  v->add_flag("--another", o->another, "also to a candidate who has a ticket for this exam that is still good");
+  v->add_flag("--begin-at-ledger", o->begin_at_ledger, "the exam counts only when the ledger let it begin (`cavum ledger begin`)");
   v->add_option("--out", o->out, "ticket to write, or the folder for a class")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
   json_flag(v);
+
+  v = keyless("tickets", "List the tickets and what became of them", "the ledger's folder", done(ledger_tickets));
+  json_flag(v);
+
+  v = verb("cancel", "Cancel a ticket that was not used", done(ledger_cancel));
+  v->add_option("--ticket", o->session_seq, "its entry")->required();
+  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names")->required();
+
+  v = verb("begin", "Let the exam of a ticket begin now: by the ledger's clock, and once", done(ledger_begin));
+  v->add_option("--ticket", o->scenario, "the ticket's file")->required();
+  v->add_option("--again", o->again, "why an exam that was let begin before begins anew, in one line; only the last one counts");
+  v->add_option("--out", o->out, "file to write (default: beside the ticket, NAME.begin)");
+  v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
 
   v = verb("add", "File finished exams: verified tick by tick, checked against their tickets, counter-signed", ledger_add);
   v->add_option("sessions", o->sessions, ".cavum files, or folders of them")->required();
@@ -119,8 +134,23 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v = verb("candidates", "List who is behind which pseudonym", done(ledger_candidates));
   json_flag(v);
 
-  v = verb("forget", "Remove a candidate's identity; all proofs stay valid", done(ledger_forget));
-  v->add_option("--candidate", o->candidate, "pseudonym or the school's own number")->required();
+  v = verb("forget", "Remove a candidate's identity and erase the recordings; all proofs stay valid", done(ledger_forget));
+  v->add_option("--candidate", o->candidate, "one of the pseudonyms, or the school's own number")->required();
+  v->add_flag("--keep-motion", o->keep_motion, "keep the recordings, under pseudonyms that lead to nobody; they hold the accommodations");
+  v->add_flag("--erase-results", o->erase_results, "erase the results, too");
+
+  v = verb("erase", "Erase recordings or results; all proofs stay valid. Without more: remove what a crash left of it", done(ledger_erase));
+  v->add_option("--session", o->chosen_sessions, "its entry; may be repeated");
+  v->add_option("--before", o->before, "all that came in before this time, UTC: 2026-11-21T09:00Z");
+  v->add_flag("--motion", o->erase_motion, "the recording: motion, forces, ticket, accommodations");
+  v->add_flag("--results", o->erase_results, "the school's mark, all regrades, and what the station sealed");
+  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names");
+  json_flag(v);
+
+  v = verb("key", "List the school's keys; replace the present one, or say until when it is good", done(ledger_key));
+  v->add_flag("--replace", o->replace, "draw a new one, which signs from now on; the old one is kept beside it");
+  v->add_option("--until", o->until, "until when the new one, or without --replace the present one, is good, UTC");
+  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever");
 
   v = verb("checkpoint", "Write what the school signs of the ledger, for a cosigner: with the proof that it goes on from what he signed before",
            done(ledger_checkpoint));

@@ -1,15 +1,10 @@
-// `cavum ledger init | ticket | add | receipt`: promised exams, and those that were sat.
-#include <cstdio>
+// `cavum ledger init | add | receipt`: a ledger, and the exams that were sat.
 #include <filesystem>
 #include <iostream>
 
 #include "engine/base/file.h"
-#include "engine/base/file_name.h"
 #include "engine/base/text.h"
-#include "grading/ledger/candidate_id.h"
 #include "grading/ledger/filing.h"
-#include "grading/ledger/issue.h"
-#include "scenarios/exam.h"
 #include "ui/ledger_verbs_parts.h"
 #include "ui/print_json.h"
 #include "ui/session_files.h"
@@ -63,39 +58,6 @@ void ledger_init(const LedgerOptions& o) {
   std::cout << "ledger " << content.id << " in " << o.folder << "\nthe school's public key: " << content.public_key
             << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? school_key_path() : o.key) << " (signs), " << witness_path(content.id)
             << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known << "\n";
-}
-
-void ledger_ticket(const LedgerOptions& o) {
-  if (o.candidate.empty() == o.candidates.empty())
-    throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
-  require_candidate_id("--candidate", o.candidate);
-  require_candidate_id("--name", o.name);
-  const std::vector<Person> people =
-      o.candidates.empty() ? std::vector<Person>{{o.candidate, o.name}} : parse_people(read_text_file(o.candidates), o.candidates);
-  const std::int64_t from = parse_utc(o.from, "--from"), until = parse_utc(o.until, "--until");
-  if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
-  ExamOptions exam;
-  exam.tooth_file = o.tooth;
-  exam.rubric_file = o.rubric;
-  exam.force_model = o.model;
-  exam.grant = o.grant;
-  const auto setup = prepare_exam(o.scenario, exam);
-  Ledger ledger(o.folder, key_of(o));
-  Identities identities = sound_identities(ledger);
-  const Ticket ticket = promise(*setup, ledger.content(), from, until);
-  const bool folder = !o.candidates.empty();
-  if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
-  if (folder) make_private_folder(o.out);
-  json printed = json::array();
-  for (const auto& p : people) {
-    const std::string candidate = identities.enrol(p.id, p.name, ledger.key()),
-                      file = folder ? o.out + "/" + file_name_of(candidate) + ".ticket" : o.out;
-    require_new(o, file);
-    write_school_file(o, file, issue(ledger, ticket, candidate) + "\n");
-    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
-    if (!o.as_json) std::cout << one_line(candidate + "  " + file + "  " + p.id + (p.name.empty() ? "" : ", " + p.name)) << "\n";
-  }
-  if (o.as_json) print_json(json{{"tickets", printed}});
 }
 
 int ledger_add(const LedgerOptions& o) {

@@ -1,4 +1,4 @@
-// `cavum ledger release | regrade | export | candidates | forget`: what becomes of the results.
+// `cavum ledger release | regrade | export | candidates`: what becomes of the results.
 #include <algorithm>
 #include <iostream>
 
@@ -27,9 +27,15 @@ void ledger_release(const LedgerOptions& o) {
   Ledger ledger(o.folder, key_of(o));
   Identities identities = sound_identities(ledger);
   ReleaseWish wish{o.all, o.with_findings, o.chosen, o.chosen_sessions};
-  for (auto& w : wish.candidates) {
-    require_candidate_id("--candidate", w);
-    if (const auto known = identities.of_id(w)) w = known->pseudonym;
+  wish.candidates.clear();
+  const Registry filed = read_registry(ledger.content());
+  for (const auto& who : o.chosen) {  // of a person all exams that are filed
+    require_candidate_id("--candidate", who);
+    const std::size_t before = wish.candidates.size();
+    for (const auto& known : identities.of_id(who))
+      if (std::any_of(filed.sessions.begin(), filed.sessions.end(), [&](const FiledSession& s) { return s.candidate == known.pseudonym; }))
+        wish.candidates.push_back(known.pseudonym);
+    if (wish.candidates.size() == before) wish.candidates.push_back(who);
   }
   const Release released = release_results(ledger, wish);
   if (o.as_json)
@@ -61,7 +67,7 @@ void ledger_regrade(const LedgerOptions& o) {
   if (found == registry.sessions.end())
     throw Error("--session " + std::to_string(o.session_seq), "is no session's entry", "see `cavum ledger show " + o.folder + "`");
   const RegradeBasis basis = read_basis(o.rubric, o.scenario);
-  const auto graded = load_for_grading(ledger.places().session(found->file_sha256));
+  const auto graded = load_for_grading(recording_of(ledger.places(), *found));
   if (auto scenario = scenario_of(basis, o.scenario)) {
     use_scenario(*graded, std::move(*scenario), o.another_task);
     use_rubric(*graded, graded->scenario.rubric);
@@ -107,23 +113,12 @@ void ledger_candidates(const LedgerOptions& o) {
   Identities identities = sound_identities(ledger);
   json all = json::array();
   for (const auto& i : identities.all()) {
-    all.push_back({{"candidate", i.pseudonym}, {"id", i.id}, {"name", i.name}});
-    if (!o.as_json) std::cout << one_line(i.pseudonym + "  " + i.id + (i.name.empty() ? "" : ", " + i.name)) << "\n";
+    all.push_back({{"candidate", i.pseudonym}, {"exam", i.exam}, {"id", i.id}, {"name", i.name}});
+    if (!o.as_json)
+      std::cout << one_line(i.pseudonym + "  " + (i.exam.empty() ? "any exam" : i.exam) + "  " + i.id + (i.name.empty() ? "" : ", " + i.name))
+                << "\n";
   }
   if (o.as_json) print_json(json{{"candidates", all}});
-}
-
-void ledger_forget(const LedgerOptions& o) {
-  require_candidate_id("--candidate", o.candidate);
-  Ledger ledger(o.folder, key_of(o));
-  Identities identities(ledger.places().identities());
-  const auto known = identities.of_id(o.candidate);
-  const std::string pseudonym = known ? known->pseudonym : o.candidate;
-  if (!identities.of_pseudonym(pseudonym))
-    throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
-  ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", pseudonym}}; });
-  identities.forget(pseudonym);
-  std::cout << one_line(pseudonym) << ": the identity is removed; sessions, results and proofs stay\n";
 }
 
 }  // namespace cavum

@@ -105,7 +105,7 @@ int run_all(const Options& o) {
     each.out = o.out + "/" + file_name_of(s.candidate) + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
     try {
       require_report_place(each.out, each.overwrite);
-      write_report(ledger.places.session(s.file_sha256), each.out, each, &ledger, &s);
+      write_report(recording_of(ledger.places, s), each.out, each, &ledger, &s);
       ++written;
     } catch (const Error& e) {
       ++failed;

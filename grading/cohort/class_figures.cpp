@@ -152,7 +152,8 @@ void note_few(ClassFigures& f, bool there, const char* figure, std::size_t n, st
 
 }  // namespace
 
-std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where, double max_points) {
+std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& exam, const std::string& where,
+                                   double max_points) {
   const auto rows = parse_csv(text, where);
   const auto at = [&](const CsvRow& row) { return where + ":" + std::to_string(row.line); };
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
@@ -176,7 +177,9 @@ std::vector<HumanMark> parse_marks(const std::string& text, Identities& identiti
           at(rows[i]) + ": column 3 (points)",
           plain_number(m.points) + (m.points < 0 ? " is less than no points" : " is more than the exam's " + plain_number(max_points) + " points"),
           "write points of the exam's own scale, 0 to " + plain_number(max_points) + "; nothing of the file was taken");
-    if (const auto enrolled = identities.of_id(m.candidate)) m.candidate = enrolled->pseudonym;
+    const auto enrolled = identities.of_id(m.candidate);
+    for (const auto& e : enrolled)
+      if (e.exam == exam || e.exam.empty()) m.candidate = e.pseudonym;
     if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "4 (rating)", "a rating");
     if (!given.emplace(m.candidate, m.judge).second)
       throw Error(at(rows[i]), "is a second mark by judge " + m.judge + " for one candidate", "leave one of them");

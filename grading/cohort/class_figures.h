@@ -22,7 +22,8 @@ struct HumanMark {
 };
 /// CSV `candidate,judge,points[,rating]`, candidates by pseudonym or the school's own number. Throws Error(where:line: column …) for anything else,
 /// and for points below 0 or above `max_points`: nothing of such a file is taken.
-[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& where, double max_points);
+[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& exam, const std::string& where,
+                                                 double max_points);
 
 struct CriterionFigures {
   std::string id, metric;

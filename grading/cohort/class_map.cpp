@@ -89,8 +89,8 @@ std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPl
   };
   std::map<std::string, Task> tasks;
   for (const auto& [candidate, session] : counting_sessions(registry, exam)) {
-    const std::string path = places.session(session->file_sha256);
     try {
+      const std::string path = recording_of(places, *session);
       if (to_hex(sha256(read_file(path))) != session->file_sha256) throw Error(path, "was changed since it was filed", "put an intact copy back");
       const SessionReader reader(path);
       reader.require_readable();

@@ -56,7 +56,7 @@ ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities
     Student s;
     s.seed = random.next() >> 1;
     s.skill = "student-" + std::to_string(level[static_cast<std::size_t>(i)]);
-    s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ledger.key());
+    s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ticket.exam, ledger.key());
     s.path = wanted.sessions + "/" + file_name_of(s.candidate) + ".cavum";
     if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
     s.ticket = issue(ledger, ticket, s.candidate);

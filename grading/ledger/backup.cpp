@@ -12,6 +12,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_file.h"
@@ -53,12 +54,13 @@ void copy_database(const std::string& from, const std::string& to) {
   fs::rename(fresh, to);
 }
 
-/// SHA-256 of the files of all filed sessions, each once.
+/// SHA-256 of the files of all filed sessions that are not erased, each once.
 std::set<std::string> filed_sessions(const LedgerContent& c) {
+  const auto gone = erased_recordings(c);
   std::set<std::string> out;
   for (const auto& e : c.entries) {
     const std::string hash = e.kind == "session" ? text_in(e.body, "file_sha256") : "";
-    if (hash.size() == 64 && hash.find_first_not_of("0123456789abcdef") == std::string::npos) out.insert(hash);
+    if (hash.size() == 64 && hash.find_first_not_of("0123456789abcdef") == std::string::npos && !gone.contains(hash)) out.insert(hash);
   }
   return out;
 }
@@ -146,9 +148,10 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   out.ledger_id = copy.id;
   out.checkpoint = copy.checkpoints.back();
   out.missing = copy_sessions(copy, from, to, out.copied);
+  remove_erased_recordings(copy, to);
   out.sessions = filed_sessions(copy).size() - out.missing.size();
   if (with_identities) out.identities = copy_identities(copy, from, to);
-  const json told = checkpoint_json(copy.id, copy.public_key, out.checkpoint, cosignatures_of(copy, out.checkpoint.size));
+  const json told = checkpoint_json(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint, cosignatures_of(copy, out.checkpoint.size));
   write_text_file(checkpoint_path(folder), told.is_string() ? told.get<std::string>() : told.dump() + "\n");
   return out;
 }
@@ -166,7 +169,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   plan.identities = fs::exists(places.identities());
   std::vector<std::string> changed;
   for (const auto& w : read_witness(c.id, changed)) {
-    if (w.is_note && !is_signed_by_school(c.id, c.public_key, w))
+    if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w))
       changed.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
     else
       compare(plan, history, c.id, w, "the witness", "");
@@ -174,7 +177,9 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   for (auto& f : changed) plan.findings.push_back(std::move(f));
   for (const auto& path : receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    if (const auto wrong = check_receipt(receipt, c.public_key, nullptr); !wrong.empty()) throw Error(path, wrong[0], "use an intact copy");
+    const std::string signer = text_in(receipt, "public_key");
+    if (const auto wrong = check_receipt(receipt, c.has_key(signer) ? signer : c.public_key, nullptr); !wrong.empty())
+      throw Error(path, wrong[0], "use an intact copy");
     const std::string id = receipt.at("ledger"), text = receipt.at("entry");
     const json entry = parse_json_or_null(text), &body = member_of(entry, "body");
     const auto seq = receipt.at("seq").get<std::uint64_t>();
@@ -183,11 +188,12 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
                                                     : "entry " + std::to_string(seq) + ": " + one_line(text_in(entry, "kind")) +
                                                           (candidate.empty() ? "" : " of " + one_line(candidate)) +
                                                           (file.empty() ? "" : ", file " + one_line(file)) + " (" + path + ")";
-    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, c.public_key, path), path, told);
+    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path), path, told);
   }
   for (const auto& path : notes) {
-    const ReadCheckpoint read = parse_checkpoint(read_text_file(path), c.public_key, path);
-    if (!is_signed_by_school(read.ledger_id, c.public_key, read.checkpoint))
+    const std::string text = read_text_file(path), key_then = c.key_of(parse_checkpoint(text, c.public_key, path).checkpoint.size);
+    const ReadCheckpoint read = parse_checkpoint(text, key_then, path);
+    if (!is_signed_by_school(read.ledger_id, key_then, read.checkpoint))
       throw Error(path, "the school's signature on it does not hold", "use an intact copy");
     compare(plan, history, read.ledger_id, read.checkpoint, path, "");
   }

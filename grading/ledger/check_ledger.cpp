@@ -7,6 +7,7 @@
 #include "engine/base/file.h"
 #include "engine/session/session_image.h"
 #include "grading/grade.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_key.h"
@@ -53,11 +54,17 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   if (!replay && !registry.sessions.empty())
     out.not_checked.emplace_back(
         "whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each");
-  std::size_t filed_with_findings = 0;
+  std::size_t filed_with_findings = 0, erased = 0;
+  const auto gone = erased_recordings(content);
   for (const auto& s : registry.sessions) {
     const std::string name = "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")", path = places.session(s.file_sha256);
     try {
-      if (!std::filesystem::exists(path)) {
+      if (s.motion_erased_by) {
+        erased += 1;
+        if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
+          findings.push_back(name + ": its recording is erased by entry " + std::to_string(*s.motion_erased_by) + ", and is still there: " + path +
+                             "; `cavum ledger erase` without more removes it");
+      } else if (!std::filesystem::exists(path)) {
         findings.push_back(name + ": its file is gone: " + path);
       } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {
         findings.push_back(name + ": its file was changed: " + path);
@@ -76,6 +83,9 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   }
   if (replay && filed_with_findings > 0)
     out.not_checked.push_back(std::to_string(filed_with_findings) + " sessions that were filed with findings are not simulated again");
+  if (erased > 0)
+    out.not_checked.push_back(std::to_string(erased) + (erased == 1 ? " recording was" : " recordings were") +
+                              " erased, as entries say: whether motion gives their marks can no longer be shown");
   std::error_code none;
   std::set<std::string> filed;
   for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");

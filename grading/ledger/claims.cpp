@@ -8,6 +8,7 @@
 #include "engine/session/clock_check.h"
 #include "engine/session/motion_source.h"
 #include "engine/session/station_check.h"
+#include "grading/ledger/begin.h"
 
 namespace cavum {
 namespace {
@@ -48,6 +49,35 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
     if (!source.empty() && source != setup.device)
       findings.push_back("the exam was begun with " + setup.device + ", and taken up again with " + source);
   }
+  return findings;
+}
+
+/// Was it begun with the ledger's word, and with the last one that was given for its ticket?
+std::vector<std::string> check_begin(const LedgerContent& content, const SessionReader& session, const SessionSetup& setup,
+                                     const IssuedTicket& ticket) {
+  std::vector<std::string> findings;
+  std::string text;
+  for (const auto& [key, value] : setup.notes)
+    if (key == k_begin_note) text = value;
+  if (text.empty()) {
+    if (!ticket.begins.empty())
+      findings.push_back("the ledger let this exam begin on " + utc_text(ticket.begins.back().utc_ns) + " (entry " +
+                         std::to_string(ticket.begins.back().seq) + "), and the recording does not bear its word: it was begun without it");
+    else if (ticket.ticket.begun_at_ledger)
+      findings.emplace_back("its ticket asks for the ledger's word to begin, and nobody asked the ledger");
+    return findings;
+  }
+  const Begin b = parse_begin(text, "", "the ledger's word to begin");
+  if (b.ledger != content.id || !content.has_key(b.public_key) || b.ticket != ticket.ticket.nonce)
+    return {"the word to begin in it is of another ledger or ticket"};
+  const auto found = std::find_if(ticket.begins.begin(), ticket.begins.end(), [&](const LetBegin& l) { return l.nonce == b.nonce; });
+  if (found == ticket.begins.end()) return {"the ledger has not given the word to begin that is in it"};
+  if (found + 1 != ticket.begins.end())
+    findings.push_back("it was begun with the ledger's word of " + utc_text(b.utc_ns) + ", and the ledger let the exam begin again on " +
+                       utc_text(ticket.begins.back().utc_ns) + ": only the recording with the last word counts");
+  if (session.created().utc_ns < b.utc_ns - k_patience_ns)
+    findings.push_back("by the station's clock the exam began on " + utc_text(session.created().utc_ns) + ", and the ledger let it begin on " +
+                       utc_text(b.utc_ns) + ": the station's clock was set back");
   return findings;
 }
 
@@ -138,19 +168,24 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Sessio
     return findings;
   }
   try {
-    const Ticket ticket = parse_ticket(text, content.public_key, "the session's ticket");
+    const Ticket ticket = parse_ticket(text, "", "the session's ticket");
+    if (!content.has_key(ticket.public_key)) findings.emplace_back("the session's ticket is the ticket of another school");
     for (auto& f : check_ticket(ticket, setup, session.created().utc_ns)) findings.push_back(std::move(f));
     if (ticket.ledger != content.id) findings.emplace_back("the ticket was issued by another ledger");
     bool issued = false;
     for (const auto& t : registry.tickets) {
       if (t.ticket.nonce != nonce) continue;
       issued = true;
+      if (t.cancelled_by)
+        findings.push_back("its ticket was cancelled on " + utc_text(content.entries.at(*t.cancelled_by).utc_ns) + " (entry " +
+                           std::to_string(*t.cancelled_by) + ")");
+      for (auto& f : check_begin(content, session, setup, t)) findings.push_back(std::move(f));
       for (auto& f : check_course(session, setup, t, content.entries.at(t.seq).utc_ns, received_utc_ns)) findings.push_back(std::move(f));
       if (t.used_by) {
         const auto other =
             std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == *t.used_by; });
         findings.push_back("the ticket was used before: " +
-                           (filed == nullptr || other == registry.sessions.end() || other->chain_sha256 == chain_sha256
+                           (filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
                                 ? "entry " + std::to_string(*t.used_by)
                                 : other_ending(session, *t.used_by, filed->session(other->file_sha256))));
       }

@@ -120,7 +120,7 @@ std::string cosign_request(const LedgerContent& c, std::uint64_t since) {
   std::string out = std::string(k_old) + std::to_string(since) + "\n";
   if (since > 0)
     for (const auto& h : consistency_proof(leaves_of(c), since)) out += to_base64(h) + "\n";
-  return out + "\n" + checkpoint_note(c.id, c.public_key, p, cosignatures_of(c, p.size));
+  return out + "\n" + checkpoint_note(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size));
 }
 
 std::string cosigner_memory_path() { return station_path("cosigned"); }
@@ -134,14 +134,16 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const auto memory = remembered(path, id);
   if (!memory && cosigner.school_key.empty())
     throw Error(where, "is of a ledger that this cosigner does not know", "name its school's public key with --school-key, from the school itself");
-  if (memory && !cosigner.school_key.empty() && cosigner.school_key != memory->school_key)
-    throw Error("--school-key", "is not the key of the ledger that was cosigned before", "leave it out, or ask the school");
-  const std::string school = memory ? memory->school_key : cosigner.school_key;
+  // a key that a person names takes the place of the one that is remembered: the proof from what was signed before is asked for all the same
+  const std::string school = cosigner.school_key.empty() ? memory->school_key : cosigner.school_key;
   const ReadCheckpoint read = parse_checkpoint(request.note, school, where);
   const Checkpoint& p = read.checkpoint;
   Cosigned out{{}, id, p.size, {}};
   if (!is_signed_by_school(id, school, p)) {
-    out.findings.emplace_back("the school's signature does not hold: the checkpoint was changed, or is signed by another key");
+    out.findings.emplace_back("the school's signature does not hold: the checkpoint was changed, or is signed by another key" +
+                              std::string(cosigner.school_key.empty()
+                                              ? "; if the school says that it replaced its key, name the new one with --school-key"
+                                              : " than --school-key"));
     return out;
   }
   const std::uint64_t last = memory ? memory->last.size : 0;
@@ -185,8 +187,9 @@ std::vector<NoteKey> read_cosigners(const std::string& path) {
 CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<NoteKey>& known, const LedgerContent& ledger) {
   CosignedNoteCheck out;
   try {
-    const ReadCheckpoint read = parse_checkpoint(text, ledger.public_key, "cosigned note");
-    const auto school = check_note(read.note, checkpoint_key(read.ledger_id, ledger.public_key));
+    const std::string key_then = ledger.key_of(parse_checkpoint(text, ledger.public_key, "cosigned note").checkpoint.size);
+    const ReadCheckpoint read = parse_checkpoint(text, key_then, "cosigned note");
+    const auto school = check_note(read.note, checkpoint_key(read.ledger_id, key_then));
     if (school != NoteVerdict::holds)
       out.findings.emplace_back(school == NoteVerdict::absent ? "the ledger's school has not signed it" : "the school's signature does not hold");
     else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "engine/base/json_fields.h"
@@ -26,8 +27,12 @@ std::string simulated_mark(const FiledSession& s) {
   return s.simulated.empty() ? "" : std::string(k_simulated) + " (operator " + one_line(s.simulated) + ", no student sat this): ";
 }
 
-/// Whom a row is for: a candidate, or a simulated operator in a candidate's place, who is somebody else.
-std::string sitter_of(const FiledSession& s) { return s.simulated.empty() ? s.candidate : std::string(k_simulated) + " " + s.candidate; }
+/// Whose row it is: the school's own number, or a simulated operator's, whom no gradebook knows. Empty when nobody knows who sat.
+std::string number_of(const FiledSession& s, Identities& identities) {
+  if (!s.simulated.empty()) return std::string(k_simulated) + " " + s.candidate;
+  const auto identity = identities.of_pseudonym(s.candidate);
+  return identity ? identity->id : "";
+}
 
 /// Milliseconds, as LTI wants: a platform keeps the score with the later time.
 std::string utc_ms(std::int64_t utc_ns) {
@@ -47,19 +52,25 @@ Bytes results_message(const json& facts) {
 std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated) {
   struct Exam {
     std::vector<std::string> criteria;
-    std::map<std::string, const FiledSession*> by_candidate;
+    std::map<std::string, const FiledSession*> by_number;
   };
   const auto scales = own_scales(registry);
   std::map<std::string, Exam> exams;
+  std::set<std::string> numbers, unknown;
   for (const auto& s : registry.sessions) {
     if (s.shown.is_null() || (!s.simulated.empty() && !with_simulated)) continue;
     Exam& exam = exams[s.scenario_id];
-    exam.by_candidate[sitter_of(s)] = &s;
+    const std::string number = number_of(s, identities);
+    if (number.empty())
+      unknown.insert(s.candidate);
+    else
+      numbers.insert(number), exam.by_number[number] = &s;
     if (exported_grade(s, scales).by_another_rubric) continue;
     for (const auto& c : s.shown.at("criteria"))
       if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
         exam.criteria.push_back(id);
   }
+  left_out = static_cast<int>(unknown.size());
   std::string out = "ID number";
   for (const auto& [id, exam] : exams) {
     out += "," + csv_field(id);
@@ -68,44 +79,27 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
     out += "," + csv_field(id + " feedback");
   }
   out += "\n";
-  std::map<std::string, std::string> rows;  // by the school's own number
-  left_out = 0;
-  std::vector<std::string> candidates;
-  for (const auto& [id, exam] : exams)
-    for (const auto& [candidate, session] : exam.by_candidate) candidates.push_back(candidate);
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  for (const auto& candidate : candidates) {
-    std::string number = candidate;  // of a simulated operator: none that a gradebook knows
-    if (!candidate.starts_with(k_simulated)) {
-      const auto identity = identities.of_pseudonym(candidate);
-      if (!identity) {
-        ++left_out;
-        continue;
-      }
-      number = identity->id;
-    }
-    std::string& row = rows[number];
-    row = csv_field(number);
+  for (const auto& number : numbers) {
+    out += csv_field(number);
     for (const auto& [id, exam] : exams) {
-      const auto found = exam.by_candidate.find(candidate);
-      if (found == exam.by_candidate.end()) {
-        row += std::string(exam.criteria.size() + 4, ',');
+      const auto found = exam.by_number.find(number);
+      if (found == exam.by_number.end()) {
+        out += std::string(exam.criteria.size() + 4, ',');
         continue;
       }
       const json& result = found->second->shown;
       const std::string mark = simulated_mark(*found->second);
       const ExportedGrade g = exported_grade(*found->second, scales);
-      row += "," + number_in(g.grade) + "," + csv_field(mark + g.verdict) + "," + number_in(g.points);
+      out += "," + number_in(g.grade) + "," + csv_field(mark + g.verdict) + "," + number_in(g.points);
       for (const auto& wanted : exam.criteria) {
-        row += ",";
+        out += ",";
         for (const auto& c : result.at("criteria"))
-          if (!g.by_another_rubric && c.at("id") == wanted) row += number_in(c.at("points"));
+          if (!g.by_another_rubric && c.at("id") == wanted) out += number_in(c.at("points"));
       }
-      row += "," + csv_field(mark + g.feedback);
+      out += "," + csv_field(mark + g.feedback);
     }
+    out += "\n";
   }
-  for (const auto& [id, row] : rows) out += row + "\n";
   return out;
 }
 
@@ -113,21 +107,17 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
   std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last one that is released, else the last
   for (const auto& s : registry.sessions) {
     if (!s.simulated.empty() && !with_simulated) continue;
-    const FiledSession*& counts = last[{s.scenario_id, sitter_of(s)}];
+    const std::string user = s.simulated.empty() ? number_of(s, identities) : "simulated:" + s.candidate;
+    if (user.empty()) continue;  // the platform knows nobody by a pseudonym
+    const FiledSession*& counts = last[{s.scenario_id, user}];
     if (counts == nullptr || s.shown.is_object() || !counts->shown.is_object()) counts = &s;
   }
   const auto scales = own_scales(registry);
   json out = json::array();
   for (const auto& [key, s] : last) {
-    std::string user = "simulated:" + s->candidate;
-    if (s->simulated.empty()) {
-      const auto identity = identities.of_pseudonym(s->candidate);
-      if (!identity) continue;  // the platform knows nobody by a pseudonym
-      user = identity->id;
-    }
     const bool shown = s->shown.is_object();
     const bool review = s->result.is_object() && s->result.value("verdict", "") == "review";
-    json score = {{"userId", user},
+    json score = {{"userId", key.second},
                   {"timestamp", utc_ms(shown ? s->released_utc_ns : s->received_utc_ns)},
                   {"activityProgress", "Completed"},
                   {"gradingProgress", shown    ? "FullyGraded"
@@ -167,7 +157,7 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
                 {"public_key", ledger.content().public_key},
-                {"checkpoint", checkpoint_json(ledger.content().id, ledger.content().public_key, p, cosignatures_of(ledger.content(), p.size))}};
+                {"checkpoint", checkpoint_json(ledger.content().id, ledger.content().key_of(p.size), p, cosignatures_of(ledger.content(), p.size))}};
   const std::string signature = to_hex(ledger.key().sign(results_message(facts)));
   facts["signature"] = signature;
   return facts.dump();
@@ -182,7 +172,8 @@ std::vector<std::string> check_results(const std::string& text, const std::strin
     const std::string key = facts.at("public_key");
     const auto signature = fixed_from_hex<64>(facts.at("signature"), "signature");
     facts.erase("signature");
-    if (!public_key.empty() && key != public_key) findings.emplace_back("the results are signed by another school's key");
+    if (ledger != nullptr ? !ledger->has_key(key) : !public_key.empty() && key != public_key)
+      findings.emplace_back("the results are signed by another school's key");
     if (!is_signed_by(fixed_from_hex<32>(key, "public_key"), results_message(facts), signature))
       findings.emplace_back("the school's signature on the results does not hold: something was changed");
     if (ledger != nullptr) {

@@ -67,27 +67,18 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   write_private_file(kept, image);
   if (read_file(kept) != image) throw DatabaseError(kept, "does not hold what was written", "check the disk, and file the exam again", 0);
   json body = body_of(session, setup, mark, file_sha256);
-  std::vector<Bytes> documents;  // apart, so that a receipt shows no marks
-  if (!mark.sealed_otherwise.is_null()) {
-    const std::string& sealed = session.result_json();
-    documents.emplace_back(sealed.begin(), sealed.end());
-    body["sealed_sha256"] = to_hex(sha256(sealed));
-  }
+  if (!mark.sealed_otherwise.is_null()) body[k_sealed] = session.result_json();
   struct Refused {};
   try {
-    out.seq = ledger
-                  .append(
-                      "session",
-                      [&](const LedgerContent& now) -> json {
-                        // again under the lock: somebody may have used the ticket meanwhile
-                        auto late = claims(now);
-                        if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
-                        if (refused()) throw Refused();
-                        body["findings"] = out.findings;
-                        return body;
-                      },
-                      documents)
-                  .seq;
+    const auto& entry = ledger.append("session", [&](const LedgerContent& now) -> json {
+      // again under the lock: somebody may have used the ticket meanwhile
+      auto late = claims(now);
+      if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
+      if (refused()) throw Refused();
+      body["findings"] = out.findings;
+      return body;
+    });
+    out.seq = entry.seq;
   } catch (const Refused&) {
     return out;
   }

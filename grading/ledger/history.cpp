@@ -117,7 +117,7 @@ void check_checkpoints(LedgerContent& c) {
       c.findings.push_back("checkpoint " + std::to_string(expected) + ": is missing");
       expected = p.size;
     }
-    if (!is_signed_by_school(c.id, c.public_key, p)) c.findings.push_back(name + ": the school's signature does not hold");
+    if (!is_signed_by_school(c.id, c.key_of(p.size), p)) c.findings.push_back(name + ": the school's signature does not hold");
     if (p.size > roots.size())
       c.findings.push_back(name + ": signed for " + std::to_string(p.size) + " entries, and there are " + std::to_string(roots.size()) +
                            ": entries were taken out");
@@ -135,8 +135,9 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
   for (const auto& w : witnessed) {
     const Standing standing = history.standing_of(w);
     if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
-    if (w.is_note && !is_signed_by_school(c.id, c.public_key, w)) {
-      c.findings.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
+    if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w)) {
+      c.findings.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size) +
+                           (w.size > roots.size() ? ", or an older copy of the ledger was put back, from before the school's key was replaced" : ""));
       return;
     }
     if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;

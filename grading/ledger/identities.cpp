@@ -1,6 +1,7 @@
 #include "grading/ledger/identities.h"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
@@ -10,9 +11,52 @@ namespace {
 
 constexpr std::int64_t k_application_id = 0x43617649;  // "CavI"
 
-Identity read(const Statement& s) { return {s.text(0), s.text(1), s.text(2)}; }
+constexpr std::int64_t k_format = 2;
+constexpr char k_table[] =
+    "CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, exam TEXT NOT NULL, id TEXT NOT NULL, name TEXT NOT NULL, seal BLOB NOT NULL, salt BLOB, "
+    "UNIQUE (id, exam)) STRICT";
 
-std::optional<Identity> first(Statement s) { return s.step() ? std::optional(read(s)) : std::nullopt; }
+struct Row {
+  Identity who;
+  Bytes seal, salt;  // a salt only before format 2: the pseudonym was made of it
+};
+
+Statement select(Database& db, const std::string& which) {
+  return db.prepare(("SELECT pseudonym, exam, id, name, seal, coalesce(salt, x'') FROM identity " + which).c_str());
+}
+
+std::vector<Row> rows(Statement s) {
+  std::vector<Row> out;
+  while (s.step()) out.push_back({{s.text(0), s.text(1), s.text(2), s.text(3)}, s.blob(4), s.blob(5)});
+  return out;
+}
+
+std::vector<Identity> identities(Statement s) {
+  std::vector<Identity> out;
+  for (auto& r : rows(std::move(s))) out.push_back(std::move(r.who));
+  return out;
+}
+
+/// What is sealed of a row.
+std::string sealed_text(const Identity& i) { return nlohmann::json{i.pseudonym, i.exam, i.id, i.name}.dump(); }
+
+bool holds(const Row& r, const SigningKey& school) {
+  if (!r.salt.empty()) return old_pseudonym_of(school, r.salt, r.who.id) == r.who.pseudonym;
+  return r.seal == identity_seal(school, sealed_text(r.who));
+}
+
+/// Older files had one pseudonym for all exams of a candidate: it stays theirs, for no exam by name.
+void bring_up_to_date(Database& db) {
+  if (db.integer("PRAGMA user_version") == k_format) return;
+  Transaction all(db);
+  if (db.integer("PRAGMA user_version") == k_format) return;
+  db.run("ALTER TABLE identity RENAME TO old");
+  db.run(k_table);
+  db.run("INSERT INTO identity SELECT pseudonym, '', id, name, x'', salt FROM old");
+  db.run("DROP TABLE old");
+  db.run(("PRAGMA user_version = " + std::to_string(k_format)).c_str());
+  all.commit();
+}
 
 }  // namespace
 
@@ -24,58 +68,75 @@ Identities::Identities(const std::string& path, bool may_make)
         Database db = Database::open(path, make, k_long_wait);
         if (make) {
           db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
-          db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
+          db.run(k_table);
+          db.run(("PRAGMA user_version = " + std::to_string(k_format)).c_str());
         }
         return db;
       }()) {
   if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
+  if (const auto format = database_.integer("PRAGMA user_version"); format > k_format)
+    throw Error(path, "was written by a newer version of Cavum (format " + std::to_string(format) + ")", "use that version");
   database_.run("PRAGMA synchronous = FULL");
   database_.run("PRAGMA secure_delete = ON");
+  bring_up_to_date(database_);
 }
 
-std::string Identities::enrol(const std::string& id, const std::string& name, const SigningKey& school) {
+std::string Identities::enrol(const std::string& id, const std::string& name, const std::string& exam, const SigningKey& school) {
   require_candidate_id("candidate", id);
   require_candidate_id("name", name);
   if (id.empty() || !is_plain_text(id) || !is_plain_text(name))
     throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
-  if (const auto known = of_id(id)) return known->pseudonym;
-  const Bytes salt = from_hex(random_hex(16), 16, "salt");
-  std::string pseudonym = pseudonym_of(school, salt, id);
-  database_.prepare("INSERT INTO identity (pseudonym, id, name, salt) VALUES (?, ?, ?, ?)")
-      .bind(1, pseudonym)
-      .bind(2, id)
-      .bind(3, name)
-      .bind(4, salt)
+  for (const auto& known : of_id(id))
+    if (known.exam == exam) return known.pseudonym;
+  const Identity i{new_pseudonym(), exam, id, name};
+  database_.prepare("INSERT INTO identity (pseudonym, exam, id, name, seal) VALUES (?, ?, ?, ?, ?)")
+      .bind(1, i.pseudonym)
+      .bind(2, i.exam)
+      .bind(3, i.id)
+      .bind(4, i.name)
+      .bind(5, identity_seal(school, sealed_text(i)))
       .run();
-  return pseudonym;
+  return i.pseudonym;
 }
 
 std::optional<Identity> Identities::of_pseudonym(const std::string& pseudonym) {
-  auto s = database_.prepare("SELECT pseudonym, id, name FROM identity WHERE pseudonym = ?");
+  auto s = select(database_, "WHERE pseudonym = ?");
   s.bind(1, pseudonym);
-  return first(std::move(s));
+  const auto found = identities(std::move(s));
+  return found.empty() ? std::nullopt : std::optional(found[0]);
 }
 
-std::optional<Identity> Identities::of_id(const std::string& id) {
-  auto s = database_.prepare("SELECT pseudonym, id, name FROM identity WHERE id = ?");
+std::vector<Identity> Identities::of_id(const std::string& id) {
+  auto s = select(database_, "WHERE id = ? ORDER BY exam");
   s.bind(1, id);
-  return first(std::move(s));
+  return identities(std::move(s));
 }
 
-std::vector<Identity> Identities::all() {
-  std::vector<Identity> out;
-  auto s = database_.prepare("SELECT pseudonym, id, name FROM identity ORDER BY pseudonym");
-  while (s.step()) out.push_back(read(s));
-  return out;
+std::vector<Identity> Identities::of_person(const std::string& who) {
+  const auto by_pseudonym = of_pseudonym(who);
+  return of_id(by_pseudonym ? by_pseudonym->id : who);
 }
+
+std::vector<Identity> Identities::all() { return identities(select(database_, "ORDER BY pseudonym")); }
 
 std::vector<std::string> Identities::check(const SigningKey& school) {
   std::vector<std::string> findings;
-  auto s = database_.prepare("SELECT pseudonym, id, salt FROM identity ORDER BY pseudonym");
-  while (s.step())
-    if (pseudonym_of(school, s.blob(2), s.text(1)) != s.text(0))
-      findings.push_back("identities: " + s.text(0) + " is not whom it was given to; the row was changed");
+  for (const auto& r : rows(select(database_, "ORDER BY pseudonym")))
+    if (!holds(r, school)) findings.push_back("identities: " + r.who.pseudonym + " is not whom it was given to; the row was changed");
   return findings;
+}
+
+void Identities::seal_again(const SigningKey& before, const SigningKey& now) {
+  Transaction all(database_);
+  for (const auto& r : rows(select(database_, "ORDER BY pseudonym"))) {
+    if (!holds(r, before) && !holds(r, now))
+      throw Error("identities", r.who.pseudonym + " is not whom it was given to; the row was changed", "restore the file from its backup");
+    database_.prepare("UPDATE identity SET seal = ?, salt = NULL WHERE pseudonym = ?")
+        .bind(1, identity_seal(now, sealed_text(r.who)))
+        .bind(2, r.who.pseudonym)
+        .run();
+  }
+  all.commit();
 }
 
 bool Identities::forget(const std::string& pseudonym) {

@@ -4,9 +4,10 @@
 #include <set>
 
 #include "engine/base/error.h"
-#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/csv.h"
+#include "grading/ledger/registry.h"
 
 namespace cavum {
 
@@ -22,12 +23,36 @@ Ticket promise(const ExamSetup& setup, const LedgerContent& ledger, std::int64_t
   return t;
 }
 
-std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate) {
+std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, Another another) {
   ticket.candidate = candidate;
   ticket.nonce = random_hex(16);
   std::string text = sign_ticket(ticket, ledger.key());
-  ledger.append("ticket", [&](const LedgerContent&) { return parse_json(text, "the ticket"); });
+  ledger.append("ticket", [&](const LedgerContent& now) {
+    const Registry registry = read_registry(now);
+    const IssuedTicket* live = registry.live_ticket(candidate, ticket.exam, read_clocks().utc_ns);
+    if (live != nullptr && another == Another::refuse)
+      throw TicketIsLive("candidate " + candidate,
+                         "has a ticket for " + one_line(ticket.exam) + " that is good until " + utc_text(live->ticket.not_after_utc_ns) + " (entry " +
+                             std::to_string(live->seq) + ")",
+                         "cancel it with `cavum ledger cancel`, or add --another");
+    return without_grant(text);
+  });
   return text;
+}
+
+const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::string& reason) {
+  constexpr std::size_t k_longest = 2000;
+  if (reason.empty() || reason.size() > k_longest || !is_plain_text(reason))
+    throw Error("--reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
+  return ledger.append("cancel", [&](const LedgerContent& now) -> nlohmann::json {
+    const Registry registry = read_registry(now);
+    const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.seq == seq; });
+    const std::string where = "--ticket " + std::to_string(seq);
+    if (t == registry.tickets.end()) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");
+    if (t->used_by) throw Error(where, "was used: its exam is filed as entry " + std::to_string(*t->used_by), "its result is released or not");
+    if (t->cancelled_by) throw Error(where, "was cancelled before, by entry " + std::to_string(*t->cancelled_by), "nothing is left to do");
+    return {{"ticket", seq}, {"reason", reason}};
+  });
 }
 
 std::vector<Person> parse_people(const std::string& text, const std::string& where) {

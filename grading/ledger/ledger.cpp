@@ -2,9 +2,12 @@
 
 #include <filesystem>
 
+#include "engine/base/json_fields.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/ledger_file.h"
+#include "grading/ledger/school_keys.h"
 
 namespace cavum {
 
@@ -85,26 +88,52 @@ void Ledger::reload() {
                     content_.findings.front() + ")",
                 "see `cavum ledger verify " + places_.folder + "`, and go back to the copy that holds");
   if (content_.public_key != to_hex(key_.public_key))
-    throw Error(places_.folder, "belongs to another school's key", "name that key's file with --key, or restore it");
+    throw Error(places_.folder,
+                content_.has_key(to_hex(key_.public_key)) ? "has gone on with another key of the school, which took the place of this one"
+                                                          : "belongs to another school's key",
+                "name that key's file with --key, or restore it; `cavum ledger key --replace` that was cut off goes on when it is run again");
 }
 
 void Ledger::refresh() {
   if (static_cast<std::uint64_t>(database_.integer("SELECT count(*) FROM entry")) != content_.entries.size()) reload();
 }
 
-const LedgerEntry& Ledger::append(const std::string& kind, const std::function<json(const LedgerContent&)>& body, std::span<const Bytes> documents) {
+const LedgerEntry& Ledger::append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents) {
+  return append_signed(
+      kind,
+      [&](const LedgerContent& now) {
+        require_key_in_time(now, read_clocks().utc_ns);
+        return body(now);
+      },
+      documents, key_);
+}
+
+void Ledger::change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason) {
+  append_signed(
+      "key", [&](const LedgerContent& now) { return school_key_body(now, key_, next, until_utc_ns, reason); }, {}, next);
+  key_ = next;
+  reload();
+}
+
+const LedgerEntry& Ledger::append_signed(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents, const SigningKey& key) {
   Transaction all(database_);
   refresh();
   LedgerEntry e = make_entry(content_.entries.size(), kind, body(content_));
+  e.erases = taken_out_by(content_, e.body);
   auto leaves = leaves_of(content_);
   leaves.push_back(e.leaf);
-  const Checkpoint p = sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key_);
-  insert(database_, e, checkpoint_note(content_.id, content_.public_key, p), documents);
+  const Checkpoint p = sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key);
+  insert(database_, e, checkpoint_note(content_.id, to_hex(key.public_key), p), documents);
   all.commit();
+  const bool erases = !member_of(e.body, "erased").empty();
   content_.entries.push_back(std::move(e));
   content_.checkpoints.push_back(p);
   for (const Bytes& d : documents) content_.documents[to_hex(sha256(d))] = d;
   tell_witness(content_.id, p);
+  if (erases) {
+    wipe_erased(database_);
+    reload();
+  }
   return content_.entries.back();
 }
 

@@ -22,6 +22,8 @@ enum class LedgerUse { add, tell, restore };
 
 class Ledger {
  public:
+  /// Makes an entry's body from what is there so far.
+  using MakeBody = std::function<nlohmann::json(const LedgerContent&)>;
   /// A new ledger in a folder, made when missing. Throws Error when there is one already.
   static void create(const std::string& folder, const std::string& school_name, const SigningKey& key);
   /// Throws Error, in the words of its use, when anything in it does not hold, or the key is another school's.
@@ -35,13 +37,16 @@ class Ledger {
   /// Adds one entry and its checkpoint in one transaction, then tells the witness. `body` is asked for while nobody else can add; it may throw, and
   /// nothing is added then. Throws DatabaseError when the disk refuses; the ledger then holds what it held. `documents` are kept with it, each once;
   /// the body names them (documents_of).
-  const LedgerEntry& append(const std::string& kind, const std::function<nlohmann::json(const LedgerContent&)>& body,
-                            std::span<const Bytes> documents = {});
+  const LedgerEntry& append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents = {});
+  /// Enters that from now on `next` signs, good until `until_utc_ns` (0 = without end), or how long the present one is good (`next` is that one). The
+  /// present key signs that, and `next` the entry and all that follow. Throws Error.
+  void change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason);
   [[nodiscard]] nlohmann::json receipt(std::uint64_t seq) const { return make_receipt(content_, seq); }
   /// Keeps what other parties have signed of the checkpoint of `size` entries. They were checked before.
   void keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures);
 
  private:
+  const LedgerEntry& append_signed(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents, const SigningKey& key);
   void reload();
   void sign_last_as_note();
 

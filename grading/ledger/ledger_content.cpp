@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <set>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/session/session.h"
 #include "engine/session/session_image.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
+#include "grading/ledger/school_keys.h"
 #include "grading/ledger/witness.h"
 
 namespace cavum {
@@ -33,11 +36,6 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     e.body = j.at("body");
     e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", name);
     e.attachment = std::move(attachment);
-    const std::string bound = text_in(e.body, "result_sha256");
-    if (bound != (e.attachment.empty() ? "" : to_hex(sha256(e.attachment))))
-      findings.push_back(name + ": its result was changed, added or removed after it was entered");
-    else if (!bound.empty())
-      e.body["result"] = parse_json(e.attachment, name);
     if (require_whole<std::uint64_t>(j, "seq", name) != seq)
       findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
   } catch (const std::exception&) {
@@ -49,6 +47,54 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
 /// A table that was taken out is a finding of check_schema; the others are read all the same.
 bool has_table(Database& db, const std::string& name) {
   return db.integer(("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '" + name + "'").c_str()) == 1;
+}
+
+/// Puts what openings, and attachments of before them, hold into the entries' bodies. Each must be as it was bound, named by one entry, and be gone
+/// when, and only when, an entry says so.
+void take_openings(LedgerContent& c, const std::map<std::string, std::string>& stored) {
+  c.erased = read_erased(c.entries, c.findings);
+  std::set<std::string> named;
+  for (auto& e : c.entries) {
+    const std::string name = "entry " + std::to_string(e.seq) + ": its ";
+    const auto take = [&](const std::string& what, bool there, const std::function<json()>& value) {
+      const auto by = erased_by(c.erased, e.seq, what);
+      e.body[what] = nullptr;
+      if (!there && !by) c.findings.push_back(name + what + " was taken out of the ledger");
+      if (there && by) c.findings.push_back(name + what + " was erased by entry " + std::to_string(*by) + ", and stands there again");
+      if (!there) return;
+      try {
+        e.body[what] = value();
+      } catch (const Error&) {
+        c.findings.push_back(name + what + " was changed after it was entered");
+      }
+    };
+    if (!e.body.is_object()) continue;
+    const json opens = member_of(e.body, "opens");
+    for (const char* what : {k_result, k_sealed}) {
+      const std::string hash = text_in(opens, what);
+      if (hash.empty()) continue;
+      named.insert(hash);
+      const auto found = stored.find(hash);
+      take(what, found != stored.end(), [&] { return opened_value(found->second, hash, "opening"); });
+    }
+    if (const std::string bound = text_in(e.body, "result_sha256"); !bound.empty())
+      take(k_result, !e.attachment.empty(), [&] {
+        if (to_hex(sha256(e.attachment)) != bound) throw Error("attachment", "is not what was bound", "use an intact copy");
+        return parse_json(e.attachment, "attachment");
+      });
+    else if (!e.attachment.empty())
+      c.findings.push_back(name + "result was added after it was entered");
+  }
+  for (const auto& [hash, text] : stored)
+    if (!named.contains(hash)) c.findings.push_back("opening " + hash + ": belongs to no entry; it was put into the ledger's file");
+}
+
+std::map<std::string, std::string> stored_openings(Database& db) {
+  std::map<std::string, std::string> out;
+  if (!has_table(db, "opening")) return out;
+  auto rows = db.prepare("SELECT sha256, text FROM opening");
+  while (rows.step()) out[rows.text(0)] = rows.text(1);
+  return out;
 }
 
 /// Each as it was put there, each named by an entry, and none missing.
@@ -93,8 +139,8 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
   for (const auto& [size, text] : stored.notes) {
     const std::string name = "checkpoint " + std::to_string(size);
     try {
-      const ReadCheckpoint read = parse_checkpoint(text, c.public_key, name);
-      if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.public_key, read.checkpoint))
+      const ReadCheckpoint read = parse_checkpoint(text, c.key_of(size), name);
+      if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
         c.findings.push_back(name + ": its note is not as the school wrote it");
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
@@ -121,10 +167,12 @@ LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, json body) {
   e.utc_ns = read_clocks().utc_ns;
   e.body = std::move(body);
   json told = e.body;
-  if (const auto result = told.find("result"); result != told.end()) {  // apart, so that a receipt shows no marks
-    e.attachment = result->dump();
-    told.erase("result");
-    told["result_sha256"] = to_hex(sha256(e.attachment));
+  for (const char* what : {k_result, k_sealed}) {
+    const auto value = told.find(what);
+    if (value == told.end()) continue;
+    e.openings.push_back(make_opening(*value));
+    told.erase(what);
+    told["opens"][what] = e.openings.back().sha256;
   }
   e.text = json{{"body", told}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
   e.leaf = leaf_hash(ledger_bytes(e.text));
@@ -185,15 +233,17 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
       c.checkpoints.push_back({static_cast<std::uint64_t>(points.integer(0)), points.fixed_blob<32>(1), points.integer(2), points.fixed_blob<64>(3)});
   }
   const StoredNotes notes = stored_notes(db);
+  const auto openings = stored_openings(db);
   if (ledger_format(db, where) >= 3) read_documents(db, c);
   if (alone) db.run("COMMIT");
+  take_openings(c, openings);
   if (c.entries.empty() || c.entries[0].kind != "init") {
     c.findings.emplace_back("entry 0: does not begin a ledger");
     return c;
   }
   c.id = text_in(c.entries[0].body, "ledger");
-  c.public_key = text_in(c.entries[0].body, "public_key");
   c.school = text_in(c.entries[0].body, "school");
+  read_school_keys(c);
   take_notes(c, notes);
   check_checkpoints(c);
   check_witness(c, witnessed);

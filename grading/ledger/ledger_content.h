@@ -12,18 +12,27 @@
 #include "engine/base/hash.h"
 #include "engine/session/sqlite.h"
 #include "grading/ledger/checkpoint.h"
+#include "grading/ledger/opening.h"
 
 namespace cavum {
+
+/// What an entry takes out of the file: hashes of openings, and entries whose result lies in them as it did before format 5.
+struct TakenOut {
+  std::vector<std::string> openings;
+  std::vector<std::uint64_t> attachments;
+};
 
 /// One entry. `text` is the JSON that is hashed: {"body":…,"kind":…,"seq":…,"utc_ns":…}, keys in order, no spaces.
 struct LedgerEntry {
   std::uint64_t seq = 0;
   std::string text;
   Sha256 leaf{};
-  std::string attachment;  ///< a result's JSON text, or nothing; its SHA-256 is in the text
-  std::string kind;        ///< `init`, `ticket`, `session`, `regrade`, `release`, `forget`, `restore`
-  nlohmann::json body;     ///< with `result` out of the attachment in place of `result_sha256`
+  std::string attachment;  ///< before format 5 a result's JSON text, or nothing; its SHA-256 is in the text
+  std::string kind;        ///< RegistryReader in registry.cpp lists them
+  nlohmann::json body;     ///< with what its openings hold, by name: `result`, `sealed`; null what was erased
   std::int64_t utc_ns = 0;
+  std::vector<Opening> openings;  ///< of an entry that is being made
+  TakenOut erases;                ///< the same
 };
 
 /// A text as it is hashed.
@@ -37,23 +46,36 @@ struct Cosignature {
   NoteSignature by;
 };
 
+/// From which size of the tree on a key of the school signs, and until when it is good.
+struct SchoolKey {
+  std::uint64_t first_size = 1;
+  std::string public_key;         ///< hexadecimal
+  std::int64_t until_utc_ns = 0;  ///< 0: without end
+};
+
 /// All that a ledger file holds, and what in it does not hold.
 struct LedgerContent {
-  std::string id;          ///< of the first entry, 32 hexadecimal digits
-  std::string public_key;  ///< the school's, hexadecimal
-  std::string school;      ///< its name
-  bool witnessed = false;  ///< this computer has a witness of the ledger
+  std::string id;               ///< of the first entry, 32 hexadecimal digits
+  std::string public_key;       ///< the school's, hexadecimal: the one that signs now
+  std::vector<SchoolKey> keys;  ///< all that it has had, the first one first
+  std::string school;           ///< its name
+  bool witnessed = false;       ///< this computer has a witness of the ledger
   std::vector<LedgerEntry> entries;
   std::vector<Checkpoint> checkpoints;     ///< by size; the last one before format 4 in both forms
   std::vector<Cosignature> cosignatures;   ///< by size; whose they are is not checked here
   std::map<std::string, Bytes> documents;  ///< by SHA-256 (hexadecimal): what results were marked anew by
+  Erased erased;                           ///< what entries say was erased
   std::vector<std::string> findings;       ///< in words; empty when entries, tree and signatures hold
   std::vector<std::string> remarks;        ///< what is odd and may be harmless: a clock that was set back
+  /// The key that signs a tree of this size; of a larger one than there is, the last.
+  [[nodiscard]] const std::string& key_of(std::uint64_t size) const;
+  /// True when the school has had it.
+  [[nodiscard]] bool has_key(const std::string& public_key) const;
 };
 
-/// What lies beside an entry. Of a session's the result that its station sealed, where that is another than the school's mark. Of a regrade's what it
-/// was marked by: SHA-256 (hexadecimal) of each document by its name, `rubric.toml`, `scenario.toml`, `attachment/NAME`. Empty when the entry is
-/// older than the ledger's documents (format 3).
+/// What lies beside an entry. Of a session's of format 4 the result that its station sealed, where that is another than the school's mark. Of a
+/// regrade's what it was marked by: SHA-256 (hexadecimal) of each document by its name, `rubric.toml`, `scenario.toml`, `attachment/NAME`. Empty when
+/// the entry is older than the ledger's documents (format 3).
 [[nodiscard]] std::map<std::string, std::string> documents_of(const LedgerEntry& entry);
 
 /// Places of a ledger in its folder.
@@ -72,7 +94,7 @@ enum class AskWitness { yes, no };
 /// The same of a database that is open. Throws DatabaseError when it cannot be read.
 [[nodiscard]] LedgerContent read_content(Database& database, const std::string& where, AskWitness ask = AskWitness::yes);
 
-/// The next entry, as it will be hashed. A `result` in the body goes into the attachment.
+/// The next entry, as it will be hashed. `result` and `sealed` of the body go into openings, named under `opens`.
 [[nodiscard]] LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, nlohmann::json body);
 /// The cosignatures of one size.
 [[nodiscard]] std::vector<NoteSignature> cosignatures_of(const LedgerContent& content, std::uint64_t size);

@@ -83,6 +83,7 @@ Database open_for_adding(const std::string& path, bool make) {
   Database db = Database::open(path, make, k_long_wait);
   db.run("PRAGMA journal_mode = WAL");
   db.run("PRAGMA synchronous = FULL");
+  db.run("PRAGMA secure_delete = ON");
   return db;
 }
 
@@ -94,8 +95,14 @@ void insert(Database& db, const LedgerEntry& e, const std::string& note, std::sp
       .bind(3, e.leaf)
       .bind(4, e.attachment)
       .run();
+  for (const Opening& o : e.openings) db.prepare("INSERT INTO opening (sha256, text) VALUES (?, ?)").bind(1, o.sha256).bind(2, o.text).run();
+  for (const auto& hash : e.erases.openings) db.prepare("DELETE FROM opening WHERE sha256 = ?").bind(1, hash).run();
+  for (const auto seq : e.erases.attachments)
+    db.prepare("UPDATE entry SET attachment = NULL WHERE seq = ?").bind(1, static_cast<std::int64_t>(seq)).run();
   db.prepare("INSERT INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(e.seq + 1)).bind(2, note).run();
 }
+
+void wipe_erased(Database& db) { db.run("PRAGMA wal_checkpoint(TRUNCATE)"); }
 
 void insert_note(Database& db, std::uint64_t size, const std::string& note) {
   db.prepare("INSERT OR IGNORE INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, note).run();

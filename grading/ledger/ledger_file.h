@@ -6,7 +6,7 @@
 namespace cavum {
 
 /// Version of the ledger's tables (SQLite `user_version`).
-inline constexpr int k_ledger_format = 4;
+inline constexpr int k_ledger_format = 5;
 /// SQLite `application_id`: "CavL".
 inline constexpr std::int64_t k_ledger_application_id = 0x4361764c;
 
@@ -20,8 +20,11 @@ void require_ledger(Database& database, const std::string& where);
 [[nodiscard]] std::int64_t ledger_format(Database& database, const std::string& where);
 /// Brings an older format up to date, in one transaction.
 void migrate(Database& database, const std::string& where);
-/// Adds an entry, the note of its checkpoint, and the documents that the entry names, each unless it is there already.
+/// Adds an entry with its openings, the note of its checkpoint, and the documents that the entry names, each unless it is there already; takes out
+/// what it says is erased.
 void insert(Database& database, const LedgerEntry& entry, const std::string& note, std::span<const Bytes> documents);
+/// Writes over on disk, in file and log, what was taken out.
+void wipe_erased(Database& database);
 /// Adds the note of a checkpoint, unless it is there already.
 void insert_note(Database& database, std::uint64_t size, const std::string& note);
 /// Adds what another party signed of a checkpoint, unless it is there already.

@@ -35,17 +35,24 @@ Bytes from_hex(const std::string& hex, std::size_t bytes, const std::string& whe
   return out;
 }
 
-std::string pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity) {
+namespace {
+
+using Mac = std::array<std::uint8_t, crypto_auth_hmacsha256_BYTES>;
+
+Mac hmac(std::span<const std::uint8_t> key, std::span<const std::uint8_t> message) {
+  crypto_auth_hmacsha256_state state;
+  Mac mac{};
+  crypto_auth_hmacsha256_init(&state, key.data(), key.size());
+  crypto_auth_hmacsha256_update(&state, message.data(), message.size());
+  crypto_auth_hmacsha256_final(&state, mac.data());
+  return mac;
+}
+
+/// "C-" and the first 60 bits of eight bytes.
+std::string pseudonym_from(std::span<const std::uint8_t> bytes) {
   static constexpr char k_digits[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
-  static constexpr char k_purpose[] = "CVPSEUD1";
-  Bytes message(k_purpose, k_purpose + 8);
-  message.insert(message.end(), salt.begin(), salt.end());
-  message.insert(message.end(), identity.begin(), identity.end());
-  // the seed is the secret half of the key; crypto_auth_hmacsha256 takes 32 bytes
-  std::array<std::uint8_t, crypto_auth_hmacsha256_BYTES> tag{};
-  crypto_auth_hmacsha256(tag.data(), message.data(), message.size(), school.secret_key.data());
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < 8; ++i) bits = bits << 8 | tag[i];
+  for (std::size_t i = 0; i < 8; ++i) bits = bits << 8 | bytes[i];
   std::string out = "C";
   for (int i = 0; i < 12; ++i) {
     if (i % 4 == 0) out += '-';
@@ -53,6 +60,34 @@ std::string pseudonym_of(const SigningKey& school, std::span<const std::uint8_t>
     bits <<= 5;
   }
   return out;
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 32> hkdf_sha256(std::span<const std::uint8_t> key_material, const std::string& info) {
+  const std::array<std::uint8_t, 32> no_salt{};
+  Bytes first_block(info.begin(), info.end());
+  first_block.push_back(1);
+  return hmac(hmac(no_salt, key_material), first_block);
+}
+
+std::array<std::uint8_t, 32> derived_secret(const SigningKey& key, const std::string& purpose) {
+  return hkdf_sha256(std::span(key.secret_key).first(32), purpose);  // the seed is the first half
+}
+
+std::string new_pseudonym() { return pseudonym_from(from_hex(random_hex(8), 8, "pseudonym")); }
+
+Bytes identity_seal(const SigningKey& school, const std::string& message) {
+  const Mac mac = hmac(derived_secret(school, "cavum identities"), {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
+  return {mac.begin(), mac.end()};
+}
+
+std::string old_pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity) {
+  static constexpr char k_purpose[] = "CVPSEUD1";
+  Bytes message(k_purpose, k_purpose + 8);
+  message.insert(message.end(), salt.begin(), salt.end());
+  message.insert(message.end(), identity.begin(), identity.end());
+  return pseudonym_from(hmac(std::span(school.secret_key).first(32), message));
 }
 
 }  // namespace cavum

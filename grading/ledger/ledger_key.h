@@ -1,5 +1,5 @@
-// The school's key: it signs tickets and every state of the ledger, and makes pseudonyms. It lies apart from the ledger, in the
-// school's own folder, so that neither a copy of the ledger nor one of the sessions can make up or undo either.
+// The school's key: it signs tickets and every state of the ledger; from it come the secrets for other purposes. It lies apart from the ledger, in
+// the school's own folder, so that neither a copy of the ledger nor one of the sessions can make up or undo either.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +32,17 @@ template <std::size_t N>
   return out;
 }
 
-/// "C-7K3M-Q9WD-XT20": HMAC-SHA-256 of `salt` and `identity` under the school's key, 60 bits in Crockford's base 32. Without key and
-/// salt nobody can go from one to the other.
-[[nodiscard]] std::string pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity);
+/// A secret of its own for one purpose: HKDF-SHA-256 (RFC 5869) of the key's seed, without salt, `purpose` as info; 32 bytes. What signs never
+/// serves anything else.
+[[nodiscard]] std::array<std::uint8_t, 32> derived_secret(const SigningKey& key, const std::string& purpose);
+/// HKDF-SHA-256 without salt, its first 32 bytes.
+[[nodiscard]] std::array<std::uint8_t, 32> hkdf_sha256(std::span<const std::uint8_t> key_material, const std::string& info);
+
+/// "C-7K3M-Q9WD-XT20": 60 random bits in Crockford's base 32. It is drawn, so nothing leads from it to anybody.
+[[nodiscard]] std::string new_pseudonym();
+/// What binds a row of identities: HMAC-SHA-256 over `message` under derived_secret(school, "cavum identities").
+[[nodiscard]] Bytes identity_seal(const SigningKey& school, const std::string& message);
+/// A pseudonym as it was made before there was one for each exam: HMAC-SHA-256 of `salt` and `identity` under the school's seed.
+[[nodiscard]] std::string old_pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity);
 
 }  // namespace cavum

@@ -5,7 +5,7 @@
 
 namespace cavum {
 
-inline constexpr std::array<const char*, 4> k_ledger_migrations = {
+inline constexpr std::array<const char*, 5> k_ledger_migrations = {
     R"(CREATE TABLE entry (      -- append only
   seq INTEGER PRIMARY KEY,   -- 0, 1, 2 ...
   text TEXT NOT NULL,        -- {"body":...,"kind":...,"seq":...,"utc_ns":...}: the leaf of the tree
@@ -49,6 +49,22 @@ CREATE TABLE cosignature (   -- what other parties have signed of the notes; bou
 CREATE TRIGGER note_stays BEFORE UPDATE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
 CREATE TRIGGER note_is_kept BEFORE DELETE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
 CREATE TRIGGER cosignature_stays BEFORE UPDATE ON cosignature BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
-CREATE TRIGGER cosignature_is_kept BEFORE DELETE ON cosignature BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)"};
+CREATE TRIGGER cosignature_is_kept BEFORE DELETE ON cosignature BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;)",
+    // what is about a person can be erased, and every proof stays valid
+    R"(CREATE TABLE opening (    -- what can be erased: entries name its hash
+  sha256 TEXT PRIMARY KEY,   -- of text, hexadecimal
+  text TEXT NOT NULL         -- {"salt":"32 hex digits","value":...}
+) STRICT;
+CREATE TRIGGER opening_stays BEFORE UPDATE ON opening BEGIN SELECT RAISE(ABORT, 'an opening may only be erased'); END;
+DROP TRIGGER entry_stays;
+CREATE TRIGGER entry_stays BEFORE UPDATE OF seq, text, leaf_sha256 ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;
+CREATE TRIGGER attachment_stays BEFORE UPDATE OF attachment ON entry WHEN NEW.attachment IS NOT NULL
+  BEGIN SELECT RAISE(ABORT, 'a result may only be erased'); END;
+DROP VIEW session;
+CREATE VIEW session AS SELECT e.seq, e.text ->> '$.body.candidate' AS candidate, e.text ->> '$.body.scenario_id' AS scenario,
+  e.text ->> '$.body.file_sha256' AS file_sha256, coalesce(e.attachment ->> '$.verdict', o.text ->> '$.value.verdict') AS verdict,
+  coalesce(e.attachment ->> '$.score.points', o.text ->> '$.value.score.points') AS points,
+  coalesce(e.attachment ->> '$.score.max', o.text ->> '$.value.score.max') AS points_max
+  FROM entry e LEFT JOIN opening o ON o.sha256 = e.text ->> '$.body.opens.result' WHERE e.text ->> '$.kind' = 'session';)"};
 
 }  // namespace cavum

@@ -26,7 +26,7 @@ std::vector<Sha256> hashes_in(const json& list, const std::string& where) {
   return out;
 }
 
-json told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_json(c.id, c.public_key, p, cosignatures_of(c, p.size)); }
+json told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_json(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size)); }
 
 /// The entry that holds the same session as the text of a lost one.
 bool is_filed_again(const LedgerContent& ledger, const std::string& lost) {
@@ -49,6 +49,9 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t
   if (from_size == 0) return receipt;
   const auto from = std::find_if(content.checkpoints.rbegin(), content.checkpoints.rend(), [&](const Checkpoint& p) { return p.size == from_size; });
   if (from == content.checkpoints.rend()) throw std::out_of_range("no such checkpoint");
+  if (content.key_of(from_size) != content.public_key)
+    throw Error("--from-size " + std::to_string(from_size), "was signed with a key that the school has replaced, and a receipt names one key",
+                "show the note of that time beside it: `cavum ledger verify --cosigned`, or the earlier receipt");
   receipt["consistency"] = {{"from", told(content, *from)}, {"proof", hex_list(consistency_proof(leaves, from_size))}};
   return receipt;
 }
@@ -60,7 +63,8 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
     const std::string id = receipt.at("ledger"), key = receipt.at("public_key"), entry = receipt.at("entry");
     const Checkpoint p = checkpoint_in(receipt.at("checkpoint"), id, key, "receipt");
     const auto path = hashes_in(receipt.at("inclusion"), "receipt: inclusion");
-    if (!public_key.empty() && key != public_key) findings.emplace_back("the receipt is of another school's key");
+    if (ledger != nullptr ? key != ledger->key_of(p.size) : !public_key.empty() && key != public_key)
+      findings.emplace_back("the receipt is of another school's key");
     if (!is_signed_by_school(id, key, p)) findings.emplace_back("the school's signature on the receipt does not hold");
     if (!is_included(leaf_hash(ledger_bytes(entry)), require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
       findings.emplace_back("the entry on the receipt is not the one that the school signed");

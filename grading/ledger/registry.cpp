@@ -6,6 +6,8 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "grading/ledger/begin.h"
+#include "grading/ledger/erasure.h"
 
 namespace cavum {
 
@@ -52,75 +54,139 @@ const FiledSession* Registry::chosen_instead_of(const FiledSession& session) con
   return nullptr;
 }
 
-Registry read_registry(const LedgerContent& content) {
-  Registry r;
-  std::map<std::uint64_t, std::size_t> by_seq;  // sessions
-  std::map<std::string, std::size_t> by_nonce;
-  std::set<std::string> chains;
-  for (const auto& e : content.entries) {
-    const auto say = [&](const std::string& what) { r.findings.push_back("entry " + std::to_string(e.seq) + ": " + what); };
+const IssuedTicket* Registry::live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const {
+  for (const auto& t : tickets)
+    if (t.ticket.candidate == candidate && t.ticket.exam == exam && !t.used_by && !t.cancelled_by && t.ticket.not_after_utc_ns >= utc_ns) return &t;
+  return nullptr;
+}
+
+std::string recording_of(const LedgerPlaces& places, const FiledSession& s) {
+  if (s.motion_erased_by)
+    throw Error("entry " + std::to_string(s.seq), "its recording was erased (entry " + std::to_string(*s.motion_erased_by) + ")",
+                "its result and its proofs are what is left");
+  return places.session(s.file_sha256);
+}
+
+namespace {
+
+/// Takes one entry after the other into a registry. Each function throws std::exception for what contradicts the entries before.
+class RegistryReader {
+ public:
+  explicit RegistryReader(const LedgerContent& content) : content_(content) {}
+
+  void apply(const LedgerEntry& e) {
+    static const std::map<std::string, void (RegistryReader::*)(const LedgerEntry&)> k_kinds = {
+        {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},   {"cancel", &RegistryReader::cancel},
+        {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
+        {"release", &RegistryReader::release_}, {"station", &RegistryReader::station}, {"key", &RegistryReader::nothing},
+        {"forget", &RegistryReader::nothing},   {"erase", &RegistryReader::nothing},   {"restore", &RegistryReader::nothing}};
+    const auto kind = k_kinds.find(e.kind);
     try {
-      if (e.kind == "ticket") {
-        IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content.public_key, "ticket"), {}};
-        if (!by_nonce.emplace(t.ticket.nonce, r.tickets.size()).second) say("a ticket with a number that another one has");
-        r.tickets.push_back(std::move(t));
-      } else if (e.kind == "session") {
-        FiledSession s;
-        s.seq = s.result_seq = e.seq;
-        s.received_utc_ns = e.utc_ns;
-        s.file_sha256 = e.body.at("file_sha256");
-        s.chain_sha256 = e.body.at("chain_sha256");
-        s.candidate = e.body.at("candidate");
-        s.scenario_id = e.body.at("scenario_id");
-        s.station_key = e.body.at("station_key");
-        s.nonce = e.body.at("nonce");
-        s.result = s.filed = e.body.at("result");
-        if (const auto sealed = content.documents.find(text_in(e.body, "sealed_sha256")); sealed != content.documents.end())
-          s.sealed = parse_json_or_null({reinterpret_cast<const char*>(sealed->second.data()), sealed->second.size()}, k_json_part);
-        s.grading_version = whole_in(e.body, "grading_version");
-        s.simulated = e.body.at("simulated");
-        s.findings = e.body.at("findings").get<std::vector<std::string>>();
-        if (!chains.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
-        if (!s.nonce.empty() && s.findings.empty()) {
-          const auto t = by_nonce.find(s.nonce);
-          if (t == by_nonce.end())
-            say("a session with a ticket that was not issued");
-          else if (r.tickets[t->second].used_by)
-            say("a ticket that was used before");
-          else
-            r.tickets[t->second].used_by = e.seq;
-        }
-        for (auto& other : r.sessions)  // two endings of one exam: the one that was filed as sound may be the wrong one
-          if (!s.nonce.empty() && other.nonce == s.nonce && other.chain_sha256 != s.chain_sha256) {
-            other.contested_by.push_back(s.seq);
-            s.contested_by.push_back(other.seq);
-          }
-        by_seq[e.seq] = r.sessions.size();
-        r.sessions.push_back(std::move(s));
-      } else if (e.kind == "regrade") {
-        FiledSession& s = r.sessions.at(by_seq.at(require_whole<std::uint64_t>(e.body, "session", "regrade")));
-        s.result = e.body.at("result");
-        s.result_seq = e.seq;
-        s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), documents_of(e), s.result});
-        s.released = false;  // a new result waits for its own release, and the old one stands until then
-      } else if (e.kind == "release") {
-        const auto results = e.body.at("results").get<std::set<std::uint64_t>>();
-        for (const auto seq : results)
-          if (std::none_of(r.sessions.begin(), r.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
-            say("releases a result that does not count");
-        release(r, e.seq, e.utc_ns, results);
-      } else if (e.kind == "station") {
-        apply_station_entry(r.stations, e, content.public_key);
-      } else if (e.kind != "init" && e.kind != "forget" && e.kind != "restore") {
-        say("is of a kind that this version does not know: '" + e.kind + "'");
-      }
+      if (kind == k_kinds.end()) return say(e, "is of a kind that this version does not know: '" + e.kind + "'");
+      (this->*kind->second)(e);
     } catch (const std::out_of_range&) {
-      say("speaks of a session that is not there");
+      say(e, "speaks of an entry that is not there");
     } catch (const std::exception& error) {
-      say(error.what());
+      say(e, error.what());
     }
   }
-  return r;
+  [[nodiscard]] Registry take() { return std::move(r_); }
+
+ private:
+  void say(const LedgerEntry& e, const std::string& what) { r_.findings.push_back("entry " + std::to_string(e.seq) + ": " + what); }
+  void nothing(const LedgerEntry&) {}
+
+  void ticket(const LedgerEntry& e) {
+    IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content_.key_of(e.seq + 1), "ticket", GrantIs::apart), {}, {}, {}};
+    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(e, "a ticket with a number that another one has");
+    by_ticket_[e.seq] = r_.tickets.size();
+    r_.tickets.push_back(std::move(t));
+  }
+
+  void cancel(const LedgerEntry& e) {
+    IssuedTicket& t = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "ticket", "cancel")));
+    if (t.used_by || t.cancelled_by) say(e, "cancels a ticket that was used or cancelled before");
+    if (!t.cancelled_by) t.cancelled_by = e.seq;
+  }
+
+  void begin(const LedgerEntry& e) {
+    const Begin b = parse_begin(e.body.dump(), content_.key_of(e.seq + 1), "begin");
+    IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
+    if (b.ledger != content_.id) say(e, "lets an exam of another ledger begin");
+    t.begins.push_back({e.seq, b.nonce, b.utc_ns});
+  }
+
+  void session(const LedgerEntry& e) {
+    FiledSession s;
+    s.seq = s.result_seq = e.seq;
+    s.received_utc_ns = e.utc_ns;
+    s.file_sha256 = e.body.at("file_sha256");
+    s.chain_sha256 = e.body.at("chain_sha256");
+    s.candidate = e.body.at("candidate");
+    s.scenario_id = e.body.at("scenario_id");
+    s.station_key = e.body.at("station_key");
+    s.nonce = e.body.at("nonce");
+    s.result = s.filed = e.body.at("result");
+    s.motion_erased_by = erased_by(content_.erased, e.seq, k_motion);
+    s.result_erased_by = erased_by(content_.erased, e.seq, k_result);
+    s.sealed = parse_json_or_null(text_in(e.body, k_sealed), k_json_part);
+    if (const auto sealed = content_.documents.find(text_in(e.body, "sealed_sha256")); sealed != content_.documents.end())  // before format 5
+      s.sealed = parse_json_or_null({reinterpret_cast<const char*>(sealed->second.data()), sealed->second.size()}, k_json_part);
+    s.grading_version = whole_in(e.body, "grading_version");
+    s.simulated = e.body.at("simulated");
+    s.findings = e.body.at("findings").get<std::vector<std::string>>();
+    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(e, "a session that was entered before");
+    if (!s.nonce.empty() && s.findings.empty()) use_ticket(e, s);
+    for (auto& other : r_.sessions)  // two endings of one exam: the one that was filed as sound may be the wrong one
+      if (!s.nonce.empty() && other.nonce == s.nonce && other.chain_sha256 != s.chain_sha256) {
+        other.contested_by.push_back(s.seq);
+        s.contested_by.push_back(other.seq);
+      }
+    by_session_[e.seq] = r_.sessions.size();
+    r_.sessions.push_back(std::move(s));
+  }
+
+  void use_ticket(const LedgerEntry& e, const FiledSession& s) {
+    const auto found = by_nonce_.find(s.nonce);
+    if (found == by_nonce_.end()) return say(e, "a session with a ticket that was not issued");
+    IssuedTicket& t = r_.tickets[found->second];
+    if (t.used_by) return say(e, "a ticket that was used before");
+    if (t.cancelled_by) say(e, "a ticket that was cancelled by entry " + std::to_string(*t.cancelled_by));
+    t.used_by = e.seq;
+  }
+
+  void regrade(const LedgerEntry& e) {
+    FiledSession& s = r_.sessions.at(by_session_.at(require_whole<std::uint64_t>(e.body, "session", "regrade")));
+    s.result = e.body.at("result");
+    s.result_seq = e.seq;
+    s.result_erased_by = erased_by(content_.erased, e.seq, k_result);
+    s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), documents_of(e), s.result});
+    s.released = false;  // a new result waits for its own release, and the old one stands until then
+  }
+
+  void release_(const LedgerEntry& e) {
+    const auto results = e.body.at("results").get<std::set<std::uint64_t>>();
+    for (const auto seq : results)
+      if (std::none_of(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
+        say(e, "releases a result that does not count");
+    release(r_, e.seq, e.utc_ns, results);
+  }
+
+  void station(const LedgerEntry& e) { apply_station_entry(r_.stations, e, content_.key_of(e.seq + 1)); }
+
+  const LedgerContent& content_;
+  Registry r_;
+  std::map<std::uint64_t, std::size_t> by_session_, by_ticket_;  // by their entries
+  std::map<std::string, std::size_t> by_nonce_;                  // tickets
+  std::set<std::string> chains_;
+};
+
+}  // namespace
+
+Registry read_registry(const LedgerContent& content) {
+  RegistryReader reader(content);
+  for (const auto& e : content.entries) reader.apply(e);
+  return reader.take();
 }
 
 }  // namespace cavum

@@ -38,7 +38,8 @@ struct FiledSession {
   std::uint64_t shown_seq = 0;       ///< of the entry that holds it
   std::int64_t released_utc_ns = 0;  ///< when that was released
   std::int64_t received_utc_ns = 0;
-  std::vector<Regrade> regrades;            ///< the oldest first
+  std::optional<std::uint64_t> motion_erased_by, result_erased_by;  ///< entries that say so
+  std::vector<Regrade> regrades;                                    ///< the oldest first
   std::vector<std::uint64_t> contested_by;  ///< entries of other endings of the same exam, filed with findings: a person decides which one counts
   /// The regrade that gave the result in `entry`; null for the sealed one.
   [[nodiscard]] const Regrade* regrade(std::uint64_t entry) const {
@@ -52,10 +53,18 @@ struct FiledSession {
   /// The same, and no person has looked at it yet: it counts for nobody.
   [[nodiscard]] bool doubtful() const { return questioned() && !chosen; }
 };
+/// The ledger's word that an exam may begin, as entered.
+struct LetBegin {
+  std::uint64_t seq = 0;
+  std::string nonce;
+  std::int64_t utc_ns = 0;
+};
 struct IssuedTicket {
   std::uint64_t seq = 0;
-  Ticket ticket;
-  std::optional<std::uint64_t> used_by;  ///< entry of the session
+  Ticket ticket;                              ///< without its accommodations, which the ledger does not hold
+  std::optional<std::uint64_t> used_by;       ///< entry of the session
+  std::optional<std::uint64_t> cancelled_by;  ///< entry that says so
+  std::vector<LetBegin> begins;               ///< the last one counts
 };
 struct Registry {
   StationRegister stations;
@@ -65,9 +74,13 @@ struct Registry {
   std::vector<std::string> findings;
   /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once. Neither is a contradiction.
   std::vector<std::string> remarks;
+  /// A ticket of the candidate for this exam that is neither used nor cancelled, and good at this time or later; null when there is none.
+  [[nodiscard]] const IssuedTicket* live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const;
   /// The ending that was chosen of this session's exam, when it is another one; else null.
   [[nodiscard]] const FiledSession* chosen_instead_of(const FiledSession& session) const;
 };
 [[nodiscard]] Registry read_registry(const LedgerContent& content);
+/// Path of a session's recording. Throws Error when it was erased.
+[[nodiscard]] std::string recording_of(const LedgerPlaces& places, const FiledSession& session);
 
 }  // namespace cavum

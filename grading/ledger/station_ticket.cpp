@@ -12,6 +12,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/session/station_check.h"
+#include "grading/ledger/begin.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum {
@@ -32,6 +33,12 @@ HeldTicket read_ticket(const std::string& path) {
     throw Error(school_public_key_path(), "this station knows no school yet",
                 "copy the school's public key there: `cavum ledger init` writes it beside the school's key");
   held.ticket = parse_ticket(held.text, key, path);
+  if (const std::string word = begin_path(path); word != path && std::filesystem::exists(word)) {
+    held.begin = read_text_file(word);
+    while (!held.begin.empty() && (held.begin.back() == '\n' || held.begin.back() == '\r')) held.begin.pop_back();
+    if (parse_begin(held.begin, key, word).ticket != held.ticket.nonce)
+      throw Error(word, "is the word to begin of another ticket", "ask the office for this one's");
+  }
   return held;
 }
 
@@ -42,9 +49,13 @@ void use_ticket(const HeldTicket& held, ExamOptions& options) {
   options.candidate = held.ticket.candidate;
   options.notes.insert(options.notes.end(), held.ticket.grant.begin(), held.ticket.grant.end());
   options.notes.emplace_back(k_ticket_note, held.text);
+  if (!held.begin.empty()) options.notes.emplace_back(k_begin_note, held.begin);
 }
 
 void require_promised(const HeldTicket& held, const SessionSetup& setup) {
+  if (held.ticket.begun_at_ledger && held.begin.empty())
+    throw Error(held.path, "asks for the ledger's word to begin, and " + begin_path(held.path) + " is not there",
+                "have the office run `cavum ledger begin LEDGER --ticket " + held.path + "`");
   const auto wrong = check_ticket(held.ticket, setup, read_clocks().utc_ns);
   if (wrong.empty()) return;
   std::string all;

@@ -15,17 +15,20 @@ struct HeldTicket {
   Ticket ticket;
   std::string text;  ///< as signed, for the session
   std::string path;
+  std::string begin = {};  ///< the ledger's word to begin, as signed; empty without one
 };
 
 /// The key in school_public_key_path(), hexadecimal; empty when there is none. Throws Error when that file holds no key.
 [[nodiscard]] std::string station_school_key();
 
-/// Throws Error when the file is no ticket, was changed, or is not of the school in school_public_key_path(), or this station knows no school.
+/// With the ledger's word to begin, when one lies beside it (begin_path). Throws Error when either file is not what it should be, was changed, or is
+/// not of the school in school_public_key_path(), or this station knows no school.
 [[nodiscard]] HeldTicket read_ticket(const std::string& path);
 /// Candidate and accommodations are the ticket's, and the session will hold it. Throws Error when `options` names another candidate or grants
 /// anything itself.
 void use_ticket(const HeldTicket& held, ExamOptions& options);
-/// Throws Error, all reasons in it, when what was prepared is not what the ticket promises, or this is not its time.
+/// Throws Error, all reasons in it, when what was prepared is not what the ticket promises, this is not its time, or the ticket asks for the ledger's
+/// word to begin and there is none.
 void require_promised(const HeldTicket& held, const SessionSetup& setup);
 
 /// $CAVUM_HOME/used_tickets, or below ~/.config/cavum: a line for each exam that was begun here with a ticket.

@@ -6,13 +6,14 @@
 #include "engine/base/error.h"
 #include "engine/base/json_reader.h"
 #include "grading/ledger/ledger_key.h"
+#include "grading/ledger/opening.h"
 
 namespace cavum {
 namespace {
 
 using nlohmann::json;
 
-constexpr char k_format[] = "cavum ticket 1";
+constexpr char k_format[] = "cavum ticket 2", k_old_format[] = "cavum ticket 1";
 
 Bytes message_of(const json& facts) {
   const std::string text = "CVTICKET" + facts.dump();
@@ -44,27 +45,31 @@ std::vector<std::pair<std::string, std::string>> accommodations_in(const Session
   return out;
 }
 
-json to_json(const Ticket& t) {
+std::string sign_ticket(const Ticket& t, const SigningKey& school) {
   json grant = json::object();
   for (const auto& [key, value] : t.grant) grant[key] = value;
-  return {{"format", k_format},
-          {"ledger", t.ledger},
-          {"exam", t.exam},
-          {"candidate", t.candidate},
-          {"nonce", t.nonce},
-          {"not_before", utc_text(t.not_before_utc_ns)},
-          {"not_after", utc_text(t.not_after_utc_ns)},
-          {"artifacts", t.artifacts},
-          {"grant", grant},
-          {"public_key", t.public_key}};
+  const Opening opening = make_opening(grant);
+  const json facts = {{"format", k_format},
+                      {"ledger", t.ledger},
+                      {"exam", t.exam},
+                      {"candidate", t.candidate},
+                      {"nonce", t.nonce},
+                      {"not_before", utc_text(t.not_before_utc_ns)},
+                      {"not_after", utc_text(t.not_after_utc_ns)},
+                      {"artifacts", t.artifacts},
+                      {"begun_at_ledger", t.begun_at_ledger},
+                      {"grant_sha256", opening.sha256},
+                      {"public_key", t.public_key}};
+  return json{{"grant", opening.text}, {"signature", to_hex(school.sign(message_of(facts)))}, {"ticket", facts}}.dump();
 }
 
-std::string sign_ticket(const Ticket& ticket, const SigningKey& school) {
-  const json facts = to_json(ticket);
-  return json{{"signature", to_hex(school.sign(message_of(facts)))}, {"ticket", facts}}.dump();
+json without_grant(const std::string& ticket) {
+  json j = parse_json(ticket, "the ticket");
+  j.erase("grant");
+  return j;
 }
 
-Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where) {
+Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where, GrantIs grant) {
   Ticket t;
   json facts;
   std::string signature;
@@ -72,7 +77,8 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
     const json j = parse_json_or_null(text);
     facts = j.at("ticket");
     signature = j.at("signature");
-    if (facts.at("format") != k_format) throw Error(where, "is a ticket of another format", "use the version of Cavum that issued it");
+    const bool old = facts.at("format") == k_old_format;
+    if (!old && facts.at("format") != k_format) throw Error(where, "is a ticket of another format", "use the version of Cavum that issued it");
     t.ledger = facts.at("ledger");
     t.exam = facts.at("exam");
     t.candidate = facts.at("candidate");
@@ -81,7 +87,15 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
     t.not_after_utc_ns = parse_utc(facts.at("not_after"), where + ": not_after");
     t.artifacts = facts.at("artifacts").get<std::map<std::string, std::string>>();
     t.public_key = facts.at("public_key");
-    for (const auto& [key, value] : facts.at("grant").items()) t.grant.emplace_back(key, value.get<std::string>());
+    json granted = json::object();
+    if (old) {
+      granted = facts.at("grant");
+    } else {
+      t.begun_at_ledger = facts.at("begun_at_ledger");
+      t.grant_sha256 = facts.at("grant_sha256");
+      if (grant == GrantIs::with_it) granted = opened_value(j.at("grant"), t.grant_sha256, where + ": grant");
+    }
+    for (const auto& [key, value] : granted.items()) t.grant.emplace_back(key, value.get<std::string>());
     std::sort(t.grant.begin(), t.grant.end());
   } catch (const json::exception&) {
     throw Error(where, "is no ticket", "name a file that `cavum ledger ticket` wrote");

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "engine/base/file.h"
+#include "engine/session/clock_check.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
 #include "engine/tooth/make_block.h"
@@ -138,6 +139,22 @@ TEST_F(ExamDevice, KilledItLosesASecondAtMostAndGoesOn) {
   const auto report = verify_session(folder_.file("s.cavum"));
   EXPECT_TRUE(report.verified);
   EXPECT_GE(report.ticks, seen);
+}
+
+TEST_F(ExamDevice, StoppedForFourSecondsTheLostTimeStandsInItsResultAndNothingIsUnexplained) {
+  const pid_t child = start(exam({"--device", "simulated", "--operator", "expert", "--seed", "5"}, "s.cavum"));
+  ASSERT_TRUE(holds("s.cavum", 2000));
+  constexpr unsigned k_stopped_s = 4;
+  ASSERT_EQ(::kill(child, SIGSTOP), 0);
+  ::sleep(k_stopped_s);
+  ASSERT_EQ(::kill(child, SIGCONT), 0);
+  EXPECT_EQ(end_of(child), 0) << said();
+  EXPECT_TRUE(verify_session(folder_.file("s.cavum")).verified);
+  const SessionReader session(folder_.file("s.cavum"));
+  const auto result = nlohmann::json::parse(session.result_json());
+  EXPECT_GE(result.value("lost_time_s", 0.0), k_stopped_s - 0.05) << "a stopped program gains no time unseen";
+  for (const auto& remark : check_clocks(session))
+    EXPECT_FALSE(remark.doubtful) << "what the recording owns up to is no finding: " << remark.what;
 }
 
 TEST_F(ExamDevice, GoesOnOnlyWithTheEncoderItWasBegunWith) {

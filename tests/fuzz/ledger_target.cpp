@@ -13,7 +13,7 @@ void fuzz_ticket(Data data) {
     try {
       const Ticket ticket = parse_ticket(text, school, "ticket");
       static_cast<void>(check_ticket(ticket, k_setup, ticket.not_before_utc_ns));
-      static_cast<void>(to_json(ticket).dump());
+      static_cast<void>(sign_ticket(ticket, school_key()));
     } catch (const Error&) {
     }
   }
@@ -24,7 +24,7 @@ void fuzz_ticket(Data data) {
     mine["public_key"] = to_hex(school_key().public_key);
     const std::string signed_text = "CVTICKET" + mine.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const auto signature = school_key().sign(bytes_of(signed_text));
-    const Ticket ticket = parse_ticket(nlohmann::json{{"signature", to_hex(signature)}, {"ticket", mine}}.dump(), "", "ticket");
+    const Ticket ticket = parse_ticket(nlohmann::json{{"grant", facts.value("grant", "")}, {"signature", to_hex(signature)}, {"ticket", mine}}.dump(), "", "ticket");
     static_cast<void>(check_ticket(ticket, k_setup, ticket.not_after_utc_ns));
   } catch (const Error&) {
   } catch (const nlohmann::json::exception&) {  // our own writing of a text that is no UTF-8
@@ -47,7 +47,7 @@ void fuzz_candidates(Data data) {
 void fuzz_marks(Data data) {
   static Identities identities(work_folder() + "/identities.db", true);
   try {
-    static_cast<void>(cohort::parse_marks(text_of(data), identities, "marks.csv", 20));
+    static_cast<void>(cohort::parse_marks(text_of(data), identities, "exam", "marks.csv", 20));
   } catch (const Error&) {
   }
 }

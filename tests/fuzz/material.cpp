@@ -150,7 +150,7 @@ const LedgerContent& school_ledger() {
     const std::string folder = work_folder() + "/ledger";
     Ledger::create(folder, "School", school_key());
     Ledger ledger(folder, school_key());
-    ledger.append("ticket", [](const LedgerContent&) { return nlohmann::json::parse(small_ticket()); });
+    ledger.append("ticket", [](const LedgerContent&) { return without_grant(small_ticket()); });
     return ledger.content();
   }();
   return k_content;

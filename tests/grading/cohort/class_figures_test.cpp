@@ -146,12 +146,12 @@ TEST(ClassFigures, AHarderStationIsFound) {
 TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   const School school;
   Identities identities(school.places().identities());
-  const std::string by_number = identities.enrol("4711", "", School::key());
+  const std::string by_number = identities.enrol("4711", "", "exam", School::key());
   Registry r = four();
   r.sessions[0].candidate = by_number;
   const auto marks = parse_marks(
       "candidate,judge,points,rating\n4711,x,98,5\nC-2,x,48,3\nC-3,x,73,4\nC-4,x,23,1\n4711,y,102,\nC-2,y,52,\nC-3,y,77,\nC-4,y,27,\nunknown,x,5,\n",
-      identities, "marks.csv", 200);
+      identities, "exam", "marks.csv", 200);
   ASSERT_EQ(marks.size(), 9u);
   EXPECT_EQ(marks[0].candidate, by_number);
   const ClassFigures f = class_figures(r, "exam", marks, 3);
@@ -172,7 +172,7 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   Identities identities(school.places().identities());
   const auto says = [&](const std::string& text, const std::string& what) {
     try {
-      static_cast<void>(parse_marks(text, identities, "m.csv", 20));
+      static_cast<void>(parse_marks(text, identities, "exam", "m.csv", 20));
       ADD_FAILURE() << text;
     } catch (const Error& e) {
       EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();

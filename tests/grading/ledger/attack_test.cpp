@@ -50,10 +50,13 @@ class Attack : public testing::Test {
   /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him, he puts them back afterwards.
   void edit_ledger(const std::string& sql) {
     std::string drop, make;
-    for (const auto& [migration, tables] : {std::pair(0, std::vector{"entry", "checkpoint"}), std::pair(3, std::vector{"note", "cosignature"})}) {
-      const std::string text = k_ledger_migrations.at(static_cast<std::size_t>(migration));
-      make += text.substr(text.find("CREATE TRIGGER"));
-      for (const char* t : tables) drop += std::string("DROP TRIGGER ") + t + "_stays; DROP TRIGGER " + t + "_is_kept; ";
+    {
+      Database db = Database::open(school_.places().database(), false);
+      auto triggers = db.prepare("SELECT name, sql FROM sqlite_schema WHERE type = 'trigger'");
+      while (triggers.step()) {
+        drop += "DROP TRIGGER " + triggers.text(0) + "; ";
+        make += triggers.text(1) + "; ";
+      }
     }
     test::tamper(school_.places().database(), drop + sql + ";" + make);
   }
@@ -192,7 +195,7 @@ TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {"holds no ticke
 
 TEST_F(Attack, AnEntryEditedInTheLedger) {
   ASSERT_TRUE(file(session_).seq);
-  edit_ledger("UPDATE entry SET attachment = replace(attachment, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"') WHERE seq = 4");
+  edit_ledger("UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')");
   expect_ledger_finding({"entry 4", "its result was changed"});
 }
 TEST_F(Attack, AnEntrysTextEditedInTheLedger) {
@@ -202,8 +205,17 @@ TEST_F(Attack, AnEntrysTextEditedInTheLedger) {
 }
 TEST_F(Attack, AResultTakenOutOfTheLedger) {
   ASSERT_TRUE(file(session_).seq);
-  edit_ledger("UPDATE entry SET attachment = NULL WHERE seq = 4");
-  expect_ledger_finding({"entry 4", "its result was changed, added or removed"});
+  edit_ledger("DELETE FROM opening");
+  expect_ledger_finding({"entry 4", "its result was taken out"});
+}
+TEST_F(Attack, AResultPutBesideAnEntry) {
+  ASSERT_TRUE(file(session_).seq);
+  edit_ledger("UPDATE entry SET attachment = '{}' WHERE seq = 4");
+  expect_ledger_finding({"entry 4", "its result was added"});
+}
+TEST_F(Attack, AnOpeningOfNoEntry) {
+  edit_ledger("INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')");
+  expect_ledger_finding({"opening 000", "belongs to no entry"});
 }
 TEST_F(Attack, AnEntryEditedWithItsHash) {
   ASSERT_TRUE(file(session_).seq);

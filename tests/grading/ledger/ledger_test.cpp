@@ -105,7 +105,7 @@ TEST(Identities, AreForgottenWithoutATraceAndProofsStay) {
     const Bytes bytes = read_file(f.path().string());
     EXPECT_EQ(std::string(bytes.begin(), bytes.end()).find("ann.lee"), std::string::npos) << f.path();
   }
-  EXPECT_NE(Identities(school.places().identities()).enrol("ann.lee@school.example", "", School::key()), pseudonym)
+  EXPECT_NE(Identities(school.places().identities()).enrol("ann.lee@school.example", "", "exam", School::key()), pseudonym)
       << "who comes back is somebody new";
 }
 
@@ -114,13 +114,13 @@ TEST(Identities, PseudonymsTellNothingAndDiffer) {
   Identities identities(school.places().identities());
   std::set<std::string> seen;
   for (int i = 0; i < 300; ++i) {
-    const std::string p = identities.enrol("student " + std::to_string(i), "", School::key());
+    const std::string p = identities.enrol("student " + std::to_string(i), "", "exam", School::key());
     EXPECT_EQ(p.size(), 16u);
     EXPECT_TRUE(seen.insert(p).second);
-    EXPECT_EQ(identities.enrol("student " + std::to_string(i), "", School::key()), p) << "the same as before";
+    EXPECT_EQ(identities.enrol("student " + std::to_string(i), "", "exam", School::key()), p) << "the same as before";
   }
-  EXPECT_THROW(identities.enrol("", "", School::key()), Error);
-  EXPECT_THROW(identities.enrol("a\nb", "", School::key()), Error);
+  EXPECT_THROW(identities.enrol("", "", "exam", School::key()), Error);
+  EXPECT_THROW(identities.enrol("a\nb", "", "exam", School::key()), Error);
 }
 
 /// Two candidates have sat it, and the first one's result is released; each test works on a copy.
@@ -474,9 +474,9 @@ TEST(Receipt, ThatIsNoneIsNamedInOurWords) {
 TEST(CandidateId, IsALineOfBoundedLength) {
   const School school;
   Identities identities(school.places().identities());
-  EXPECT_NO_THROW(identities.enrol(std::string(k_longest_candidate, 'a'), "", School::key()));
+  EXPECT_NO_THROW(identities.enrol(std::string(k_longest_candidate, 'a'), "", "exam", School::key()));
   for (const std::string& id : {std::string(k_longest_candidate + 1, 'a'), std::string(5000, 'b'), std::string("a\nb")})
-    EXPECT_THROW(identities.enrol(id, "", School::key()), Error);
+    EXPECT_THROW(identities.enrol(id, "", "exam", School::key()), Error);
   const std::string refusal =
       testing_basics::error_of([] { static_cast<void>(parse_people("id\n1\n" + std::string(5000, 'c') + "\n", "class.csv")); });
   EXPECT_NE(refusal.find("class.csv:3: id ccc"), std::string::npos) << refusal;

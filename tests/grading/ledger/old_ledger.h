@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grading/ledger/ledger_file.h"
+#include "grading/ledger/witness.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum::testing_ledger {
@@ -39,7 +40,21 @@ CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT RAISE(ABO
 
 /// Writes the school's ledger anew as a version of `format` (1 to 3) would have left it: the same entries, signed as "CVCHKPT1".
 inline void make_old(const School& school, int format) {
-  const LedgerContent now = read_ledger(school.places());
+  LedgerContent now = read_ledger(school.places());
+  for (auto& e : now.entries) {  // results lay beside their entries
+    nlohmann::json told = e.body;
+    told.erase("opens");
+    for (const char* apart : {"result", "sealed"}) told.erase(apart);
+    if (e.body.contains("result")) {
+      e.attachment = e.body["result"].dump();
+      told["result_sha256"] = to_hex(sha256(e.attachment));
+    }
+    e.text = nlohmann::json{{"body", told}, {"kind", e.kind}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
+    e.leaf = leaf_hash(ledger_bytes(e.text));
+  }
+  const auto leaves = leaves_of(now);
+  for (auto& p : now.checkpoints) p.root = merkle_root(std::span(leaves).first(p.size));
+  std::filesystem::remove(witness_path(now.id));  // of another history
   for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(school.places().database() + end);
   Database old = Database::open(school.places().database(), true);
   old.run("PRAGMA application_id = 1130460748");

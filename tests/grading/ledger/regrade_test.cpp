@@ -109,16 +109,15 @@ TEST_F(KeptRegrade, AReasonIsALineOfText) {
 }
 
 TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
-  json receipt;
   {
     Ledger ledger = school_.ledger();
     ledger.append("regrade", [&](const LedgerContent&) {  // as that version entered it: by a file that was not kept
       return json{{"session", session_}, {"result", better()}, {"by", {{"rubric_sha256", to_hex(sha256(k_rubric))}}}, {"reason", "old"}};
     });
-    receipt = ledger.receipt(session_);
   }
-  const LedgerContent before = read_ledger(school_.places());
   make_old(school_, 2);
+  const LedgerContent before = read_ledger(school_.places());
+  const json receipt = make_receipt(before, session_);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "it is read as it is";
   {
     Ledger ledger = school_.ledger();

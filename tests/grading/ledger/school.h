@@ -68,13 +68,13 @@ class School {
         enrol_station(ledger, station_request(load_station_key(station_key_path()), ledger.content().public_key, devices, code), 0, "request"));
   }
 
-  /// A ticket for an hour around now, issued in the ledger; `change` may spoil it before it is signed.
+  /// A ticket for an hour around now, issued in the ledger, also beside a live one; `change` may spoil it before it is signed.
   std::string ticket(const std::string& candidate, const std::function<void(Ticket&)>& change = {}) const {
     Ledger ledger = this->ledger();
     const std::int64_t now = read_clocks().utc_ns;
     Ticket t = promise(*prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
     if (change) change(t);
-    return issue(ledger, t, Identities(places().identities()).enrol(candidate, "", ledger.key()));
+    return issue(ledger, t, Identities(places().identities()).enrol(candidate, "", t.exam, ledger.key()), Another::allow);
   }
   /// The exam, sat by a simulated candidate of this skill; `change` may alter what the station runs.
   std::string sit(const std::string& ticket, const std::string& skill = "expert", const std::function<void(ExamOptions&)>& change = {}) const {

@@ -1,0 +1,41 @@
+// Erasing what a ledger holds about people: recordings of their hands, with the accommodations in them, and results. An entry says what is gone; all
+// hashes, the tree and every proof stay as they are.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "grading/ledger/ledger.h"
+#include "grading/ledger/registry.h"
+
+namespace cavum {
+
+/// What entries say was erased; adds findings for what they name and cannot be erased.
+[[nodiscard]] Erased read_erased(const std::vector<LedgerEntry>& entries, std::vector<std::string>& findings);
+/// The entry that says that `what` of entry `seq` was erased.
+[[nodiscard]] std::optional<std::uint64_t> erased_by(const Erased& erased, std::uint64_t seq, const std::string& what);
+/// What of the ledger's file an entry with this body takes out: of its `erased`, a list of {"entry","what"}.
+[[nodiscard]] TakenOut taken_out_by(const LedgerContent& content, const nlohmann::json& body);
+
+struct ErasureWish {
+  std::vector<std::uint64_t> sessions = {};          ///< their entries
+  std::optional<std::int64_t> received_before = {};  ///< and those that came in before this time, UTC in ns
+  bool motion = false;                               ///< the recording: motion, forces, ticket and accommodations
+  bool results = false;                              ///< the school's mark, all regrades, and what the station sealed
+};
+/// What of it is still there, as entries name it: a list of {"entry","what"}. Throws Error when an entry is no session's.
+[[nodiscard]] nlohmann::json select_erasures(const LedgerContent& content, const ErasureWish& wish);
+/// Enters the erasure, then takes it out of the file and removes recordings. Returns what was erased; nothing is entered when that is nothing.
+/// Throws Error when `reason` is no line of text.
+nlohmann::json erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason);
+/// Enters that these pseudonyms' identities are removed, one entry for each, and erases of their sessions what `wish` says; its own list of sessions
+/// is not asked.
+void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish);
+/// SHA-256 of recordings that an entry says are erased.
+[[nodiscard]] std::set<std::string> erased_recordings(const LedgerContent& content);
+/// Removes those that are still there, after a crash, or in a backup of before. Returns how many. Throws Error when one cannot be removed.
+std::size_t remove_erased_recordings(const LedgerContent& content, const LedgerPlaces& places);
+
+}  // namespace cavum

@@ -1,0 +1,28 @@
+// What can be erased lies outside the tree. An entry names the hash of an opening, a text of a salt and a value; while the opening is there, it
+// proves the value, and once it is gone, the hash tells nothing: nobody can try values without the salt. Every proof stays valid either way.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace cavum {
+
+struct Opening {
+  std::string sha256;  ///< of `text`, hexadecimal: what an entry or a ticket names
+  std::string text;    ///< {"salt":"32 hexadecimal digits","value":…}, keys in order, no spaces
+};
+/// With 128 fresh random bits of salt.
+[[nodiscard]] Opening make_opening(const nlohmann::json& value);
+/// The value in an opening's text. Throws Error(`where`, ...) when the text is none, or its hash is not `sha256` (hexadecimal).
+[[nodiscard]] nlohmann::json opened_value(const std::string& text, const std::string& sha256, const std::string& where);
+
+/// What can be erased of a filed session or a regrade: its recording (a file), its result, and the result that its station sealed instead.
+inline constexpr char k_motion[] = "motion", k_result[] = "result", k_sealed[] = "sealed";
+/// Of an entry, by its number: what was erased of it, and the entry that says so.
+using Erased = std::map<std::uint64_t, std::map<std::string, std::uint64_t>>;
+
+}  // namespace cavum

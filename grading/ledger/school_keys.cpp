@@ -1,0 +1,97 @@
+#include "grading/ledger/school_keys.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/base/write_file.h"
+#include "engine/session/session.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/ledger.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+Bytes message_of(const std::string& ledger, const std::string& previous, const std::string& next, std::int64_t until_utc_ns) {
+  const std::string text = "CVKEYNEW" + json{{"ledger", ledger}, {"previous", previous}, {"public_key", next}, {"until_utc_ns", until_utc_ns}}.dump();
+  return {text.begin(), text.end()};
+}
+
+bool is_hex_key(const std::string& key) { return key.size() == 64 && key.find_first_not_of("0123456789abcdef") == std::string::npos; }
+
+}  // namespace
+
+const std::string& LedgerContent::key_of(std::uint64_t size) const {
+  const SchoolKey* found = nullptr;
+  for (const auto& k : keys)
+    if (k.first_size <= size) found = &k;
+  return found != nullptr ? found->public_key : public_key;
+}
+
+bool LedgerContent::has_key(const std::string& key) const {
+  return std::any_of(keys.begin(), keys.end(), [&](const SchoolKey& k) { return k.public_key == key; });
+}
+
+void read_school_keys(LedgerContent& c) {
+  c.keys.assign(1, {1, text_in(c.entries.at(0).body, "public_key"), 0});
+  for (const auto& e : c.entries) {
+    if (e.kind == "key") {
+      const SchoolKey& before = c.keys.back();
+      const SchoolKey next{e.seq + 1, text_in(e.body, "public_key"), whole_in(e.body, "until_utc_ns")};
+      if (!is_hex_key(next.public_key) ||
+          !is_signed_by(before.public_key, message_of(c.id, before.public_key, next.public_key, next.until_utc_ns), text_in(e.body, "signature")))
+        c.findings.push_back("entry " + std::to_string(e.seq) + ": names a key that the school's key before it has not signed");
+      else
+        c.keys.push_back(next);
+    } else if (const SchoolKey& k = c.keys.back(); k.until_utc_ns > 0 && e.utc_ns > k.until_utc_ns) {
+      c.findings.push_back("entry " + std::to_string(e.seq) + ": was entered on " + utc_text(e.utc_ns) + ", and the school's key had run out on " +
+                           utc_text(k.until_utc_ns));
+    }
+  }
+  c.public_key = c.keys.back().public_key;
+}
+
+void require_key_in_time(const LedgerContent& c, std::int64_t now_utc_ns) {
+  const SchoolKey& k = c.keys.back();
+  if (k.until_utc_ns > 0 && now_utc_ns > k.until_utc_ns)
+    throw Error("the school's key", "ran out on " + utc_text(k.until_utc_ns), "replace it: `cavum ledger key LEDGER --replace`");
+}
+
+json school_key_body(const LedgerContent& c, const SigningKey& present, const SigningKey& next, std::int64_t until_utc_ns,
+                     const std::string& reason) {
+  const std::string next_key = to_hex(next.public_key);
+  return {{"public_key", next_key},
+          {"until_utc_ns", until_utc_ns},
+          {"reason", one_line(reason)},
+          {"signature", to_hex(present.sign(message_of(c.id, c.public_key, next_key, until_utc_ns)))}};
+}
+
+std::string next_key_path(const std::string& path) { return path + ".next"; }
+
+std::string old_key_path(const std::string& path, const std::string& public_key) { return path + "." + public_key.substr(0, 8); }
+
+std::string replace_school_key(const std::string& folder, const std::string& path, std::int64_t until_utc_ns, const std::string& reason) {
+  const LedgerPlaces places{folder};
+  const SigningKey present = load_school_key(path);
+  const std::string waiting = next_key_path(path), before = to_hex(present.public_key);
+  const SigningKey next = load_school_key(waiting, true);  // on disk before anything depends on it
+  const std::string now = to_hex(next.public_key);
+  if (read_ledger(places).public_key != now) {  // else it was entered before, and the rest was cut off
+    Ledger ledger(folder, present);
+    ledger.change_key(next, until_utc_ns, reason);
+  }
+  if (fs::exists(places.identities())) Identities(places.identities()).seal_again(present, next);
+  const std::string kept = old_key_path(path, before);
+  if (!fs::exists(kept)) fs::create_hard_link(path, kept);
+  fs::rename(waiting, path);
+  sync_folder_of(path);
+  return now;
+}
+
+void limit_school_key(Ledger& ledger, std::int64_t until_utc_ns, const std::string& reason) { ledger.change_key(ledger.key(), until_utc_ns, reason); }
+
+}  // namespace cavum

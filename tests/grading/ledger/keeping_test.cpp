@@ -1,0 +1,246 @@
+// What a school keeps about people: pseudonyms that lead nowhere, accommodations that the ledger never holds, and recordings and results that can be
+// erased while every proof stays valid.
+#include <gtest/gtest.h>
+
+#include "engine/base/json_fields.h"
+#include "grading/ledger/backup.h"
+#include "grading/ledger/erasure.h"
+#include "grading/ledger/exports.h"
+#include "grading/ledger/regrade.h"
+#include "grading/ledger/release.h"
+#include "tests/grading/ledger/old_ledger.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+/// True when the text stands in any file below the folder, logs and backups included.
+bool stands_anywhere(const std::string& folder, const std::string& text) {
+  for (const auto& f : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!f.is_regular_file()) continue;
+    const Bytes bytes = read_file(f.path().string());
+    if (std::string(bytes.begin(), bytes.end()).find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// A candidate with more time has sat the exam, and it is filed; each test works on a copy.
+class Kept : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    const std::string ticket = shared_->ticket("4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "37"}}; });
+    const std::string path = shared_->sit(ticket, "expert", [](ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
+    Ledger ledger = shared_->ledger();
+    const Filing filing = file_session(ledger, path);
+    for (const auto& f : filing.findings) ADD_FAILURE() << f;
+    session_ = filing.seq.value_or(0);
+    std::filesystem::remove(path);
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  [[nodiscard]] LedgerContent content() const { return read_ledger(school_.places()); }
+  [[nodiscard]] std::string recording() const { return school_.places().session(text_in(content().entries.at(session_).body, "file_sha256")); }
+  /// Everything that proves: entries, tree, signatures, witness, a receipt from before.
+  void expect_proofs_hold(const json& receipt) {
+    const LedgerCheck check = check_ledger(school_.places(), true);
+    for (const auto& f : check.findings) ADD_FAILURE() << f;
+    const LedgerContent now = content();
+    for (const auto& f : check_receipt(receipt, now.public_key, &now)) ADD_FAILURE() << f;
+  }
+
+  static inline School* shared_ = nullptr;
+  static inline std::uint64_t session_ = 0;
+  School school_{*shared_};
+};
+
+TEST_F(Kept, AccommodationsStandInTheRecordingAloneAndNeverInTheLedger) {
+  const Bytes db = read_file(school_.places().database());
+  for (const auto& e : content().entries) EXPECT_EQ(e.text.find("extra_time"), std::string::npos) << e.text;
+  EXPECT_EQ(SessionReader(recording()).setup().notes.size(), 2u) << "ticket and accommodation";
+  // hidden: the same grant twice has two commitments, so nobody can try values
+  const std::string a = school_.ticket("a"), b = school_.ticket("b");
+  EXPECT_NE(parse_ticket(a, "", "a").grant_sha256, parse_ticket(b, "", "b").grant_sha256);
+  // binding: other accommodations do not open it
+  json changed = json::parse(a);
+  changed["grant"] = make_opening(json{{"accommodation.extra_time_percent", "50"}}).text;
+  EXPECT_THROW(static_cast<void>(parse_ticket(changed.dump(), "", "changed")), Error);
+}
+
+TEST_F(Kept, ErasedMotionTakesTheAccommodationsWithItAndEveryProofHolds) {
+  Ledger ledger = school_.ledger();
+  const json receipt = ledger.receipt(session_);
+  const std::string path = recording();
+  ASSERT_TRUE(std::filesystem::exists(path));
+  EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true}, "five years are over").size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_FALSE(stands_anywhere(school_.file(""), "extra_time_percent")) << "nowhere in any file of the school";
+  expect_proofs_hold(receipt);
+  expect_finding(check_ledger(school_.places(), true).not_checked, {"1 recording was erased"});
+  const FiledSession s = read_registry(content()).sessions.at(0);
+  EXPECT_EQ(s.motion_erased_by, content().entries.size() - 1);
+  EXPECT_TRUE(s.result.is_object()) << "the result is kept";
+  EXPECT_THROW(static_cast<void>(recording_of(school_.places(), s)), Error);
+  EXPECT_TRUE(erase(ledger, {.sessions = {session_}, .motion = true}, "again").empty()) << "nothing is left";
+}
+
+TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
+  Ledger ledger = school_.ledger();
+  const json receipt = ledger.receipt(session_);
+  const std::string words = R"("criteria")";  // of a result alone; the recording bears one, too
+  ASSERT_TRUE(stands_anywhere(school_.file(""), words));
+  const FiledSession before = read_registry(ledger.content()).sessions.at(0);
+  RegradeBasis basis;
+  basis.rubric_toml = "x";
+  enter_regrade(ledger, session_, before.result, basis, "an appeal");
+  EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for").size(), 3u) << "recording, mark, regrade";
+  EXPECT_FALSE(stands_anywhere(school_.file(""), words));
+  expect_proofs_hold(receipt);
+  const FiledSession s = read_registry(content()).sessions.at(0);
+  EXPECT_TRUE(s.result.is_null());
+  EXPECT_TRUE(s.result_erased_by);
+  Identities identities(school_.places().identities());
+  int left_out = 0;
+  EXPECT_EQ(moodle_csv(read_registry(content()), identities, left_out).find("4711"), std::string::npos);
+}
+
+TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {
+  const std::string path = recording();
+  test::tamper(school_.places().database(), "DELETE FROM opening");
+  expect_finding(check_ledger(school_.places(), false).findings, {"result was taken out"});
+  std::filesystem::remove(path);
+  expect_finding(check_ledger(school_.places(), false).findings, {"its file is gone"});
+}
+
+TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
+  std::string opening;
+  {
+    Database db = Database::open(school_.places().database(), false);
+    opening = "INSERT INTO opening VALUES ('" + db.text("SELECT sha256 FROM opening") + "', '" + db.text("SELECT text FROM opening") + "')";
+  }
+  const std::string path = recording();
+  const Bytes image = read_file(path);
+  {
+    Ledger ledger = school_.ledger();
+    static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
+  }
+  write_file(path, image);
+  expect_finding(check_ledger(school_.places(), false).findings, {"is erased by entry", "still there"});
+  EXPECT_EQ(remove_erased_recordings(content(), school_.places()), 1u) << "as after a crash between entry and removal";
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+  test::tamper(school_.places().database(), opening);
+  expect_finding(check_ledger(school_.places(), false).findings, {"was erased by entry", "stands there again"});
+}
+
+TEST_F(Kept, ForgettingErasesIdentityAndRecordingOfEveryExamAndTellsNobodyWhoItWas) {
+  Ledger ledger = school_.ledger();
+  const json receipt = ledger.receipt(session_);
+  Identities identities(school_.places().identities());
+  const std::string other = identities.enrol("4711", "", "another exam", School::key());
+  std::vector<std::string> pseudonyms;
+  for (const auto& i : identities.of_person("4711")) pseudonyms.push_back(i.pseudonym);
+  ASSERT_EQ(pseudonyms.size(), 2u) << "one for each exam";
+  forget(ledger, pseudonyms, {.motion = true});
+  for (const auto& p : pseudonyms) EXPECT_TRUE(identities.forget(p));
+  EXPECT_FALSE(std::filesystem::exists(recording()));
+  EXPECT_FALSE(stands_anywhere(school_.file(""), "4711"));
+  EXPECT_FALSE(stands_anywhere(school_.file(""), "extra_time_percent"));
+  expect_proofs_hold(receipt);
+  std::size_t forgotten = 0;
+  for (const auto& e : content().entries)
+    if (e.kind == "forget") {
+      ++forgotten;
+      EXPECT_FALSE(e.text.find(pseudonyms[0]) != std::string::npos && e.text.find(pseudonyms[1]) != std::string::npos)
+          << "no entry says that both are one person's";
+    }
+  EXPECT_EQ(forgotten, 2u);
+}
+
+TEST_F(Kept, MotionStaysWhenItIsAskedFor) {
+  Ledger ledger = school_.ledger();
+  const std::string candidate = read_registry(ledger.content()).sessions.at(0).candidate;
+  forget(ledger, {candidate}, {});
+  EXPECT_TRUE(std::filesystem::exists(recording()));
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
+}
+
+TEST_F(Kept, ABackupForgetsWhatTheLedgerHasErased) {
+  const std::string folder = school_.file("backup");
+  static_cast<void>(back_up(school_.places(), folder, false));
+  const std::string copy = LedgerPlaces{folder}.session(text_in(content().entries.at(session_).body, "file_sha256"));
+  ASSERT_TRUE(std::filesystem::exists(copy));
+  {
+    Ledger ledger = school_.ledger();
+    static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
+  }
+  const Backup backup = back_up(school_.places(), folder, false);
+  EXPECT_TRUE(backup.missing.empty());
+  EXPECT_FALSE(std::filesystem::exists(copy));
+  EXPECT_FALSE(stands_anywhere(folder, "\"criteria\""));
+  EXPECT_TRUE(plan_restore(folder, {}, {}).missing_sessions.empty());
+}
+
+TEST_F(Kept, AnEntryErasesOnlyWhatIsThereBeforeIt) {
+  Ledger ledger = school_.ledger();
+  EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {1}, .motion = true}, "x")), Error) << "no session's entry";
+  EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true}, "")), Error) << "no reason";
+  EXPECT_TRUE(std::filesystem::exists(recording()));
+  ledger.append("erase", [&](const LedgerContent& now) {
+    return json{{"erased", {{{"entry", now.entries.size() + 3}, {"what", "motion"}}}}, {"reason", "forged"}};
+  });
+  expect_finding(content().findings, {"erases what is not there"});
+}
+
+TEST_F(Kept, ResultsOfOlderEntriesCanBeErasedToo) {
+  make_old(school_, 3);
+  {
+    Ledger ledger = school_.ledger();
+    ASSERT_FALSE(ledger.content().entries.at(session_).attachment.empty());
+    EXPECT_EQ(erase(ledger, {.sessions = {session_}, .results = true}, "asked for").size(), 1u);
+  }
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+  EXPECT_TRUE(read_registry(content()).sessions.at(0).result.is_null());
+}
+
+TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
+  const School school;
+  Identities identities(school.places().identities());
+  const std::string a = identities.enrol("4711", "Ada", "exam A", School::key()), b = identities.enrol("4711", "Ada", "exam B", School::key());
+  EXPECT_NE(a, b);
+  EXPECT_EQ(identities.enrol("4711", "Ada", "exam A", School::key()), a);
+  EXPECT_EQ(identities.of_person(a).size(), 2u);
+  EXPECT_TRUE(identities.check(School::key()).empty());
+  for (const char* sql : {"UPDATE identity SET exam = 'exam C' WHERE exam = 'exam A'", "UPDATE identity SET name = 'Bob' WHERE exam = 'exam A'",
+                          "UPDATE identity SET id = '4712' WHERE exam = 'exam A'"}) {
+    const School copy(school);
+    test::tamper(copy.places().identities(), sql);
+    EXPECT_EQ(Identities(copy.places().identities()).check(School::key()).size(), 1u) << sql;
+  }
+}
+
+TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
+  const School school;
+  const std::string path = school.file("old.db");
+  const Bytes salt(16, 7);
+  const std::string pseudonym = old_pseudonym_of(School::key(), salt, "4711");
+  {
+    Database db = Database::open(path, true);
+    db.run("PRAGMA application_id = 1130457417");
+    db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
+    db.prepare("INSERT INTO identity VALUES (?, '4711', 'Ada', ?)").bind(1, pseudonym).bind(2, salt).run();
+  }
+  Identities identities(path);
+  EXPECT_EQ(identities.of_pseudonym(pseudonym)->id, "4711");
+  EXPECT_TRUE(identities.check(School::key()).empty());
+  EXPECT_NE(identities.enrol("4711", "Ada", "exam", School::key()), pseudonym) << "a new exam has one of its own";
+  EXPECT_EQ(identities.of_person(pseudonym).size(), 2u);
+  SigningKey next = load_signing_key(school.file("next.key"), "school");
+  identities.seal_again(School::key(), next);
+  EXPECT_TRUE(identities.check(next).empty());
+  EXPECT_EQ(identities.check(School::key()).size(), 2u);
+}
+
+}  // namespace
+}  // namespace cavum

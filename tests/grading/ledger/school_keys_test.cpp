@@ -1,0 +1,160 @@
+// The school's keys: each purpose has a secret of its own, a key can be replaced and run out, and what was signed before stays proved.
+#include "grading/ledger/school_keys.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/json_fields.h"
+#include "grading/ledger/cosign.h"
+#include "grading/ledger/exports.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_ledger;
+
+TEST(DerivedSecret, IsHkdfOfRfc5869) {
+  // RFC 5869, A.3: SHA-256 with empty salt and info; the first 32 of its 42 bytes
+  const Bytes material(22, 0x0b);
+  EXPECT_EQ(to_hex(hkdf_sha256(material, "")), "8da4e775a563c18f715f802a063c5a31b8a11f5c5ee1879ec3454e5f3c738d2d");
+}
+
+TEST(DerivedSecret, IsAnotherForEachPurposeAndNeverTheSeed) {
+  const School school;
+  const SigningKey key = School::key();
+  const auto a = derived_secret(key, "a"), b = derived_secret(key, "b");
+  EXPECT_NE(a, b);
+  EXPECT_FALSE(std::equal(a.begin(), a.end(), key.secret_key.begin()));
+}
+
+class SchoolKeys : public testing::Test {
+ protected:
+  void expect_holds() {
+    const LedgerCheck check = check_ledger(school_.places(), false);
+    for (const auto& f : check.findings) ADD_FAILURE() << f;
+  }
+  std::string replace(std::int64_t until_utc_ns = 0) {
+    return replace_school_key(school_.ledger_folder(), school_key_path(), until_utc_ns, "yearly");
+  }
+  School school_;
+};
+
+TEST_F(SchoolKeys, ReplacedThenTheNewOneSignsAndAllOfBeforeStaysProved) {
+  const std::string old_ticket = school_.ticket("4711");
+  const auto receipt = school_.ledger().receipt(3);
+  const Ledger before = school_.ledger();
+  const std::string results = signed_results(read_registry(before.content()), before), first = before.content().public_key, now = replace();
+  EXPECT_NE(first, now);
+  EXPECT_EQ(to_hex(School::key().public_key), now) << "the new key is in the place of the old one";
+  EXPECT_EQ(to_hex(load_school_key(old_key_path(school_key_path(), first)).public_key), first) << "which is kept beside it";
+  expect_holds();
+  const LedgerContent c = read_ledger(school_.places());
+  EXPECT_EQ(c.public_key, now);
+  ASSERT_EQ(c.keys.size(), 2u);
+  EXPECT_EQ(c.key_of(c.entries.size() - 1), first);
+  EXPECT_EQ(c.key_of(c.entries.size()), now) << "the entry that introduces it is signed by it";
+  for (const auto& f : check_receipt(receipt, c.public_key, &c)) ADD_FAILURE() << f;
+  for (const auto& f : check_results(results, c.public_key, &c)) ADD_FAILURE() << f;
+  EXPECT_TRUE(Identities(school_.places().identities()).check(School::key()).empty()) << "identities are sealed by the new one";
+  Ledger ledger = school_.ledger();
+  EXPECT_TRUE(check_receipt(ledger.receipt(3), now, nullptr).empty()) << "a new receipt of an old entry needs the new key alone";
+  const Filing filing = file_session(ledger, school_.sit(old_ticket));
+  for (const auto& f : filing.findings) ADD_FAILURE() << f << " (a ticket of before is still good)";
+  const Filing newer = file_session(ledger, school_.sit(school_.ticket("4712")));
+  for (const auto& f : newer.findings) ADD_FAILURE() << f;
+  expect_holds();
+}
+
+TEST_F(SchoolKeys, TheOldKeySignsNothingMore) {
+  const SigningKey old = School::key();
+  static_cast<void>(replace());
+  try {
+    const Ledger ledger(school_.ledger_folder(), old);
+    ADD_FAILURE() << "opened with the old key";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("gone on with another key"), std::string::npos) << e.what();
+  }
+}
+
+TEST_F(SchoolKeys, AKeyThatNoKeyBeforeItHasSignedIsFound) {
+  const SigningKey stranger = load_signing_key(school_.file("stranger.key"), "school");
+  Ledger ledger = school_.ledger();
+  ledger.append("key", [&](const LedgerContent& now) { return school_key_body(now, stranger, stranger, 0, "mine now"); });
+  expect_finding(check_ledger(school_.places(), false).findings, {"names a key that the school's key before it has not signed"});
+  EXPECT_EQ(read_ledger(school_.places()).public_key, to_hex(School::key().public_key));
+}
+
+TEST_F(SchoolKeys, AWordOfAnotherLedgerIntroducesNoKey) {
+  const SigningKey key = School::key(), next = load_signing_key(school_.file("next.key"), "school");
+  Ledger::create(school_.file("other"), "the same school", key);
+  nlohmann::json word;
+  {
+    Ledger other(school_.file("other"), key);
+    word = school_key_body(other.content(), key, next, 0, "yearly");
+  }
+  Ledger ledger = school_.ledger();
+  ledger.append("key", [&](const LedgerContent&) { return word; });
+  expect_finding(check_ledger(school_.places(), false).findings, {"has not signed"});
+}
+
+TEST_F(SchoolKeys, OneThatRanOutEntersNothingUntilItIsReplaced) {
+  {
+    Ledger ledger = school_.ledger();
+    limit_school_key(ledger, read_clocks().utc_ns - 1, "at the end of the year");
+  }
+  expect_holds();
+  Ledger ledger = school_.ledger();
+  try {
+    ledger.append("forget", [](const LedgerContent&) { return nlohmann::json{{"candidate", "C-a"}}; });
+    ADD_FAILURE() << "entered";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("ran out on"), std::string::npos) << e.what();
+  }
+  static_cast<void>(replace(read_clocks().utc_ns + k_hour_ns));
+  EXPECT_NO_THROW(school_.ticket("4711"));
+  expect_holds();
+}
+
+TEST_F(SchoolKeys, AReplacementThatWasCutOffGoesOn) {
+  const SigningKey old = School::key();
+  school_.ticket("4711");
+  {  // killed after the entry, before the identities were sealed again
+    const SigningKey next = load_school_key(next_key_path(school_key_path()), true);
+    Ledger ledger(school_.ledger_folder(), old);
+    ledger.change_key(next, 0, "yearly");
+  }
+  EXPECT_THROW(school_.ledger(), Error);
+  const std::string now = replace();
+  EXPECT_EQ(to_hex(School::key().public_key), now);
+  EXPECT_EQ(read_ledger(school_.places()).keys.size(), 2u) << "entered once";
+  EXPECT_TRUE(Identities(school_.places().identities()).check(School::key()).empty());
+  expect_holds();
+}
+
+TEST_F(SchoolKeys, AnOlderCopyPutBackFromBeforeTheReplacementIsFound) {
+  const Bytes old = read_file(school_.places().database());
+  static_cast<void>(replace());
+  school_.ticket("4711");
+  write_file(school_.places().database(), old);
+  expect_finding(read_ledger(school_.places()).findings, {"older copy of the ledger was put back"});
+}
+
+TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenAPersonNamesIt) {
+  Cosigner cosigner{"cosigner.example/one", load_signing_key(school_.file("cosigner.key"), "cosigner"), school_.file("memory"),
+                    to_hex(School::key().public_key)};
+  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
+  const std::string now = replace();
+  const LedgerContent c = read_ledger(school_.places());
+  cosigner.school_key.clear();
+  expect_finding(cosign(cosigner, cosign_request(c, k_first_entries), "request", 2).findings, {"signed by another key"});
+  cosigner.school_key = now;
+  const Cosigned signed_now = cosign(cosigner, cosign_request(c, k_first_entries), "request", 3);
+  EXPECT_TRUE(signed_now.findings.empty());
+  cosigner.school_key.clear();
+  EXPECT_TRUE(cosign(cosigner, cosign_request(c, c.entries.size()), "request", 4).findings.empty()) << "and remembers it";
+  const auto check = check_cosigned(signed_now.note, {{cosigner.name, NoteKind::cosignature, cosigner.key.public_key}}, c);
+  for (const auto& f : check.findings) ADD_FAILURE() << f;
+}
+
+}  // namespace
+}  // namespace cavum
