@@ -134,10 +134,10 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v = verb("candidates", "List who is behind which pseudonym", done(ledger_candidates));
   json_flag(v);
 
-  v = verb("forget", "Remove a candidate's identity and erase the recordings; all proofs stay valid", done(ledger_forget));
+  v = verb("forget", "Remove a candidate's identity and erase recordings and results; all proofs stay valid", done(ledger_forget));
   v->add_option("--candidate", o->candidate, "one of the pseudonyms, or the school's own number")->required();
   v->add_flag("--keep-motion", o->keep_motion, "keep the recordings, under pseudonyms that lead to nobody; they hold the accommodations");
-  v->add_flag("--erase-results", o->erase_results, "erase the results, too");
+  v->add_flag("--keep-results", o->keep_results, "keep the results likewise; they tell of accommodations, too");
 
   v = verb("erase", "Erase recordings or results; all proofs stay valid. Without more: remove what a crash left of it", done(ledger_erase));
   v->add_option("--session", o->chosen_sessions, "its entry; may be repeated");

@@ -38,15 +38,15 @@ void ledger_forget(const LedgerOptions& o) {
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())
     throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
-  forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = o.erase_results});
+  forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
   std::size_t bound = 0;
   for (const auto& p : pseudonyms) {
     identities.forget(p);
     bound += old_tickets_with_grants(ledger.content(), p);
     std::cout << one_line(p) << ": the identity is removed\n";
   }
-  std::cout << "recordings, with the accommodations in them, are " << (o.keep_motion ? "kept" : "erased") << "; results are "
-            << (o.erase_results ? "erased" : "kept, under pseudonyms that lead to nobody") << "; all proofs stay valid\n";
+  const auto said = [](bool kept) { return kept ? "kept, with what they tell of accommodations, under pseudonyms that lead to nobody" : "erased"; };
+  std::cout << "recordings are " << said(o.keep_motion) << "; results are " << said(o.keep_results) << "; all proofs stay valid\n";
   if (bound > 0)
     std::cout << bound << " tickets were entered before format 5: their accommodations stand in signed entries and stay there, under the pseudonym\n";
   std::cout << "not reached from here: backups, exports, receipts and tickets that were given out, and recordings left on stations\n";

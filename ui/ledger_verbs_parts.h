@@ -21,7 +21,7 @@ struct LedgerOptions {
   std::int64_t session_seq = -1, since = -1, from_size = 0;
   bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
        another_task = false, with_simulated = false, with_identities = false, another = false, begin_at_ledger = false, keep_motion = false,
-       erase_motion = false, erase_results = false, replace = false;
+       keep_results = false, erase_motion = false, erase_results = false, replace = false;
 };
 
 /// The school's key: --key, else the one in its place. Throws Error when there is none.

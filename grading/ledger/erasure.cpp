@@ -64,7 +64,9 @@ std::optional<std::uint64_t> erased_by(const Erased& erased, std::uint64_t seq, 
 TakenOut taken_out_by(const LedgerContent& c, const json& body) {
   TakenOut out;
   for (const json& one : member_of(body, "erased")) {
-    const auto& e = c.entries.at(static_cast<std::size_t>(whole_in(one, "entry")));
+    const std::int64_t seq = whole_in(one, "entry");
+    if (seq < 0 || seq >= static_cast<std::int64_t>(c.entries.size())) continue;  // read_erased names it
+    const auto& e = c.entries[static_cast<std::size_t>(seq)];
     const std::string what = text_in(one, "what"), hash = text_in(member_of(e.body, "opens"), what.c_str());
     if (!hash.empty())
       out.openings.push_back(hash);

@@ -172,7 +172,7 @@ LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, json body) {
     if (value == told.end()) continue;
     e.openings.push_back(make_opening(*value));
     told.erase(what);
-    told["opens"][what] = e.openings.back().sha256;
+    told["opens"][what] = e.body["opens"][what] = e.openings.back().sha256;
   }
   e.text = json{{"body", told}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
   e.leaf = leaf_hash(ledger_bytes(e.text));

@@ -291,7 +291,7 @@ TEST_F(Released, TheLastReleasedAttemptStandsUntilANewerOneIsReleased) {
   const std::string before = told.score["timestamp"];
   FiledSession& released = registry.sessions.back();
   released.shown = released.result;
-  released.released_utc_ns = released.received_utc_ns + 5'000'000'000;
+  released.released_utc_ns = registry.sessions.front().released_utc_ns + 5'000'000'000;
   told = told_of(registry, identities);
   EXPECT_EQ(told.field("block_cavity"), "33.5");
   EXPECT_EQ(told.score["scoreGiven"], 33.5);
