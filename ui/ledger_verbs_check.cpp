@@ -75,6 +75,8 @@ int ledger_show(const LedgerOptions& o) {
                           {"verdict", s.result.is_object() ? s.result.value("verdict", "") : ""},
                           {"points", s.result.is_object() ? s.result["score"]["points"] : json()},
                           {"released", s.released},
+                          {"motion_erased", s.motion_erased_by.has_value()},
+                          {"result_erased", s.result_erased_by.has_value()},
                           {"simulated", s.simulated},
                           {"regraded", s.result_seq != s.seq},
                           {"contested_by", s.contested_by},
@@ -93,7 +95,11 @@ int ledger_show(const LedgerOptions& o) {
               registry.sessions.size());
   for (const auto& s : registry.sessions)
     std::printf("%6llu  %-16s %-28s %-7s %6.1f  %s%s%s\n", static_cast<unsigned long long>(s.seq), one_line(s.candidate).c_str(),
-                one_line(s.scenario_id).c_str(), one_line(s.result.is_object() ? s.result.value("verdict", "") : "?").c_str(),
+                one_line(s.scenario_id).c_str(),
+                one_line(s.result.is_object() ? s.result.value("verdict", "")
+                         : s.result_erased_by ? "erased"
+                                              : "?")
+                    .c_str(),
                 s.result.is_object() ? s.result["score"]["points"].get<double>() : 0.0, s.released ? "released" : "pending",
                 (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
                 ((s.findings.empty() ? std::string() : ", with findings") +
