@@ -222,8 +222,9 @@ double top_of(const Octree& tree, const Mat3& tool) {
 
 }  // namespace
 
-ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin) {
-  ReachMap map;
+FreeRoom free_room(const ZoneMap& zones, const Tooth& tooth, const MarginSpec& margin) {
+  FreeRoom room_above;
+  ReachMap& map = room_above.map;
   map.tool = rotation(rotation_between({0, 0, 1}, zones.approach()));
   const auto [low, high] = box_of_target(zones, map.tool);
   map.bottom_mm = low.z;
@@ -243,7 +244,8 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
   // For every height the free radius around each column: an upright body of revolution fits where no slice is wider.
   const double dz = 0.1, base = low.z - 0.3 - std::max(0.0, margin.bottom_mm - k_expert_margin.bottom_mm);
   const int slices = static_cast<int>((top - base) / dz) + 1;
-  std::vector<float> free_mm(columns * static_cast<std::size_t>(slices));
+  std::vector<float>& free_mm = room_above.free_mm;
+  free_mm.resize(columns * static_cast<std::size_t>(slices));
   std::vector<std::uint8_t> forbidden(columns);
   std::vector<double> beyond(columns);
   for (int k = 0; k < slices; ++k) {
@@ -268,18 +270,34 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
         free_mm[static_cast<std::size_t>(k) * columns + map.index(x, y)] = static_cast<float>(forbidden[map.index(x, y)] != 0 ? 0.0 : room);
       }
   }
+  room_above.base_mm = base;
+  room_above.step_mm = dz;
+  room_above.slices = slices;
+  return room_above;
+}
+
+ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin) {
+  return reach_map(free_room(zones, tooth, margin), zones, tooth, tool);
+}
+
+ReachMap reach_map(const FreeRoom& room, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
+  ReachMap map = room.map;
+  const double dz = room.step_mm, base = room.base_mm, top_mm = map.top_mm;
+  const int slices = room.slices, nx = map.nx;
+  const std::size_t columns = map.lowest_mm.size();
   std::vector<double> radius(static_cast<std::size_t>(slices));
   for (std::size_t h = 0; h < radius.size(); ++h) radius[h] = tool.point.profile.radius_mm(static_cast<double>(h) * dz + 0.5 * dz);
   for (std::size_t c = 0; c < columns; ++c) {
     double& lowest = map.lowest_mm[c];
-    for (int k = static_cast<int>((high.z + 0.3 - base) / dz); k >= 0; --k) {
+    for (int k = static_cast<int>((top_mm + 0.3 - base) / dz); k >= 0; --k) {
       bool fits = true;
-      for (int h = k; h < slices && fits; ++h) fits = free_mm[static_cast<std::size_t>(h) * columns + c] >= radius[static_cast<std::size_t>(h - k)];
+      for (int h = k; h < slices && fits; ++h)
+        fits = room.free_mm[static_cast<std::size_t>(h) * columns + c] >= radius[static_cast<std::size_t>(h - k)];
       if (!fits) break;
       lowest = base + k * dz;
     }
     const Vec3 tip = map.at(static_cast<int>(c) % nx, static_cast<int>(c) / nx, lowest);
-    if (lowest > high.z || !cuts_target(zones, tooth, tool.point, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
+    if (lowest > top_mm || !cuts_target(zones, tooth, tool.point, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
   }
   return map;
 }

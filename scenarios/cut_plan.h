@@ -45,7 +45,17 @@ struct ReachMap {
   /// A place in the tooth frame.
   [[nodiscard]] Vec3 at(int x, int y, double z) const noexcept { return tool * Vec3{origin_mm.x + x * step_mm, origin_mm.y + y * step_mm, z}; }
 };
-/// `margin` is how far the point may reach beyond the target's sides and bottom (negative: stay away from them).
+/// How wide the way into the target is at each place, whatever the point: made once for a tray.
+struct FreeRoom {
+  ReachMap map;  ///< all columns unreachable
+  double base_mm = 0, step_mm = 0.1;
+  int slices = 0;                ///< heights from base_mm upwards
+  std::vector<float> free_mm{};  ///< radius, height after height, columns as in `map`
+};
+/// `margin` is how far a point may reach beyond the target's sides and bottom (negative: stay away from them).
+[[nodiscard]] FreeRoom free_room(const ZoneMap& zones, const Tooth& tooth, const MarginSpec& margin);
+[[nodiscard]] ReachMap reach_map(const FreeRoom& room, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool);
+/// For one point alone.
 [[nodiscard]] ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin);
 
 /// The same map for who opens only the middle: `percent` of the length and width over which the point may go.
