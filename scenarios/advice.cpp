@@ -166,7 +166,7 @@ void Adviser::time(std::optional<double>& expert_s) {
   if (!covers.empty() && *std::min_element(covers.begin(), covers.end()) < k_poor_share) {
     const FreeRoom room = free_room(zones_, tooth_, at_most);
     for (std::size_t i = 0; i < tray.size(); ++i)
-      if (covers[i] < k_poor_share) covers[i] = std::max(covers[i], coverage(reach_map(room, zones_, tooth_, tray[i]), zones_, tooth_, tray[i]));
+      if (covers[i] < k_poor_share) covers[i] = std::max(covers[i], coverage(room, reach_map(room, zones_, tooth_, tray[i]), tray[i]));
   }
   double best = 0;
   for (const double share : covers) best = std::max(best, share);

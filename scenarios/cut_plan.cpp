@@ -270,6 +270,14 @@ FreeRoom free_room(const ZoneMap& zones, const Tooth& tooth, const MarginSpec& m
         free_mm[static_cast<std::size_t>(k) * columns + map.index(x, y)] = static_cast<float>(forbidden[map.index(x, y)] != 0 ? 0.0 : room);
       }
   }
+  const auto target_slices = static_cast<std::size_t>((high.z - low.z) / dz) + 1;
+  room_above.target.reserve(columns * target_slices);
+  for (std::size_t k = 0; k < target_slices; ++k)
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) {
+        const Vec3 p = map.at(x, y, low.z + (static_cast<double>(k) + 0.5) * dz);
+        room_above.target.push_back(zones.distance_mm(p) < 0 && tooth.octree.tissue_at(p) != k_air ? 1 : 0);
+      }
   room_above.base_mm = base;
   room_above.step_mm = dz;
   room_above.slices = slices;
@@ -319,10 +327,10 @@ ReachMap middle_of(ReachMap map, double percent) {
   return map;
 }
 
-double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
-  const double low_z = map.bottom_mm, high_z = map.top_mm, dz = 0.1;
-  const auto slices = static_cast<std::size_t>((high_z - low_z) / dz) + 1;
+double coverage(const FreeRoom& room, const ReachMap& map, const ContactTool& tool) {
+  const double low_z = map.bottom_mm, dz = room.step_mm;
   const auto columns = map.lowest_mm.size();
+  const std::size_t slices = room.target.size() / columns;
   std::vector<std::uint8_t> covered(columns * slices);
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
@@ -342,14 +350,10 @@ double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, c
       }
     }
   double all = 0, reached = 0;
-  for (std::size_t k = 0; k < slices; ++k)
-    for (int y = 0; y < map.ny; ++y)
-      for (int x = 0; x < map.nx; ++x) {
-        const Vec3 p = map.at(x, y, low_z + (static_cast<double>(k) + 0.5) * dz);
-        if (zones.distance_mm(p) >= 0 || tooth.octree.tissue_at(p) == k_air) continue;
-        all += 1;
-        reached += covered[k * columns + map.index(x, y)];
-      }
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    all += room.target[i];
+    reached += room.target[i] & covered[i];
+  }
   return all > 0 ? reached / all : 0;
 }
 

@@ -134,7 +134,7 @@ class TissueBody final : public Shape {
     });
     const int pad = static_cast<int>(std::max(0.0, offset_mm) / leaf_mm_) + 3;
     // leaves beyond the tooth's are not asked for; one layer of them is known, for what reaches the end of the tooth ends there
-    const auto padded = [pad](int v, int n) { return std::clamp(v, -3, n + 3); };
+    const auto padded = [](int v, int n) { return std::clamp(v, -3, n + 3); };
     const IVec3 n = tree.size();
     low = {padded(low.x - pad, n.x), padded(low.y - pad, n.y), padded(low.z - pad, n.z)};
     size_ = IVec3{padded(high.x + pad, n.x), padded(high.y + pad, n.y), padded(high.z + pad, n.z)} - low;
