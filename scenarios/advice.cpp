@@ -163,8 +163,11 @@ void Adviser::time(std::optional<double>& expert_s) {
   const double spare = 0.5 * zones_.leaf_mm();
   const MarginSpec at_most{k_expert_margin.sides_mm + spare, k_expert_margin.bottom_mm + spare};
   std::vector<double> covers = chosen.covers;
-  for (std::size_t i = 0; i < tray.size(); ++i)
-    if (covers[i] < k_poor_share) covers[i] = std::max(covers[i], coverage(reach_map(zones_, tooth_, tray[i], at_most), zones_, tooth_, tray[i]));
+  if (!covers.empty() && *std::min_element(covers.begin(), covers.end()) < k_poor_share) {
+    const FreeRoom room = free_room(zones_, tooth_, at_most);
+    for (std::size_t i = 0; i < tray.size(); ++i)
+      if (covers[i] < k_poor_share) covers[i] = std::max(covers[i], coverage(room, reach_map(room, zones_, tooth_, tray[i]), tray[i]));
+  }
   double best = 0;
   for (const double share : covers) best = std::max(best, share);
   const auto percent = [](double share) { return fixed(100 * share, 0) + " %"; };

@@ -16,8 +16,10 @@ namespace cavum {
 
 /// Items of one list, of texts or of tables: a tray, steps, criteria, bodies. Some are compared with all others, and each body with each leaf.
 inline constexpr std::size_t k_most_items = 100;
-/// Points of one outline: the distance to each side is taken at each leaf of the target's box, some 25 ms a side on a molar.
+/// Points of all outlines.
 inline constexpr std::size_t k_most_points = 100;
+/// Diamond points of a tray: for each it is asked how much of the target it reaches, up to 0.15 s.
+inline constexpr std::size_t k_most_tray = 16;
 
 class ProblemList {
  public:

@@ -222,8 +222,9 @@ double top_of(const Octree& tree, const Mat3& tool) {
 
 }  // namespace
 
-ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin) {
-  ReachMap map;
+FreeRoom free_room(const ZoneMap& zones, const Tooth& tooth, const MarginSpec& margin) {
+  FreeRoom room_above;
+  ReachMap& map = room_above.map;
   map.tool = rotation(rotation_between({0, 0, 1}, zones.approach()));
   const auto [low, high] = box_of_target(zones, map.tool);
   map.bottom_mm = low.z;
@@ -243,7 +244,8 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
   // For every height the free radius around each column: an upright body of revolution fits where no slice is wider.
   const double dz = 0.1, base = low.z - 0.3 - std::max(0.0, margin.bottom_mm - k_expert_margin.bottom_mm);
   const int slices = static_cast<int>((top - base) / dz) + 1;
-  std::vector<float> free_mm(columns * static_cast<std::size_t>(slices));
+  std::vector<float>& free_mm = room_above.free_mm;
+  free_mm.resize(columns * static_cast<std::size_t>(slices));
   std::vector<std::uint8_t> forbidden(columns);
   std::vector<double> beyond(columns);
   for (int k = 0; k < slices; ++k) {
@@ -268,18 +270,42 @@ ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& 
         free_mm[static_cast<std::size_t>(k) * columns + map.index(x, y)] = static_cast<float>(forbidden[map.index(x, y)] != 0 ? 0.0 : room);
       }
   }
+  const auto target_slices = static_cast<std::size_t>((high.z - low.z) / dz) + 1;
+  room_above.target.reserve(columns * target_slices);
+  for (std::size_t k = 0; k < target_slices; ++k)
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) {
+        const Vec3 p = map.at(x, y, low.z + (static_cast<double>(k) + 0.5) * dz);
+        room_above.target.push_back(zones.distance_mm(p) < 0 && tooth.octree.tissue_at(p) != k_air ? 1 : 0);
+      }
+  room_above.base_mm = base;
+  room_above.step_mm = dz;
+  room_above.slices = slices;
+  return room_above;
+}
+
+ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin) {
+  return reach_map(free_room(zones, tooth, margin), zones, tooth, tool);
+}
+
+ReachMap reach_map(const FreeRoom& room, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
+  ReachMap map = room.map;
+  const double dz = room.step_mm, base = room.base_mm, top_mm = map.top_mm;
+  const int slices = room.slices, nx = map.nx;
+  const std::size_t columns = map.lowest_mm.size();
   std::vector<double> radius(static_cast<std::size_t>(slices));
   for (std::size_t h = 0; h < radius.size(); ++h) radius[h] = tool.point.profile.radius_mm(static_cast<double>(h) * dz + 0.5 * dz);
   for (std::size_t c = 0; c < columns; ++c) {
     double& lowest = map.lowest_mm[c];
-    for (int k = static_cast<int>((high.z + 0.3 - base) / dz); k >= 0; --k) {
+    for (int k = static_cast<int>((top_mm + 0.3 - base) / dz); k >= 0; --k) {
       bool fits = true;
-      for (int h = k; h < slices && fits; ++h) fits = free_mm[static_cast<std::size_t>(h) * columns + c] >= radius[static_cast<std::size_t>(h - k)];
+      for (int h = k; h < slices && fits; ++h)
+        fits = room.free_mm[static_cast<std::size_t>(h) * columns + c] >= radius[static_cast<std::size_t>(h - k)];
       if (!fits) break;
       lowest = base + k * dz;
     }
     const Vec3 tip = map.at(static_cast<int>(c) % nx, static_cast<int>(c) / nx, lowest);
-    if (lowest > high.z || !cuts_target(zones, tooth, tool.point, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
+    if (lowest > top_mm || !cuts_target(zones, tooth, tool.point, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
   }
   return map;
 }
@@ -301,10 +327,10 @@ ReachMap middle_of(ReachMap map, double percent) {
   return map;
 }
 
-double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool) {
-  const double low_z = map.bottom_mm, high_z = map.top_mm, dz = 0.1;
-  const auto slices = static_cast<std::size_t>((high_z - low_z) / dz) + 1;
+double coverage(const FreeRoom& room, const ReachMap& map, const ContactTool& tool) {
+  const double low_z = map.bottom_mm, dz = room.step_mm;
   const auto columns = map.lowest_mm.size();
+  const std::size_t slices = room.target.size() / columns;
   std::vector<std::uint8_t> covered(columns * slices);
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
@@ -324,14 +350,10 @@ double coverage(const ReachMap& map, const ZoneMap& zones, const Tooth& tooth, c
       }
     }
   double all = 0, reached = 0;
-  for (std::size_t k = 0; k < slices; ++k)
-    for (int y = 0; y < map.ny; ++y)
-      for (int x = 0; x < map.nx; ++x) {
-        const Vec3 p = map.at(x, y, low_z + (static_cast<double>(k) + 0.5) * dz);
-        if (zones.distance_mm(p) >= 0 || tooth.octree.tissue_at(p) == k_air) continue;
-        all += 1;
-        reached += covered[k * columns + map.index(x, y)];
-      }
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    all += room.target[i];
+    reached += room.target[i] & covered[i];
+  }
   return all > 0 ? reached / all : 0;
 }
 

@@ -45,14 +45,25 @@ struct ReachMap {
   /// A place in the tooth frame.
   [[nodiscard]] Vec3 at(int x, int y, double z) const noexcept { return tool * Vec3{origin_mm.x + x * step_mm, origin_mm.y + y * step_mm, z}; }
 };
-/// `margin` is how far the point may reach beyond the target's sides and bottom (negative: stay away from them).
+/// How wide the way into the target is at each place, whatever the point: made once for a tray.
+struct FreeRoom {
+  ReachMap map;  ///< all columns unreachable
+  double base_mm = 0, step_mm = 0.1;
+  int slices = 0;                      ///< heights from base_mm upwards
+  std::vector<float> free_mm{};        ///< radius, height after height, columns as in `map`
+  std::vector<std::uint8_t> target{};  ///< 1 where there is target to remove, from map.bottom_mm + step_mm / 2 upwards
+};
+/// `margin` is how far a point may reach beyond the target's sides and bottom (negative: stay away from them).
+[[nodiscard]] FreeRoom free_room(const ZoneMap& zones, const Tooth& tooth, const MarginSpec& margin);
+[[nodiscard]] ReachMap reach_map(const FreeRoom& room, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool);
+/// For one point alone.
 [[nodiscard]] ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin);
 
 /// The same map for who opens only the middle: `percent` of the length and width over which the point may go.
 [[nodiscard]] ReachMap middle_of(ReachMap reach, double percent);
 
 /// Share of the target, 0..1, that the point can remove when its tip goes everywhere the map allows.
-[[nodiscard]] double coverage(const ReachMap& reach, const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool);
+[[nodiscard]] double coverage(const FreeRoom& room, const ReachMap& reach, const ContactTool& tool);
 
 /// Waypoints from above the tooth and back; empty when the point fits nowhere into the target.
 [[nodiscard]] std::vector<Waypoint> plan_cut(const ReachMap& reach, const Tooth& tooth, const PlanOptions& options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "engine/tooth/distance.h"
 
@@ -69,24 +70,46 @@ std::vector<std::int16_t> winding(const TissueGrid& lattice, const TriangleMesh&
   return turns;
 }
 
+struct LeafBox {
+  IVec3 low, high;  // inclusive, exclusive
+  [[nodiscard]] std::uint64_t leaves() const noexcept {
+    const IVec3 n = high - low;
+    return static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
+  }
+};
+
+/// The tooth's leaves around some corners, as far as distances are exact.
+LeafBox box_of(const Octree& tree, std::span<const Vec3> corners) {
+  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  for (const Vec3 v : corners) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  constexpr int k_pad = static_cast<int>(MeshBody::k_exact_leaves) + 2;
+  const Vec3 from = (low - tree.origin_mm()) / tree.leaf_mm(), to = (high - tree.origin_mm()) / tree.leaf_mm();
+  const auto clip = [](double leaves, int pad, int n) { return std::clamp(static_cast<int>(std::floor(leaves)) + pad, 0, n); };
+  const IVec3 n = tree.size();
+  return {{clip(from.x, -k_pad, n.x), clip(from.y, -k_pad, n.y), clip(from.z, -k_pad, n.z)},
+          {clip(to.x, k_pad, n.x), clip(to.y, k_pad, n.y), clip(to.z, k_pad, n.z)}};
+}
+
 }  // namespace
+
+void count_mesh_body(const Tooth& tooth, const TriangleMesh& mesh, ZoneWork& work) {
+  work.body_leaves(box_of(tooth.octree, mesh.vertices_mm).leaves());
+  for (const auto& t : mesh.triangles) {
+    const std::array<Vec3, 3> corners{mesh.vertices_mm[t[0]], mesh.vertices_mm[t[1]], mesh.vertices_mm[t[2]]};
+    work.steps(box_of(tooth.octree, corners).leaves(), 1);
+  }
+}
 
 MeshBody::MeshBody(const Tooth& tooth, const TriangleMesh& mesh) {
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm();
-  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
-  for (const Vec3 v : mesh.vertices_mm) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  constexpr int k_pad = static_cast<int>(k_exact_leaves) + 2;
-  const Vec3 from = (low - tree.origin_mm()) / leaf, to = (high - tree.origin_mm()) / leaf;
-  const auto clip = [](double leaves, int pad, int n) { return std::clamp(static_cast<int>(std::floor(leaves)) + pad, 0, n); };
-  const IVec3 n = tree.size(), a{clip(from.x, -k_pad, n.x), clip(from.y, -k_pad, n.y), clip(from.z, -k_pad, n.z)};
-  const IVec3 b{clip(to.x, k_pad, n.x), clip(to.y, k_pad, n.y), clip(to.z, k_pad, n.z)};
+  const LeafBox box = box_of(tree, mesh.vertices_mm);
   lattice_.leaf_mm = leaf;
-  lattice_.origin_mm = tree.origin_mm() + Vec3{double(a.x), double(a.y), double(a.z)} * leaf;
-  lattice_.size = b - a;
+  lattice_.origin_mm = tree.origin_mm() + Vec3{double(box.low.x), double(box.low.y), double(box.low.z)} * leaf;
+  lattice_.size = box.high - box.low;
   if (lattice_.size.x <= 0 || lattice_.size.y <= 0 || lattice_.size.z <= 0) {  // beside the tooth's box
     lattice_.size = {0, 0, 0};
     return;

@@ -22,4 +22,7 @@ class MeshBody final : public Shape {
   std::vector<float> value_mm_;
 };
 
+/// Counts what MeshBody will do with this surface: the leaves of its box, and for each triangle those near it. Throws Error beyond a limit.
+void count_mesh_body(const Tooth& tooth, const TriangleMesh& mesh, ZoneWork& work);
+
 }  // namespace cavum

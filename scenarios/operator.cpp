@@ -186,9 +186,10 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
   ChosenPoint chosen;
   chosen.index = tray.size();
   double best_score = 0;
+  const FreeRoom room = free_room(zones, tooth, k_expert_margin);
   for (std::size_t i = 0; i < tray.size(); ++i) {
-    ReachMap map = reach_map(zones, tooth, tray[i], k_expert_margin);
-    chosen.covers.push_back(coverage(map, zones, tooth, tray[i]));
+    ReachMap map = reach_map(room, zones, tooth, tray[i]);
+    chosen.covers.push_back(coverage(room, map, tray[i]));
     // a head shorter than the target is deep leaves ledges that hold up its neck
     const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
     const double score = chosen.covers.back() * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);

@@ -27,6 +27,7 @@ class Stroke final : public Outline {
     for (std::size_t i = 0; i + 1 < path_.size(); ++i) d = std::min(d, segment_distance({x, y, 0}, path_[i], path_[i + 1]));
     return d - half_;
   }
+  std::uint64_t pieces() const noexcept override { return path_.size(); }
 
  private:
   std::vector<Vec3> path_;
@@ -46,6 +47,7 @@ class Polygon final : public Outline {
     }
     return (inside ? -d : d) - offset_;
   }
+  std::uint64_t pieces() const noexcept override { return corner_.size(); }
 
  private:
   std::vector<Vec3> corner_;

@@ -1,6 +1,7 @@
 // Closed lines seen from above, as signed distance in the plane: negative inside, mm.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "scenarios/relief.h"
@@ -12,6 +13,8 @@ class Outline {
  public:
   virtual ~Outline() = default;
   [[nodiscard]] virtual double distance_mm(double x_mm, double y_mm) const noexcept = 0;
+  /// How many sides are looked at for one distance.
+  [[nodiscard]] virtual std::uint64_t pieces() const noexcept { return 1; }
 };
 
 /// `centre` is added to the points (spec.centre_mm is not looked at). `shadow` is needed for a projection only.

@@ -135,6 +135,10 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
              s.points.begin() + static_cast<std::ptrdiff_t>(i))
       t.problem_in("points", i, "'" + s.points[i] + "' is listed twice", "list each point once");
+  if (s.points.size() > k_most_tray) {
+    t.problem("points", "'points' has " + std::to_string(s.points.size()) + " items", "list at most " + std::to_string(k_most_tray));
+    s.points.resize(k_most_tray);
+  }
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
   s.force_limit_n = t.number("force_limit_n", 0, 100, 0);

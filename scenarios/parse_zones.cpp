@@ -7,7 +7,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_largest_mm = 100.0;
-constexpr std::size_t k_most_bodies = 12;  // of all zones: the distance to each is taken at each leaf, up to 0.4 s and 30 MB on a molar
+constexpr std::size_t k_most_bodies = 12;  // of all zones
 
 using Places = std::map<std::string, Place>;
 

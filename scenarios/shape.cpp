@@ -61,6 +61,7 @@ class Frustum final : public Shape {
     const double side = (r - low_) * height_ - (top_ - low_) * z;  // sign of being outside the slanted wall
     return z > 0 && z < height_ && side < 0 ? -nearest : nearest;
   }
+  std::uint64_t pieces() const noexcept override { return 3; }
 
  private:
   ShapeFrame frame_;
@@ -75,6 +76,7 @@ class Prism final : public Shape {
     const Vec3 q = frame_.local(p);
     return meet(outline_->distance_mm(q.x, q.y), std::fabs(q.z - 0.5 * height_) - 0.5 * height_);
   }
+  std::uint64_t pieces() const noexcept override { return 1 + outline_->pieces(); }
 
  private:
   ShapeFrame frame_;
@@ -85,27 +87,42 @@ class Prism final : public Shape {
 /// An outline dropped from above; it has no upper end, for the occlusal opening is no wall.
 class Column final : public Shape {
  public:
+  /// `bottom` has the tooth's columns. The outline's distance is the same all the way down, so it is taken once for each of them.
   Column(std::unique_ptr<Outline> outline, ColumnMap bottom, double taper_deg, double outline_z)
       : outline_(std::move(outline)), bottom_(std::move(bottom)), outline_z_(outline_z) {
+    at_centre_.reserve(bottom_.value.size());
+    for (int y = 0; y < bottom_.ny; ++y)
+      for (int x = 0; x < bottom_.nx; ++x)
+        at_centre_.push_back(outline_->distance_mm(centre(bottom_.origin_mm.x, x), centre(bottom_.origin_mm.y, y)));
     const SinCos a = det_sincos(taper_deg * k_pi / 180);
     tan_ = a.sin / a.cos;
     cos_ = a.cos;
   }
   double distance_mm(Vec3 p) const noexcept override {
-    const double side = (outline_->distance_mm(p.x, p.y) - tan_ * (p.z - outline_z_)) * cos_;
+    const double side = (outline_mm(p.x, p.y) - tan_ * (p.z - outline_z_)) * cos_;
     return meet(side, bottom_.at(p.x, p.y) - p.z);
   }
 
  private:
+  [[nodiscard]] double centre(double origin, int i) const noexcept { return origin + (i + 0.5) * bottom_.leaf_mm; }
+  [[nodiscard]] double outline_mm(double x_mm, double y_mm) const noexcept {
+    const double qx = (x_mm - bottom_.origin_mm.x) / bottom_.leaf_mm, qy = (y_mm - bottom_.origin_mm.y) / bottom_.leaf_mm;
+    if (qx >= 0 && qy >= 0 && qx < bottom_.nx && qy < bottom_.ny) {
+      const int x = static_cast<int>(qx), y = static_cast<int>(qy);
+      if (centre(bottom_.origin_mm.x, x) == x_mm && centre(bottom_.origin_mm.y, y) == y_mm) return at_centre_[bottom_.index(x, y)];
+    }
+    return outline_->distance_mm(x_mm, y_mm);
+  }
   std::unique_ptr<Outline> outline_;
   ColumnMap bottom_;
+  std::vector<double> at_centre_;  // by ColumnMap::index of the tooth's columns
   double outline_z_, tan_ = 0.0, cos_ = 1.0;
 };
 
 /// Leaves of a tissue, grown: a dense distance around them.
 class TissueBody final : public Shape {
  public:
-  TissueBody(const Tooth& tooth, std::uint8_t id, double lowest_mm, double offset_mm) : offset_mm_(offset_mm) {
+  TissueBody(const Tooth& tooth, std::uint8_t id, double lowest_mm, double offset_mm, ZoneWork& work) : offset_mm_(offset_mm) {
     const Octree& tree = tooth.octree;
     leaf_mm_ = tree.leaf_mm();
     IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
@@ -116,8 +133,12 @@ class TissueBody final : public Shape {
       high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
     });
     const int pad = static_cast<int>(std::max(0.0, offset_mm) / leaf_mm_) + 3;
-    low = low - IVec3{pad, pad, pad};
-    size_ = high - low + IVec3{pad, pad, pad};
+    // leaves beyond the tooth's are not asked for; one layer of them is known, for what reaches the end of the tooth ends there
+    const auto padded = [](int v, int n) { return std::clamp(v, -3, n + 3); };
+    const IVec3 n = tree.size();
+    low = {padded(low.x - pad, n.x), padded(low.y - pad, n.y), padded(low.z - pad, n.z)};
+    size_ = IVec3{padded(high.x + pad, n.x), padded(high.y + pad, n.y), padded(high.z + pad, n.z)} - low;
+    work.body_leaves(static_cast<std::uint64_t>(size_.x) * static_cast<std::uint64_t>(size_.y) * static_cast<std::uint64_t>(size_.z));
     origin_ = tree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_;
     std::vector<std::uint8_t> in(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0);
     tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
@@ -184,6 +205,11 @@ class Combined final : public Shape {
     }
     return d;
   }
+  std::uint64_t pieces() const noexcept override {
+    std::uint64_t sum = 0;
+    for (const auto& part : parts_) sum += part.second->pieces();
+    return sum;
+  }
 
  private:
   std::vector<std::pair<ShapeSpec::Combine, std::unique_ptr<Shape>>> parts_;
@@ -239,7 +265,8 @@ struct ShapeMaker::Cache {
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
 };
 
-ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where) : tooth_(tooth), where_(std::move(where)), cache_(std::make_unique<Cache>()) {}
+ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where)
+    : tooth_(tooth), where_(std::move(where)), work_(where_), cache_(std::make_unique<Cache>()) {}
 ShapeMaker::~ShapeMaker() = default;
 
 const ColumnMap& ShapeMaker::surface() {
@@ -275,10 +302,11 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
     case ShapeSpec::Kind::tissue: {
       const TissueRelief& relief = relief_of(spec.tissue, spec.part);  // also tells whether the tissue is there at all
       return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? relief.lowest_mm : -1e9,
-                                          spec.offset_mm);
+                                          spec.offset_mm, work_);
     }
     case ShapeSpec::Kind::stl:
       if (spec.surface == nullptr) throw Error(where, "the surface '" + spec.file + "' was not read", "read it first");
+      count_mesh_body(tooth_, *spec.surface, work_);
       return std::make_unique<MeshBody>(tooth_, *spec.surface);
     case ShapeSpec::Kind::canal_cone:
       return canal_cones(tooth_, spec, relief_of(spec.tissue, TissuePart::chamber).middle_mm, where);
@@ -324,6 +352,7 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
     outline_z = from - b.depth_mm;
     for (double& z : bottom.value) z = b.kind == BottomSpec::Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : outline_z;
   }
+  work_.steps(bottom.value.size(), outline->pieces());
   return std::make_unique<Column>(std::move(outline), std::move(bottom), spec.taper_deg, outline_z);
 }
 

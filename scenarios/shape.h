@@ -2,12 +2,14 @@
 // for columns and combined ones; zone_map.h makes true distances of them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "engine/tooth/tooth.h"
 #include "scenarios/relief.h"
 #include "scenarios/scenario.h"
+#include "scenarios/zone_work.h"
 
 namespace cavum {
 
@@ -16,6 +18,8 @@ class Shape {
   virtual ~Shape() = default;
   /// Signed distance at a point of the tooth frame, mm. Where it is not a true distance it keeps its sign.
   [[nodiscard]] virtual double distance_mm(Vec3 p) const noexcept = 0;
+  /// How many pieces are looked at for one distance, at a leaf's centre.
+  [[nodiscard]] virtual std::uint64_t pieces() const noexcept { return 1; }
 };
 
 /// A right-handed frame: x and y across a body, z along its axis.
@@ -35,15 +39,17 @@ class ShapeMaker {
   /// `where` names the scenario in errors.
   ShapeMaker(const Tooth& tooth, std::string where);
   ~ShapeMaker();
-  /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to.
+  /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to, and beyond a limit of zone_work.h.
   [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);
   [[nodiscard]] const ColumnMap& surface();
+  [[nodiscard]] ZoneWork& work() noexcept { return work_; }
 
  private:
   [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
   struct Cache;
   const Tooth& tooth_;
   std::string where_;
+  ZoneWork work_;
   std::unique_ptr<Cache> cache_;
 };
 

@@ -18,18 +18,27 @@ struct LeafBox {
 };
 
 /// Leaves around the part of the target that lies in the tooth.
-LeafBox find_target(const Shape& target, const Tooth& tooth, const std::string& where) {
+LeafBox find_target(const Shape& target, const Tooth& tooth, const std::string& where, ZoneWork& work) {
   const Octree& tree = tooth.octree;
   const IVec3 n = tree.size();
   LeafBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
   const auto see = [&](IVec3 leaf) {
-    if (target.distance_mm(tree.centre_mm(leaf)) >= 0) return;
+    const bool seen =
+        leaf.x >= box.low.x && leaf.y >= box.low.y && leaf.z >= box.low.z && leaf.x < box.high.x && leaf.y < box.high.y && leaf.z < box.high.z;
+    if (seen || target.distance_mm(tree.centre_mm(leaf)) >= 0) return;
     box.low = {std::min(box.low.x, leaf.x), std::min(box.low.y, leaf.y), std::min(box.low.z, leaf.z)};
     box.high = {std::max(box.high.x, leaf.x + 1), std::max(box.high.y, leaf.y + 1), std::max(box.high.z, leaf.z + 1)};
   };
   // every second leaf of large cubes, every small one: a target thinner than two leaves is none
+  const auto step_in = [](int edge) { return edge >= 4 ? 2 : 1; };
+  std::uint64_t leaves = 0;
+  tree.for_each_cube([&](IVec3, int edge, std::uint8_t) {
+    const auto along = static_cast<std::uint64_t>(edge / step_in(edge));
+    leaves += along * along * along;
+  });
+  work.steps(leaves, target.pieces());
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t) {
-    const int step = edge >= 4 ? 2 : 1;
+    const int step = step_in(edge);
     for (int z = 0; z < edge; z += step)
       for (int y = 0; y < edge; y += step)
         for (int x = 0; x < edge; x += step) see(at + IVec3{x, y, z});
@@ -37,6 +46,14 @@ LeafBox find_target(const Shape& target, const Tooth& tooth, const std::string& 
   if (box.high.x < 0)
     throw Error(where, "no part of the target lies in the tooth '" + tooth.name + "'", "move or enlarge [[zones.target]], or choose another tooth");
   return box;
+}
+
+std::uint64_t leaves_with_tissue(const Octree& tree) {
+  std::uint64_t leaves = 0;
+  tree.for_each_cube([&](IVec3, int edge, std::uint8_t tissue) {
+    if (tissue != k_air) leaves += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge);
+  });
+  return leaves;
 }
 
 }  // namespace
@@ -107,7 +124,7 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   ShapeMaker maker(tooth, scenario.path);
   const auto target = maker.make(spec.target);
   const std::string where = spec.target.empty() ? scenario.path : place_text(scenario.path, spec.target[0]);
-  const LeafBox box = find_target(*target, tooth, where);
+  const LeafBox box = find_target(*target, tooth, where, maker.work());
   const double leaf = tree.leaf_mm();
 
   ZoneMap map;
@@ -123,7 +140,11 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   const IVec3 size = map.size_;
   const auto cells = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
 
+  maker.work().zone_leaves(cells);
+
   const auto guard = spec.protected_shapes.empty() ? nullptr : maker.make(spec.protected_shapes);
+  maker.work().steps(cells, target->pieces());
+  if (guard != nullptr) maker.work().steps(cells + leaves_with_tissue(tree), guard->pieces());
 
   // 1. the shape at every leaf's centre, without what is protected
   std::vector<std::uint8_t> inside(cells), outside(cells);

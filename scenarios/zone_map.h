@@ -134,7 +134,7 @@ class ZoneMap {
 };
 
 /// Lays the zones into a tooth (the whole one, before the exam). Throws Error when the target is empty or
-/// the tooth lacks a tissue that a zone refers to.
+/// the tooth lacks a tissue that a zone refers to, and beyond a limit of zone_work.h.
 [[nodiscard]] ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth);
 
 }  // namespace cavum

@@ -69,6 +69,27 @@ void check_lattice(IVec3 size, double leaf_mm, const std::string& where) {
   const int widest = std::max({size.x, size.y, size.z});
   if (widest > Octree::k_max_edge_leaves)
     throw Error(where, std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger --leaf-mm, or check that the unit is mm");
+  const std::uint64_t leaves = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
+  if (leaves > k_most_lattice_leaves)
+    throw Error(where, std::to_string(leaves) + " leaves, " + std::to_string(k_most_lattice_leaves) + " is the most",
+                "use a larger --leaf-mm, or check that the unit is mm");
+}
+
+void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where) {
+  std::uint64_t near = 0;
+  for (const auto& t : mesh.triangles) {
+    Vec3 low = mesh.vertices_mm[t[0]], high = low;
+    for (const auto corner : t) {
+      const Vec3 v = mesh.vertices_mm[corner];
+      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+    const auto leaves = [&](double mm) { return static_cast<std::uint64_t>(std::min(mm / lattice.leaf_mm, 1024.0)) + 5; };  // and the band
+    near += leaves(high.x - low.x) * leaves(high.y - low.y) * leaves(high.z - low.z);
+    if (near > k_most_near_triangles)
+      throw Error(where, "its triangles have more than " + std::to_string(k_most_near_triangles) + " leaves near them, the most",
+                  "use a larger --leaf-mm, or a mesh of fewer large triangles");
+  }
 }
 
 BandDistance::BandDistance(const TissueGrid& grid, float band_leaves)

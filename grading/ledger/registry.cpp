@@ -15,6 +15,23 @@ using nlohmann::json;
 
 namespace {
 
+/// The result of an entry, which exports rely on: null, or in the shape that grading gives it. Throws Error for another one.
+json result_in(const LedgerEntry& e) {
+  const json& result = e.body.at("result");
+  if (result.is_null()) return result;
+  const auto text = [](const json& j, const char* name) { return !j.contains(name) || j[name].is_string(); };
+  const auto number = [](const json& j, const char* name) { return j.contains(name) && j[name].is_number(); };
+  const auto criterion = [&](const json& c) {
+    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") && text(c, "reason") && number(c, "points") && number(c, "max") &&
+           c.contains("value") && (c["value"].is_null() || c["value"].is_number());
+  };
+  const json &score = member_of(result, "score"), &criteria = member_of(result, "criteria");
+  const bool sound = result.is_object() && text(result, "verdict") && score.is_object() && number(score, "points") && number(score, "max") &&
+                     criteria.is_array() && std::all_of(criteria.begin(), criteria.end(), criterion);
+  if (!sound) throw Error("result", "is none as grading writes it", "use an intact copy");
+  return result;
+}
+
 bool contest_each_other(const FiledSession& a, const FiledSession& b) {
   return std::find(a.contested_by.begin(), a.contested_by.end(), b.seq) != a.contested_by.end();
 }
@@ -126,7 +143,7 @@ class RegistryReader {
     s.scenario_id = e.body.at("scenario_id");
     s.station_key = e.body.at("station_key");
     s.nonce = e.body.at("nonce");
-    s.result = s.filed = e.body.at("result");
+    s.result = s.filed = result_in(e);
     s.motion_erased_by = erased_by(content_.erased, e.seq, k_motion);
     s.result_erased_by = erased_by(content_.erased, e.seq, k_result);
     s.sealed = parse_json_or_null(text_in(e.body, k_sealed), k_json_part);
@@ -157,7 +174,7 @@ class RegistryReader {
 
   void regrade(const LedgerEntry& e) {
     FiledSession& s = r_.sessions.at(by_session_.at(require_whole<std::uint64_t>(e.body, "session", "regrade")));
-    s.result = e.body.at("result");
+    s.result = result_in(e);
     s.result_seq = e.seq;
     s.result_erased_by = erased_by(content_.erased, e.seq, k_result);
     s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), documents_of(e), s.result});

@@ -26,6 +26,12 @@ void fuzz_scenario(Data data);    ///< a scenario's text, and the same as a rubr
 void fuzz_motion(Data data);      ///< poses as CSV
 void fuzz_tooth(Data data);       ///< a tooth file; the first byte says how the rest is wrapped, see tooth_target.cpp
 void fuzz_mesh(Data data);        ///< a surface; the first byte chooses STL in memory, STL, PLY, OBJ or OFF
+void fuzz_explain(Data data);     ///< a rig's recording, or the rig, by the first byte
+void fuzz_results(Data data);     ///< exported results
+void fuzz_notes(Data data);       ///< signed notes, keys and requests to cosign, by the first byte
+void fuzz_entries(Data data);     ///< what a ledger's entries say, stations' requests among them, and what is exported of them
+void fuzz_ledger(Data data);      ///< edits of a ledger's database and the log beside it, see ledger_file_target.cpp
+void fuzz_volume(Data data);      ///< a volume's file or a DICOM slice, read in a child process; the first byte says which
 
 struct Target {
   const char* name;
@@ -48,5 +54,11 @@ struct Target {
 [[nodiscard]] std::vector<Bytes> motion_seeds();
 [[nodiscard]] std::vector<Bytes> tooth_seeds();
 [[nodiscard]] std::vector<Bytes> mesh_seeds();
+[[nodiscard]] std::vector<Bytes> explain_seeds();
+[[nodiscard]] std::vector<Bytes> results_seeds();
+[[nodiscard]] std::vector<Bytes> notes_seeds();
+[[nodiscard]] std::vector<Bytes> entries_seeds();
+[[nodiscard]] std::vector<Bytes> ledger_seeds();
+[[nodiscard]] std::vector<Bytes> volume_seeds();
 
 }  // namespace cavum::fuzz

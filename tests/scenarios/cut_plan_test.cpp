@@ -53,7 +53,8 @@ TEST(CutPlan, FollowsALeaningTargetAlongItsAxisAndStaysInIt) {
   ASSERT_GT(way.size(), 20u);
   EXPECT_LT(p.furthest_mm(way, map.tool, false), 0.1);
   EXPECT_LT(p.furthest_mm(way, map.tool, true), 0.15);
-  EXPECT_GT(coverage(map, p.zones, p.tooth, p.tool), 0.9) << "upright, the point could not get below the overhanging wall";
+  EXPECT_GT(coverage(free_room(p.zones, p.tooth, k_expert_margin), map, p.tool), 0.9)
+      << "upright, the point could not get below the overhanging wall";
 }
 
 TEST(CutPlan, WithAWiderMarginGoesThatFarBeyondTheSidesOrTheFloorAndNotTheOther) {

@@ -60,6 +60,9 @@ std::string stroke(std::size_t points) {
 TEST(ScenarioLimits, LongListsAreRefusedWithTheLimitNamed) {
   const std::string tray = first_problem("points = [\"round-1.0\"]", "points = [" + list_of(50'000, "\"p\", ") + "]");
   EXPECT_NE(tray.find("'points' has 50000 items; list at most 100"), std::string::npos) << tray;
+  std::string seventeen;
+  for (int i = 0; i < 17; ++i) seventeen += "\"p" + std::to_string(i) + "\", ";
+  EXPECT_EQ(first_problem("points = [\"round-1.0\"]", "points = [" + seventeen + "]"), "s.toml:4:10: 'points' has 17 items; list at most 16");
   const std::string outline = first_problem(k_ball, stroke(4000));
   EXPECT_NE(outline.find("'points_mm' has 4000 items; list at most 100"), std::string::npos) << outline;
   const std::string bodies = first_problem(k_ball, list_of(101, k_ball));

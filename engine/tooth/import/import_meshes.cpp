@@ -148,6 +148,9 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   out.mesh_dentin_mm3 = dentin.volume_mm3;
   out.mesh_pulp_mm3 = pulp.volume_mm3;
   {
+    check_triangle_work(grid, enamel.mesh, paths.enamel);
+    check_triangle_work(grid, dentin.mesh, paths.dentin);
+    check_triangle_work(grid, pulp.mesh, paths.pulp);
     const Layers fields{fill_mesh(enamel.mesh, grid), fill_mesh(dentin.mesh, grid), fill_mesh(pulp.mesh, grid)};
     out.overlap_leaves = label_by_precedence(grid, fields);
     check_layers(grid, paths);

@@ -12,6 +12,8 @@
 #include "engine/tooth/import/layer_order.h"
 #include "engine/tooth/import/read_volume.h"
 #include "engine/tooth/import/segment.h"
+#include "engine/tooth/import/volume_files.h"
+#include "engine/tooth/import/volume_limits.h"
 #include "engine/tooth/periodontium.h"
 
 namespace cavum {
@@ -146,6 +148,19 @@ TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axe
   return grid;
 }
 
+void require_few_gray(const Volume& volume, const std::string& path) {
+  std::uint64_t bytes = 0;
+  if (std::filesystem::is_directory(path))
+    for (const auto& entry : std::filesystem::directory_iterator(path)) bytes += entry.is_regular_file() ? entry.file_size() : 0;
+  else
+    bytes = bytes_of_volume(path);
+  if (volume.voxels() > most_gray_voxels(bytes))
+    throw Error(path,
+                "has " + std::to_string(volume.voxels()) + " voxels of gray, more than " + std::to_string(most_gray_voxels(bytes)) +
+                    ", the most for " + std::to_string(bytes) + " bytes of files",
+                "crop the volume to the tooth, or save it uncompressed");
+}
+
 }  // namespace
 
 VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options) {
@@ -159,6 +174,7 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
       require_layer_order(pulp_faces(s.size, s.tissue), path, "exchange enamel and dentin in --map");
     how = "label map";
   } else {
+    require_few_gray(volume, path);
     const auto levels = find_gray_levels(volume, options.thresholds, path);
     s = segment(volume, levels, path);
     how = "CT volume; " + levels.note + "; " + s.note;

@@ -45,6 +45,7 @@ TEST(CheckLattice, RefusesWhatTheOctreeCannotHold) {
   EXPECT_THROW(check_lattice({1025, 1, 1}, 0.05, "test"), Error);
   EXPECT_THROW(check_lattice({10, 0, 1}, 0.05, "test"), Error);
   EXPECT_THROW(check_lattice({10, 10, 10}, -0.05, "test"), Error);
+  EXPECT_THROW(check_lattice({1000, 1000, 100}, 0.05, "test"), Error) << "100 million leaves";
 }
 
 TEST(NearestMarked, AgreesWithBruteForce) {
@@ -73,6 +74,16 @@ TEST(NearestMarked, AgreesWithBruteForce) {
       ASSERT_EQ(nearest[i] < 0 ? -1 : squared(i, static_cast<std::size_t>(nearest[i])), best);
     }
   }
+}
+
+// Thin plates of 10 mm on top of one another: a mesh of 10 MB that took minutes.
+TEST(Distance, ManyLargeTrianglesCloseTogetherAreRefused) {
+  TissueGrid grid;
+  grid.allocate({220, 220, 100}, 0.05, {-5.5, -5.5, -2.5});
+  TriangleMesh mesh{{{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}, {{0, 1, 2}}};
+  EXPECT_NO_THROW(check_triangle_work(grid, mesh, "plates.stl"));
+  mesh.triangles.assign(4000, {0, 1, 2});
+  EXPECT_THROW(check_triangle_work(grid, mesh, "plates.stl"), Error);
 }
 
 }  // namespace

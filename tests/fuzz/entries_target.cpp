@@ -1,0 +1,87 @@
+// What a ledger's entries say, behind their hashes and the school's signature: any kinds with any bodies, a line each, after those of a sound ledger,
+// and what is exported of them. A line is KIND and, after a space, JSON; of a station's request the signatures are put right.
+#include <sstream>
+
+#include "engine/base/json_reader.h"
+#include "grading/ledger/exports.h"
+#include "grading/ledger/registry.h"
+#include "grading/ledger/release.h"
+#include "grading/ledger/stations.h"
+#include "tests/fuzz/material.h"
+#include "tests/fuzz/targets.h"
+
+namespace cavum::fuzz {
+namespace {
+
+using nlohmann::json;
+
+/// The request under the signatures of a station that takes its own place.
+void sign_request(json& asked) {
+  if (!asked.is_object() || !asked.contains("request") || !asked["request"].is_object() || !asked.contains("signature")) return;
+  json& facts = asked["request"];
+  facts["public_key"] = facts["by"] = to_hex(station_key().public_key);
+  const Bytes message = bytes_of("CVENROL1" + facts.dump(-1, ' ', false, json::error_handler_t::replace));
+  for (const char* name : {"signature", "code_signature", "old_signature"})
+    if (asked.contains(name)) asked[name] = to_hex(station_key().sign(message));
+}
+
+}  // namespace
+
+void fuzz_entries(Data data) {
+  static Identities identities(work_folder() + "/entries-identities.db", true);
+  LedgerContent content = school_ledger();
+  std::istringstream lines(text_of(data));
+  for (std::string line; std::getline(lines, line) && content.entries.size() < 40;) {
+    const auto space = line.find(' ');
+    if (space == std::string::npos) continue;
+    json body = parse_json_or_null(line.substr(space + 1), k_json_part);
+    if (!body.is_object()) continue;
+    if (body.contains("asked")) sign_request(body["asked"]);
+    LedgerEntry e;
+    e.seq = content.entries.size();
+    e.kind = line.substr(0, space);
+    e.body = std::move(body);
+    e.utc_ns = 1'800'000'000'000'000'000;
+    content.entries.push_back(std::move(e));
+  }
+  try {
+    const Registry registry = read_registry(content);
+    int left_out = 0;
+    static_cast<void>(moodle_csv(registry, identities, left_out, true));
+    static_cast<void>(lti_scores(registry, identities, true).dump(-1, ' ', false, json::error_handler_t::replace));
+    static_cast<void>(tidy_csv(registry));
+  } catch (const Error&) {
+  }
+}
+
+std::vector<Bytes> entries_seeds() {
+  const std::string hash(64, 'a'), key = to_hex(station_key().public_key), school = to_hex(school_key().public_key);
+  const json session{{"candidate", "C-7K3M-92PQ-XD4V"},
+                     {"chain_sha256", hash},
+                     {"file_sha256", hash},
+                     {"begun_utc_ns", 1},
+                     {"closed_utc_ns", 2},
+                     {"nonce", std::string(32, '2')},
+                     {"simulated", ""},
+                     {"findings", json::array({"a finding"})},
+                     {"source", {{"kind", "device"}, {"name", "Omni"}, {"serial", "7"}}},
+                     {"result", parse_json_or_null(small_result())},
+                     {"grading_version", 3},
+                     {"physics_version", 4},
+                     {"remarks", json::array()},
+                     {"scenario_id", "drill"},
+                     {"station_key", key},
+                     {"ticks", 30}};
+  const std::string filed = "session " + session.dump() + "\n";
+  const std::string regraded = "regrade " + json{{"session", 2}, {"reason", "why"}, {"result", parse_json_or_null(small_result())}}.dump() + "\n";
+  const auto release = [](std::uint64_t seq) { return "release " + json{{"results", {seq}}}.dump() + "\n"; };
+  const std::string invited =
+      "station " + json{{"action", "invite"}, {"name", "Seat 3"}, {"code_key", key}, {"until_utc_ns", 1'900'000'000'000'000'000}}.dump() + "\n";
+  const auto asked = parse_json_or_null(station_request(station_key(), school, {{"device", "Omni", "7"}}, new_station_code()));
+  const std::string enrolled = "station " + json{{"action", "enrol"}, {"asked", asked}, {"until_utc_ns", 0}}.dump() + "\n";
+  const std::string revoked = "station " + json{{"action", "revoke"}, {"public_key", key}, {"reason", "lost"}}.dump() + "\n";
+  return {bytes_of("ticket " + small_ticket() + "\n" + filed + release(3)), bytes_of(filed + regraded + release(2) + release(3)),
+          bytes_of(invited + enrolled + revoked), bytes_of(filed + filed + release(2) + "forget {\"candidate\":\"C\"}\nrestore {\"from\":1}\n")};
+}
+
+}  // namespace cavum::fuzz
