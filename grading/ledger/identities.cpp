@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "engine/base/text.h"
+#include "engine/base/write_file.h"
 #include "grading/ledger/candidate_id.h"
 
 namespace cavum {
@@ -22,14 +23,15 @@ Identities::Identities(const std::string& path, bool may_make)
         if (make && !may_make)
           throw Error(path, "the identities are not there", "restore them from their backup: without them nobody knows whose marks these are");
         Database db = Database::open(path, make, k_long_wait);
+        db.run("PRAGMA synchronous = EXTRA");  // the journal's name is gone from the disk, too: a power cut brings nobody back, and takes nobody away
         if (make) {
           db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
           db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
+          sync_folder_of(path);
         }
         return db;
       }()) {
   if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
-  database_.run("PRAGMA synchronous = FULL");
   database_.run("PRAGMA secure_delete = ON");
 }
 
@@ -40,14 +42,15 @@ std::string Identities::enrol(const std::string& id, const std::string& name, co
     throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
   if (const auto known = of_id(id)) return known->pseudonym;
   const Bytes salt = from_hex(random_hex(16), 16, "salt");
-  std::string pseudonym = pseudonym_of(school, salt, id);
-  database_.prepare("INSERT INTO identity (pseudonym, id, name, salt) VALUES (?, ?, ?, ?)")
-      .bind(1, pseudonym)
+  database_.prepare("INSERT OR IGNORE INTO identity (pseudonym, id, name, salt) VALUES (?, ?, ?, ?)")
+      .bind(1, pseudonym_of(school, salt, id))
       .bind(2, id)
       .bind(3, name)
       .bind(4, salt)
       .run();
-  return pseudonym;
+  const auto now = of_id(id);  // somebody else may have enrolled the same candidate meanwhile
+  if (!now) throw Error("candidate '" + one_line(id) + "'", "cannot be enrolled", "try again");
+  return now->pseudonym;
 }
 
 std::optional<Identity> Identities::of_pseudonym(const std::string& pseudonym) {

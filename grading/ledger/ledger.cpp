@@ -42,6 +42,7 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
     remove_fresh();
     throw;
   }
+  sync_folder_of(folder);
 }
 
 Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)
