@@ -24,14 +24,30 @@ struct StationClock {
   std::vector<std::string> named{};
 };
 
-std::string sit(const std::string& path, const std::string& ticket, const StationClock& clock) {
+/// The first of an expert's motion on the tooth of this exam; the same for all.
+struct Motion {
+  Vec3 start_mm;
+  std::vector<TickInput> inputs;
+};
+const Motion& motion(const ExamSetup& setup) {
+  static const Motion made = [&] {
+    auto candidate = make_simulated_candidate(setup, "expert", 7, OmniModel{});
+    Motion m{candidate.start_mm(), {}};
+    TickOutput rest;
+    TickInput input;
+    for (int i = 0; i < k_ticks && candidate.next(rest, input, input); ++i) m.inputs.push_back(input);
+    return m;
+  }();
+  return made;
+}
+
+void sit(const std::string& path, const std::string& ticket, const StationClock& clock) {
   ExamOptions options;
   options.candidate = parse_ticket(ticket, "", "ticket").candidate;
   options.device = "emulated stylus";
   options.source = {"device", "emulated stylus", "E1"};
   options.notes.emplace_back(k_ticket_note, ticket);
   const auto setup = prepare_exam(k_scenario, options);
-  auto candidate = make_simulated_candidate(*setup, "expert", 7, OmniModel{});
   std::int64_t ticks = 0;
   const Clocks begun = read_clocks();
   const auto now = [&] {
@@ -39,13 +55,15 @@ std::string sit(const std::string& path, const std::string& ticket, const Statio
     const std::int64_t set = ticks > k_ticks / 2 ? clock.set_in_the_middle_ns : 0;
     return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + clock.ahead_ns + ns + set + ticks * clock.drift_ns_per_s / 1000};
   };
-  const auto exam = Exam::start(*setup, path, candidate.start_mm(), now);
-  for (TickInput input; ticks < k_ticks && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
+  const auto exam = Exam::start(*setup, path, motion(*setup).start_mm, now);
+  for (const TickInput& input : motion(*setup).inputs) {
+    static_cast<void>(exam->tick(input));
+    ++ticks;
+  }
   exam->end();
   exam->recorder().flush();
   const auto graded = load_for_grading(SessionReader(path), exam->tooth_now());
   exam->close(to_json(grade(graded->input(), graded->rubric)).dump());
-  return path;
 }
 
 }  // namespace
@@ -95,7 +113,8 @@ Morning make_morning() {
   std::vector<Bytes> files;
   world.calmly("station", [&] {
     for (std::size_t i = 0; i < clocks.size(); ++i) {
-      const std::string path = sit("/sim/station/exam-" + std::to_string(i) + ".cavum", tickets[i], clocks[i]);
+      const std::string path = "/sim/station/exam-" + std::to_string(i) + ".cavum";
+      sit(path, tickets[i], clocks[i]);
       files.push_back(read_file(path));
       out.exams.push_back({"/sim/office/exams/" + std::to_string(i) + ".cavum", clocks[i].named, SessionReader(path).seal()->clocks.utc_ns});
     }
