@@ -5,6 +5,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/filing.h"
@@ -109,6 +110,7 @@ int ledger_add(const LedgerOptions& o) {
   ExamGrounds grounds;  // of the class
   for (const auto& path : session_files(o.sessions)) {
     Filing filing;
+    keep_memory_reserve();
     try {
       filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings}, grounds);
     } catch (const DatabaseError&) {

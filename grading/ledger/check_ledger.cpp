@@ -75,6 +75,8 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
       } else if (replay && s.findings.empty()) {
         check_again(s, image, path, name, grounds, out);
       }
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& e) {
       findings.push_back(name + ": its file cannot be read: " + e.what());
     }

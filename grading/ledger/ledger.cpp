@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "engine/base/memory_reserve.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_file.h"
@@ -101,6 +102,7 @@ const LedgerEntry& Ledger::append(const std::string& kind, const std::function<j
   leaves.push_back(e.leaf);
   const Checkpoint p = sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key_);
   insert(database_, e, checkpoint_note(content_.id, content_.public_key, p), documents);
+  require_memory(places_.folder);
   all.commit();
   content_.entries.push_back(std::move(e));
   content_.checkpoints.push_back(p);

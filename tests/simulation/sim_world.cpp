@@ -29,7 +29,8 @@ std::int64_t Computer::clock_error_ns(std::int64_t true_ns) const {
   return clock_ahead_ns + (true_ns - drift_since_ns) / 1'000'000 * drift_ns_per_s / 1000;
 }
 
-World::World(std::uint64_t seed, const std::map<std::string, Disk>& disks, std::int64_t true_ns) : random_(seed), now_ns_(true_ns) {
+World::World(std::uint64_t seed, const std::map<std::string, Disk>& disks, std::int64_t true_ns)
+    : random_(seed), given_out_(~seed), now_ns_(true_ns) {
   // its locks between threads are of no use here, and one that a killed process holds would be held for ever
   static const int unlocked = sqlite3_config(SQLITE_CONFIG_SINGLETHREAD);
   if (unlocked != SQLITE_OK) throw std::logic_error("SQLite was used before the first world");

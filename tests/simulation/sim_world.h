@@ -91,6 +91,8 @@ class World {
   [[nodiscard]] std::int64_t true_ns() const noexcept { return now_ns_; }
   [[nodiscard]] std::uint64_t calls() const noexcept { return calls_; }
   [[nodiscard]] Random& random() noexcept { return random_; }
+  /// What the system gives out as random: of its own, for SQLite asks for some when another process had asked last, be it on another day.
+  [[nodiscard]] Random& given_out() noexcept { return given_out_; }
   void plan(Event event) { events_.push_back(std::move(event)); }
   /// At each call another process may go on, in so many of a hundred.
   void switch_percent(unsigned percent) { switch_percent_ = percent; }
@@ -116,7 +118,7 @@ class World {
   [[noreturn]] void never_again();
   static void enter(unsigned high, unsigned low);
 
-  Random random_;
+  Random random_, given_out_;
   std::map<std::string, Computer> computers_;
   std::vector<std::unique_ptr<Process>> processes_;
   std::vector<Event> events_;
