@@ -153,6 +153,8 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   std::optional<EventsAgain> events;
   try {
     events.emplace(session, grounds);
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
     out.findings.push_back(std::string("scenario: ") + e.what());
   }
@@ -170,6 +172,8 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
     const auto graded = load_for_grading(session, load_tooth(session.final_tooth(), session.path() + ": final tooth"), grounds);
     graded->events = events->events();
     out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), "result");
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
     out.findings.push_back(std::string("cannot be marked: ") + e.what());
     return out;

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "engine/base/file.h"
+#include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
 #include "grading/ledger/filing.h"
 #include "ui/ledger_verbs_parts.h"
@@ -71,6 +72,7 @@ int ledger_add(const LedgerOptions& o) {
   ExamGrounds grounds;  // of the class
   for (const auto& path : session_files(o.sessions)) {
     Filing filing;
+    keep_memory_reserve();
     try {
       filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings}, grounds);
     } catch (const DatabaseError&) {

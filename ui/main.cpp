@@ -4,7 +4,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 
+#include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
 #include "engine/servo/servo.h"
 #include "scenarios/parse.h"
@@ -37,6 +39,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "cavum: command line: there is no verb '%s'; see `cavum --help`\n", cavum::one_line(argv[1]).c_str());
     return 2;
   }
+  cavum::keep_memory_reserve();
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& e) {
@@ -50,6 +53,9 @@ int main(int argc, char** argv) {
     return 2;
   } catch (const cavum::ProblemsError& e) {
     for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(p.text()).c_str());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "cavum: memory: there is not enough; close other programs, and try again\n");
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "cavum: %s\n", cavum::one_line(e.what()).c_str());

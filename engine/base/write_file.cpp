@@ -134,7 +134,11 @@ void make_private_folder(const std::string& path) {
   fs::path made;
   for (const auto& part : fs::path(path)) {
     made /= part;
-    if (made.empty() || ::mkdir(made.c_str(), 0700) == 0) continue;
+    if (made.empty()) continue;
+    if (::mkdir(made.c_str(), 0700) == 0) {
+      sync_folder_of(made.string());
+      continue;
+    }
     const int error = errno;
     std::error_code none;
     if (!fs::is_directory(made, none)) throw Error(path, "cannot be made (" + words_of(error) + ")", "name another folder, or make it yourself");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <thread>
 
 #include "engine/base/write_file.h"
@@ -15,6 +16,7 @@ constexpr int k_steps_per_call = 1'000'000;
 constexpr int k_most_calls = 2000;
 
 [[noreturn]] void fail(sqlite3* db, const std::string& where, int code) {
+  if ((code & 0xff) == SQLITE_NOMEM) throw std::bad_alloc();  // nothing is wrong with the file
   const std::string what = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
   const int system_error = db != nullptr ? sqlite3_system_errno(db) : 0;
   std::string detail = what;
@@ -88,8 +90,10 @@ void Statement::run() {
 }
 
 void Statement::wrong_type(int column, const std::string& wanted) const {
-  throw DatabaseError(where_, std::string("column ") + sqlite3_column_name(statement_.get(), column) + " does not hold " + wanted,
-                      "the file was damaged or edited: use an intact copy", SQLITE_CORRUPT);
+  const char* name = sqlite3_column_name(statement_.get(), column);
+  if (name == nullptr) throw std::bad_alloc();
+  throw DatabaseError(where_, std::string("column ") + name + " does not hold " + wanted, "the file was damaged or edited: use an intact copy",
+                      SQLITE_CORRUPT);
 }
 
 std::int64_t Statement::integer(int column) const {
@@ -99,11 +103,13 @@ std::int64_t Statement::integer(int column) const {
 std::string Statement::text(int column) const {
   if (sqlite3_column_type(statement_.get(), column) != SQLITE_TEXT) wrong_type(column, "text");
   const auto* p = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
-  return p == nullptr ? std::string() : std::string(p, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)));
+  if (p == nullptr) throw std::bad_alloc();  // a text that is there and cannot be given
+  return {p, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 Bytes Statement::blob(int column) const {
   if (sqlite3_column_type(statement_.get(), column) != SQLITE_BLOB) wrong_type(column, "bytes");
   const auto* p = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
+  if (p == nullptr && sqlite3_errcode(db_) == SQLITE_NOMEM) throw std::bad_alloc();
   return p == nullptr ? Bytes() : Bytes(p, p + sqlite3_column_bytes(statement_.get(), column));
 }
 

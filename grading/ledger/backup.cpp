@@ -1,8 +1,6 @@
 #include "grading/ledger/backup.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <set>
@@ -13,6 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/erasure.h"
+#include "grading/ledger/folder_lock.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_file.h"
@@ -28,15 +27,11 @@ constexpr std::size_t k_longest_acceptance = 1000;
 
 std::string checkpoint_path(const std::string& folder) { return folder + "/checkpoint"; }
 
-/// A database at one moment, whoever writes to it, under another name first. One file without a log.
+/// A database at one moment, whoever writes to it, under another name first. One file without a log, synced with its name.
 void copy_database(const std::string& from, const std::string& to) {
-  const std::string fresh = to + ".new";
-  std::error_code ignored;
-  for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(fresh + end, ignored);
-  const int fd = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (fd < 0) throw Error(to, "cannot be made", "check that the folder is writable and has room");
-  ::close(fd);
-  {
+  const std::string fresh = temporary_name_beside(to);
+  make_private_file(fresh);
+  try {
     Database copy = Database::open(fresh, false);
     copy.run("PRAGMA synchronous = FULL");
     try {
@@ -50,8 +45,13 @@ void copy_database(const std::string& from, const std::string& to) {
     }
     copy.run("PRAGMA journal_mode = DELETE");
     copy.close();
+    fs::rename(fresh, to);
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(fresh + end, ignored);
+    throw;
   }
-  fs::rename(fresh, to);
+  sync_folder_of(to);
 }
 
 /// SHA-256 of the files of all filed sessions that are not erased, each once.
@@ -104,7 +104,14 @@ bool copy_identities(const LedgerContent& c, const LedgerPlaces& from, const Led
 void require_place_for(const LedgerContent& content, const std::string& folder) {
   std::error_code none;
   if (!fs::exists(folder, none) || fs::is_empty(folder, none)) return;
-  if (!fs::exists(checkpoint_path(folder))) throw Error(folder, "holds something else than a backup", "name a new folder");
+  if (!fs::exists(checkpoint_path(folder))) {  // a first backup may have been cut short
+    for (const auto& f : fs::directory_iterator(folder)) {
+      const std::string name = f.path().filename().string();
+      if (name != "ledger.db" && name != "identities.db" && name != "sessions" && !name.starts_with(".cavum-"))
+        throw Error(folder, "holds something else than a backup", "name a new folder");
+    }
+    if (!fs::exists(LedgerPlaces{folder}.database())) return;
+  }
   const LedgerContent before = read_ledger({folder}, AskWitness::no);
   std::vector<std::string> findings;
   if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), "the backup that is there", findings);
@@ -135,12 +142,13 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   std::error_code none;
   if (fs::weakly_canonical(folder, none) == fs::weakly_canonical(from.folder, none))
     throw Error(folder, "is the ledger itself", "name another folder");
+  make_private_folder(folder);
+  const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
   const LedgerContent now = read_ledger(from);
   if (!now.findings.empty())
     throw Error(from.folder, "the ledger does not hold (" + now.findings[0] + "), and a backup of it would be taken for one that does",
                 "see `cavum ledger verify`; to keep it as evidence, copy the folder");
   require_place_for(now, folder);
-  make_private_folder(folder);
   copy_database(from.database(), to.database());
   const LedgerContent copy = read_ledger(to, AskWitness::no);
   if (!copy.findings.empty()) throw Error(to.database(), "the copy does not hold (" + copy.findings[0] + ")", "check the disk, and take it again");
@@ -153,6 +161,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   if (with_identities) out.identities = copy_identities(copy, from, to);
   const json told = checkpoint_json(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint, cosignatures_of(copy, out.checkpoint.size));
   write_text_file(checkpoint_path(folder), told.is_string() ? told.get<std::string>() : told.dump() + "\n");
+  sync_folder_of(folder);
   return out;
 }
 
@@ -233,6 +242,7 @@ void restore(const std::string& backup, const std::string& folder, const Restore
                 {"missing_sessions", plan.missing_sessions},
                 {"reason", reason}};
   });
+  sync_folder_of(folder);
 }
 
 }  // namespace cavum

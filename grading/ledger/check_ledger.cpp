@@ -33,6 +33,16 @@ void check_again(const FiledSession& s, const Bytes& image, const std::string& p
                           std::to_string(k_grading_version) + " gives another result: filed " + differ[0] + more);
 }
 
+/// An entry made while the computer's clock was ahead is named as soon as that is put right.
+void check_times(const LedgerContent& content, std::vector<std::string>& remarks) {
+  constexpr std::int64_t k_patience_ns = 300'000'000'000;
+  const std::int64_t now_ns = read_clocks().utc_ns;
+  for (const auto& e : content.entries)
+    if (e.utc_ns > now_ns + k_patience_ns)
+      remarks.push_back("entry " + std::to_string(e.seq) + ": bears a time that has not come yet, " + utc_text(e.utc_ns) +
+                        "; the clock was ahead then, or is behind now");
+}
+
 }  // namespace
 
 LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
@@ -40,6 +50,7 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   const LedgerContent content = read_ledger(places);
   LedgerCheck out{content.findings, {}, content.remarks};
   auto& findings = out.findings;
+  check_times(content, out.remarks);
   const Registry registry = read_registry(content);
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
   for (const auto& r : restores_of(content)) out.remarks.push_back(in_words(r));
@@ -71,6 +82,8 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
       } else if (replay && s.findings.empty()) {
         check_again(s, image, path, name, grounds, out);
       }
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& e) {
       findings.push_back(name + ": its file cannot be read: " + e.what());
     }

@@ -125,6 +125,8 @@ std::string other_ending(const SessionReader& session, std::uint64_t seq, const 
     return entry + " holds another ending of the same recording: both are the same up to tick " + std::to_string(tick) + "; " + entry +
            " ends at tick " + std::to_string(filed.ticks()) + resumed_from(filed, tick) + ", this one at tick " + std::to_string(session.ticks()) +
            resumed_from(session, tick);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     return entry + ", whose file cannot be compared: " + e.what();
   }

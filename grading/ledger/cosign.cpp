@@ -1,18 +1,13 @@
 #include "grading/ledger/cosign.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "grading/ledger/folder_lock.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
 
@@ -49,27 +44,6 @@ Request parse_request(const std::string& text, const std::string& where) {
   out.note = text.substr(gap + 2);
   return out;
 }
-
-/// One cosigner at a time looks at its memory and changes it.
-class MemoryLock {
- public:
-  explicit MemoryLock(const std::string& folder) {
-    std::error_code ignored;
-    std::filesystem::create_directories(folder, ignored);
-    fd_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd_ < 0 || ::flock(fd_, LOCK_EX) != 0) {
-      const std::string why = std::strerror(errno);
-      if (fd_ >= 0) ::close(fd_);
-      throw Error(folder, "the cosigner's memory cannot be kept there (" + why + ")", "name a folder with --state");
-    }
-  }
-  ~MemoryLock() { ::close(fd_); }
-  MemoryLock(const MemoryLock&) = delete;
-  MemoryLock& operator=(const MemoryLock&) = delete;
-
- private:
-  int fd_ = -1;
-};
 
 /// What is remembered of a ledger.
 struct Memory {
@@ -130,7 +104,8 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const Request request = parse_request(text, where);
   const std::string no_key(64, '0');
   const std::string id = parse_checkpoint(request.note, no_key, where).ledger_id, path = cosigner.memory + "/" + id;
-  const MemoryLock lock(cosigner.memory);
+  make_private_folder(cosigner.memory);
+  const FolderLock lock(cosigner.memory, "the cosigner's memory cannot be kept there", "name a folder with --state");
   const auto memory = remembered(path, id);
   if (!memory && cosigner.school_key.empty())
     throw Error(where, "is of a ledger that this cosigner does not know", "name its school's public key with --school-key, from the school itself");
@@ -164,6 +139,7 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   note.signatures.push_back(cosign_note(note.text, cosigner.name, cosigner.key, utc_s));
   out.note = write_note(note);
   write_text_file(path, key_line(checkpoint_key(id, school)) + "\n" + out.note);
+  sync_folder_of(cosigner.memory);
   return out;
 }
 

@@ -184,6 +184,8 @@ std::vector<std::string> check_results(const std::string& text, const std::strin
     }
   } catch (const json::exception&) {
     findings.emplace_back("are no exported results: name a file that `cavum ledger export --format json` wrote");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     findings.push_back(std::string("are no exported results: ") + e.what());
   }

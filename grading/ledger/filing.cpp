@@ -18,6 +18,8 @@ std::string scenario_id_of(const SessionSetup& setup, const SchoolMark& mark) {
   if (mark.result.is_object()) return text_in(member_of(mark.result, "scenario"), "id");
   try {
     return parse_scenario(setup.scenario_toml, "scenario.toml", Reading::recorded).id;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return "";  // a damaged session filed for an appeal
   }

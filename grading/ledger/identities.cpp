@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "engine/base/write_file.h"
 #include "grading/ledger/candidate_id.h"
 
 namespace cavum {
@@ -66,17 +67,18 @@ Identities::Identities(const std::string& path, bool may_make)
         if (make && !may_make)
           throw Error(path, "the identities are not there", "restore them from their backup: without them nobody knows whose marks these are");
         Database db = Database::open(path, make, k_long_wait);
+        db.run("PRAGMA synchronous = EXTRA");  // the journal's name is gone from the disk, too: a power cut brings nobody back, and takes nobody away
         if (make) {
           db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
           db.run(k_table);
           db.run(("PRAGMA user_version = " + std::to_string(k_format)).c_str());
+          sync_folder_of(path);
         }
         return db;
       }()) {
   if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
   if (const auto format = database_.integer("PRAGMA user_version"); format > k_format)
     throw Error(path, "was written by a newer version of Cavum (format " + std::to_string(format) + ")", "use that version");
-  database_.run("PRAGMA synchronous = FULL");
   database_.run("PRAGMA secure_delete = ON");
   bring_up_to_date(database_);
 }
@@ -89,14 +91,16 @@ std::string Identities::enrol(const std::string& id, const std::string& name, co
   for (const auto& known : of_id(id))
     if (known.exam == exam) return known.pseudonym;
   const Identity i{new_pseudonym(), exam, id, name};
-  database_.prepare("INSERT INTO identity (pseudonym, exam, id, name, seal) VALUES (?, ?, ?, ?, ?)")
+  database_.prepare("INSERT OR IGNORE INTO identity (pseudonym, exam, id, name, seal) VALUES (?, ?, ?, ?, ?)")
       .bind(1, i.pseudonym)
       .bind(2, i.exam)
       .bind(3, i.id)
       .bind(4, i.name)
       .bind(5, identity_seal(school, sealed_text(i)))
       .run();
-  return i.pseudonym;
+  for (const auto& known : of_id(id))  // somebody else may have enrolled the same candidate meanwhile
+    if (known.exam == exam) return known.pseudonym;
+  throw Error("candidate '" + one_line(id) + "'", "cannot be enrolled", "try again");
 }
 
 std::optional<Identity> Identities::of_pseudonym(const std::string& pseudonym) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/memory_reserve.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session.h"
 #include "grading/ledger/erasure.h"
@@ -45,6 +46,7 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
     remove_fresh();
     throw;
   }
+  sync_folder_of(folder);
 }
 
 Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)
@@ -124,6 +126,7 @@ const LedgerEntry& Ledger::append_signed(const std::string& kind, const MakeBody
   leaves.push_back(e.leaf);
   const Checkpoint p = sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key);
   insert(database_, e, checkpoint_note(content_.id, to_hex(key.public_key), p), documents);
+  require_memory(places_.folder);
   all.commit();
   const bool erases = !member_of(e.body, "erased").empty();
   content_.entries.push_back(std::move(e));

@@ -38,6 +38,8 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     e.attachment = std::move(attachment);
     if (require_whole<std::uint64_t>(j, "seq", name) != seq)
       findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the entry
   } catch (const std::exception&) {
     findings.push_back(name + ": is no JSON object with kind, seq, utc_ns and body");
   }
@@ -269,18 +271,29 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
     return read_content(live, places.database(), ask);
   } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy in memory
   }
-  std::vector<std::string> findings;
-  Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
-  try {
-    LedgerContent c = read_content(copy, places.database(), ask);
-    c.findings.insert(c.findings.begin(), findings.begin(), findings.end());
-    return c;
-  } catch (const DatabaseError& e) {
-    LedgerContent damaged;
-    damaged.findings = schema_findings(copy);  // the cause, when tables were altered
-    if (damaged.findings.empty()) damaged.findings.emplace_back(e.what());
-    return damaged;
-  }
+  const auto from_copy = [&] {
+    std::vector<std::string> findings;
+    Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
+    try {
+      LedgerContent c = read_content(copy, places.database(), AskWitness::no);
+      c.findings.insert(c.findings.begin(), findings.begin(), findings.end());
+      return c;
+    } catch (const DatabaseError& e) {
+      LedgerContent damaged;
+      damaged.findings = schema_findings(copy);  // the cause, when tables were altered
+      if (damaged.findings.empty()) damaged.findings.emplace_back(e.what());
+      return damaged;
+    }
+  };
+  LedgerContent c = from_copy();
+  if (ask == AskWitness::no || c.id.size() != 32) return c;
+  // The witness first, as above, for others may add meanwhile; it is known whose it is only now.
+  std::vector<std::string> changed;
+  const auto witnessed = read_witness(c.id, changed);
+  c = from_copy();
+  c.findings.insert(c.findings.end(), changed.begin(), changed.end());
+  if (c.id.size() == 32) check_witness(c, witnessed);
+  return c;
 }
 
 }  // namespace cavum

@@ -82,6 +82,8 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
     }
   } catch (const json::exception&) {
     findings.emplace_back("is no receipt: a part of it is missing or of another kind than `cavum ledger add --receipts` writes");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     findings.push_back(std::string("is no receipt: ") + e.what());
   }

@@ -103,6 +103,8 @@ class RegistryReader {
       (this->*kind->second)(e);
     } catch (const std::out_of_range&) {
       say(e, "speaks of an entry that is not there");
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       say(e, error.what());
     }

@@ -56,6 +56,10 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
   const bool told = fd >= 0 && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fsync(fd) == 0;
   const int why = errno;
   if (fd >= 0) ::close(fd);
+  if (told && end == 0) {  // the file is new, and perhaps its folder
+    sync_folder_of(path);
+    sync_folder_of(std::filesystem::path(path).parent_path().string());
+  }
   if (!told)
     throw Error(path, std::string("the entry is in the ledger, but its witness cannot be told (") + std::strerror(why) + ")",
                 "make the folder writable; the next entry tells it again");

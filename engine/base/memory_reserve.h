@@ -1,0 +1,16 @@
+// Memory set aside for the moment when there is no more: what is in the middle of something then comes to its end, and says so, instead of being torn
+// out of it (a JSON value asks for memory even to be taken down). Nothing that counts is entered from then on.
+#pragma once
+
+#include <string>
+
+namespace cavum {
+
+/// Sets 16 MB aside, which `new` takes when it finds nothing else; and again, once they were taken. For programs and their longer works.
+void keep_memory_reserve() noexcept;
+/// True since the reserve was taken.
+[[nodiscard]] bool memory_ran_out() noexcept;
+/// Throws Error(`where`, ...) when it was.
+void require_memory(const std::string& where);
+
+}  // namespace cavum

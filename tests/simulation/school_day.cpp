@@ -1,0 +1,347 @@
+#include "tests/simulation/school_day.h"
+
+#include "engine/base/file.h"
+#include "grading/ledger/backup.h"
+#include "grading/ledger/check_ledger.h"
+#include "grading/ledger/filing.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/issue.h"
+#include "grading/ledger/registry.h"
+#include "grading/ledger/release.h"
+#include "grading/ledger/stations.h"
+
+namespace cavum::simulation {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::int64_t k_s_ns = 1'000'000'000, k_hour_ns = 3600 * k_s_ns;
+constexpr std::int64_t k_patience_ns = 300 * k_s_ns, k_margin_ns = 60 * k_s_ns;
+const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
+
+Ledger open_ledger(LedgerUse use = LedgerUse::add) { return Ledger(k_ledger, load_school_key(school_key_path()), use); }
+
+/// The tooth and its zones, made once: days differ in other things.
+ExamGrounds& grounds() {
+  static ExamGrounds shared;
+  return shared;
+}
+
+bool holds(const std::vector<std::string>& findings, const std::string& words) {
+  for (const auto& f : findings)
+    if (f.find(words) != std::string::npos) return true;
+  return false;
+}
+
+std::string all(const std::vector<std::string>& findings) {
+  std::string out;
+  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + f;
+  return out;
+}
+
+}  // namespace
+
+const char* name_of(Task task) {
+  static constexpr const char* k_names[k_tasks] = {"issue",  "station",    "file",   "release",          "forget", "receipt",
+                                                   "backup", "checkpoint", "cosign", "keep_cosignature", "verify"};
+  return k_names[static_cast<int>(task)];
+}
+
+SchoolDay::SchoolDay(const Morning& morning, std::uint64_t seed) : morning_(morning), world_(seed, morning.disks, morning.true_ns) {}
+
+void SchoolDay::wrong(const std::string& what) { wrong_.push_back(what); }
+
+void SchoolDay::draw() {
+  Random& random = world_.random();
+  constexpr unsigned k_switch[] = {2, 20, 50, 90};
+  world_.switch_percent(k_switch[random.below(4)]);
+  const auto people = 1 + random.below(4);
+  for (std::uint64_t i = 0; i < people; ++i) {
+    std::vector<Task> tasks;
+    for (auto n = 1 + random.below(4); n > 0; --n) {
+      // filing costs more than the others together
+      const auto t = random.below(k_tasks + 3);
+      const Task task = t < k_tasks ? static_cast<Task>(t) : t < k_tasks + 2 ? Task::issue : Task::backup;
+      tasks.push_back(task == Task::cosign || (task == Task::file && random.below(3) > 0) ? Task::issue : task);
+    }
+    give("office " + std::to_string(i + 1), tasks);
+    people_["office " + std::to_string(i + 1)].pause_ns = random.below(3) == 0 ? random.below(20 * k_s_ns) : random.below(20'000'000);
+  }
+  if (random.below(2) == 0) {
+    give("office 9", {Task::checkpoint, Task::keep_cosignature, Task::issue, Task::checkpoint, Task::keep_cosignature});
+    give("cosigner", {Task::cosign, Task::cosign, Task::cosign});
+    people_["cosigner"].computer = "cosigner";
+  }
+  const std::uint64_t about = 400 * (people + 1);
+  for (auto n = random.below(4); n > 0; --n) {
+    Event e;
+    e.at_call = 1 + random.below(about);
+    e.computer = random.below(5) == 0 ? "cosigner" : "office";
+    switch (random.below(8)) {
+      case 0:
+      case 1:
+        e.kind = Event::Kind::kill;
+        break;
+      case 2:
+      case 3:
+        e.kind = Event::Kind::power_cut;
+        break;
+      case 4:
+        e.kind = Event::Kind::disk_full;
+        e.ns = static_cast<std::int64_t>(random.below(60'000'000));
+        break;
+      case 5:
+        e.kind = Event::Kind::sync_fails;
+        break;
+      case 6: {
+        constexpr std::int64_t k_steps[] = {-10 * 24 * k_hour_ns, -2 * k_hour_ns, -30 * k_s_ns, 2 * k_hour_ns, 10 * 24 * k_hour_ns};
+        e.kind = Event::Kind::set_clock;
+        e.ns = k_steps[random.below(5)];
+        break;
+      }
+      default:
+        e.kind = Event::Kind::drift;
+        e.ns = static_cast<std::int64_t>(random.below(200'000'000)) - 100'000'000;
+    }
+    world_.plan(e);
+  }
+  if (random.below(4) == 0) lose_ledger_at_the_end(random.below(2) == 0 ? 0 : 1 + random.below(250));
+}
+
+void SchoolDay::give(const std::string& person, const std::vector<Task>& tasks) { people_[person] = {"office", tasks, 0, 0}; }
+
+void SchoolDay::start(const std::string& name) {
+  world_.start(people_.at(name).computer, name, [this, name] { work(name); });
+}
+
+void SchoolDay::work(const std::string& name) {
+  Person& person = people_.at(name);
+  while (person.next < person.tasks.size()) {
+    const Task task = person.tasks[person.next++];
+    if (person.pause_ns > 0) world_.sleep(static_cast<std::int64_t>(world_.random().below(person.pause_ns)));
+    try {
+      ++counts_[std::string("begun ") + name_of(task)];
+      perform(task);
+      ++counts_[std::string("done ") + name_of(task)];
+    } catch (const Error& e) {
+      const std::string what = std::string(name_of(task)) + ": " + e.what();
+      ++counts_[std::string("refused ") + name_of(task)];
+      if (!world_.process().computer->had_faults) wrong("no disk failed, and yet: " + what);
+      if (what.find("; ") == std::string::npos) wrong("does not say what to do: " + what);
+    } catch (const std::exception& e) {
+      wrong(std::string(name_of(task)) + " ended with an exception that is no Error: " + e.what());
+    }
+  }
+}
+
+void SchoolDay::perform(Task task) {
+  switch (task) {
+    case Task::issue:
+      return issue_ticket();
+    case Task::station:
+      return enrol_station();
+    case Task::file:
+      return file_exam();
+    case Task::release:
+      return release_all();
+    case Task::forget:
+      return forget_somebody();
+    case Task::receipt:
+      return write_receipt();
+    case Task::backup:
+      return take_backup();
+    case Task::checkpoint:
+      return ask_cosigner();
+    case Task::cosign:
+      return cosign_here();
+    case Task::keep_cosignature:
+      return keep_cosignature();
+    case Task::verify:
+      return verify();
+  }
+}
+
+/// Called before anything else can happen: between a function's return and this there is no call to the system.
+void SchoolDay::entered(const Ledger& ledger, std::uint64_t seq) {
+  entries_.push_back({seq, ledger.content().entries.at(seq).text, world_.utc_ns(), ledger.receipt(seq)});
+}
+
+void SchoolDay::issue_ticket() {
+  Ledger ledger = open_ledger();
+  Identities identities(ledger.places().identities());
+  const std::string id = "student-" + std::to_string(world_.random().below(6));  // two people may well enrol one student
+  const std::string pseudonym = identities.enrol(id, "Name", ledger.key());
+  known_[id] = pseudonym;
+  static_cast<void>(issue(ledger, morning_.promise, pseudonym));
+  entered(ledger, ledger.content().entries.size() - 1);
+}
+
+void SchoolDay::enrol_station() {
+  Ledger ledger = open_ledger();
+  const int changes = world_.process().computer->clock_changes;
+  const std::string code = invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
+  entered(ledger, ledger.content().entries.size() - 1);
+  // the station's own computer is not here: its key is
+  const SigningKey key = load_signing_key("/sim/office/tmp/station-" + random_hex(8), "station");
+  const std::string request = station_request(key, ledger.content().public_key, {}, code);
+  try {
+    const LedgerEntry& e = cavum::enrol_station(ledger, request, 0, "request");
+    entered(ledger, e.seq);
+  } catch (const Error& e) {
+    if (changes == world_.process().computer->clock_changes || std::string(e.what()).find("ran out") == std::string::npos) throw;
+  }
+}
+
+void SchoolDay::file_exam() {
+  const std::size_t number = world_.random().below(morning_.exams.size());
+  const SatExam& exam = morning_.exams[number];
+  const bool begun_before = filed_exams_[number];
+  filed_exams_[number] = true;
+  Computer& office = *world_.process().computer;
+  const int changes = office.clock_changes;
+  const std::int64_t before_utc_ns = world_.utc_ns();
+  Ledger ledger = open_ledger();
+  const Filing filing = file_session(ledger, exam.path, {}, grounds());
+  if (filing.seq) {
+    entered(ledger, *filing.seq);
+    filed_files_.insert(ledger.content().entries.at(*filing.seq).body.at("file_sha256").get<std::string>());
+    ++counts_["filed clean"];
+  }
+  const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + all(filing.findings));
+  if (changes != office.clock_changes) return;
+  const std::int64_t late_ns = world_.utc_ns() - exam.closed_utc_ns, least_late_ns = before_utc_ns - exam.closed_utc_ns;
+  if (!exam.clock.empty()) {
+    // a station two hours ahead and an office that is ahead as well agree with one another
+    const bool agree = exam.clock[0] == "after it was handed in" && late_ns > -k_patience_ns - k_margin_ns;
+    if (filing.seq && !agree) wrong("a station's wrong clock was not named: " + what);
+    if (!filing.seq && !agree && !holds(filing.findings, exam.clock[0])) wrong("a station's wrong clock was not named: " + what);
+    return;
+  }
+  const bool too_early = late_ns<-k_patience_ns - k_margin_ns, too_late = least_late_ns> 5 * 24 * k_hour_ns;
+  if (too_early && (filing.seq || !holds(filing.findings, "after it was handed in"))) wrong("the office's clock, behind, was not named: " + what);
+  if (too_late && (filing.seq || !holds(filing.findings, "more than a day"))) wrong("the office's clock, ahead, was not named: " + what);
+  const bool fits = late_ns > -k_patience_ns + k_margin_ns && late_ns < 24 * k_hour_ns;
+  if (fits && !filing.seq && !begun_before && !holds(filing.findings, "before: entry")) wrong("a sound exam was refused: " + what);
+  if (too_early || too_late) ++counts_["office's clock named at filing"];
+}
+
+void SchoolDay::release_all() {
+  Ledger ledger = open_ledger();
+  const Release released = release_results(ledger, {.all = true});
+  if (!released.results.empty()) entered(ledger, ledger.content().entries.size() - 1);
+}
+
+void SchoolDay::forget_somebody() {
+  if (known_.empty()) return;
+  auto who = known_.begin();
+  std::advance(who, static_cast<long>(world_.random().below(known_.size())));
+  const auto [id, pseudonym] = *who;
+  Ledger ledger = open_ledger();
+  Identities identities(ledger.places().identities());
+  const auto known = identities.of_pseudonym(pseudonym);
+  if (!known) {
+    if (!to_forget_.contains(pseudonym)) wrong("an enrolled candidate is unknown: " + id + " " + pseudonym);
+    return;
+  }
+  to_forget_.insert(pseudonym);
+  ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", pseudonym}}; });
+  entered(ledger, ledger.content().entries.size() - 1);
+  identities.forget(pseudonym);
+  forgotten_.insert(pseudonym);
+}
+
+void SchoolDay::write_receipt() {
+  const Ledger ledger = open_ledger(LedgerUse::tell);
+  const auto seq = world_.random().below(ledger.content().entries.size());
+  const json receipt = ledger.receipt(seq);
+  const std::string path = "/sim/office/receipts/" + random_hex(8) + ".json";
+  write_private_text_file(path, receipt.dump());
+  receipts_[path] = receipt;
+}
+
+void SchoolDay::take_backup() {
+  const Backup made = back_up({k_ledger}, k_backup, true);
+  if (!made.missing.empty()) wrong("a backup lacks sessions that were filed: " + all(made.missing));
+  if (!backed_up_ || made.checkpoint.size > backed_up_->size) backed_up_ = made.checkpoint;
+}
+
+void SchoolDay::ask_cosigner() {
+  const Ledger ledger = open_ledger(LedgerUse::tell);
+  const auto since = cosigner_asks_since_.value_or(last_cosigned(ledger.content()));
+  to_cosigner_ = cosign_request(ledger.content(), since);
+}
+
+void SchoolDay::cosign_here() {
+  for (int i = 0; i < 50 && to_cosigner_.empty(); ++i) world_.sleep(20'000'000);
+  if (to_cosigner_.empty()) return;
+  const std::string request = to_cosigner_;
+  Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), cosigner_memory_path(),
+                    morning_.promise.public_key};
+  try {
+    const Cosigned signed_note = cosign(cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
+    to_cosigner_.clear();
+    cosigner_asks_since_.reset();
+    if (!signed_note.findings.empty()) {
+      // an older request that was overtaken by a newer one is refused in just these words
+      if (!holds(signed_note.findings, "this is an older file")) wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
+      return;
+    }
+    cosigned_size_ = std::max(cosigned_size_, signed_note.size);
+    notes_.push_back(signed_note.note);
+    to_office_ = signed_note.note;
+  } catch (const Error& e) {
+    const std::string what = e.what(), words = "this cosigner has signed ";
+    const auto at = what.find(words);
+    if (at == std::string::npos) throw;
+    cosigner_asks_since_ = std::stoull(what.substr(at + words.size()));
+    to_cosigner_.clear();
+  }
+}
+
+void SchoolDay::keep_cosignature() {
+  for (int i = 0; i < 50 && to_office_.empty(); ++i) world_.sleep(20'000'000);
+  if (to_office_.empty()) return;
+  const std::string note = to_office_;
+  Ledger ledger = open_ledger();
+  const auto checked = check_cosigned(note, read_cosigners(known_cosigners_path()), ledger.content());
+  if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + all(checked.findings));
+  ledger.keep_cosignatures(checked.checkpoint->size, checked.cosignatures);
+  for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, signature_line(s));
+}
+
+void SchoolDay::verify() {
+  const LedgerCheck check = check_ledger({k_ledger}, false);
+  // a disk that fails meanwhile may well be in the way of looking
+  if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
+}
+
+std::vector<std::string> SchoolDay::run() {
+  for (const auto& [name, person] : people_) start(name);
+  const auto begun_calls = world_.calls();
+  world_.run([&](Process& p) {
+    if (p.killed) {
+      ++counts_["killed"];
+      start(p.name);
+    }
+  });
+  counts_["calls"] += world_.calls() - begun_calls;
+  if (world_.stuck()) wrong("the day does not come to an end");
+  if (world_.random().below(2) == 0)  // whatever was acknowledged is on disk by now
+    for (auto& [name, computer] : world_.computers()) world_.cut_power(computer);
+  for (auto& [name, computer] : world_.computers()) {  // somebody puts the clocks right
+    computer.clock_ahead_ns = computer.drift_ns_per_s = 0;
+    computer.had_faults = false;
+    computer.full_until_ns = 0;
+    computer.next_sync_fails = false;
+  }
+  if (!world_.stuck()) {
+    try {
+      check_end();
+    } catch (const std::exception& e) {
+      wrong(std::string("at the end of the day: ") + e.what());
+    }
+  }
+  return wrong_;
+}
+
+}  // namespace cavum::simulation

@@ -1,0 +1,223 @@
+// What is compared at the end of a day with what was acknowledged in its course.
+#include <algorithm>
+
+#include "engine/base/file.h"
+#include "grading/ledger/backup.h"
+#include "grading/ledger/check_ledger.h"
+#include "grading/ledger/history.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/registry.h"
+#include "grading/ledger/witness.h"
+#include "tests/simulation/school_day.h"
+
+namespace cavum::simulation {
+namespace {
+
+using nlohmann::json;
+
+const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
+
+std::string all(const std::vector<std::string>& findings) {
+  std::string out;
+  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + f;
+  return out;
+}
+
+std::int64_t utc_in(const std::string& entry) { return json::parse(entry).at("utc_ns").get<std::int64_t>(); }
+
+/// "entry 7: ..." of remarks that name a clock which was set back.
+bool names_clock(const std::vector<std::string>& remarks, std::uint64_t after, std::uint64_t until) {
+  for (std::uint64_t k = after + 1; k <= until; ++k)
+    for (const auto& r : remarks)
+      if (r.starts_with("entry " + std::to_string(k) + ": ") && r.find("the clock was set back") != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+void SchoolDay::check_end() {
+  LedgerContent content;
+  world_.calmly("office", [&] {
+    content = read_ledger({k_ledger});
+    const LedgerCheck check = check_ledger({k_ledger}, false);
+    if (!check.findings.empty()) wrong("the ledger does not hold: " + all(check.findings));
+    if (!content.witnessed) wrong("the witness is gone");
+    check_entries(content);
+    check_clocks(check.remarks);
+    check_identities();
+    check_backup();
+    std::vector<std::string> findings, not_checked;
+    check_cosignatures(content, read_cosigners(known_cosigners_path()), findings, not_checked);
+    if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + all(findings) + all(not_checked));
+  });
+  check_cosigner(content);
+  world_.calmly("office", [&] {  // and work goes on
+    Ledger ledger(k_ledger, load_school_key(school_key_path()));
+    ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    entered(ledger, ledger.content().entries.size() - 1);
+    const LedgerCheck check = check_ledger({k_ledger}, false);
+    if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + all(check.findings));
+  });
+  counts_["acknowledged"] += entries_.size();
+  if (loses_ledger_ && backed_up_) restore_from_backup();
+}
+
+void SchoolDay::check_entries(const LedgerContent& content) {
+  std::vector<std::string> findings;
+  const auto witnessed = read_witness(content.id, findings);
+  if (!findings.empty()) wrong("the witness: " + all(findings));
+  std::set<std::uint64_t> seen;
+  for (const Entered& e : entries_) {
+    const std::string name = "entry " + std::to_string(e.seq);
+    if (!seen.insert(e.seq).second) wrong(name + " was acknowledged to two people");
+    if (e.seq >= content.entries.size() || content.entries[e.seq].text != e.text) {
+      wrong(name + ", which was acknowledged, is lost: " + e.text.substr(0, 80));
+      continue;
+    }
+    if (const auto why = check_receipt(e.receipt, content.public_key, &content); !why.empty())
+      wrong(name + ": its receipt does not hold: " + all(why));
+    if (std::none_of(witnessed.begin(), witnessed.end(), [&](const Checkpoint& p) { return p.size == e.seq + 1; }))
+      wrong(name + ", which was acknowledged, is not with the witness");
+  }
+  for (const auto& [path, receipt] : receipts_) try {
+      if (json::parse(read_text_file(path)) != receipt) wrong(path + ": another receipt than was written");
+    } catch (const std::exception& e) {
+      wrong("a receipt that was written is lost: " + std::string(e.what()));
+    }
+  for (const auto& hash : filed_files_) try {
+      if (to_hex(sha256(read_file(LedgerPlaces{k_ledger}.session(hash)))) != hash) wrong("a filed session's file is not what was filed: " + hash);
+    } catch (const std::exception& e) {
+      wrong("a filed session's file is lost: " + std::string(e.what()));
+    }
+  const Registry registry = read_registry(content);
+  std::set<std::string> nonces;
+  for (const auto& s : registry.sessions)
+    if (s.findings.empty() && !nonces.insert(s.nonce).second) wrong("a ticket was used twice: entry " + std::to_string(s.seq));
+  for (const auto& [size, line] : kept_cosignatures_)
+    if (std::none_of(content.cosignatures.begin(), content.cosignatures.end(),
+                     [&, s = size, l = line](const Cosignature& c) { return c.size == s && signature_line(c.by) == l; }))
+      wrong("a cosignature that was kept is lost, under " + std::to_string(size) + " entries");
+}
+
+void SchoolDay::check_clocks(const std::vector<std::string>& remarks) {
+  std::vector<std::pair<std::uint64_t, std::int64_t>> times;
+  for (const Entered& e : entries_) times.emplace_back(e.seq, utc_in(e.text));
+  std::sort(times.begin(), times.end());
+  for (std::size_t i = 0; i + 1 < times.size(); ++i)
+    for (std::size_t j = i + 1; j < times.size(); ++j)
+      if (times[j].second < times[i].second) {
+        ++counts_["ledger's clock set back"];
+        if (!names_clock(remarks, times[i].first, times[j].first))
+          wrong("the clock was set back between entries " + std::to_string(times[i].first) + " and " + std::to_string(times[j].first) +
+                ", and nothing says so");
+      }
+  constexpr std::int64_t k_patience_ns = 300'000'000'000;
+  for (const auto& [seq, utc_ns] : times)
+    if (utc_ns > k_begin_utc_ns + world_.true_ns() + k_patience_ns) {
+      ++counts_["ledger's clock ahead"];
+      if (std::none_of(remarks.begin(), remarks.end(), [](const std::string& r) { return r.find("has not come yet") != std::string::npos; }))
+        wrong("entry " + std::to_string(seq) + " bears a time that is still to come, and nothing says so");
+    }
+}
+
+void SchoolDay::check_identities() {
+  Identities identities(LedgerPlaces{k_ledger}.identities());
+  for (const auto& [id, pseudonym] : known_)
+    if (!to_forget_.contains(pseudonym) && !identities.of_pseudonym(pseudonym))
+      wrong("an identity that was enrolled is lost: " + id + " " + pseudonym);
+  for (const auto& pseudonym : forgotten_)
+    if (identities.of_pseudonym(pseudonym)) wrong("an identity that was forgotten is known: " + pseudonym);
+  if (const auto why = identities.check(load_school_key(school_key_path())); !why.empty()) wrong(all(why));
+}
+
+void SchoolDay::check_backup() {
+  if (!backed_up_) return;
+  const RestorePlan plan = plan_restore(k_backup, {}, {});
+  if (!plan.findings.empty()) return wrong("the backup does not hold: " + all(plan.findings));
+  if (!plan.missing_sessions.empty()) wrong("the backup lacks sessions: " + all(plan.missing_sessions));
+  const History history(plan.content);
+  const auto size = static_cast<std::size_t>(backed_up_->size);
+  if (history.roots().size() < size || history.roots()[size - 1] != backed_up_->root)
+    wrong("a backup of " + std::to_string(size) + " entries was acknowledged, and has " + std::to_string(history.roots().size()));
+  if (!plan.identities) wrong("the backup's identities are lost");
+}
+
+void SchoolDay::check_cosigner(const LedgerContent& content) {
+  if (cosigned_size_ == 0) return;
+  world_.calmly("cosigner", [&] {
+    Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), cosigner_memory_path(),
+                      morning_.promise.public_key};
+    // an older state than it has signed must be refused: whoever restores an old copy would ask for just that
+    LedgerContent older = content;
+    older.entries.resize(std::min<std::size_t>(older.entries.size(), cosigned_size_ - 1));
+    std::erase_if(older.checkpoints, [&](const Checkpoint& p) { return p.size > older.entries.size(); });
+    if (cosign(cosigner, cosign_request(older, 0), "request", 1).findings.empty()) wrong("the cosigner forgot what it had signed");
+    std::string words;
+    try {
+      const Cosigned now = cosign(cosigner, cosign_request(content, cosigned_size_), "request", 1);
+      words = all(now.findings);
+    } catch (const Error& e) {  // it signed a later state, and was killed before it could say so
+      words = e.what();
+      if (words.find("this cosigner has signed ") != std::string::npos) words.clear();
+    }
+    if (!words.empty()) wrong("the cosigner refuses the honest ledger: " + words);
+  });
+  world_.calmly("office", [&] {
+    for (const auto& note : notes_)
+      if (const auto c = check_cosigned(note, read_cosigners(known_cosigners_path()), content); !c.findings.empty())
+        wrong("a cosigned note does not hold: " + all(c.findings));
+  });
+}
+
+void SchoolDay::restore_from_backup() {
+  const auto restore_into = [&](const std::string& folder) {
+    std::vector<std::string> paths;
+    for (const auto& [path, receipt] : receipts_) paths.push_back(path);
+    const RestorePlan plan = plan_restore(k_backup, paths, {});
+    if (!plan.findings.empty()) return wrong("the backup cannot be restored: " + all(plan.findings));
+    restore(k_backup, folder, plan, plan.last_seen ? "the disk is broken" : "", load_school_key(school_key_path()));
+  };
+  std::string folder = "/sim/office/restored";
+  if (interrupt_restore_ > 0) {
+    bool restored = false;
+    world_.plan({world_.calls() + interrupt_restore_, Event::Kind::power_cut, "office", 0});
+    world_.start("office", "restorer", [&] {
+      try {
+        restore_into(folder);
+        restored = true;
+      } catch (const std::exception& e) {
+        wrong(std::string("restoring: ") + e.what());
+      }
+    });
+    world_.run([](Process&) {});
+    if (!restored) folder += "-2";
+    if (restored) world_.cut_power(world_.computer("office"));
+    ++counts_[restored ? "restored" : "restore interrupted"];
+    if (!restored) world_.calmly("office", [&] { restore_into(folder); });
+  } else {
+    world_.calmly("office", [&] { restore_into(folder); });
+    world_.cut_power(world_.computer("office"));
+    ++counts_["restored"];
+  }
+  world_.calmly("office", [&] {
+    const LedgerContent content = read_ledger({folder});
+    const LedgerCheck check = check_ledger({folder}, false);
+    if (!check.findings.empty()) wrong("the restored ledger does not hold: " + all(check.findings));
+    const History history(content);
+    for (const Entered& e : entries_) {
+      if (e.seq < backed_up_->size) {
+        if (e.seq >= content.entries.size() || content.entries[e.seq].text != e.text)
+          wrong("entry " + std::to_string(e.seq) + " was in the backup, and is not restored");
+        continue;
+      }
+      if (e.seq < content.entries.size() && content.entries[e.seq].text == e.text) continue;
+      const Checkpoint seen = checkpoint_in(e.receipt.at("checkpoint"), content.id, content.public_key, "receipt");
+      if (history.recorded_loss(seen) == nullptr) wrong("entry " + std::to_string(e.seq) + " is lost, and no restore entry says so");
+    }
+    Ledger ledger(folder, load_school_key(school_key_path()));
+    ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "nobody"}}; });
+  });
+}
+
+}  // namespace cavum::simulation
