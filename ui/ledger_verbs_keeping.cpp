@@ -58,6 +58,7 @@ void ledger_erase(const LedgerOptions& o) {
   if (!names_some) {
     if (o.erase_motion || o.erase_results)
       throw Error("cavum ledger erase", "needs to know of which sessions", "give --session for each, or --before");
+    ledger.wipe();
     const auto removed = remove_erased_recordings(ledger.content(), ledger.places());
     std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
     return;

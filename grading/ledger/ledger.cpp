@@ -96,6 +96,8 @@ void Ledger::reload() {
                 "name that key's file with --key, or restore it; `cavum ledger key --replace` that was cut off goes on when it is run again");
 }
 
+void Ledger::wipe() { wipe_erased(database_, places_.database()); }
+
 void Ledger::refresh() {
   if (static_cast<std::uint64_t>(database_.integer("SELECT count(*) FROM entry")) != content_.entries.size()) reload();
 }
@@ -134,8 +136,8 @@ const LedgerEntry& Ledger::append_signed(const std::string& kind, const MakeBody
   for (const Bytes& d : documents) content_.documents[to_hex(sha256(d))] = d;
   tell_witness(content_.id, p);
   if (erases) {
-    wipe_erased(database_);
     reload();
+    wipe();
   }
   return content_.entries.back();
 }

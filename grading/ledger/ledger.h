@@ -42,6 +42,8 @@ class Ledger {
   /// present key signs that, and `next` the entry and all that follow. Throws Error.
   void change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason);
   [[nodiscard]] nlohmann::json receipt(std::uint64_t seq) const { return make_receipt(content_, seq); }
+  /// Writes over on disk what entries have taken out. append() does so; this is for a program that was killed meanwhile. Throws Error.
+  void wipe();
   /// Keeps what other parties have signed of the checkpoint of `size` entries. They were checked before.
   void keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures);
 

@@ -102,7 +102,11 @@ void insert(Database& db, const LedgerEntry& e, const std::string& note, std::sp
   db.prepare("INSERT INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(e.seq + 1)).bind(2, note).run();
 }
 
-void wipe_erased(Database& db) { db.run("PRAGMA wal_checkpoint(TRUNCATE)"); }
+void wipe_erased(Database& db, const std::string& where) {
+  if (db.integer("PRAGMA wal_checkpoint(TRUNCATE)") != 0)
+    throw Error(where, "what was erased is still in its log, which another program is reading",
+                "end that program, and run `cavum ledger erase` again");
+}
 
 void insert_note(Database& db, std::uint64_t size, const std::string& note) {
   db.prepare("INSERT OR IGNORE INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, note).run();

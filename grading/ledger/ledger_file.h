@@ -23,8 +23,8 @@ void migrate(Database& database, const std::string& where);
 /// Adds an entry with its openings, the note of its checkpoint, and the documents that the entry names, each unless it is there already; takes out
 /// what it says is erased.
 void insert(Database& database, const LedgerEntry& entry, const std::string& note, std::span<const Bytes> documents);
-/// Writes over on disk, in file and log, what was taken out.
-void wipe_erased(Database& database);
+/// Writes over on disk, in file and log, what was taken out. Throws Error when a program that reads the ledger keeps the log in use for 30 s.
+void wipe_erased(Database& database, const std::string& where);
 /// Adds the note of a checkpoint, unless it is there already.
 void insert_note(Database& database, std::uint64_t size, const std::string& note);
 /// Adds what another party signed of a checkpoint, unless it is there already.

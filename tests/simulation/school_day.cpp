@@ -3,6 +3,7 @@
 #include "engine/base/file.h"
 #include "grading/ledger/backup.h"
 #include "grading/ledger/check_ledger.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
@@ -170,9 +171,14 @@ void SchoolDay::issue_ticket() {
   Ledger ledger = open_ledger();
   Identities identities(ledger.places().identities());
   const std::string id = "student-" + std::to_string(world_.random().below(6));  // two people may well enrol one student
-  const std::string pseudonym = identities.enrol(id, "Name", ledger.key());
+  const std::string pseudonym = identities.enrol(id, "Name", morning_.promise.exam, ledger.key());
   known_[id] = pseudonym;
-  static_cast<void>(issue(ledger, morning_.promise, pseudonym));
+  try {
+    static_cast<void>(issue(ledger, morning_.promise, pseudonym));
+  } catch (const TicketIsLive&) {
+    ++counts_["second live ticket refused"];
+    return;
+  }
   entered(ledger, ledger.content().entries.size() - 1);
 }
 
@@ -244,7 +250,7 @@ void SchoolDay::forget_somebody() {
     return;
   }
   to_forget_.insert(pseudonym);
-  ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", pseudonym}}; });
+  forget(ledger, {pseudonym}, {.motion = true, .results = true});
   entered(ledger, ledger.content().entries.size() - 1);
   identities.forget(pseudonym);
   forgotten_.insert(pseudonym);

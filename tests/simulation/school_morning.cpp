@@ -62,7 +62,7 @@ Morning make_morning() {
     out.promise = promise(*prepare_exam(k_scenario, {}), l.content(), now - 3 * k_hour_ns, now + 3 * k_hour_ns);
     Identities identities(l.places().identities());
     for (std::size_t i = 0; i < clocks.size(); ++i)
-      tickets.push_back(issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", l.key())));
+      tickets.push_back(issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
   });
   std::vector<Bytes> files;
   world.calmly("station", [&] {

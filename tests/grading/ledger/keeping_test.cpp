@@ -135,6 +135,22 @@ TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
   expect_finding(check_ledger(school_.places(), false).findings, {"was erased by entry", "stands there again"});
 }
 
+TEST_F(Kept, AReaderThatKeepsTheLogInUseIsNamedAndTheLogIsWipedLater) {
+  Ledger ledger = school_.ledger();
+  Database reader = Database::open(school_.places().database(), false), writer = Database::open(school_.places().database(), false, k_short_wait);
+  reader.run("BEGIN");
+  EXPECT_EQ(reader.integer("SELECT count(*) FROM opening"), 1);
+  static_cast<void>(school_.ticket("4712"));
+  try {
+    wipe_erased(writer, "ledger");
+    ADD_FAILURE() << "wiped under a reader";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("another program is reading"), std::string::npos) << e.what();
+  }
+  reader.run("COMMIT");
+  EXPECT_NO_THROW(ledger.wipe());
+}
+
 TEST_F(Kept, ForgettingErasesIdentityAndRecordingOfEveryExamAndTellsNobodyWhoItWas) {
   Ledger ledger = school_.ledger();
   const json receipt = ledger.receipt(session_);
