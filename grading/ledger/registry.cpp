@@ -19,15 +19,17 @@ namespace {
 json result_in(const LedgerEntry& e) {
   const json& result = e.body.at("result");
   if (result.is_null()) return result;
-  const auto text = [](const json& j, const char* name) { return !j.contains(name) || j[name].is_string(); };
+  const auto text = [](const json& j, const char* name) { return j.contains(name) && j[name].is_string(); };
   const auto number = [](const json& j, const char* name) { return j.contains(name) && j[name].is_number(); };
   const auto criterion = [&](const json& c) {
-    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") && text(c, "reason") && number(c, "points") && number(c, "max") &&
-           c.contains("value") && (c["value"].is_null() || c["value"].is_number());
+    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") && (!c.contains("reason") || text(c, "reason")) &&
+           number(c, "points") && number(c, "max") && c.contains("value") && (c["value"].is_null() || c["value"].is_number());
   };
   const json &score = member_of(result, "score"), &criteria = member_of(result, "criteria");
   const bool sound = result.is_object() && text(result, "verdict") && score.is_object() && number(score, "points") && number(score, "max") &&
-                     criteria.is_array() && std::all_of(criteria.begin(), criteria.end(), criterion);
+                     (!score.contains("pass_percent") || number(score, "pass_percent")) &&
+                     (!score.contains("borderline_percent") || number(score, "borderline_percent")) && criteria.is_array() &&
+                     std::all_of(criteria.begin(), criteria.end(), criterion);
   if (!sound) throw Error("result", "is none as grading writes it", "use an intact copy");
   return result;
 }

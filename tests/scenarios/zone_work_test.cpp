@@ -64,8 +64,8 @@ TEST(ZoneWork, ATargetOfTheWholeToothIsRefused) {
 
 TEST(ZoneWork, ManyTissuesGrownAreRefused) {
   const std::string grown = "[[zones.target]]\nshape = \"tissue\"\ntissue = \"dentin\"\noffset_mm = 5\n";
-  expect_refused(grown, "12000000");
-  expect_refused(times(12, "[[zones.target]]\nshape = \"tissue\"\ntissue = \"pulp\"\noffset_mm = 2\n"), "12000000");
+  expect_refused(times(2, grown), "20000000");
+  expect_refused(times(12, "[[zones.target]]\nshape = \"tissue\"\ntissue = \"pulp\"\noffset_mm = 2\n"), "20000000");
 }
 
 TEST(ZoneWork, ManyPiecesAtEachLeafAreRefused) {
