@@ -142,13 +142,13 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   std::error_code none;
   if (fs::weakly_canonical(folder, none) == fs::weakly_canonical(from.folder, none))
     throw Error(folder, "is the ledger itself", "name another folder");
-  make_private_folder(folder);
-  const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
   const LedgerContent now = read_ledger(from);
   if (!now.findings.empty())
     throw Error(from.folder, "the ledger does not hold (" + now.findings[0] + "), and a backup of it would be taken for one that does",
                 "see `cavum ledger verify`; to keep it as evidence, copy the folder");
-  require_place_for(now, folder);
+  make_private_folder(folder);
+  const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
+  require_place_for(read_ledger(from), folder);  // as it is by now: whoever held the folder may have put a later state there
   copy_database(from.database(), to.database());
   const LedgerContent copy = read_ledger(to, AskWitness::no);
   if (!copy.findings.empty()) throw Error(to.database(), "the copy does not hold (" + copy.findings[0] + ")", "check the disk, and take it again");

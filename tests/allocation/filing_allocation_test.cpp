@@ -63,6 +63,7 @@ class FilingWithoutMemory : public testing::Test {
     auto now = texts_of(read_ledger(places));
     if (!filing && now != before_) return {at + "the ledger was changed, and yet: " + said, requests};
     if (!filing) {
+      keep_memory_reserve();  // the next program
       Ledger ledger(folder, load_school_key(school_key_path()));
       const Filing again = file_session(ledger, exam, {}, grounds_);
       if (!again.seq) return {at + "afterwards it cannot be filed: " + again.findings[0], requests};
