@@ -70,6 +70,7 @@ class EventsAgain {
     return findings;
   }
 
+  [[nodiscard]] const Tooth& start_tooth() const noexcept { return ground_->tooth; }
   /// Those of the motion, and what else the station recorded.
   [[nodiscard]] std::vector<SessionEvent> events() const {
     std::vector<SessionEvent> all = again_;
@@ -158,10 +159,11 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::exception& e) {
     out.findings.push_back(std::string("scenario: ") + e.what());
   }
-  out.replay = verify_session(session, "",
-                              events ? [&](std::int64_t tick, const TickInput& input, const TickOutput& output,
-                                           const ServoState& state) { events->see(tick, input, output, state); }
-                                     : TickVisitor{});
+  Tooth final_tooth;
+  const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
+    events->see(tick, input, output, state);
+  };
+  out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, {events ? &events->start_tooth() : nullptr, &final_tooth});
   out.findings.insert(out.findings.begin(), out.replay.findings.begin(), out.replay.findings.end());
   // Whole and repeated to the last tick: only such a motion is marked, damaged or forged facts beside it or not.
   const bool repeated =
@@ -169,7 +171,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   if (!repeated) return out;
   for (auto& f : events->differences(session.ticks())) out.findings.push_back(std::move(f));
   try {
-    const auto graded = load_for_grading(session, load_tooth(session.final_tooth(), session.path() + ": final tooth"), grounds);
+    const auto graded = load_for_grading(session, std::move(final_tooth), grounds);
     graded->events = events->events();
     out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), "result");
   } catch (const std::bad_alloc&) {

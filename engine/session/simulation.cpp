@@ -2,9 +2,9 @@
 
 namespace cavum {
 
-Simulation make_simulation(const SessionSetup& setup, const std::string& where) {
+Simulation make_simulation(const SessionSetup& setup, const std::string& where, const Tooth* start) {
   Simulation s;
-  s.tooth = load_tooth(setup.tooth, where + ": start_tooth.cvt");
+  s.tooth = start != nullptr ? *start : load_tooth(setup.tooth, where + ": start_tooth.cvt");
   std::vector<DiamondPoint> tray;
   for (std::size_t i = 0; i < setup.points_toml.size(); ++i)
     tray.push_back(parse_diamond_point(setup.points_toml[i], where + ": diamond point " + std::to_string(i)));

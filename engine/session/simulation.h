@@ -21,7 +21,8 @@ using TickVisitor = std::function<void(std::int64_t tick, const TickInput& input
 
 /// Throws Error when the tooth, a diamond point, the force model or the servo settings cannot be used;
 /// `where` precedes the name of the part.
-[[nodiscard]] Simulation make_simulation(const SessionSetup& setup, const std::string& where);
+/// With `start`, the setup's tooth as somebody has read it already, that is copied instead of read again.
+[[nodiscard]] Simulation make_simulation(const SessionSetup& setup, const std::string& where, const Tooth* start = nullptr);
 
 /// The tooth as it is now; save_tooth of it is what a session keeps on closing.
 [[nodiscard]] Tooth drilled_tooth(const Simulation& simulation);

@@ -86,11 +86,12 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
   }
 }
 
-void compare_final_tooth(const SessionReader& session, const Simulation& simulation, VerifyReport& report) {
+void compare_final_tooth(const SessionReader& session, const Simulation& simulation, const VerifyTeeth& teeth, VerifyReport& report) {
   try {
-    const Tooth kept = load_tooth(session.final_tooth(), session.path() + ": final_tooth.cvt");
+    Tooth kept = load_tooth(session.final_tooth(), session.path() + ": final_tooth.cvt");
     if (tooth_hash(kept) != tooth_hash(drilled_tooth(simulation)))
       report.findings.push_back("table artifact: the final tooth is not the one that the replay leaves");
+    if (teeth.final_out != nullptr) *teeth.final_out = std::move(kept);
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
@@ -98,7 +99,7 @@ void compare_final_tooth(const SessionReader& session, const Simulation& simulat
   }
 }
 
-void simulate_and_compare(const SessionReader& session, const TickVisitor& visit, VerifyReport& report) {
+void simulate_and_compare(const SessionReader& session, const TickVisitor& visit, const VerifyTeeth& teeth, VerifyReport& report) {
   const auto recorded_physics = session.number("physics_version", 0);
   if (recorded_physics != k_physics_version) {
     report.findings.push_back("table meta: recorded under physics " + std::to_string(recorded_physics) + ", this program has " +
@@ -108,10 +109,10 @@ void simulate_and_compare(const SessionReader& session, const TickVisitor& visit
   const auto start = std::chrono::steady_clock::now();
   double tick_s = 0;
   try {
-    Simulation simulation = make_simulation(session.setup(), session.path());
+    Simulation simulation = make_simulation(session.setup(), session.path(), teeth.start);
     tick_s = simulation.model.config.tick_s;
     replay(session, simulation, visit, report);
-    if (report.closed && report.ticks_replayed == report.ticks) compare_final_tooth(session, simulation, report);
+    if (report.closed && report.ticks_replayed == report.ticks) compare_final_tooth(session, simulation, teeth, report);
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
@@ -131,7 +132,8 @@ VerifyReport verify_session(const std::string& path, const std::string& expected
   return verify_session(SessionReader(path), expected_station_key);
 }
 
-VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key, const TickVisitor& visit) {
+VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key, const TickVisitor& visit,
+                            const VerifyTeeth& teeth) {
   VerifyReport report;
   report.file = session.path();
   report.closed = session.closed();
@@ -145,7 +147,7 @@ VerifyReport verify_session(const SessionReader& session, const std::string& exp
   if (session.seal()) report.station_key = to_hex(session.seal()->public_key);
   if (!expected_station_key.empty() && session.seal() && report.station_key != expected_station_key)
     report.findings.push_back("table seal: closed by station " + report.station_key + ", not by the one expected");
-  simulate_and_compare(session, visit, report);
+  simulate_and_compare(session, visit, teeth, report);
   report.intact = report.findings.empty() && !report.first_divergence;
   if (!report.closed)
     report.findings.push_back("table seal: none, the session was never closed; " + std::to_string(report.ticks) +

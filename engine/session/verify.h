@@ -35,11 +35,18 @@ struct VerifyReport {
   std::string station_key;            ///< public key that signed, hexadecimal; empty when not closed
 };
 
+/// Teeth that somebody else has, or wants to have: unpacking one takes as long as simulating a third of a minute.
+struct VerifyTeeth {
+  const Tooth* start = nullptr;  ///< the session's own, as it was read already; else it is read
+  Tooth* final_out = nullptr;    ///< receives the final tooth as the session keeps it, when the replay came to its end
+};
+
 /// Throws Error only when the file cannot be read as a session at all; damage is in the report. With
 /// `expected_station_key` (hexadecimal) a session closed by any other station is not verified: whoever can
 /// simulate can also forge a whole new session, but not sign it with a key that is not theirs.
 [[nodiscard]] VerifyReport verify_session(const std::string& path, const std::string& expected_station_key = "");
 /// The same of a session that was read already; `visit` sees each tick as it is simulated.
-[[nodiscard]] VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key = "", const TickVisitor& visit = {});
+[[nodiscard]] VerifyReport verify_session(const SessionReader& session, const std::string& expected_station_key = "", const TickVisitor& visit = {},
+                                          const VerifyTeeth& teeth = {});
 
 }  // namespace cavum
