@@ -70,6 +70,7 @@ class EventsAgain {
     return findings;
   }
 
+  [[nodiscard]] std::vector<std::string> servo_findings() const { return check_servo(setup_.servo_toml, scenario_); }
   [[nodiscard]] const Tooth& start_tooth() const noexcept { return ground_->tooth; }
   /// Those of the motion, and what else the station recorded.
   [[nodiscard]] std::vector<SessionEvent> events() const {
@@ -165,6 +166,8 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   };
   out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, {events ? &events->start_tooth() : nullptr, &final_tooth});
   out.findings.insert(out.findings.begin(), out.replay.findings.begin(), out.replay.findings.end());
+  if (events)
+    for (auto& f : events->servo_findings()) out.findings.push_back(std::move(f));
   // Whole and repeated to the last tick: only such a motion is marked, damaged or forged facts beside it or not.
   const bool repeated =
       out.replay.closed && out.replay.ticks_replayed == out.replay.ticks && out.replay.ticks_different == 0 && !out.replay.first_divergence && events;

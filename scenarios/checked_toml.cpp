@@ -122,6 +122,7 @@ std::string CheckedTable::text(std::string_view key, const std::string& fallback
     return fallback;
   }
   std::string s = node->value<std::string>().value_or(fallback);
+  if (s.find('\0') != std::string::npos) problem(key, "'" + std::string(key) + "' holds a zero byte", "leave it out");
   if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, "'" + std::string(key) + "' is empty", "write a text");
   return s;
 }

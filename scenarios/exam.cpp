@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/text.h"
 #include "scenarios/rubric_check.h"
 #include "scenarios/surface_files.h"
 
@@ -108,6 +109,30 @@ std::string force_model_path(const std::string& wanted, const std::string& near_
 }
 
 std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }
+
+std::vector<std::string> check_servo(const std::string& servo_toml, const Scenario& scenario) {
+  const ServoConfig is = parse_servo_config(servo_toml, "servo.toml"), usual;
+  std::vector<std::string> findings;
+  const auto same = [&](const char* name, double value, double wanted) {
+    if (value != wanted)
+      findings.push_back("servo.toml: " + std::string(name) + " is " + plain_number(value) + ", and exams of this scenario run with " +
+                         plain_number(wanted));
+  };
+  const auto at_most = [&](const char* name, double value, double most) {
+    if (!(value > 0 && value <= most)) same(name, value, most);
+  };
+  constexpr double k_coarsest_mm = 0.1;  // no stylus for exams resolves less
+  same("tick_s", is.tick_s, usual.tick_s);
+  same("max_rpm", is.max_rpm, scenario.max_rpm);
+  same("spin_up_s", is.spin_up_s, usual.spin_up_s);
+  same("slew_n_per_s", is.limits.slew_n_per_s, usual.limits.slew_n_per_s);
+  same("sustained_budget_n_s", is.limits.sustained_budget_n_s, usual.limits.sustained_budget_n_s);
+  same("watchdog_s", is.limits.watchdog_s, usual.limits.watchdog_s);
+  at_most("peak_n", is.limits.peak_n, usual.limits.peak_n);
+  at_most("continuous_n", is.limits.continuous_n, usual.limits.continuous_n);
+  if (is.position_quantum_mm > k_coarsest_mm) same("position_quantum_mm", is.position_quantum_mm, k_coarsest_mm);
+  return findings;
+}
 
 std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
   auto setup = std::make_unique<ExamSetup>();

@@ -163,6 +163,7 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--key", o->key, "the cosigner's own key, made when there is none (default: $CAVUM_HOME/cosigner.key)");
   v->add_option("--name", o->name_of_cosigner, "name that stands in the signature (default: cavum.cosigner/ and the key's first digits)");
   v->add_option("--school-key", o->school_key, "the school's public key, the first time: 64 hexadecimal digits, from the school itself");
+  v->add_option("--key-receipt", o->receipts, "receipt of the entry by which the school replaced its key (`cavum ledger receipt`); may be repeated");
   v->add_option("--state", o->state, "folder that remembers what was signed (default: $CAVUM_HOME/cosigned)");
   v->add_option("--out", o->out, "the note with the cosignature, to write")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");

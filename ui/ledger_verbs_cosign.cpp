@@ -3,6 +3,8 @@
 #include <iostream>
 
 #include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/session/session.h"
 #include "grading/ledger/cosign.h"
 #include "ui/ledger_verbs_parts.h"
@@ -34,6 +36,11 @@ int ledger_cosign(const LedgerOptions& o) {
   Cosigner cosigner;
   cosigner.memory = o.state.empty() ? cosigner_memory_path() : o.state;
   cosigner.school_key = o.school_key.empty() ? "" : parse_public_key(o.school_key, "--school-key");
+  for (const auto& path : o.receipts) {
+    const json receipt = parse_json_or_null(read_text_file(path));
+    cosigner.key_entries.push_back(text_in(receipt, "entry"));
+    if (cosigner.key_entries.back().empty()) throw Error(path, "is no receipt", "name the receipt of the entry by which the school replaced its key");
+  }
   const std::string request = read_text_file(o.folder);
   require_own_places({{"--out " + o.out, o.out}}, {{"", o.folder}, {"", o.key}});
   if (!o.overwrite && std::filesystem::exists(o.out)) throw Error("--out " + o.out, "is there already", "name another file, or add --overwrite");

@@ -95,7 +95,8 @@ void ledger_key(const LedgerOptions& o) {
   write_text_file(school_public_key_path(), now + "\n");
   std::cout << "the school's key is now " << now << "\nthe one before it is kept as " << old_key_path(path, before)
             << ": other ledgers of the school still need it\ncopy " << school_public_key_path()
-            << " to each station; tell cosigners the new key (`cavum ledger cosign --school-key`); back up the new key\n";
+            << " to each station; give cosigners the receipt of entry " << read_ledger({o.folder}).keys.back().first_size - 1
+            << " (`cavum ledger cosign --key-receipt`); back up the new key\n";
 }
 
 }  // namespace cavum

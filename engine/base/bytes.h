@@ -77,7 +77,9 @@ class ByteReader {
     for (int shift = 0; shift < 64; shift += 7) {
       const auto b = get<std::uint8_t>();
       v |= static_cast<std::uint64_t>(b & 0x7f) << shift;
-      if ((b & 0x80) == 0) return v;
+      if ((b & 0x80) != 0) continue;
+      if (b == 0 && shift > 0) fail("a number is written longer than it is");
+      return v;
     }
     fail("a number is too long");
   }

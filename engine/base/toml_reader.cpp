@@ -52,6 +52,7 @@ std::string TomlReader::text(std::string_view key) {
   if (node == nullptr) fail(key, "is missing", "add it");
   const auto value = node->value<std::string>();
   if (!value) fail(key, "is not text", "write it in quotes");
+  if (value->find('\0') != std::string::npos) fail(key, "holds a zero byte", "leave it out");
   return *value;
 }
 

@@ -1,7 +1,10 @@
 #include "engine/session/chain_check.h"
 
 #include <algorithm>
+#include <cstdlib>
 
+#include "engine/base/text.h"
+#include "engine/servo/servo.h"
 #include "engine/session/chain.h"
 #include "engine/session/station_key.h"
 
@@ -32,6 +35,23 @@ void check_artifacts(const SessionReader& session, Findings& findings) {
     if (sha256(a.bytes) != a.sha256) findings.push_back("table artifact: '" + a.name + "' was changed after it was recorded");
   for (const char* name : {"scenario.toml", "start_tooth.cvt", "point_000.toml", "force_model.toml", "servo.toml"})
     if (session.artifact(name) == nullptr) findings.push_back(std::string("table artifact: '") + name + "' is missing");
+}
+
+/// Facts that say what a file of the recording says, too: neither may say otherwise.
+void check_facts(const SessionReader& session, Findings& findings) {
+  if (session.fact("format") != std::to_string(k_session_format))
+    findings.push_back("table meta: the format is said to be '" + one_line(session.fact("format")) + "', and this is format " +
+                       std::to_string(k_session_format));
+  const auto* servo = session.artifact("servo.toml");
+  if (servo == nullptr) return;
+  try {
+    const double tick_s = parse_servo_config({servo->bytes.begin(), servo->bytes.end()}, "servo.toml").tick_s;
+    if (std::strtod(session.fact("tick_s").c_str(), nullptr) != tick_s)
+      findings.push_back("table meta: a tick is said to last '" + one_line(session.fact("tick_s")) + "' s, and by servo.toml it lasts " +
+                         plain_number(tick_s) + " s");
+  } catch (const Error& e) {
+    findings.push_back(without_advice(e.what()));
+  }
 }
 
 void check_chunks(const SessionReader& session, Findings& findings) {
@@ -97,6 +117,7 @@ void check_seal(const SessionReader& session, Findings& findings) {
 std::vector<std::string> check_chain(const SessionReader& session) {
   Findings findings;
   check_artifacts(session, findings);
+  check_facts(session, findings);
   check_beginning(session, findings);
   check_chunks(session, findings);
   check_seal(session, findings);

@@ -95,6 +95,7 @@ Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std:
   const auto size = ZSTD_getFrameContentSize(packed.data(), packed.size());
   if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) damaged(where, "the packed data have no valid beginning");
   if (size < least || size > most) damaged(where, "the packed data claim " + std::to_string(size) + " bytes, which does not fit the ticks");
+  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) damaged(where, "the packed data are not one frame");
   Bytes raw(size);
   const auto n = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
   if (ZSTD_isError(n) || n != size) damaged(where, "the packed data do not unpack");

@@ -90,7 +90,9 @@ SigningKey load_station_key(const std::string& path) {
   return key;
 }
 
-void remember_enrolled(const std::string& path, const SigningKey& key) { write_private_text_file(enrolled_path(path), to_hex(key.public_key) + "\n"); }
+void remember_enrolled(const std::string& path, const SigningKey& key) {
+  write_private_text_file(enrolled_path(path), to_hex(key.public_key) + "\n");
+}
 
 std::string parse_public_key(const std::string& text, const std::string& where) {
   std::string key = text;

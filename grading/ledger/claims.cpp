@@ -89,6 +89,8 @@ std::vector<std::string> check_hand(const Registry& registry, const SessionReade
     if (!options.simulated) findings.push_back("no candidate's hand moved this exam, but '" + by + "' (--simulated files it as that)");
     return findings;
   }
+  if (session.fact(k_station_fact).empty())
+    findings.emplace_back("the recording does not say which station began it, and bears no signature of its beginning");
   const std::string key = to_hex(session.seal()->public_key);
   if (std::string why = registry.stations.problem(key, session.seal()->clocks.utc_ns, received_utc_ns); !why.empty()) {
     findings.push_back(std::move(why));

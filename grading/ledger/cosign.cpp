@@ -10,6 +10,7 @@
 #include "grading/ledger/folder_lock.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
+#include "grading/ledger/school_keys.h"
 
 namespace cavum {
 namespace {
@@ -64,6 +65,17 @@ std::optional<Memory> remembered(const std::string& path, const std::string& led
   return m;
 }
 
+/// The key that the school has now, by entries in which each key before it signs for the next.
+std::string successor_of(std::string key, const std::string& ledger_id, const std::vector<std::string>& key_entries) {
+  for (std::size_t i = 0; i < key_entries.size(); ++i)  // in whatever order they are given
+    for (const auto& entry : key_entries)
+      if (const auto next = successor_named_by(entry, ledger_id, key); next && *next != key) {
+        key = *next;
+        break;
+      }
+  return key;
+}
+
 std::string entries(std::uint64_t n) { return std::to_string(n) + (n == 1 ? " entry" : " entries"); }
 
 /// Why the checkpoint does not go on from what is remembered.
@@ -109,16 +121,16 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const auto memory = remembered(path, id);
   if (!memory && cosigner.school_key.empty())
     throw Error(where, "is of a ledger that this cosigner does not know", "name its school's public key with --school-key, from the school itself");
-  // a key that a person names takes the place of the one that is remembered: the proof from what was signed before is asked for all the same
-  const std::string school = cosigner.school_key.empty() ? memory->school_key : cosigner.school_key;
+  if (memory && !cosigner.school_key.empty() && cosigner.school_key != memory->school_key)
+    throw Error("--school-key", "is not the key of the ledger that was cosigned before",
+                "leave it out; that the school replaced its key is shown by the receipt of that entry (--key-receipt)");
+  const std::string school = memory ? successor_of(memory->school_key, id, cosigner.key_entries) : cosigner.school_key;
   const ReadCheckpoint read = parse_checkpoint(request.note, school, where);
   const Checkpoint& p = read.checkpoint;
   Cosigned out{{}, id, p.size, {}};
   if (!is_signed_by_school(id, school, p)) {
     out.findings.emplace_back("the school's signature does not hold: the checkpoint was changed, or is signed by another key" +
-                              std::string(cosigner.school_key.empty()
-                                              ? "; if the school says that it replaced its key, name the new one with --school-key"
-                                              : " than --school-key"));
+                              std::string(memory ? "; where the school replaced its key, the receipt of that entry shows it (--key-receipt)" : ""));
     return out;
   }
   const std::uint64_t last = memory ? memory->last.size : 0;

@@ -22,6 +22,7 @@ struct Cosigner {
   SigningKey key;
   std::string memory;        ///< folder with a file for each ledger, ID: the school's key line, then the last note that was cosigned
   std::string school_key{};  ///< 64 hexadecimal digits; needed for a ledger that it does not remember, and compared for one that it does
+  std::vector<std::string> key_entries{};  ///< texts of entries `key` by which the school replaced the key that is remembered
 };
 struct Cosigned {
   std::vector<std::string> findings;  ///< why it was refused; then nothing is signed or remembered

@@ -7,6 +7,8 @@
 #include "engine/session/station_check.h"
 #include "engine/session/verify.h"
 #include "grading/ledger/ticket.h"
+#include "grading/session_input.h"
+#include "scenarios/exam.h"
 
 namespace cavum {
 
@@ -43,7 +45,8 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   if (!ticket_text.empty()) {
     try {
       const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
-      const auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
+      auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
+      for (auto& f : check_servo(setup.servo_toml, scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
       e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
       if (wrong.empty())
         e.proved.push_back("the school with key " + ticket.public_key + " promised this exam to candidate " + ticket.candidate +

@@ -51,6 +51,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   ledger.refresh();
   const Bytes image = read_session_image(path, out.findings);
   const SessionReader session(image, path);
+  if (!session.closed() && !session.findings().empty()) throw Error(path, "is damaged: " + session.findings().front(), "use an intact copy");
   if (!session.closed())
     throw Error(path, "was never closed", "resume the exam, or close it as it stands: `cavum exam --resume --end --out " + path + "`");
   const SchoolMark mark = mark_again(session, grounds);

@@ -81,6 +81,10 @@ Identities::Identities(const std::string& path, bool may_make)
     throw Error(path, "was written by a newer version of Cavum (format " + std::to_string(format) + ")", "use that version");
   database_.run("PRAGMA secure_delete = ON");
   bring_up_to_date(database_);
+  if (database_.integer("SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\'") != 1 ||
+      database_.text("SELECT sql FROM sqlite_schema WHERE name = 'identity'") != k_table)
+    throw Error(path, "holds tables or triggers that this program did not make: who is forgotten might stay in them",
+                "restore it from a backup, and find out who changed it");
 }
 
 std::string Identities::enrol(const std::string& id, const std::string& name, const std::string& exam, const SigningKey& school) {

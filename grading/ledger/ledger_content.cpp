@@ -32,7 +32,9 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
   if (leaf_hash(ledger_bytes(e.text)) != leaf) findings.push_back(name + ": its text was changed after it was entered");
   try {
     const json j = parse_json(e.text, name);
+    if (j.dump() != e.text) findings.push_back(name + ": is not written as this program writes entries: keys, spaces or numbers");
     e.kind = j.at("kind").get<std::string>();
+    if (e.kind == "init" && seq != 0) findings.push_back(name + ": begins a ledger a second time");
     e.body = j.at("body");
     e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", name);
     e.attachment = std::move(attachment);

@@ -133,6 +133,8 @@ class RegistryReader {
   void begin(const LedgerEntry& e) {
     const Begin b = parse_begin(e.body.dump(), content_.key_of(e.seq + 1), "begin");
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
+    constexpr std::int64_t k_moment_ns = 60'000'000'000;
+    if (std::abs(b.utc_ns - e.utc_ns) > k_moment_ns) say(e, "lets an exam begin at another time than it was entered");
     if (b.ledger != content_.id) say(e, "lets an exam of another ledger begin");
     t.begins.push_back({e.seq, b.nonce, b.utc_ns});
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session.h"
@@ -40,19 +41,26 @@ void read_school_keys(LedgerContent& c) {
   c.keys.assign(1, {1, text_in(c.entries.at(0).body, "public_key"), 0});
   for (const auto& e : c.entries) {
     if (e.kind == "key") {
-      const SchoolKey& before = c.keys.back();
-      const SchoolKey next{e.seq + 1, text_in(e.body, "public_key"), whole_in(e.body, "until_utc_ns")};
-      if (!is_hex_key(next.public_key) ||
-          !is_signed_by(before.public_key, message_of(c.id, before.public_key, next.public_key, next.until_utc_ns), text_in(e.body, "signature")))
-        c.findings.push_back("entry " + std::to_string(e.seq) + ": names a key that the school's key before it has not signed");
+      if (const auto next = successor_named_by(e.text, c.id, c.keys.back().public_key))
+        c.keys.push_back({e.seq + 1, *next, whole_in(e.body, "until_utc_ns")});
       else
-        c.keys.push_back(next);
+        c.findings.push_back("entry " + std::to_string(e.seq) + ": names a key that the school's key before it has not signed");
     } else if (const SchoolKey& k = c.keys.back(); k.until_utc_ns > 0 && e.utc_ns > k.until_utc_ns) {
       c.findings.push_back("entry " + std::to_string(e.seq) + ": was entered on " + utc_text(e.utc_ns) + ", and the school's key had run out on " +
                            utc_text(k.until_utc_ns));
     }
   }
   c.public_key = c.keys.back().public_key;
+}
+
+std::optional<std::string> successor_named_by(const std::string& entry_text, const std::string& ledger_id, const std::string& present) {
+  const json entry = parse_json_or_null(entry_text);
+  const json& body = member_of(entry, "body");
+  const std::string next = text_in(body, "public_key");
+  if (text_in(entry, "kind") != "key" || !is_hex_key(next) ||
+      !is_signed_by(present, message_of(ledger_id, present, next, whole_in(body, "until_utc_ns")), text_in(body, "signature")))
+    return {};
+  return next;
 }
 
 void require_key_in_time(const LedgerContent& c, std::int64_t now_utc_ns) {

@@ -2,6 +2,7 @@
 // nobody without it can go on in its place. A key may run out: nothing is entered after that until another one took over.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "grading/ledger/ledger_content.h"
@@ -13,6 +14,8 @@ class Ledger;
 /// Reads `keys` and `public_key` from the entries; adds findings for a key that the one before it has not signed, and for what was entered after a
 /// key ran out.
 void read_school_keys(LedgerContent& content);
+/// The key that an entry's text introduces in a ledger, when `present` (hexadecimal) has signed for it; else nothing.
+[[nodiscard]] std::optional<std::string> successor_named_by(const std::string& entry_text, const std::string& ledger_id, const std::string& present);
 /// Throws Error when the school's key has run out by `now_utc_ns`.
 void require_key_in_time(const LedgerContent& content, std::int64_t now_utc_ns);
 

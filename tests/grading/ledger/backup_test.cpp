@@ -273,6 +273,16 @@ TEST_F(BackedUp, IsRestoredAgainAfterTheRestoredOneWasLost) {
   EXPECT_FALSE(check_ledger(restored(), false).findings.empty());
 }
 
+TEST_F(BackedUp, OneWhoseLastEntriesWereCutOffIsNotTheOneThatWasTaken) {
+  back_up();
+  test::tamper(
+      LedgerPlaces{backup()}.database(),
+      "DROP TRIGGER entry_is_kept; DROP TRIGGER note_is_kept; DELETE FROM entry WHERE seq = (SELECT max(seq) FROM entry); DELETE FROM note WHERE "
+      "size = (SELECT max(size) FROM note); CREATE TRIGGER entry_is_kept BEFORE DELETE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append "
+      "only'); END; CREATE TRIGGER note_is_kept BEFORE DELETE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;");
+  expect_finding(plan_restore(backup(), {}, {}).findings, {"it was changed since"});
+}
+
 TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
   const std::string candidate = read_registry(read_ledger(school_.places())).sessions.at(0).candidate;
   const Bytes names = read_file(school_.places().identities());

@@ -239,6 +239,13 @@ TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
   }
 }
 
+TEST(Pseudonyms, AFileOfThemThatKeepsWhoIsForgottenIsRefused) {
+  const School school;
+  test::tamper(school.places().identities(),
+               "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END");
+  EXPECT_THROW(Identities(school.places().identities()), Error);
+}
+
 TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
   const School school;
   const std::string path = school.file("old.db");

@@ -65,6 +65,23 @@ TEST_F(SchoolKeys, ReplacedThenTheNewOneSignsAndAllOfBeforeStaysProved) {
   expect_holds();
 }
 
+TEST_F(SchoolKeys, ResultsSignedByTheOldKeyAfterItWasReplacedAreFound) {
+  const SigningKey old = School::key();
+  static_cast<void>(replace());
+  const LedgerContent c = read_ledger(school_.places());
+  nlohmann::json facts = nlohmann::json::parse([&] {
+    const Ledger ledger = school_.ledger();
+    return signed_results(read_registry(ledger.content()), ledger);
+  }());
+  facts.erase("signature");
+  facts["public_key"] = to_hex(old.public_key);
+  const Checkpoint& last = c.checkpoints.back();
+  const Checkpoint forged = sign_checkpoint(c.id, last.size, last.root, last.utc_ns, old);
+  facts["checkpoint"] = checkpoint_note(c.id, to_hex(old.public_key), forged);
+  facts["signature"] = to_hex(old.sign(ledger_bytes("CVRESULT" + facts.dump())));
+  expect_finding(check_results(facts.dump(), c.public_key, &c), {"was not the school's at that time"});
+}
+
 TEST_F(SchoolKeys, TheOldKeySignsNothingMore) {
   const SigningKey old = School::key();
   static_cast<void>(replace());
@@ -139,18 +156,18 @@ TEST_F(SchoolKeys, AnOlderCopyPutBackFromBeforeTheReplacementIsFound) {
   expect_finding(read_ledger(school_.places()).findings, {"older copy of the ledger was put back"});
 }
 
-TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenAPersonNamesIt) {
+TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenTheOldOneHasSignedForIt) {
   Cosigner cosigner{"cosigner.example/one", load_signing_key(school_.file("cosigner.key"), "cosigner"), school_.file("memory"),
                     to_hex(School::key().public_key)};
   ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
-  const std::string now = replace();
+  static_cast<void>(replace());
   const LedgerContent c = read_ledger(school_.places());
   cosigner.school_key.clear();
   expect_finding(cosign(cosigner, cosign_request(c, k_first_entries), "request", 2).findings, {"signed by another key"});
-  cosigner.school_key = now;
+  cosigner.key_entries = {c.entries.at(k_first_entries - 1).text, c.entries.at(k_first_entries).text};
   const Cosigned signed_now = cosign(cosigner, cosign_request(c, k_first_entries), "request", 3);
   EXPECT_TRUE(signed_now.findings.empty());
-  cosigner.school_key.clear();
+  cosigner.key_entries.clear();
   EXPECT_TRUE(cosign(cosigner, cosign_request(c, c.entries.size()), "request", 4).findings.empty()) << "and remembers it";
   const auto check = check_cosigned(signed_now.note, {{cosigner.name, NoteKind::cosignature, cosigner.key.public_key}}, c);
   for (const auto& f : check.findings) ADD_FAILURE() << f;

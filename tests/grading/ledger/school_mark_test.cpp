@@ -164,6 +164,19 @@ TEST_F(SchoolMarks, ANoteOfAnOperatorBesideADevice) {
   expect_finding(refused(forged(school_, session_, {.setup = [](SessionSetup& s) { s.notes.emplace_back("operator", "expert"); }})),
                  {"no candidate's hand moved"});
 }
+TEST_F(SchoolMarks, AServoThatRunsOtherwiseThanTheExams) {
+  const auto with = [&](const std::string& was, const std::string& is) {
+    return forged(school_, session_, {.setup = [&](SessionSetup& setup) {
+                    const auto at = setup.servo_toml.find(was);
+                    ASSERT_NE(at, std::string::npos) << setup.servo_toml;
+                    setup.servo_toml.replace(at, was.size(), is);
+                  }});
+  };
+  expect_finding(refused(with("tick_s = 0.001", "tick_s = 0.002")), {"servo.toml: tick_s is 0.002"});
+  expect_finding(refused(with("max_rpm = ", "max_rpm = 1")), {"servo.toml: max_rpm is 1"});
+  expect_finding(refused(with("spin_up_s = 0.1", "spin_up_s = 0.0")), {"servo.toml: spin_up_s is 0.0"});
+}
+
 TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
   Ledger ledger = school_.ledger();
   const std::string code = invite_station(ledger, "Seat 2", read_clocks().utc_ns + k_hour_ns), ticket = school_.ticket("4712");
