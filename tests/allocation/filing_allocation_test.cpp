@@ -83,8 +83,8 @@ TEST_F(FilingWithoutMemory, SaysSoAndLeavesTheLedgerAsItWas) {
   const auto [wrong, requests] = file_once(0);
   ASSERT_EQ(wrong, "");
   const char* asked = std::getenv("CAVUM_ALLOCATION_EVERY");
-  const std::uint64_t every =
-      asked != nullptr ? std::max<std::uint64_t>(1, std::strtoull(asked, nullptr, 10)) : std::max<std::uint64_t>(1, requests / 120);
+  const std::uint64_t wanted = asked != nullptr ? std::strtoull(asked, nullptr, 10) : std::getenv("CAVUM_DEEP") != nullptr ? 1 : requests / 40;
+  const std::uint64_t every = std::max<std::uint64_t>(1, wanted);
   Random random(test::drawn_seed("filing without memory"));
   const std::uint64_t first = 1 + random.below(every);
   std::cout << requests << " requests, every " << every << " from " << first << "\n";

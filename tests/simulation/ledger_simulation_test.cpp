@@ -87,7 +87,8 @@ TEST(LedgerSimulation, NothingAcknowledgedIsLostAndEveryWrongClockIsNamed) {
     seeds = {day};
   } else {
     Random random(testing_basics::drawn_seed("ledger simulation"));
-    for (auto n = number_in("CAVUM_SIMULATION_SEEDS", 150); n > 0; --n) seeds.push_back(random.next());
+    for (auto n = number_in("CAVUM_SIMULATION_SEEDS", std::getenv("CAVUM_DEEP") != nullptr ? 10'000 : 100); n > 0; --n)
+      seeds.push_back(random.next());
   }
   const auto begun = std::chrono::steady_clock::now();
   Campaign campaign;
