@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/motion_source.h"
 #include "engine/session/station_check.h"

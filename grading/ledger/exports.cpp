@@ -50,16 +50,16 @@ Bytes results_message(const json& facts) {
 }  // namespace
 
 std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated) {
-  struct Exam {
+  struct Columns {
     std::vector<std::string> criteria;
     std::map<std::string, const FiledSession*> by_number;
   };
   const auto scales = own_scales(registry);
-  std::map<std::string, Exam> exams;
+  std::map<std::string, Columns> exams;
   std::set<std::string> numbers, unknown;
   for (const auto& s : registry.sessions) {
     if (s.shown.is_null() || (!s.simulated.empty() && !with_simulated)) continue;
-    Exam& exam = exams[s.scenario_id];
+    Columns& exam = exams[s.scenario_id];
     const std::string number = number_of(s, identities);
     if (number.empty())
       unknown.insert(s.candidate);
