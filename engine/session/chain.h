@@ -1,6 +1,6 @@
 // The chain of evidence: every chunk's hash covers the hash before it, so no second of an exam can be
 // changed, dropped, added or moved without breaking all that follow. The canonical bytes of each hash are
-// listed in README.md of this room.
+// listed in docs/formats/session.md.
 #pragma once
 
 #include <map>

@@ -1,6 +1,6 @@
 // Packs a second of motion. Every field of a tick becomes a column of 32-bit words; a column is stored as
 // second differences (smooth motion leaves small numbers), its bytes are sorted by significance, and zstd
-// does the rest. Any values survive exactly; differences wrap around. Layout: README.md of this room.
+// does the rest. Any values survive exactly; differences wrap around. Layout: docs/formats/session.md.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@
 
 namespace cavum {
 
-/// Version of the session file's layout (SQLite `user_version`); see README.md of this room.
+/// Version of the session file's layout (SQLite `user_version`); see docs/formats/session.md.
 inline constexpr int k_session_format = 1;
 /// SQLite `application_id`: "Cavu".
 inline constexpr std::int64_t k_session_application_id = 0x43617675;

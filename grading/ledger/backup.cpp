@@ -175,6 +175,10 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   out.ledger_id = copy.id;
   out.checkpoint = copy.checkpoints.back();
   out.missing = copy_sessions(copy, from, to, out.copied);
+  if (!out.missing.empty()) {  // some may have been erased meanwhile
+    const auto gone = erased_recordings(read_ledger(from));
+    std::erase_if(out.missing, [&](const std::string& hash) { return gone.contains(hash); });
+  }
   remove_erased_recordings(copy, to);
   out.sessions = filed_sessions(copy).size() - out.missing.size();
   if (with_identities) out.identities = copy_identities(copy, from, to);

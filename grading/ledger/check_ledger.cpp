@@ -75,6 +75,8 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
         if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
           findings.push_back(name + ": its recording is erased by entry " + std::to_string(*s.motion_erased_by) + ", and is still there: " + path +
                              "; `cavum ledger erase` without more removes it");
+      } else if (!std::filesystem::exists(path) && erased_by(read_ledger(places).erased, s.seq, k_motion)) {
+        erased += 1;  // meanwhile
       } else if (!std::filesystem::exists(path)) {
         findings.push_back(name + ": its file is gone: " + path);
       } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {

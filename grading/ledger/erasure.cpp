@@ -133,8 +133,9 @@ std::size_t remove_erased_recordings(const LedgerContent& c, const LedgerPlaces&
     const std::string path = places.session(hash);
     std::error_code none;
     if (!std::filesystem::exists(path, none)) continue;
-    if (!std::filesystem::remove(path, none))
-      throw Error(path, "is erased and cannot be removed", "make the folder writable, and run `cavum ledger erase` again");
+    std::error_code why;
+    std::filesystem::remove(path, why);  // somebody else may have been quicker
+    if (why) throw Error(path, "is erased and cannot be removed", "make the folder writable, and run `cavum ledger erase` again");
     sync_folder_of(path);
     ++removed;
   }

@@ -183,7 +183,7 @@ const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::i
   const json asked = parse_json_or_null(text, k_json_part);
   return ledger.append("station", [&](const LedgerContent& now) -> json {
     const Request request = parse_request(asked, where);
-    if (!now.has_key(request.school))
+    if (request.school != now.public_key)
       throw Error(where, "asks another school to be enrolled", "copy this school's school.pub to the station, and ask again");
     StationRegister stations = read_registry(now).stations;
     static_cast<void>(enrolled(stations, request, read_clocks().utc_ns, where));

@@ -1,6 +1,6 @@
 """Recordings (.cavum), written from the page session.md: reading, packing, hashing, signing and writing.
 
-The tables' texts are not on the page; they are taken from a recording that the program made (see `Session.read`)."""
+The tables' texts are taken from a recording that the program made (see `Session.read`)."""
 import copy
 import hashlib
 import sqlite3

@@ -1,7 +1,10 @@
 #include "tests/simulation/school_day.h"
 
+#include <algorithm>
+
 #include "engine/base/file.h"
 #include "grading/ledger/backup.h"
+#include "grading/ledger/begin.h"
 #include "grading/ledger/check_ledger.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/filing.h"
@@ -43,8 +46,8 @@ std::string all(const std::vector<std::string>& findings) {
 }  // namespace
 
 const char* name_of(Task task) {
-  static constexpr const char* k_names[k_tasks] = {"issue",  "station",    "file",   "release",          "forget", "receipt",
-                                                   "backup", "checkpoint", "cosign", "keep_cosignature", "verify"};
+  static constexpr const char* k_names[k_tasks] = {"issue",  "station",          "file",   "release", "forget", "receipt", "backup", "checkpoint",
+                                                   "cosign", "keep_cosignature", "verify", "cancel",  "begin",  "erase"};
   return k_names[static_cast<int>(task)];
 }
 
@@ -106,6 +109,7 @@ void SchoolDay::draw() {
     }
     world_.plan(e);
   }
+  if (random.below(4) == 0) replace_key_at_the_end(random.below(3) == 0 ? 0 : 1 + random.below(200));
   if (random.below(4) == 0) lose_ledger_at_the_end(random.below(2) == 0 ? 0 : 1 + random.below(250));
 }
 
@@ -159,6 +163,12 @@ void SchoolDay::perform(Task task) {
       return keep_cosignature();
     case Task::verify:
       return verify();
+    case Task::cancel:
+      return cancel_some_ticket();
+    case Task::begin:
+      return let_some_exam_begin();
+    case Task::erase:
+      return erase_some_session();
   }
 }
 
@@ -210,7 +220,8 @@ void SchoolDay::file_exam() {
   const Filing filing = file_session(ledger, exam.path, {}, grounds());
   if (filing.seq) {
     entered(ledger, *filing.seq);
-    filed_files_.insert(ledger.content().entries.at(*filing.seq).body.at("file_sha256").get<std::string>());
+    const json& body = ledger.content().entries.at(*filing.seq).body;
+    filed_files_[body.at("file_sha256")] = body.at("candidate");
     ++counts_["filed clean"];
   }
   const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + all(filing.findings));
@@ -250,10 +261,60 @@ void SchoolDay::forget_somebody() {
     return;
   }
   to_forget_.insert(pseudonym);
+  for (const auto& [hash, of] : filed_files_)
+    if (of == pseudonym) to_erase_.insert(hash);
   forget(ledger, {pseudonym}, {.motion = true, .results = true});
   entered(ledger, ledger.content().entries.size() - 1);
   identities.forget(pseudonym);
   forgotten_.insert(pseudonym);
+}
+
+void SchoolDay::cancel_some_ticket() {
+  Ledger ledger = open_ledger();
+  const Registry registry = read_registry(ledger.content());
+  const auto live = [](const IssuedTicket& t) { return !t.used_by && !t.cancelled_by && t.ticket.candidate.size() > 0; };
+  // those of the morning are sat meanwhile: an exam that was filed clean may not be taken back
+  const auto t = std::find_if(registry.tickets.rbegin(), registry.tickets.rend(), live);
+  if (t == registry.tickets.rend() || static_cast<std::size_t>(registry.tickets.rend() - t) <= morning_.exams.size()) return;
+  try {
+    entered(ledger, cancel_ticket(ledger, t->seq, "drawn").seq);
+  } catch (const Error& e) {  // somebody was quicker
+    if (std::string(e.what()).find("cancelled before") == std::string::npos) throw;
+  }
+}
+
+void SchoolDay::let_some_exam_begin() {
+  Ledger ledger = open_ledger();
+  const Registry registry = read_registry(ledger.content());
+  if (registry.tickets.size() <= morning_.exams.size()) return;
+  const IssuedTicket& t = registry.tickets.back();
+  try {
+    const std::string word = let_begin(ledger, t.ticket.nonce, "drawn");
+    entered(ledger, ledger.content().entries.size() - 1);
+    static_cast<void>(parse_begin(word, ledger.content().public_key, "word"));
+  } catch (const Error& e) {
+    const std::string what = e.what();
+    const bool clock = what.find("is good from") != std::string::npos, cancelled = what.find("was cancelled") != std::string::npos;
+    if (!clock && !cancelled) throw;
+    ++counts_[clock ? "no word outside the ticket's time" : "no word for a cancelled ticket"];
+  }
+}
+
+void SchoolDay::erase_some_session() {
+  if (filed_files_.empty()) return;
+  Ledger ledger = open_ledger();
+  auto some = filed_files_.begin();
+  std::advance(some, static_cast<long>(world_.random().below(filed_files_.size())));
+  const std::string hash = some->first;
+  for (const auto& e : ledger.content().entries) {
+    if (e.kind != "session" || e.body.at("file_sha256") != hash) continue;
+    to_erase_.insert(hash);
+    const std::uint64_t seq = e.seq;
+    if (erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;
+    entered(ledger, ledger.content().entries.size() - 1);
+    erased_.insert(hash);
+    return;
+  }
 }
 
 void SchoolDay::write_receipt() {

@@ -37,8 +37,8 @@ struct Morning {
 [[nodiscard]] Morning make_morning();
 
 /// What people do, each a run of the program.
-enum class Task { issue, station, file, release, forget, receipt, backup, checkpoint, cosign, keep_cosignature, verify };
-inline constexpr int k_tasks = static_cast<int>(Task::verify) + 1;
+enum class Task { issue, station, file, release, forget, receipt, backup, checkpoint, cosign, keep_cosignature, verify, cancel, begin, erase };
+inline constexpr int k_tasks = static_cast<int>(Task::erase) + 1;
 [[nodiscard]] const char* name_of(Task task);
 
 class SchoolDay {
@@ -50,6 +50,8 @@ class SchoolDay {
   /// These tasks, one after the other, by one person at the office (cosign: at the cosigner's).
   void give(const std::string& person, const std::vector<Task>& tasks);
   [[nodiscard]] World& world() noexcept { return world_; }
+  /// The school's key is replaced; at the call `interrupt` (0: none) the power goes first.
+  void replace_key_at_the_end(std::uint64_t interrupt) { replaces_key_ = true, interrupt_key_ = interrupt; }
   /// Runs the day, and compares at its end. What is wrong, in words; empty when nothing is.
   [[nodiscard]] std::vector<std::string> run();
   /// The office's ledger is lost, and restored from its backup, if there is one; at the call `interrupt` (0: none) the power goes first.
@@ -80,6 +82,9 @@ class SchoolDay {
   void file_exam();
   void release_all();
   void forget_somebody();
+  void cancel_some_ticket();
+  void let_some_exam_begin();
+  void erase_some_session();
   void write_receipt();
   void take_backup();
   void ask_cosigner();
@@ -95,6 +100,7 @@ class SchoolDay {
   void check_backup();
   void check_cosigner(const LedgerContent& content);
   void restore_from_backup();
+  void replace_key();
 
   const Morning& morning_;
   World world_;
@@ -102,10 +108,13 @@ class SchoolDay {
   std::vector<std::string> wrong_;
   bool loses_ledger_ = false;
   std::uint64_t interrupt_restore_ = 0;
+  bool replaces_key_ = false;
+  std::uint64_t interrupt_key_ = 0;
 
   // what was acknowledged
   std::vector<Entered> entries_;                    ///< in the order of acknowledgement
-  std::set<std::string> filed_files_;               ///< SHA-256
+  std::map<std::string, std::string> filed_files_;  ///< SHA-256 of a recording; the pseudonym of who sat
+  std::set<std::string> to_erase_, erased_;         ///< SHA-256 of recordings: begun, and acknowledged
   std::map<std::size_t, bool> filed_exams_;         ///< by number: begun to be filed, by anybody
   std::map<std::string, std::string> known_;        ///< pseudonym by the school's own number
   std::set<std::string> to_forget_, forgotten_;     ///< pseudonyms: begun, and acknowledged

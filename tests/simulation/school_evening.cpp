@@ -1,5 +1,6 @@
 // What is compared at the end of a day with what was acknowledged in its course.
 #include <algorithm>
+#include <filesystem>
 
 #include "engine/base/file.h"
 #include "grading/ledger/backup.h"
@@ -8,6 +9,7 @@
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/registry.h"
+#include "grading/ledger/school_keys.h"
 #include "grading/ledger/witness.h"
 #include "tests/simulation/school_day.h"
 
@@ -60,6 +62,7 @@ void SchoolDay::check_end() {
     if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + all(check.findings));
   });
   counts_["acknowledged"] += entries_.size();
+  if (replaces_key_ && !loses_ledger_) replace_key();
   if (loses_ledger_ && backed_up_) restore_from_backup();
 }
 
@@ -85,7 +88,10 @@ void SchoolDay::check_entries(const LedgerContent& content) {
     } catch (const std::exception& e) {
       wrong("a receipt that was written is lost: " + std::string(e.what()));
     }
-  for (const auto& hash : filed_files_) try {
+  for (const auto& hash : erased_)
+    if (std::filesystem::exists(LedgerPlaces{k_ledger}.session(hash))) wrong("a recording that was erased is there: " + hash);
+  for (const auto& [hash, who] : filed_files_) try {
+      if (to_erase_.contains(hash)) continue;
       if (to_hex(sha256(read_file(LedgerPlaces{k_ledger}.session(hash)))) != hash) wrong("a filed session's file is not what was filed: " + hash);
     } catch (const std::exception& e) {
       wrong("a filed session's file is lost: " + std::string(e.what()));
@@ -167,6 +173,36 @@ void SchoolDay::check_cosigner(const LedgerContent& content) {
     for (const auto& note : notes_)
       if (const auto c = check_cosigned(note, read_cosigners(known_cosigners_path()), content); !c.findings.empty())
         wrong("a cosigned note does not hold: " + all(c.findings));
+  });
+}
+
+void SchoolDay::replace_key() {
+  bool replaced = false;
+  const auto replace = [&] { static_cast<void>(replace_school_key(k_ledger, school_key_path(), 0, "yearly")); };
+  if (interrupt_key_ > 0) {
+    world_.plan({world_.calls() + interrupt_key_, Event::Kind::power_cut, "office", 0});
+    world_.start("office", "keeper", [&] {
+      try {
+        replace();
+        replaced = true;
+      } catch (const std::exception& e) {
+        wrong(std::string("replacing the key: ") + e.what());
+      }
+    });
+    world_.run([](Process&) {});
+  }
+  if (!replaced) world_.calmly("office", replace);
+  ++counts_[replaced || interrupt_key_ == 0 ? "key replaced" : "key replaced after a power cut"];
+  world_.cut_power(world_.computer("office"));
+  world_.calmly("office", [&] {
+    const LedgerCheck check = check_ledger({k_ledger}, false);
+    if (!check.findings.empty()) wrong("after the key was replaced the ledger does not hold: " + all(check.findings));
+    const LedgerContent content = read_ledger({k_ledger});
+    check_entries(content);
+    check_identities();
+    if (content.keys.size() < 2) wrong("the key was replaced, and the ledger does not know it");
+    Ledger ledger(k_ledger, load_school_key(school_key_path()));
+    ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "nobody"}}; });
   });
 }
 

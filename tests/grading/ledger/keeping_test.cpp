@@ -241,8 +241,10 @@ TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
 
 TEST(Pseudonyms, AFileOfThemThatKeepsWhoIsForgottenIsRefused) {
   const School school;
+  Identities(school.places().identities()).enrol("4711", "Ada", "exam", School::key());
   test::tamper(school.places().identities(),
-               "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END");
+               "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END; "
+               "UPDATE identity SET id = id");
   EXPECT_THROW(Identities(school.places().identities()), Error);
 }
 

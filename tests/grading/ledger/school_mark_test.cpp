@@ -173,7 +173,7 @@ TEST_F(SchoolMarks, AServoThatRunsOtherwiseThanTheExams) {
                   }});
   };
   expect_finding(refused(with("tick_s = 0.001", "tick_s = 0.002")), {"servo.toml: tick_s is 0.002"});
-  expect_finding(refused(with("max_rpm = ", "max_rpm = 1")), {"servo.toml: max_rpm is 1"});
+  expect_finding(refused(with("max_rpm = 2", "max_rpm = 4")), {"servo.toml: max_rpm is 4"});
   expect_finding(refused(with("spin_up_s = 0.1", "spin_up_s = 0.0")), {"servo.toml: spin_up_s is 0.0"});
 }
 
