@@ -1,5 +1,7 @@
 #include "tests/simulation/school_day.h"
 
+#include <sqlite3.h>
+
 #include <algorithm>
 
 #include "engine/base/file.h"
@@ -51,7 +53,9 @@ const char* name_of(Task task) {
   return k_names[static_cast<int>(task)];
 }
 
-SchoolDay::SchoolDay(const Morning& morning, std::uint64_t seed) : morning_(morning), world_(seed, morning.disks, morning.true_ns) {}
+SchoolDay::SchoolDay(const Morning& morning, std::uint64_t seed) : morning_(morning), world_(seed, morning.disks, morning.true_ns) {
+  sqlite3_randomness(0, nullptr);  // its random numbers begin anew, out of this world's: days do not depend on those before
+}
 
 void SchoolDay::wrong(const std::string& what) { wrong_.push_back(what); }
 
