@@ -42,6 +42,13 @@ void check_facts(const SessionReader& session, Findings& findings) {
   if (session.fact("format") != std::to_string(k_session_format))
     findings.push_back("table meta: the format is said to be '" + one_line(session.fact("format")) + "', and this is format " +
                        std::to_string(k_session_format));
+  for (const char* key :
+       {"physics_version", "first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm", "created_utc_ns", "created_boot_ns", "created_monotonic_ns"})
+    if (const std::string fact = session.fact(key); !fact.empty() && fact != std::to_string(session.number(key, 0)))
+      findings.push_back("table meta: " + std::string(key) + " is '" + one_line(fact) + "', which is no whole number in its range");
+  for (const char* key : {"first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm"})
+    if (const auto nm = session.number(key, 0); nm != static_cast<std::int32_t>(nm))
+      findings.push_back("table meta: " + std::string(key) + " lies outside every tooth");
   const auto* servo = session.artifact("servo.toml");
   if (servo == nullptr) return;
   try {

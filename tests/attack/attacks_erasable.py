@@ -140,7 +140,7 @@ def control_forgotten(s):
     ledger = lf.Ledger(s.L)
     salt = json.loads(ledger.openings[ledger.body(14)["opens"]["result"]])["salt"].encode()
     file = ledger.body(14)["file_sha256"]
-    s.must(s.ledger("forget", "--candidate", "4714", "--erase-results").rc == 0, "not forgotten")
+    s.must(s.ledger("forget", "--candidate", "4714").rc == 0, "not forgotten")
     for needle in (b"Dora Dirks", b"4714", salt):
         s.must(not traces(s, needle, ("L",)), f"{needle[:12]!r} is still in {traces(s, needle, ('L',))}")
     s.must(not os.path.exists(f"{s.L}/sessions/{file}.cavum"), "the recording is still there")
@@ -154,7 +154,7 @@ def control_backup_forgets(s):
     ledger = lf.Ledger(s.L)
     salt = json.loads(ledger.openings[ledger.body(14)["opens"]["result"]])["salt"].encode()
     file = ledger.body(14)["file_sha256"]
-    s.ledger("forget", "--candidate", "4714", "--erase-results")
+    s.ledger("forget", "--candidate", "4714")
     s.ledger("backup", "--out", s.p("backup"), "--with-identities")
     for needle in (b"Dora Dirks", salt):
         s.must(not traces(s, needle, ("backup",)), f"{needle[:12]!r} is still in the backup's {traces(s, needle, ('backup',))}")

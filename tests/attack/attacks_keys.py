@@ -107,12 +107,15 @@ def key_ran_out(s):
 
 @attack("five", FOUND, "the first time, and when the school replaced its key, a person tells the cosigner", "key")
 def cosigner_and_another_key(s):
-    """The cosigner is asked to sign a checkpoint of the new key without being told; then of a stranger's, which the ledger's id fits."""
+    """The cosigner is asked to sign a checkpoint of the new key without being shown that entry's receipt; then of a stranger's, which the ledger's id fits."""
     old, new = replaced(s)
     s.needs("ledger", "checkpoint", s.L, "--since", "18", "--out", s.p("ask"))
     s.must(s.run("ledger", "cosign", s.p("ask"), "--out", s.p("c1"), "--name", "cosigner.example/one", home=s.p("cosigner")).rc != 0, "a new key is taken untold")
-    told_it = s.run("ledger", "cosign", s.p("ask"), "--out", s.p("c2"), "--name", "cosigner.example/one", "--school-key", new.hex, home=s.p("cosigner"))
-    s.must(told_it.rc == 0, "told by a person, it does not sign")
+    s.must(s.run("ledger", "cosign", s.p("ask"), "--out", s.p("c2"), "--name", "cosigner.example/one", "--school-key", new.hex, home=s.p("cosigner")).rc != 0,
+           "a key that a person names is taken for the remembered one's successor")
+    s.needs("ledger", "receipt", s.L, "--entry", "18", "--out", s.p("key.json"))
+    shown = s.run("ledger", "cosign", s.p("ask"), "--out", s.p("c2"), "--name", "cosigner.example/one", "--key-receipt", s.p("key.json"), home=s.p("cosigner"))
+    s.must(shown.rc == 0, "shown the receipt of the entry by which the key was replaced, it does not sign")
     ledger = lf.Ledger(s.L)
     return s.run("ledger", "cosign", s.text("ask2", lf.cosign_request(19, [], lf.note(ledger.id, 19, lf.root(ledger.leaves()), 10**18 * 2, old))), "--out", s.p("c3"), home=s.p("cosigner"))
 

@@ -386,6 +386,15 @@ void SchoolDay::verify() {
   if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
 }
 
+void SchoolDay::put_right() {
+  for (auto& [name, computer] : world_.computers()) {
+    computer.clock_ahead_ns = computer.drift_ns_per_s = 0;
+    computer.had_faults = false;
+    computer.full_until_ns = 0;
+    computer.next_sync_fails = false;
+  }
+}
+
 std::vector<std::string> SchoolDay::run() {
   for (const auto& [name, person] : people_) start(name);
   const auto begun_calls = world_.calls();
@@ -399,12 +408,7 @@ std::vector<std::string> SchoolDay::run() {
   if (world_.stuck()) wrong("the day does not come to an end");
   if (world_.random().below(2) == 0)  // whatever was acknowledged is on disk by now
     for (auto& [name, computer] : world_.computers()) world_.cut_power(computer);
-  for (auto& [name, computer] : world_.computers()) {  // somebody puts the clocks right
-    computer.clock_ahead_ns = computer.drift_ns_per_s = 0;
-    computer.had_faults = false;
-    computer.full_until_ns = 0;
-    computer.next_sync_fails = false;
-  }
+  put_right();
   if (!world_.stuck()) {
     try {
       check_end();

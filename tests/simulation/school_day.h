@@ -101,6 +101,7 @@ class SchoolDay {
   void check_cosigner(const LedgerContent& content);
   void restore_from_backup();
   void replace_key();
+  void put_right();
 
   const Morning& morning_;
   World world_;
