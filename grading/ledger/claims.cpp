@@ -154,14 +154,13 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
   return {};
 }
 
-std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
-                                      const FilingOptions& options, const LedgerPlaces* filed) {
+std::vector<std::string> check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session,
+                                      std::int64_t received_utc_ns, const FilingOptions& options, const LedgerPlaces* filed) {
   if (!session.closed()) return {"the session was never closed"};
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   std::vector<std::string> findings;
   for (auto& f : check_stations(session)) findings.push_back(std::move(f));
-  const Registry registry = read_registry(content);
   for (const auto& s : registry.sessions)
     if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));
   const std::string text = ticket_text_in(setup);

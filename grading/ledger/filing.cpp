@@ -61,7 +61,9 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   const std::string file_sha256 = to_hex(sha256(image));
 
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
-  const auto claims = [&](const LedgerContent& c) { return check_claims(c, session, read_clocks().utc_ns, options, &ledger.places()); };
+  const auto claims = [&](const LedgerContent& c) {
+    return check_claims(c, ledger.registry(), session, read_clocks().utc_ns, options, &ledger.places());
+  };
   const std::size_t seen = ledger.content().entries.size();
   for (auto& f : claims(ledger.content())) out.findings.push_back(std::move(f));
   if (refused()) return out;

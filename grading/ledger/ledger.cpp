@@ -78,6 +78,7 @@ void Ledger::keep_cosignatures(std::uint64_t size, std::span<const NoteSignature
 }
 
 void Ledger::reload() {
+  registry_ = {};
   try {
     content_ = read_content(database_, places_.database(), use_ == LedgerUse::restore ? AskWitness::no : AskWitness::yes);
   } catch (const DatabaseError&) {

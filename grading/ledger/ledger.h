@@ -12,6 +12,7 @@
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
 #include "grading/ledger/receipt.h"
+#include "grading/ledger/registry.h"
 #include "grading/ledger/witness.h"
 
 namespace cavum {
@@ -30,6 +31,8 @@ class Ledger {
   Ledger(const std::string& folder, const SigningKey& key, LedgerUse use = LedgerUse::add);
 
   [[nodiscard]] const LedgerContent& content() const noexcept { return content_; }
+  /// What its entries add up to.
+  [[nodiscard]] const Registry& registry() { return registry_.of(content_); }
   [[nodiscard]] const LedgerPlaces& places() const noexcept { return places_; }
   [[nodiscard]] const SigningKey& key() const noexcept { return key_; }
   /// Reads what somebody else has added meanwhile. Throws Error as the constructor does.
@@ -57,6 +60,7 @@ class Ledger {
   LedgerUse use_;
   Database database_;
   LedgerContent content_;
+  GrowingRegistry registry_;
 };
 
 }  // namespace cavum

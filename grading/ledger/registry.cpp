@@ -86,14 +86,11 @@ std::string recording_of(const LedgerPlaces& places, const FiledSession& s) {
   return places.session(s.file_sha256);
 }
 
-namespace {
-
 /// Takes one entry after the other into a registry. Each function throws std::exception for what contradicts the entries before.
 class RegistryReader {
  public:
-  explicit RegistryReader(const LedgerContent& content) : content_(content) {}
-
-  void apply(const LedgerEntry& e) {
+  void apply(const LedgerContent& content, const LedgerEntry& e) {
+    content_ = &content;
     static const std::map<std::string, void (RegistryReader::*)(const LedgerEntry&)> k_kinds = {
         {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},   {"cancel", &RegistryReader::cancel},
         {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
@@ -111,14 +108,14 @@ class RegistryReader {
       say(e, error.what());
     }
   }
-  [[nodiscard]] Registry take() { return std::move(r_); }
+  [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
 
  private:
   void say(const LedgerEntry& e, const std::string& what) { r_.findings.push_back("entry " + std::to_string(e.seq) + ": " + what); }
   void nothing(const LedgerEntry&) {}
 
   void ticket(const LedgerEntry& e) {
-    IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content_.key_of(e.seq + 1), "ticket", GrantIs::apart), {}, {}, {}};
+    IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content_->key_of(e.seq + 1), "ticket", GrantIs::apart), {}, {}, {}};
     if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(e, "a ticket with a number that another one has");
     by_ticket_[e.seq] = r_.tickets.size();
     r_.tickets.push_back(std::move(t));
@@ -131,11 +128,11 @@ class RegistryReader {
   }
 
   void begin(const LedgerEntry& e) {
-    const Begin b = parse_begin(e.body.dump(), content_.key_of(e.seq + 1), "begin");
+    const Begin b = parse_begin(e.body.dump(), content_->key_of(e.seq + 1), "begin");
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
     constexpr std::int64_t k_moment_ns = 60'000'000'000;
     if (std::abs(b.utc_ns - e.utc_ns) > k_moment_ns) say(e, "lets an exam begin at another time than it was entered");
-    if (b.ledger != content_.id) say(e, "lets an exam of another ledger begin");
+    if (b.ledger != content_->id) say(e, "lets an exam of another ledger begin");
     t.begins.push_back({e.seq, b.nonce, b.utc_ns});
   }
 
@@ -150,10 +147,10 @@ class RegistryReader {
     s.station_key = e.body.at("station_key");
     s.nonce = e.body.at("nonce");
     s.result = s.filed = result_in(e);
-    s.motion_erased_by = erased_by(content_.erased, e.seq, k_motion);
-    s.result_erased_by = erased_by(content_.erased, e.seq, k_result);
+    s.motion_erased_by = erased_by(content_->erased, e.seq, k_motion);
+    s.result_erased_by = erased_by(content_->erased, e.seq, k_result);
     s.sealed = parse_json_or_null(text_in(e.body, k_sealed), k_json_part);
-    if (const auto sealed = content_.documents.find(text_in(e.body, "sealed_sha256")); sealed != content_.documents.end())  // before format 5
+    if (const auto sealed = content_->documents.find(text_in(e.body, "sealed_sha256")); sealed != content_->documents.end())  // before format 5
       s.sealed = parse_json_or_null({reinterpret_cast<const char*>(sealed->second.data()), sealed->second.size()}, k_json_part);
     s.grading_version = whole_in(e.body, "grading_version");
     s.simulated = e.body.at("simulated");
@@ -182,7 +179,7 @@ class RegistryReader {
     FiledSession& s = r_.sessions.at(by_session_.at(require_whole<std::uint64_t>(e.body, "session", "regrade")));
     s.result = result_in(e);
     s.result_seq = e.seq;
-    s.result_erased_by = erased_by(content_.erased, e.seq, k_result);
+    s.result_erased_by = erased_by(content_->erased, e.seq, k_result);
     s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), documents_of(e), s.result});
     s.released = false;  // a new result waits for its own release, and the old one stands until then
   }
@@ -195,21 +192,29 @@ class RegistryReader {
     release(r_, e.seq, e.utc_ns, results);
   }
 
-  void station(const LedgerEntry& e) { apply_station_entry(r_.stations, e, content_.key_of(e.seq + 1)); }
+  void station(const LedgerEntry& e) { apply_station_entry(r_.stations, e, content_->key_of(e.seq + 1)); }
 
-  const LedgerContent& content_;
+  const LedgerContent* content_ = nullptr;  // of the entry that is applied
   Registry r_;
   std::map<std::uint64_t, std::size_t> by_session_, by_ticket_;  // by their entries
   std::map<std::string, std::size_t> by_nonce_;                  // tickets
   std::set<std::string> chains_;
 };
 
-}  // namespace
-
 Registry read_registry(const LedgerContent& content) {
-  RegistryReader reader(content);
-  for (const auto& e : content.entries) reader.apply(e);
-  return reader.take();
+  RegistryReader reader;
+  for (const auto& e : content.entries) reader.apply(content, e);
+  return reader.so_far();
+}
+
+GrowingRegistry::GrowingRegistry() : reader_(std::make_unique<RegistryReader>()) {}
+GrowingRegistry::~GrowingRegistry() = default;
+GrowingRegistry::GrowingRegistry(GrowingRegistry&&) noexcept = default;
+GrowingRegistry& GrowingRegistry::operator=(GrowingRegistry&&) noexcept = default;
+
+const Registry& GrowingRegistry::of(const LedgerContent& content) {
+  for (; read_ < content.entries.size(); ++read_) reader_->apply(content, content.entries[read_]);
+  return reader_->so_far();
 }
 
 }  // namespace cavum

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,20 @@ struct Registry {
   [[nodiscard]] const FiledSession* chosen_instead_of(const FiledSession& session) const;
 };
 [[nodiscard]] Registry read_registry(const LedgerContent& content);
+class RegistryReader;
+/// The registry of a ledger that grows: only entries that are new since it was asked last are read. Begin a new one where entries were read anew.
+class GrowingRegistry {
+ public:
+  GrowingRegistry();
+  ~GrowingRegistry();
+  GrowingRegistry(GrowingRegistry&&) noexcept;
+  GrowingRegistry& operator=(GrowingRegistry&&) noexcept;
+  [[nodiscard]] const Registry& of(const LedgerContent& content);
+
+ private:
+  std::unique_ptr<RegistryReader> reader_;
+  std::size_t read_ = 0;
+};
 /// Path of a session's recording. Throws Error when it was erased.
 [[nodiscard]] std::string recording_of(const LedgerPlaces& places, const FiledSession& session);
 
