@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -168,17 +169,18 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   make_private_folder(folder);
   const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
   require_place_for(read_ledger(from), folder);  // as it is by now: whoever held the folder may have put a later state there
-  copy_database(from.database(), to.database());
-  const LedgerContent copy = read_ledger(to, AskWitness::no);
-  if (!copy.findings.empty()) throw Error(to.database(), "the copy does not hold (" + copy.findings[0] + ")", "check the disk, and take it again");
   Backup out;
+  LedgerContent copy;
+  for (bool erased_meanwhile = true; erased_meanwhile;) {  // then the entry that erases belongs to the backup too
+    copy_database(from.database(), to.database());
+    copy = read_ledger(to, AskWitness::no);
+    if (!copy.findings.empty()) throw Error(to.database(), "the copy does not hold (" + copy.findings[0] + ")", "check the disk, and take it again");
+    out.missing = copy_sessions(copy, from, to, out.copied);
+    const auto gone = out.missing.empty() ? std::set<std::string>() : erased_recordings(read_ledger(from));
+    erased_meanwhile = std::any_of(out.missing.begin(), out.missing.end(), [&](const std::string& hash) { return gone.contains(hash); });
+  }
   out.ledger_id = copy.id;
   out.checkpoint = copy.checkpoints.back();
-  out.missing = copy_sessions(copy, from, to, out.copied);
-  if (!out.missing.empty()) {  // some may have been erased meanwhile
-    const auto gone = erased_recordings(read_ledger(from));
-    std::erase_if(out.missing, [&](const std::string& hash) { return gone.contains(hash); });
-  }
   remove_erased_recordings(copy, to);
   out.sessions = filed_sessions(copy).size() - out.missing.size();
   if (with_identities) out.identities = copy_identities(copy, from, to);
