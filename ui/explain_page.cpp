@@ -200,11 +200,11 @@ std::string next_box(const std::string& words) { return "<h2>The next experiment
 std::string causes_html(const explain::Explanation& e) {
   std::string out;
   for (const auto& c : e.causes) {
-    const auto& m = explain::mechanisms()[static_cast<std::size_t>(c.term.mechanism)];
+    const auto& m = explain::mechanism_at(c.term.mechanism);
     out += "<h3>" + xml_text(m.words) + " <small><code>" + m.name + "</code></small></h3>\n<p>It adds <code>" + xml_text(m.equation) +
            printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %s. ", c.effect_n,
                    c.p_value < 1e-4 ? "below 0.0001" : printed("%.2g", c.p_value).c_str()) +
-           (m.live ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
+           (m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
     out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
     for (const auto& [parameter, i] : c.parameters) {
       const auto [name, unit] = name_and_unit(parameter);
@@ -216,7 +216,7 @@ std::string causes_html(const explain::Explanation& e) {
     if (!c.aliases.empty()) {
       out += "<p><b>These fit as well:</b> ";
       for (std::size_t i = 0; i < c.aliases.size(); ++i) {
-        const auto& other = explain::mechanisms()[static_cast<std::size_t>(explain::find_mechanism(c.aliases[i]))];
+        const auto& other = explain::mechanism_at(explain::find_mechanism(c.aliases[i]));
         out += (i > 0 ? "; " : "") + xml_text(other.words) + " (<code>" + other.name + "</code>)";
       }
       out += ". The data cannot tell which it is.</p>\n";
@@ -233,8 +233,7 @@ std::string cannot_tell(const explain::Explanation& e) {
   std::string out = "<h2>What these data cannot tell</h2>\n";
   if (e.not_testable.empty()) return out + "<p>Every mechanism could have shown itself.</p>\n";
   std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
-  for (const auto& n : e.not_testable)
-    by_reason[n.reason].push_back(&explain::mechanisms()[static_cast<std::size_t>(explain::find_mechanism(n.mechanism))]);
+  for (const auto& n : e.not_testable) by_reason[n.reason].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
   for (const auto& [reason, group] : by_reason) {
     out += "<p><b>" + xml_text(reason) + ":</b></p>\n<details" + (group.size() > 8 ? "" : " open") +
            printed("><summary>%zu mechanisms, and what would show them</summary>\n<table>\n", group.size());
@@ -289,7 +288,7 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
     std::sort(candidates.begin(), candidates.end(),
               [](const auto& a, const auto& b) { return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain); });
     for (const auto& c : candidates) {
-      const auto& m = explain::mechanisms()[static_cast<std::size_t>(c.hypothesis.term.mechanism)];
+      const auto& m = explain::mechanism_at(c.hypothesis.term.mechanism);
       out += printed("<tr><td><code>%s</code></td><td class=\"n\">%s</td><td>%s</td></tr>\n", m.name,
                      c.testable ? printed("%.0f", std::max(0.0, c.gain)).c_str() : "not testable here", m.words);
     }

@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/explain/explain.h"
+#include "engine/explain/laws_page.h"
 #include "engine/explain/model_file.h"
 #include "engine/explain/protocol.h"
 #include "engine/explain/session_recording.h"
@@ -28,7 +29,7 @@ struct ExplainArgs {
   std::vector<std::string> columns;
   std::uint64_t seed = 1;
   std::size_t twins = explain::ExplainOptions{}.twins;
-  bool json = false;
+  bool json = false, laws = false;
 };
 
 /// "x_mm=displacement" → {x_mm, displacement}.
@@ -99,6 +100,10 @@ bool ran_table(const ExplainArgs& a) {
 }
 
 void run_explain(const ExplainArgs& a) {
+  if (a.laws) {
+    std::cout << explain::laws_page();
+    return;
+  }
   if (!a.protocol.empty()) {
     if (!a.data.empty()) throw Error("--protocol " + a.protocol, "goes without a recording", "leave out " + a.data + ", or --protocol");
     return write_protocol(a.protocol);
@@ -160,6 +165,7 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
                    "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)")
       ->expected(0, 1)
       ->default_str("protocol.html");
+  verb->add_flag("--laws", args->laws, "print the table of laws that are looked for: equation, parameters, ranges, what shows each best");
   verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->check(seed_check())->capture_default_str();
   verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search; 0: none, a plain rule for comparison")
       ->capture_default_str()

@@ -1,7 +1,8 @@
 #include "engine/explain/added_force.h"
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
+#include <string_view>
 
 #include "engine/base/error.h"
 #include "engine/force/term_laws.h"
@@ -12,13 +13,13 @@ namespace {
 /// A mechanism with all its numbers.
 struct Found {
   int mechanism = -1;
-  std::vector<double> shape, own;
+  Numbers numbers;
 };
 
 Series force_n(const Scene& scene, const Found& f) {
-  const Columns c = mechanisms()[static_cast<std::size_t>(f.mechanism)].columns(scene, f.shape);
+  const Columns c = mechanism_at(f.mechanism).columns(scene, f.numbers.shape);
   Series out = Series::Zero(scene.force_n.size());
-  for (std::size_t i = 0; i < c.own.size(); ++i) out += f.own[i] * c.own[i];
+  for (std::size_t i = 0; i < c.own.size(); ++i) out += f.numbers.own[i] * c.own[i];
   if (c.spring.size() > 0) out += scene.base.k_n_per_mm * c.spring;
   if (c.damper.size() > 0) out += scene.base.c_n_s_per_mm * c.damper;
   return out;
@@ -26,76 +27,26 @@ Series force_n(const Scene& scene, const Found& f) {
 
 /// A force term as the mechanism that explain knows; none when it has a form that explain does not look for.
 std::optional<Found> found_as(const TermValues& term, Base base) {
-  const TermKind& kind = *find_term_kind(term.kind);
-  const auto value = [&](const std::string& name) {
+  const int at = known_mechanism(term.kind);
+  const Mechanism& m = mechanism_at(at);
+  if (!m.from_term) return std::nullopt;
+  const auto value = [&](const char* name) {
     for (const auto& [given, v] : term.parameters)
       if (given == name) return v;
-    for (const auto& p : kind.parameters)
-      if (name == p.name) return p.otherwise.value_or(0.0);
-    return 0.0;
+    for (const auto& p : m.term->parameters)
+      if (std::string_view(name) == p.name) return p.otherwise.value_or(0.0);
+    throw std::logic_error(term.kind + " has no parameter '" + name + "'");
   };
-  const auto is = [&](const char* name) { return term.kind == name; };
-  Found f{find_mechanism(term.kind), {}, {}};
-  const auto line = [&](double amplitude) {
-    const SinCos phase = det_sincos(2 * k_pi * value("phase_turns"));
-    f.own = {amplitude * phase.cos, amplitude * phase.sin};
-  };
-  if (f.mechanism < 0) return std::nullopt;
-  if (is("coulomb_friction")) {
-    f.shape = {value("v0_mm_s")}, f.own = {value("fc_n")};
-  } else if (is("stribeck_friction")) {
-    f.shape = {value("vs_mm_s"), value("v0_mm_s")}, f.own = {value("fc_n"), value("fs_n") - value("fc_n")};
-  } else if (is("viscous_friction")) {
-    f.own = {value("b_n_s_per_mm")};
-  } else if (is("backlash")) {
-    if (value("ahead_mm") > 0.0 || value("seen") >= 0.5) return std::nullopt;
-    f.shape = {value("ahead_mm") < 0.0 ? 1.0 : 2.0, value("b_mm")};
-  } else if (is("hysteresis")) {
-    if (value("gamma") != 0.0 && value("gamma") != 0.5) return std::nullopt;
-    f.shape = {value("gamma") == 0.0 ? 1.0 : 0.0, value("d_mm")}, f.own = {value("alpha_n_per_mm")};
-  } else if (is("series_compliance")) {
-    if (std::isfinite(value("ks_n_per_mm"))) return std::nullopt;
-    f.shape = {value("softening_force_n"), 0.0};
-  } else if (is("nonlinear_stiffness")) {
-    f.shape = {value("m")};
-  } else if (is("hidden_layer")) {
-    f.shape = {value("d0_mm")}, f.own = {value("dk_n_per_mm")};
-  } else if (is("graded_stiffness")) {
-    f.own = {-value("alpha_per_mm") * base.k_n_per_mm};
-  } else if (is("anisotropy")) {
-    if (value("epsilon") != 0.0 && value("amplitude_n") != 0.0) return std::nullopt;
-    const double size = value("epsilon") != 0.0 ? value("epsilon") : value("amplitude_n");
-    const SinCos to = twice_angle(value("phi0_deg"));
-    f.shape = {value("epsilon") != 0.0 ? 0.0 : 1.0}, f.own = {size * to.cos, size * to.sin};
-  } else if (is("relaxation")) {
-    f.shape = {value("tau1_s"), value("k2_n_per_mm") != 0.0 ? value("tau2_s") : 0.0, value("exponent")};
-    f.own = {value("k1_n_per_mm"), value("k2_n_per_mm")};
-  } else if (is("feed_power_law")) {
-    f.shape = {value("n")};
-  } else if (is("edge_force")) {
-    f.own = {value("edge_n")};
-  } else if (is("wear")) {
-    f.shape = {value("carried") < 0.5 ? 0.0 : 1.0}, f.own = {value("per_mm3")};
-  } else if (is("run_out")) {
-    if (value("eccentricity_um") != 0.0 || value("rate_ratio") != 1.0) return std::nullopt;
-    f.shape = {value("by_clock") < 0.5 ? 1.0 : 0.0, 1.0};
-    line(value("amplitude_n"));
-  } else if (is("chatter")) {
-    return std::nullopt;  // its grid is what this recording's spectrum shows; the engine's own term needs none
-  } else if (is("coolant")) {
-    f.own = {value("fraction")};
-  } else if (is("thermal_softening")) {
-    f.own = {value("per_k")};
-  } else {
-    return std::nullopt;
-  }
-  return f;
+  auto numbers = m.from_term(value, base);
+  if (!numbers) return std::nullopt;
+  return Found{at, std::move(*numbers)};
 }
 
 /// The scene has what the mechanism needs, and as many coefficients are given as it takes there.
 bool has_columns(const Scene& scene, const Found& f) {
-  const Mechanism& m = mechanisms()[static_cast<std::size_t>(f.mechanism)];
-  return !m.grid(scene).empty() && m.shape.size() == f.shape.size() && m.columns(scene, f.shape).own.size() <= f.own.size();
+  const Mechanism& m = mechanism_at(f.mechanism);
+  const auto& [shape, own] = f.numbers;
+  return !starts(m, scene).empty() && m.shape.size() == shape.size() && m.columns(scene, shape).own.size() <= own.size();
 }
 
 /// A measurement effect of the same kind that fits this recording stands for the term: it knows the phase of each session.
@@ -103,7 +54,7 @@ bool fits_here(const ForceModel& model, const std::string& kind, const Scene& sc
   return std::any_of(model.measurement.begin(), model.measurement.end(), [&](const MeasurementEffect& e) {
     const int at = find_mechanism(e.kind);
     if (e.kind != kind || at < 0) return false;
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(at)];
+    const Mechanism& m = mechanism_at(at);
     return m.shape.size() == e.shape.size() && m.columns(scene, e.shape).own.size() == e.values.size();
   });
 }
@@ -170,13 +121,13 @@ Series added_force_n(const ForceModel& model, const std::string& material, const
     if (at < 0) throw Error(where, "measurement effect '" + effect.kind + "' is unknown", "remove it, or correct its kind");
     const bool a_term = std::any_of(model.term_values.begin(), model.term_values.end(), [&](const TermValues& t) { return t.kind == effect.kind; });
     if (a_term && !fits_here(model, effect.kind, scene)) continue;  // another recording: the term itself counts
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(at)];
-    const bool lacks = m.grid(scene).empty() && effect.kind != "chatter";
+    const Mechanism& m = mechanism_at(at);
+    const bool lacks = starts(m, scene).empty() && !m.in_spectrum;
     if (lacks || m.shape.size() != effect.shape.size())
       throw Error(where, "measurement effect '" + effect.kind + "' does not fit this recording", "remove it, or add the column that it needs");
     if (m.columns(scene, effect.shape).own.size() != effect.values.size())
       throw Error(where, "measurement effect '" + effect.kind + "' has the wrong number of values", "explain again with --model-out");
-    out += force_n(scene, {at, effect.shape, effect.values});
+    out += force_n(scene, {at, {effect.shape, effect.values}});
   }
   return out;
 }

@@ -2,7 +2,10 @@
 #include <cmath>
 
 #include "engine/explain/mechanism.h"
+#include "engine/force/cutting_terms.h"
+#include "engine/force/run_out.h"
 #include "engine/force/term_laws.h"
+#include "engine/force/tissue_terms.h"
 
 namespace cavum::explain {
 namespace {
@@ -97,90 +100,156 @@ Series removed_since_new_mm3(const Scene& scene, bool carried) { return worn_mm3
 
 std::vector<Mechanism> cutting_mechanisms() {
   std::vector<Mechanism> m;
-  m.push_back({"edge_force",
-               "Fe while in contact and spinning",
-               "a constant force of the cutting edges",
-               "press the same site with the spindle off and on",
-               true,
-               {},
-               [](const Scene&) { return Grid{{}}; },
-               [](const Scene& s, const Shape&) {
-                 return Columns{{has(s, "spindle_rpm") ? Series(s.touching * s.spinning) : s.touching}, {}, {}};
-               },
-               [](const Shape&, const Shape& own, Base) { return fraction("edge_n", own); }});
-  m.push_back({"wear",
-               "F_sim w W, W removed volume since the point was new",
-               "a diamond point that wears",
-               "cut the first site again last, with the worn and with a new point",
-               true,
-               {{"variant", 0, 1, false, false}},
-               [](const Scene& s) {
-                 return !has(s, "removed_mm3") ? Grid{} : s.recording->sessions.size() > 1 ? Grid{{0.0}, {1.0}} : Grid{{0.0}};
-               },
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{s.force_n.binaryExpr(worn_mm3(s, p[0] > 0.5), &worn_n)}, {}, {}};
-               },
-               [](const Shape&, const Shape& own, Base) { return fraction("per_mm3", own); }});
-  m.push_back({"run_out",
-               "A sin(2 pi turns + phase) in contact and spinning",
-               "a diamond point that turns off its axis",
-               "record the force at more than twice the spindle's rate",
-               true,
-               {{"variant", 0, 1, false, false}, {"rate_ratio", 0.999, 1.001, false, true}},
-               [](const Scene& s) {  // a rate that is written in whole turns per minute is off by up to 3e-5
-                 return s.spinning.maxCoeff() > 0.0 ? Grid{{0.0, 1.0}, {0.0, 1.0 - k_slip}, {0.0, 1.0 + k_slip}, {1.0, 1.0}} : Grid{};
-               },
-               [](const Scene& s, const Shape& p) { return line(s, spindle_turns(s, static_cast<int>(p[0]), p[1]), s.touching * s.spinning); },
-               [](const Shape&, const Shape& own, Base) {
-                 std::vector<NamedValue> p{{"amplitude_n", amplitude_of(own)}};
-                 if (own.size() == 2) p.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
-                 return p;
-               },
-               true});
-  m.push_back({"chatter",
-               "A sin(2 pi f t + phase) in contact",
-               "a vibration at a rate that is not the spindle's",
-               "press at two depths and two spindle speeds: chatter keeps its rate",
-               true,
-               {{"frequency_hz", 0.1, 1e5, false, true}, {"spinning", 0, 1, false, false}},
-               [](const Scene& s) {
-                 Grid g;
-                 for (const double hz : s.lines_hz) {
-                   g.push_back({hz, 0.0});
-                   if (s.spinning.maxCoeff() > 0.0) g.push_back({hz, 1.0});
-                 }
-                 return g;
-               },
-               chatter_columns,
-               [](const Shape& p, const Shape& own, Base) {
-                 std::vector<NamedValue> named{{"amplitude_n", amplitude_of(own)}, {"frequency_hz", p[0]}};
-                 if (own.size() == 2) named.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
-                 return named;
-               },
-               true});
-  m.push_back({"coolant",
-               "F_sim w wet",
-               "water, which changes the cutting force",
-               "press one site dry, wet, and dry again",
-               true,
-               {},
-               [](const Scene& s) { return has(s, "wet") ? Grid{{}} : Grid{}; },
-               [](const Scene& s, const Shape&) {
-                 return Columns{{s.force_n.binaryExpr(*s.recording->column("wet"), &watered_n)}, {}, {}};
-               },
-               [](const Shape&, const Shape& own, Base) { return fraction("fraction", own); }});
-  m.push_back({"thermal_softening",
-               "-F_sim h (T - T0), T0 of the first row",
-               "tissue that softens as it warms",
-               "cut for a minute, rest for a minute, cut again",
-               true,
-               {},
-               [](const Scene& s) { return has(s, "temperature_c") ? Grid{{}} : Grid{}; },
-               [](const Scene& s, const Shape&) {
-                 const Series& t = *s.recording->column("temperature_c");
-                 return Columns{{s.force_n.binaryExpr(t - t[0], &warmed_n)}, {}, {}};
-               },
-               [](const Shape&, const Shape& own, Base) { return fraction("per_k", own); }});
+  m.push_back({
+      .name = "edge_force",
+      .equation = "Fe while in contact and spinning",
+      .words = "a constant force of the cutting edges",
+      .separate = "press the same site with the spindle off and on",
+      .term = &k_edge_force,
+      .grid = [](const Scene&) { return Grid{{}}; },
+      .columns =
+          [](const Scene& s, const Shape&) {
+            return Columns{{has(s, "spindle_rpm") ? Series(s.touching * s.spinning) : s.touching}, {}, {}};
+          },
+      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("edge_n", own); },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{}, {value("edge_n")}};
+      },
+      .own = k_positive,
+      .one_way = OneWay::looks_like_offset,
+  });
+
+  m.push_back({
+      .name = "wear",
+      .equation = "F_sim w W, W removed volume since the point was new",
+      .words = "a diamond point that wears",
+      .separate = "cut the first site again last, with the worn and with a new point",
+      .term = &k_wear,
+      .needs = {"removed_mm3"},
+      .shape = {{"variant", 0, 1, false, false}},
+      .grid =
+          [](const Scene& s) {
+            return s.recording->sessions.size() > 1 ? Grid{{0.0}, {1.0}} : Grid{{0.0}};
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{s.force_n.binaryExpr(worn_mm3(s, p[0] > 0.5), &worn_n)}, {}, {}};
+          },
+      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("per_mm3", own); },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("carried") < 0.5 ? 0.0 : 1.0}, {value("per_mm3")}};
+      },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            out.emplace_back("carried", shape[0] < 0.5 ? 0.0 : 1.0);
+            return true;
+          },
+  });
+
+  m.push_back({
+      .name = "run_out",
+      .equation = "A sin(2 pi turns + phase) in contact and spinning",
+      .words = "a diamond point that turns off its axis",
+      .separate = "record the force at more than twice the spindle's rate",
+      .term = &k_run_out,
+      .needs = {"spindle_rpm"},
+      .shape = {{"variant", 0, 1, false, false}, {"rate_ratio", 0.999, 1.001, false, true}},
+      .grid =
+          [](const Scene& s) {  // a rate that is written in whole turns per minute is off by up to 3e-5
+            return s.spinning.maxCoeff() > 0.0 ? Grid{{0.0, 1.0}, {0.0, 1.0 - k_slip}, {0.0, 1.0 + k_slip}, {1.0, 1.0}} : Grid{};
+          },
+      .columns = [](const Scene& s, const Shape& p) { return line(s, spindle_turns(s, static_cast<int>(p[0]), p[1]), s.touching * s.spinning); },
+      .parameters =
+          [](const Shape&, const Shape& own, Base) {
+            std::vector<NamedValue> p{{"amplitude_n", amplitude_of(own)}};
+            if (own.size() == 2) p.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
+            return p;
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        if (value("eccentricity_um") != 0.0 || value("rate_ratio") != 1.0) return std::nullopt;
+        const SinCos phase = det_sincos(2 * k_pi * value("phase_turns"));
+        const double amplitude = value("amplitude_n");
+        return Numbers{{value("by_clock") < 0.5 ? 1.0 : 0.0, 1.0}, {amplitude * phase.cos, amplitude * phase.sin}};
+      },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            out.emplace_back("rate_ratio", shape[1]);
+            out.emplace_back("by_clock", shape[0] < 0.5 ? 1.0 : 0.0);
+            return true;
+          },
+      .by_session = true,
+  });
+
+  m.push_back({
+      .name = "chatter",
+      .equation = "A sin(2 pi f t + phase) in contact",
+      .words = "a vibration at a rate that is not the spindle's",
+      .separate = "press at two depths and two spindle speeds: chatter keeps its rate",
+      .term = &k_chatter,
+      .shape = {{"frequency_hz", 0.1, 1e5, false, true}, {"spinning", 0, 1, false, false}},
+      .grid =
+          [](const Scene& s) {
+            Grid g;
+            for (const double hz : s.lines_hz) {
+              g.push_back({hz, 0.0});
+              if (s.spinning.maxCoeff() > 0.0) g.push_back({hz, 1.0});
+            }
+            return g;
+          },
+      .columns = chatter_columns,
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            std::vector<NamedValue> named{{"amplitude_n", amplitude_of(own)}, {"frequency_hz", p[0]}};
+            if (own.size() == 2) named.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
+            return named;
+          },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            out.emplace_back("spinning", shape[1]);
+            return true;
+          },
+      .in_spectrum = true,
+      .by_session = true,
+  });
+
+  m.push_back({
+      .name = "coolant",
+      .equation = "F_sim w wet",
+      .words = "water, which changes the cutting force",
+      .separate = "press one site dry, wet, and dry again",
+      .term = &k_coolant,
+      .needs = {"wet"},
+      .grid = [](const Scene&) { return Grid{{}}; },
+      .columns =
+          [](const Scene& s, const Shape&) {
+            return Columns{{s.force_n.binaryExpr(*s.recording->column("wet"), &watered_n)}, {}, {}};
+          },
+      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("fraction", own); },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{}, {value("fraction")}};
+      },
+  });
+
+  m.push_back({
+      .name = "thermal_softening",
+      .equation = "-F_sim h (T - T0), T0 of the first row",
+      .words = "tissue that softens as it warms",
+      .separate = "cut for a minute, rest for a minute, cut again",
+      .term = &k_thermal_softening,
+      .needs = {"temperature_c"},
+      .grid = [](const Scene&) { return Grid{{}}; },
+      .columns =
+          [](const Scene& s, const Shape&) {
+            const Series& t = *s.recording->column("temperature_c");
+            return Columns{{s.force_n.binaryExpr(t - t[0], &warmed_n)}, {}, {}};
+          },
+      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("per_k", own); },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{}, {value("per_k")}};
+      },
+      .own = k_positive,
+  });
+
   return m;
 }
 

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 
 #include "engine/base/text.h"
 #include "engine/explain/faults.h"
@@ -79,14 +78,13 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
     if (out.size() >= k_refined || c->gain < k_worth_refining * candidates.front()->gain) break;
     View beside = v;
     beside.causes = others;
-    // a second time constant that is not needed is left out again
-    std::vector<Term> starts{start_of(beside, *c)};
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(c->hypothesis.term.mechanism)];
-    if (m.name == std::string("relaxation") && starts[0].shape[1] > 0.0)
-      starts.push_back({starts[0].mechanism, {std::sqrt(starts[0].shape[0] * starts[0].shape[1]), 0.0, starts[0].shape[2]}});
+    std::vector<Term> begin{start_of(beside, *c)};
+    const Mechanism& m = mechanism_at(c->hypothesis.term.mechanism);
+    if (m.simpler)
+      if (auto simpler = m.simpler(begin[0].shape); !simpler.empty()) begin.push_back({begin[0].mechanism, std::move(simpler)});
     Rival best;
     best.chi2 = 1e300;
-    for (const auto& start : starts) {
+    for (const auto& start : begin) {
       std::vector<Term> causes = others;
       causes.push_back(start);
       causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
@@ -121,8 +119,8 @@ View without(const View& v, std::size_t i) {
 void list_not_testable(Explanation& e, const std::vector<Candidate>& candidates, const Scene& scene) {
   for (const auto& c : candidates) {
     if (c.testable) continue;
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(c.hypothesis.term.mechanism)];
-    const bool lacks = m.grid(scene).empty();
+    const Mechanism& m = mechanism_at(c.hypothesis.term.mechanism);
+    const bool lacks = starts(m, scene).empty();
     e.not_testable.push_back({m.name, lacks ? "the recording lacks what it needs" : "k and c can take its place in these data"});
   }
 }
@@ -131,34 +129,25 @@ bool is_untestable(const Explanation& e, const char* name) {
   return std::any_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == name; });
 }
 
-/// What only a reversal can tell apart (PHYSICS.md section 2): in one direction friction is an offset, and so is an edge force.
-constexpr std::array<std::string_view, 3> k_offsets{"bias", "coulomb_friction", "edge_force"};
-constexpr std::array<std::string_view, 5> k_need_reversal{"drift", "stribeck_friction", "viscous_friction", "backlash", "hysteresis"};
-
-bool is_offset(std::string_view name) { return std::find(k_offsets.begin(), k_offsets.end(), name) != k_offsets.end(); }
-bool needs_reversal(std::string_view name) {
-  return is_offset(name) || std::find(k_need_reversal.begin(), k_need_reversal.end(), name) != k_need_reversal.end();
-}
-std::string_view name_of(const Term& term) { return mechanisms()[static_cast<std::size_t>(term.mechanism)].name; }
+const Mechanism& mechanism_of(const Term& term) { return mechanism_at(term.mechanism); }
+bool alias_needs_reversal(const std::string& name) { return needs_reversal(mechanism_at(known_mechanism(name))); }
 
 /// What needs a reversal to be known, as the plain offset that fits best in its place.
 Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
   Term best = causes[i];
   double least = 1e300;
-  for (const auto name : k_offsets) {
-    const int at = find_mechanism(std::string(name));
-    for (auto& shape : mechanisms()[static_cast<std::size_t>(at)].grid(v.scene)) {
-      causes[i] = {at, shape};
-      if (const double chi2 = fit_terms(v, causes).chi2; chi2 < least) least = chi2, best = causes[i];
-    }
-  }
+  for (std::size_t at = 0; at < mechanisms().size(); ++at)
+    if (const Mechanism& m = mechanisms()[at]; is_offset(m))
+      for (auto& shape : starts(m, v.scene)) {
+        causes[i] = {static_cast<int>(at), shape};
+        if (const double chi2 = fit_terms(v, causes).chi2; chi2 < least) least = chi2, best = causes[i];
+      }
   return best;
 }
 
 /// A lag shorter than the time in which a coarse position leaves open when contact began: a delay and a filter differ in what follows that instant.
 bool is_too_short_to_tell(const Term& term, const Motion& m, bool speed_is_measured) {
-  const std::string_view name = name_of(term);
-  if (speed_is_measured || m.quantum_mm <= 1e-5 || (name != "delay" && name != "low_pass")) return false;
+  if (speed_is_measured || m.quantum_mm <= 1e-5 || mechanism_of(term).like_when_short == nullptr) return false;
   double way = 0.0, moving = 0.0;
   for (const double v : m.v_mm_s)
     if (std::fabs(v) > 0.05 * m.v_mm_s.maxCoeff()) way += std::fabs(v), moving += 1.0;
@@ -167,23 +156,27 @@ bool is_too_short_to_tell(const Term& term, const Motion& m, bool speed_is_measu
 
 /// The verdict and the experiment that would say more.
 void conclude(Explanation& e, bool one_way) {
+  std::vector<const Mechanism*> offsets;
+  for (const auto& m : mechanisms())
+    if (is_offset(m)) offsets.push_back(&m);
   const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
   if (!e.causes.empty())
     e.verdict = aliased ? "alias" : "named";
   else if (e.unexplained)
     e.verdict = "unexplained";
   else
-    e.verdict =
-        one_way || (is_untestable(e, "bias") && is_untestable(e, "coulomb_friction") && is_untestable(e, "edge_force")) ? "not_testable" : "clean";
+    e.verdict = one_way || std::all_of(offsets.begin(), offsets.end(), [&](const Mechanism* m) { return is_untestable(e, m->name); }) ? "not_testable"
+                                                                                                                                      : "clean";
 
-  const auto separate = [](const std::string& name) { return std::string(mechanisms()[static_cast<std::size_t>(find_mechanism(name))].separate); };
+  const auto separate = [](const std::string& name) { return std::string(mechanism_at(known_mechanism(name)).separate); };
   std::vector<std::string> wanted;
   for (const auto& c : e.causes)
     if (!c.aliases.empty()) {
-      wanted.push_back(separate(mechanisms()[static_cast<std::size_t>(c.term.mechanism)].name));
+      wanted.push_back(separate(mechanism_at(c.term.mechanism).name));
       for (const auto& a : c.aliases) wanted.push_back(separate(a));
     }
-  if (e.verdict == "not_testable") wanted = {separate("coulomb_friction"), separate("bias"), separate("edge_force")};
+  if (e.verdict == "not_testable")
+    for (const auto* m : offsets) wanted.emplace_back(m->separate);
   std::string text;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(i), wanted[i]) == wanted.begin() + static_cast<std::ptrdiff_t>(i))
@@ -191,7 +184,7 @@ void conclude(Explanation& e, bool one_way) {
   if (text.empty() && e.unexplained) text = "vary " + e.unexplained->variable + " alone, in steps, with everything else held, and record again";
   if (text.empty() && !e.not_testable.empty()) {
     for (const auto& n : e.not_testable)
-      if (n.mechanism != "gain_error") {
+      if (mechanism_at(known_mechanism(n.mechanism)).in_recordings) {
         text = "to test " + n.mechanism + " too: " + separate(n.mechanism);
         break;
       }
@@ -316,7 +309,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
       for (const auto& r : rivals)
         if (r.mechanism != causes[i].mechanism && r.chi2 - own < k_alias_chi2 * step.judgement.inflation + 0.003 * earned &&
             r.parameters <= parameters_of(causes[i], step.view.scene))
-          cause.aliases.emplace_back(mechanisms()[static_cast<std::size_t>(r.mechanism)].name);
+          cause.aliases.emplace_back(mechanism_at(r.mechanism).name);
     }
     cause.term = causes[i];
     e.causes.push_back(cause);
@@ -324,25 +317,26 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   }
   const bool one_way = moves_one_way(motion);
   for (std::size_t i = 0; one_way && i < causes.size(); ++i)
-    if (needs_reversal(name_of(causes[i])) && !is_offset(name_of(causes[i]))) causes[i] = as_offset(step.view, causes, i), changed = true;
+    if (needs_reversal(mechanism_of(causes[i])) && !is_offset(mechanism_of(causes[i]))) causes[i] = as_offset(step.view, causes, i), changed = true;
   if (changed) step = look(recording, motion, causes, options, done);
   for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
   for (auto& cause : e.causes) {
-    const char* other = name_of(cause.term) == "delay" ? "low_pass" : "delay";
+    const char* other = mechanism_of(cause.term).like_when_short;
     if (is_too_short_to_tell(cause.term, motion, recording.v_mm_s.size() > 0) &&
         std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
       cause.aliases.emplace_back(other);
   }
   for (auto& cause : e.causes)  // what is named beside it is no other word for it
     std::erase_if(cause.aliases, [&](const std::string& a) {
-      return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(find_mechanism(a)); }) &&
-             law_of(find_mechanism(a)) != law_of(cause.term.mechanism);
+      return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(known_mechanism(a)); }) &&
+             law_of(known_mechanism(a)) != law_of(cause.term.mechanism);
     });
   for (auto& cause : e.causes) {
-    if (!one_way || (!needs_reversal(name_of(cause.term)) && std::none_of(cause.aliases.begin(), cause.aliases.end(), needs_reversal))) continue;
-    std::erase_if(cause.aliases, needs_reversal);
-    for (const auto other : k_offsets)
-      if (other != name_of(cause.term)) cause.aliases.emplace_back(other);
+    const Mechanism& found = mechanism_of(cause.term);
+    if (!one_way || (!needs_reversal(found) && std::none_of(cause.aliases.begin(), cause.aliases.end(), alias_needs_reversal))) continue;
+    std::erase_if(cause.aliases, alias_needs_reversal);
+    for (const auto& other : mechanisms())
+      if (is_offset(other) && &other != &found) cause.aliases.emplace_back(other.name);
   }
 
   set_parameters(e, step.view, step.null, step.judgement.inflation);

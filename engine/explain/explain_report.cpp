@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-const Mechanism& mechanism_of(const Cause& c) { return mechanisms()[static_cast<std::size_t>(c.term.mechanism)]; }
+const Mechanism& mechanism_of(const Cause& c) { return mechanism_at(c.term.mechanism); }
 
 json to_json(const Interval& i) { return {{"value", i.value}, {"low", i.low}, {"high", i.high}}; }
 

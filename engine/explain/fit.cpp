@@ -26,7 +26,7 @@ struct Parameter {
 
 Eigen::Index Hypothesis::parameters() const {
   Eigen::Index fitted = 0;
-  const auto& ranges = mechanisms()[static_cast<std::size_t>(term.mechanism)].shape;
+  const auto& ranges = mechanism_at(term.mechanism).shape;
   for (std::size_t i = 0; i < ranges.size(); ++i) fitted += ranges[i].fitted && term.shape[i] != 0.0;
   return own + repeats - 1 + fitted;
 }

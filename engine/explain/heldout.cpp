@@ -53,7 +53,7 @@ std::vector<Term> search_without(const View& view, const Scores& whole, const Nu
 void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index begin, Eigen::Index end, Eigen::VectorXd& value) {
   Eigen::Index at = 2;
   for (const auto& term : causes) {
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+    const Mechanism& m = mechanism_at(term.mechanism);
     const Columns c = m.columns(view.scene, term.shape);
     const auto count = static_cast<Eigen::Index>(c.own.size()), first = at;
     at += count;

@@ -19,7 +19,7 @@ std::vector<std::vector<NamedValue>> named_values(const View& v, const Eigen::Ve
   for (const auto& h : v.known) tangent_at += h.coefficients();
   const Base base{value[0], value[1]};
   for (const auto& h : v.known) {
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(h.term.mechanism)];
+    const Mechanism& m = mechanism_at(h.term.mechanism);
     std::vector<double> own(value.data() + own_at, value.data() + own_at + h.coefficients()), shape = h.term.shape;
     own_at += h.coefficients();
     for (std::size_t s = 0; s < shape.size(); ++s) {
@@ -51,7 +51,7 @@ double jackknife_sd(const std::vector<double>& without) {
 std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, double inflation) {
   std::vector<std::vector<NamedValue>> out;
   const Term& term = v.causes[c];
-  const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+  const Mechanism& m = mechanism_at(term.mechanism);
   const auto variant_of = [&](const std::vector<double>& shape) {
     std::vector<double> variant;
     for (std::size_t i = 0; i < shape.size(); ++i) variant.push_back(m.shape[i].fitted ? (shape[i] == 0.0 ? 0.0 : 1.0) : shape[i]);
@@ -60,7 +60,7 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
   std::vector<std::vector<double>> tried{variant_of(term.shape)};
   std::vector<Term> causes = v.causes;
   const double own = fit_terms(v, causes).chi2;
-  const std::vector<std::vector<double>> grid = m.grid(v.scene);
+  const std::vector<std::vector<double>> grid = starts(m, v.scene);
   for (const auto& point : grid) {
     if (std::find(tried.begin(), tried.end(), variant_of(point)) != tried.end()) continue;
     tried.push_back(variant_of(point));
@@ -107,7 +107,7 @@ void set_parameters(Explanation& e, const View& v, const Null& null, double infl
   std::vector<std::vector<Interval>> interval(middle.size());
   for (std::size_t c = 0; c < middle.size(); ++c) {
     const auto forms = c < v.causes.size() ? other_forms(v, c, inflation) : std::vector<std::vector<NamedValue>>{};
-    const std::string_view name = c < v.causes.size() ? mechanisms()[static_cast<std::size_t>(v.causes[c].mechanism)].name : "";
+    const bool lag = c < v.causes.size() && mechanism_at(v.causes[c].mechanism).like_when_short != nullptr;
     for (std::size_t p = 0; p < middle[c].size(); ++p) {
       const double value = middle[c][p].value;
       Eigen::VectorXd slope(truth.size());
@@ -126,7 +126,7 @@ void set_parameters(Explanation& e, const View& v, const Null& null, double infl
         scatter += d * d / n;
       }
       if (n > 3.0) variance = std::max(variance, (scatter - bias * bias) * n / (n - 1.0)) + bias * bias;
-      if ((name == "delay" || name == "low_pass") && middle[c][p].name == "tau_s") variance += std::pow(k_clock_rows * v.scene.dt_s.mean(), 2);
+      if (lag && middle[c][p].name == "tau_s") variance += std::pow(k_clock_rows * v.scene.dt_s.mean(), 2);
       double half = k_normal * std::sqrt(std::max(0.0, variance));
       std::vector<double> left;
       for (const auto& w : without) left.push_back(w[c][p].value);

@@ -10,38 +10,14 @@
 namespace cavum::explain {
 namespace {
 
-using Parameters = std::vector<std::pair<std::string, double>>;
-
-/// Numbers of a cause that stand in its shape and not among its parameters. False: no force term is that shape of it.
-bool add_shape(const std::string& name, const std::vector<double>& shape, Parameters& out) {
-  if (name == "series_compliance" && shape[1] > 0.0) out.emplace_back("whole", 1.0);
-  if (name == "chatter") out.emplace_back("spinning", shape[1]);
-  if (name == "run_out") out.emplace_back("rate_ratio", shape[1]);
-  if (name == "relaxation") out.emplace_back("exponent", shape[2]);
-  if (name == "run_out") out.emplace_back("by_clock", shape[0] < 0.5 ? 1.0 : 0.0);
-  if (name == "wear") out.emplace_back("carried", shape[0] < 0.5 ? 0.0 : 1.0);
-  if (name == "hysteresis") {
-    if (shape[0] > 1.5) return false;  // in air too: a friction whose direction an exam's tip does not have
-    out.emplace_back("gamma", shape[0] < 0.5 ? 0.5 : 0.0);
-  }
-  if (name == "backlash") {
-    if (shape[0] < 0.5) return false;  // a play that keeps its place in air
-    if (shape[0] == 2.0) out.emplace_back("ahead_mm", 0.0);
-    if (shape[0] == 3.0) out.emplace_back("seen", 1.0);
-  }
-  return true;
-}
-
 /// Name and parameters of the engine's force term that is this cause; empty name when it is none.
-std::pair<std::string, Parameters> live_term(const Cause& cause) {
-  const Mechanism& m = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)];
-  const std::string name = m.name;
-  const TermKind* kind = find_term_kind(name);
-  Parameters known;
-  if (!m.live || kind == nullptr || !add_shape(name, cause.term.shape, known)) return {};
+std::pair<std::string, TermParameters> live_term(const Cause& cause) {
+  const Mechanism& m = mechanism_at(cause.term.mechanism);
+  TermParameters known;
+  if (m.term == nullptr || (m.shape_in_term && !m.shape_in_term(cause.term.shape, known))) return {};
   for (const auto& [parameter, interval] : cause.parameters) known.emplace_back(parameter, interval.value);
-  Parameters given;
-  for (const auto& p : kind->parameters) {
+  TermParameters given;
+  for (const auto& p : m.term->parameters) {
     const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == p.name; });
     if (found == known.end()) {
       if (!p.otherwise) return {};  // the same name for another formula
@@ -51,7 +27,7 @@ std::pair<std::string, Parameters> live_term(const Cause& cause) {
     if (value < p.low || value > p.high) return {};
     given.emplace_back(p.name, value);
   }
-  return {name, given};
+  return {m.name, given};
 }
 
 /// A string of TOML, whatever it holds; also a key. JSON's strings are TOML's, but for one character that TOML wants escaped.
@@ -111,13 +87,13 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
   for (const auto& m : start.measurement) effect(m, "kept from the model that was given");
   Eigen::Index at = 2;
   for (const auto& cause : e.causes) {
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(cause.term.mechanism)];
+    const Mechanism& m = mechanism_at(cause.term.mechanism);
     std::vector<double> own;
     const auto count = static_cast<Eigen::Index>(m.columns(e.after->scene, cause.term.shape).own.size());
     for (Eigen::Index i = 0; i < count; ++i) own.push_back(e.after->base_fit.value[at++]);
     const auto [name, parameters] = live_term(cause);
     if (!name.empty()) out << "\n# " << m.equation << ": felt in an exam too\n" << force_term_toml(name, parameters);
-    const bool own_phases = (name == "run_out" || name == "chatter") && own.size() > 2;
+    const bool own_phases = m.by_session && own.size() > 2;
     if (own_phases)
       effect({m.name, cause.term.shape, own}, "the same in this recording, each session with its phase: explain goes by this, an exam by the term");
     if (name.empty()) effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");

@@ -72,7 +72,7 @@ double z_of(double gain, const Spread& s, double blur) {
 }  // namespace
 
 Eigen::Index parameters_of(const Term& term, const Scene& scene) {
-  const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+  const Mechanism& m = mechanism_at(term.mechanism);
   auto n = static_cast<Eigen::Index>(m.columns(scene, term.shape).own.size());
   if (const auto groups = static_cast<Eigen::Index>(session_groups(*scene.recording)); m.by_session) n = n / groups + groups - 1;
   for (std::size_t i = 0; i < m.shape.size(); ++i) n += m.shape[i].fitted && term.shape[i] != 0.0;
@@ -93,7 +93,7 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
   for (const auto& h : v.grid) {
     Candidate& c = out[static_cast<std::size_t>(h.term.mechanism)];
     // an offset in one direction is c in other words, but no other cause may be named for want of it
-    const bool offset = one_way && mechanisms()[static_cast<std::size_t>(h.term.mechanism)].name == std::string("bias");
+    const bool offset = one_way && mechanism_at(h.term.mechanism).one_way == OneWay::is_offset;
     if (!offset && share_left(v, h) < k_testable) continue;
     c.testable = true;
     if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(h.term.mechanism); })) continue;
@@ -104,8 +104,7 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
       trial.scale = scale;
       model.back() = &trial;
       const FitResult f = fit(sums, v.products, model, left_out);
-      if (!makes_sense(mechanisms()[static_cast<std::size_t>(h.term.mechanism)], f.value.data() + own_at, static_cast<std::size_t>(h.coefficients())))
-        continue;
+      if (!makes_sense(mechanism_at(h.term.mechanism), f.value.data() + own_at, static_cast<std::size_t>(h.coefficients()))) continue;
       const double gain = before - f.chi2 - k_parameter_penalty * static_cast<double>(h.parameters() - 1);
       if (gain > c.gain) {
         c.gain = gain;
@@ -194,7 +193,7 @@ Term start_of(const View& v, const Candidate& c) {
   Term term = c.hypothesis.term;
   if (c.hypothesis.scale >= 0.999 || (c.hypothesis.spring < 0 && c.hypothesis.damper < 0)) return term;
   // the scale stands for a shape between this point and none: try some, keep the best
-  const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+  const Mechanism& m = mechanism_at(term.mechanism);
   Term best = term;
   double least = 1e300;
   for (const double part : {1.0, 0.5, 0.25, 0.12, 0.06, 0.03, 2.0, 4.0, 8.0}) {
@@ -222,11 +221,11 @@ std::vector<Term> refine(const View& v, std::vector<Term> causes, int cycles, st
   double best = fit_terms(v, causes).chi2;
   std::vector<std::vector<double>> width(causes.size());
   for (std::size_t i = 0; i < causes.size(); ++i)
-    for (const auto& s : mechanisms()[static_cast<std::size_t>(causes[i].mechanism)].shape)
+    for (const auto& s : mechanism_at(causes[i].mechanism).shape)
       width[i].push_back(std::string(s.name) == "frequency_hz" ? 4e-3 : std::string(s.name) == "rate_ratio" ? 1e-5 : s.logarithmic ? 0.35 : 0.1);
   for (int cycle = 0; cycle < cycles; ++cycle)
     for (std::size_t i = first; i < causes.size(); ++i) {
-      const auto& ranges = mechanisms()[static_cast<std::size_t>(causes[i].mechanism)].shape;
+      const auto& ranges = mechanism_at(causes[i].mechanism).shape;
       for (std::size_t s = 0; s < ranges.size(); ++s) {
         if (!ranges[s].fitted || causes[i].shape[s] == 0.0) continue;
         const auto moved = [&](double by) {

@@ -183,7 +183,7 @@ TableExplanation explain_table(const StiffnessTable& table) {
   said.verdict = z > 2.6 ? "alias" : "not_testable";
   if (said.verdict == "alias") {
     Cause c;
-    c.term.mechanism = find_mechanism("bias");
+    c.term.mechanism = known_mechanism("bias");
     for (const char* other : {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"}) c.aliases.emplace_back(other);
     c.parameters.emplace_back("bias_n", interval(e.line.intercept_n, e.line.intercept_error_n));
     c.p_value = 0.5 * std::erfc(z / std::sqrt(2.0));

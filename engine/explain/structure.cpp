@@ -27,7 +27,7 @@ Left left_of(const View& v) {
   std::vector<Series> columns{v.scene.spring_mm, v.scene.damper_mm_s};
   Eigen::Index own_at = 2;
   for (const auto& term : v.causes) {
-    Columns c = mechanisms()[static_cast<std::size_t>(term.mechanism)].columns(v.scene, term.shape);
+    Columns c = mechanism_at(term.mechanism).columns(v.scene, term.shape);
     if (c.spring.size() > 0) columns[0] += c.spring;
     if (c.damper.size() > 0) columns[1] += c.damper;
     std::vector<double> own;

@@ -4,7 +4,9 @@
 
 #include "engine/explain/lags.h"
 #include "engine/explain/mechanism.h"
+#include "engine/force/series_compliance.h"
 #include "engine/force/term_laws.h"
+#include "engine/force/tissue_terms.h"
 
 namespace cavum::explain {
 namespace {
@@ -78,133 +80,209 @@ Columns anisotropy_columns(const Scene& s, const Shape& p) {
 
 std::vector<Mechanism> tissue_mechanisms() {
   std::vector<Mechanism> m;
-  m.push_back({"series_compliance",
-               "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
-               "something elastic between the tool and the tooth",
-               "press a block of steel in the same holder",
-               true,
-               {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
-               [](const Scene& s) {  // either of the two: 0 = not that one
-                 Grid g;
-                 for (const double part : {0.5, 1.5, 5.0, 20.0}) g.push_back({part * std::max(1e-6, s.force_n.maxCoeff()), 0.0});
-                 if (s.base.k_n_per_mm > 0.0 && s.base.c_n_s_per_mm > 1e-3 * s.base.k_n_per_mm)
-                   for (const double softer : {0.03, 0.08, 0.2, 0.5, 1.2}) g.push_back({0.0, softer / s.base.k_n_per_mm});
-                 return g;
-               },
-               [](const Scene& s, const Shape& p) {
-                 if (p[1] > 0.0) return in_series(s, p[1]);
-                 return Columns{{}, each(s.spring_mm, [&](double x) { return softened_mm(x, s.base.k_n_per_mm, p[0]); }), {}};
-               },
-               [](const Shape& p, const Shape&, Base) {
-                 return std::vector<NamedValue>{p[1] > 0.0 ? NamedValue{"ks_n_per_mm", 1.0 / p[1]} : NamedValue{"softening_force_n", p[0]}};
-               },
-               false,
-               true});
-  m.push_back({"nonlinear_stiffness",
-               "k (X^m - X), X in mm",
-               "a stiffness that grows or falls as a power of the depth",
-               "press slowly to twice the depth",
-               true,
-               {{"m", 0.1, 5.0, false, true}},
-               [](const Scene&) {
-                 return points({0.5, 0.7, 0.85, 0.95, 1.05, 1.2, 1.5, 2.0, 2.7, 3.5});
-               },
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{}, each(s.spring_mm, [&](double x) { return power_beyond_mm(x, p[0]); }), {}};
-               },
-               [](const Shape& p, const Shape&, Base) {
-                 return std::vector<NamedValue>{{"m", p[0]}};
-               },
-               false,
-               true});
-  m.push_back({"hidden_layer",
-               "dk (X - d0)+",
-               "a layer below the surface with another stiffness",
-               "press slowly through the depth of the kink, at two sites",
-               true,
-               {{"d0_mm", 1e-4, 100, false, true}},
-               [](const Scene& s) {
-                 Grid g = points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
-                 for (const double known : s.recording->rig.layer_depths_mm)
-                   if (known > 0.0 && known < deepest_mm(s)) g.push_back({known});
-                 return g;
-               },
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{each(s.motion.x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
-               },
-               [](const Shape& p, const Shape& own, Base) {
-                 return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
-               },
-               false,
-               true});
-  m.push_back({"graded_stiffness",
-               "-k alpha X^2",
-               "a stiffness that changes evenly with depth",
-               "press slowly to twice the depth",
-               true,
-               {},
-               [](const Scene&) { return Grid{{}}; },
-               [](const Scene& s, const Shape&) {
-                 return Columns{{each(s.spring_mm, [](double x) { return graded_n(1.0, -1.0, x); })}, {}, {}};
-               },
-               [](const Shape&, const Shape& own, Base b) {
-                 return std::vector<NamedValue>{{"alpha_per_mm", -own[0] / b.k_n_per_mm}};
-               },
-               false,
-               true});
-  m.push_back({"anisotropy",
-               "F_sim e cos 2(phi - phi0)",
-               "a stiffness that depends on the angle of approach",
-               "approach one site at 0, 45, 90 and 135 degrees",
-               true,
-               {{"variant", 0, 1, false, false}},
-               [](const Scene& s) {
-                 return s.recording->column("approach_deg") != nullptr ? points({0.0, 1.0}) : Grid{};
-               },
-               anisotropy_columns,
-               [](const Shape& p, const Shape& own, Base) {
-                 return std::vector<NamedValue>{{p[0] < 0.5 ? "epsilon" : "amplitude_n", std::hypot(own[0], own[1])},
-                                                {"phi0_deg", 0.5 * std::atan2(own[1], own[0]) / k_radians}};
-               }});
-  m.push_back({"relaxation",
-               "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
-               "a force that decays while the tool is held still",
-               "hold for ten seconds at constant depth, three depths",
-               true,
-               {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
-               relaxation_grid,
-               [](const Scene& s, const Shape& p) {
-                 Columns c{{relaxing_mm(s, p[0], p[2])}, {}, {}};
-                 if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2]));
-                 return c;
-               },
-               [](const Shape& p, const Shape& own, Base) {
-                 if (p[1] <= 0.0) return std::vector<NamedValue>{{"k1_n_per_mm", own[0]}, {"tau1_s", p[0]}};
-                 const std::size_t a = p[0] <= p[1] ? 0 : 1, b = 1 - a;
-                 return std::vector<NamedValue>{{"k1_n_per_mm", own[a]}, {"tau1_s", p[a]}, {"k2_n_per_mm", own[b]}, {"tau2_s", p[b]}};
-               },
-               false,
-               true});
-  m.push_back({"feed_power_law",
-               "c (|V|^n sign V - V), V in mm/s",
-               "a force that grows with another power of the speed",
-               "press at five speeds over two decades",
-               true,
-               {{"n", 0.05, 4.0, false, true}},
-               [](const Scene&) {
-                 return points({0.15, 0.35, 0.55, 0.75, 0.9, 1.15, 1.5, 2.0});
-               },
-               [](const Scene& s, const Shape& p) {
-                 return Columns{{}, {}, each(s.motion.v_mm_s, [&](double v) {
-                                          const double size = std::hypot(v, k_rest_mm_s);
-                                          return v / size * feed_beyond_mm_s(size, p[0]);
-                                        }) * s.active};
-               },
-               [](const Shape& p, const Shape&, Base) {
-                 return std::vector<NamedValue>{{"n", p[0]}};
-               },
-               false,
-               true});
+  m.push_back({
+      .name = "series_compliance",
+      .equation = "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
+      .words = "something elastic between the tool and the tooth",
+      .separate = "press a block of steel in the same holder",
+      .term = &k_series_compliance,
+      .shape = {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
+      .grid =
+          [](const Scene& s) {  // either of the two: 0 = not that one
+            Grid g;
+            for (const double part : {0.5, 1.5, 5.0, 20.0}) g.push_back({part * std::max(1e-6, s.force_n.maxCoeff()), 0.0});
+            if (s.base.k_n_per_mm > 0.0 && s.base.c_n_s_per_mm > 1e-3 * s.base.k_n_per_mm)
+              for (const double softer : {0.03, 0.08, 0.2, 0.5, 1.2}) g.push_back({0.0, softer / s.base.k_n_per_mm});
+            return g;
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            if (p[1] > 0.0) return in_series(s, p[1]);
+            return Columns{{}, each(s.spring_mm, [&](double x) { return softened_mm(x, s.base.k_n_per_mm, p[0]); }), {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{p[1] > 0.0 ? NamedValue{"ks_n_per_mm", 1.0 / p[1]} : NamedValue{"softening_force_n", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        if (std::isfinite(value("ks_n_per_mm"))) return std::nullopt;
+        return Numbers{{value("softening_force_n"), 0.0}, {}};
+      },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            if (shape[1] > 0.0) out.emplace_back("whole", 1.0);
+            return true;
+          },
+      .variant_of = "nonlinear_stiffness",
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "nonlinear_stiffness",
+      .equation = "k (X^m - X), X in mm",
+      .words = "a stiffness that grows or falls as a power of the depth",
+      .separate = "press slowly to twice the depth",
+      .term = &k_nonlinear_stiffness,
+      .shape = {{"m", 0.1, 5.0, false, true}},
+      .grid =
+          [](const Scene&) {
+            return points({0.5, 0.7, 0.85, 0.95, 1.05, 1.2, 1.5, 2.0, 2.7, 3.5});
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{}, each(s.spring_mm, [&](double x) { return power_beyond_mm(x, p[0]); }), {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"m", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("m")}, {}};
+      },
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "hidden_layer",
+      .equation = "dk (X - d0)+",
+      .words = "a layer below the surface with another stiffness",
+      .separate = "press slowly through the depth of the kink, at two sites",
+      .term = &k_hidden_layer,
+      .shape = {{"d0_mm", 1e-4, 100, false, true}},
+      .grid =
+          [](const Scene& s) {
+            Grid g = points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+            for (const double known : s.recording->rig.layer_depths_mm)
+              if (known > 0.0 && known < deepest_mm(s)) g.push_back({known});
+            return g;
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{each(s.motion.x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("d0_mm")}, {value("dk_n_per_mm")}};
+      },
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "graded_stiffness",
+      .equation = "-k alpha X^2",
+      .words = "a stiffness that changes evenly with depth",
+      .separate = "press slowly to twice the depth",
+      .term = &k_graded_stiffness,
+      .grid = [](const Scene&) { return Grid{{}}; },
+      .columns =
+          [](const Scene& s, const Shape&) {
+            return Columns{{each(s.spring_mm, [](double x) { return graded_n(1.0, -1.0, x); })}, {}, {}};
+          },
+      .parameters =
+          [](const Shape&, const Shape& own, Base b) {
+            return std::vector<NamedValue>{{"alpha_per_mm", -own[0] / b.k_n_per_mm}};
+          },
+      .from_term = [](const TermReader& value, Base base) -> std::optional<Numbers> {
+        return Numbers{{}, {-value("alpha_per_mm") * base.k_n_per_mm}};
+      },
+      .variant_of = "nonlinear_stiffness",
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "anisotropy",
+      .equation = "F_sim e cos 2(phi - phi0)",
+      .words = "a stiffness that depends on the angle of approach",
+      .separate = "approach one site at 0, 45, 90 and 135 degrees",
+      .term = &k_anisotropy,
+      .needs = {"approach_deg"},
+      .shape = {{"variant", 0, 1, false, false}},
+      .grid =
+          [](const Scene&) {
+            return points({0.0, 1.0});
+          },
+      .columns = anisotropy_columns,
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{p[0] < 0.5 ? "epsilon" : "amplitude_n", std::hypot(own[0], own[1])},
+                                           {"phi0_deg", 0.5 * std::atan2(own[1], own[0]) / k_radians}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        if (value("epsilon") != 0.0 && value("amplitude_n") != 0.0) return std::nullopt;
+        const double size = value("epsilon") != 0.0 ? value("epsilon") : value("amplitude_n");
+        const SinCos to = twice_angle(value("phi0_deg"));
+        return Numbers{{value("epsilon") != 0.0 ? 0.0 : 1.0}, {size * to.cos, size * to.sin}};
+      },
+  });
+
+  m.push_back({
+      .name = "relaxation",
+      .equation = "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
+      .words = "a force that decays while the tool is held still",
+      .separate = "hold for ten seconds at constant depth, three depths",
+      .term = &k_relaxation,
+      .shape = {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
+      .grid = relaxation_grid,
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            Columns c{{relaxing_mm(s, p[0], p[2])}, {}, {}};
+            if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2]));
+            return c;
+          },
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            if (p[1] <= 0.0) return std::vector<NamedValue>{{"k1_n_per_mm", own[0]}, {"tau1_s", p[0]}};
+            const std::size_t a = p[0] <= p[1] ? 0 : 1, b = 1 - a;
+            return std::vector<NamedValue>{{"k1_n_per_mm", own[a]}, {"tau1_s", p[a]}, {"k2_n_per_mm", own[b]}, {"tau2_s", p[b]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("tau1_s"), value("k2_n_per_mm") != 0.0 ? value("tau2_s") : 0.0, value("exponent")},
+                       {value("k1_n_per_mm"), value("k2_n_per_mm")}};
+      },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            out.emplace_back("exponent", shape[2]);
+            return true;
+          },
+      .own = k_positive,
+      .simpler =
+          [](const Shape& p) {
+            return p[1] > 0.0 ? Shape{std::sqrt(p[0] * p[1]), 0.0, p[2]} : Shape{};
+          },
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "feed_power_law",
+      .equation = "c (|V|^n sign V - V), V in mm/s",
+      .words = "a force that grows with another power of the speed",
+      .separate = "press at five speeds over two decades",
+      .term = &k_feed_power_law,
+      .shape = {{"n", 0.05, 4.0, false, true}},
+      .grid =
+          [](const Scene&) {
+            return points({0.15, 0.35, 0.55, 0.75, 0.9, 1.15, 1.5, 2.0});
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{}, {}, each(s.motion.v_mm_s, [&](double v) {
+                                     const double size = std::hypot(v, k_rest_mm_s);
+                                     return v / size * feed_beyond_mm_s(size, p[0]);
+                                   }) * s.active};
+          },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"n", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("n")}, {}};
+      },
+      .inside = true,
+  });
+
   return m;
 }
 

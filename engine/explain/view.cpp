@@ -21,7 +21,7 @@ Design design_of(const Scene& scene, const std::vector<Term>& causes) {
   Series spring = scene.spring_mm, damper = scene.damper_mm_s;
   std::vector<Series> own;
   for (const auto& term : causes) {
-    Columns c = mechanisms()[static_cast<std::size_t>(term.mechanism)].columns(scene, term.shape);
+    Columns c = mechanism_at(term.mechanism).columns(scene, term.shape);
     if (c.spring.size() > 0) spring += c.spring;
     if (c.damper.size() > 0) damper += c.damper;
     for (auto& o : c.own) own.push_back(std::move(o));
@@ -72,7 +72,7 @@ Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eige
   Series f = value[0] * open.spring_mm + value[1] * open.damper_mm_s;
   Eigen::Index at = 2;
   for (const auto& term : causes) {
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+    const Mechanism& m = mechanism_at(term.mechanism);
     const Columns c = m.columns(open, term.shape);
     if (m.inside) {
       for (std::size_t i = 0; i < c.own.size(); ++i) f += value[at + static_cast<Eigen::Index>(i)] * c.own[i];
@@ -85,7 +85,7 @@ Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eige
 }
 
 bool any_inside(const std::vector<Term>& causes) {
-  return std::any_of(causes.begin(), causes.end(), [](const Term& t) { return mechanisms()[static_cast<std::size_t>(t.mechanism)].inside; });
+  return std::any_of(causes.begin(), causes.end(), [](const Term& t) { return mechanism_at(t.mechanism).inside; });
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ FitResult fit_terms(const View& v, const std::vector<Term>& causes, bool covaria
 }
 
 std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std::vector<double>& own, Base base) {
-  const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+  const Mechanism& m = mechanism_at(term.mechanism);
   const auto force = [&](const std::vector<double>& shape) {
     const Columns c = m.columns(scene, shape);
     Series f = Series::Zero(scene.force_n.size());
@@ -196,9 +196,9 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   const auto add_term = [&](const Term& term) {
     Hypothesis h;
     h.term = term;
-    Columns c = mechanisms()[static_cast<std::size_t>(term.mechanism)].columns(v.scene, term.shape);
+    Columns c = mechanism_at(term.mechanism).columns(v.scene, term.shape);
     h.first = static_cast<Eigen::Index>(z.size());
-    const Mechanism& m = mechanisms()[static_cast<std::size_t>(term.mechanism)];
+    const Mechanism& m = mechanism_at(term.mechanism);
     h.repeats = m.by_session ? static_cast<Eigen::Index>(session_groups(recording)) : 1;
     h.own = static_cast<Eigen::Index>(c.own.size()) / h.repeats;
     for (Eigen::Index i = 0; i < h.own; ++i) {  // columns of different sessions do not overlap: their sum holds them all

@@ -102,7 +102,7 @@ TEST(Hunt, WhatWasHiddenIsFoundAndItsModelLeavesNothing) {
   const Explanation e = explain(r);
   ASSERT_EQ(e.causes.size(), 1u) << to_text(e);
   EXPECT_EQ(e.verdict, "named");
-  EXPECT_EQ(mechanisms()[static_cast<std::size_t>(e.causes[0].term.mechanism)].name, answer.term_values[0].kind);
+  EXPECT_EQ(mechanism_at(e.causes[0].term.mechanism).name, answer.term_values[0].kind);
   const auto& [name, hidden] = answer.term_values[0].parameters.at(0);
   ASSERT_EQ(e.causes[0].parameters.at(0).first, name);
   const Interval& found = e.causes[0].parameters[0].second;

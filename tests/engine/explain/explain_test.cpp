@@ -13,9 +13,7 @@
 namespace cavum::explain {
 namespace {
 
-std::string first_cause(const Explanation& e) {
-  return e.causes.empty() ? "" : mechanisms()[static_cast<std::size_t>(e.causes.front().term.mechanism)].name;
-}
+std::string first_cause(const Explanation& e) { return e.causes.empty() ? "" : mechanism_at(e.causes.front().term.mechanism).name; }
 
 const Interval& parameter(const Explanation& e, const std::string& name) {
   for (const auto& [n, i] : e.causes.at(0).parameters)

@@ -111,7 +111,7 @@ TEST(Holds, ThatRepeatDoNotHideFriction) {
   const Recording r = made::recording(coarse(new_seed("one programme"), true), [](const made::Row& q) { return 0.04 * std::tanh(q.v_mm_s / 0.02); });
   const Explanation e = explain(r);
   ASSERT_FALSE(e.causes.empty()) << to_text(e);
-  const auto name = [](int mechanism) { return mechanisms()[static_cast<std::size_t>(mechanism)].name; };
+  const auto name = [](int mechanism) { return mechanism_at(mechanism).name; };
   bool found = name(e.causes.front().term.mechanism) == std::string("coulomb_friction");
   for (const auto& alias : e.causes.front().aliases) found = found || alias == "coulomb_friction";
   EXPECT_TRUE(found) << to_text(e);

@@ -48,7 +48,7 @@ struct Stage {
 
   /// What a mechanism adds with these coefficients.
   [[nodiscard]] Series column_n(const char* name, const std::vector<double>& shape, const std::vector<double>& own) const {
-    const Columns c = mechanisms()[static_cast<std::size_t>(find_mechanism(name))].columns(scene, shape);
+    const Columns c = mechanism_at(find_mechanism(name)).columns(scene, shape);
     EXPECT_EQ(c.own.size(), own.size()) << name;
     Series f = Series::Zero(scene.force_n.size());
     for (std::size_t i = 0; i < own.size(); ++i) f += own[i] * c.own[i];
@@ -111,7 +111,7 @@ TEST(LiveTerms, ColumnsOfExplainAreTheForcesOfTheEngine) {
 }
 
 TEST(LiveTerms, EveryLiveMechanismIsATermOfTheEngine) {
-  for (const auto& m : mechanisms()) EXPECT_EQ(m.live, find_term_kind(m.name) != nullptr) << m.name;
+  for (const auto& m : mechanisms()) EXPECT_EQ(m.term, find_term_kind(m.name)) << m.name;
 }
 
 }  // namespace

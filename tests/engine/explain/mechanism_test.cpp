@@ -25,7 +25,7 @@ struct Stage {
     scene = make_scene(recording, m, base, 0.0, 0.0);
   }
   [[nodiscard]] Columns columns(const char* name, const std::vector<double>& shape) const {
-    return mechanisms()[static_cast<std::size_t>(find_mechanism(name))].columns(scene, shape);
+    return mechanism_at(find_mechanism(name)).columns(scene, shape);
   }
 };
 
@@ -90,7 +90,7 @@ TEST(Mechanisms, FrictionFlipsWithTheMotionInAirToo) {
 }
 
 TEST(Mechanisms, FrictionThatPushesMakesNoSense) {
-  const auto& m = mechanisms()[static_cast<std::size_t>(find_mechanism("coulomb_friction"))];
+  const auto& m = mechanism_at(find_mechanism("coulomb_friction"));
   const double pushes = -0.1, resists = 0.1;
   EXPECT_FALSE(makes_sense(m, &pushes, 1));
   EXPECT_TRUE(makes_sense(m, &resists, 1));

@@ -108,7 +108,7 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   const Recording r = with(c, {});
   const Explanation e = explain(r);
   ASSERT_EQ(e.causes.size(), 1u) << to_text(e);
-  const std::string found = mechanisms()[static_cast<std::size_t>(e.causes[0].term.mechanism)].name;
+  const std::string found = mechanism_at(e.causes[0].term.mechanism).name;
   const auto& aliases = e.causes[0].aliases;
   EXPECT_TRUE(found == c.name || std::find(aliases.begin(), aliases.end(), c.name) != aliases.end()) << to_text(e);
 

@@ -60,7 +60,7 @@ TEST(SessionRecording, AMeasuredForceIsReadFromTheSessionAndItsFrictionIsNamed) 
   EXPECT_LT(r.relative_k.minCoeff(), 0.9) << "the pulp resists nothing, and the motion reaches it";
   const Explanation e = explain(r);
   ASSERT_FALSE(e.causes.empty()) << to_text(e);
-  EXPECT_EQ(std::string(mechanisms()[static_cast<std::size_t>(e.causes.front().term.mechanism)].name), "coulomb_friction") << to_text(e);
+  EXPECT_EQ(std::string(mechanism_at(e.causes.front().term.mechanism).name), "coulomb_friction") << to_text(e);
   EXPECT_NEAR(e.causes.front().parameters.at(0).second.value, 0.2, 0.03);
   EXPECT_NEAR(e.base.k_n_per_mm, 0.8, 0.06);
 }
