@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "grading/result_json.h"
-#include "scenarios/exam.h"
+#include "grading/result/result_json.h"
+#include "scenarios/exam/exam.h"
 
 namespace cavum {
 

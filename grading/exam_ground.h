@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/session/session.h"
-#include "scenarios/scenario.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/file/scenario.h"
+#include "scenarios/zones/zone_map.h"
 
 namespace cavum {
 

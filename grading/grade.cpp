@@ -7,16 +7,16 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "grading/access.h"
-#include "grading/cut_surface.h"
-#include "grading/loss.h"
-#include "grading/motion.h"
-#include "grading/perforation.h"
-#include "grading/removed_map.h"
-#include "grading/volumes.h"
-#include "scenarios/accommodations.h"
-#include "scenarios/exam.h"
-#include "scenarios/runner.h"
+#include "grading/breakthrough/perforation.h"
+#include "grading/measures/access.h"
+#include "grading/measures/cut_surface.h"
+#include "grading/measures/motion.h"
+#include "grading/measures/removed_map.h"
+#include "grading/measures/volumes.h"
+#include "grading/result/loss.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/exam/runner.h"
+#include "scenarios/file/accommodations.h"
 
 namespace cavum {
 namespace {
@@ -138,12 +138,6 @@ void compare_with_final_tooth(const GradeInput& input, const RemovedMap& removed
 }
 
 }  // namespace
-
-std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events) {
-  for (const auto& e : events)
-    if (is_kind(e, ExamEventKind::finished)) recorded = std::min(recorded, e.tick + 1);
-  return recorded;
-}
 
 Result grade(const GradeInput& input, const RubricSpec& rubric) {
   if (input.inputs.size() != input.records.size()) throw Error("grading", "as many inputs as records are needed", "use a whole session");

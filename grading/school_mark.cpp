@@ -7,9 +7,9 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "grading/result_json.h"
+#include "grading/result/result_json.h"
 #include "grading/session_input.h"
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 
 namespace cavum {
 namespace {

@@ -2,10 +2,10 @@
 
 #include "engine/base/error.h"
 #include "engine/session/chain_check.h"
-#include "scenarios/accommodations.h"
-#include "scenarios/parse.h"
-#include "scenarios/rubric_check.h"
-#include "scenarios/surface_files.h"
+#include "scenarios/file/accommodations.h"
+#include "scenarios/file/parse.h"
+#include "scenarios/file/rubric_check.h"
+#include "scenarios/file/surface_files.h"
 
 namespace cavum {
 

@@ -58,9 +58,9 @@ struct HeadShape {
       head.distances_mm(x + head.corners.x[block], y + head.corners.y[block], z + head.corners.z[block], head.leaves, out);
     }
     [[nodiscard]] bool unchanged(int block) const noexcept {
-      return head.only_leading && head.unchanged_in_tool({double{x + head.centres.x[block]}, double{y + head.centres.y[block]},
-                                                          double{z + head.centres.z[block]}},
-                                                         0.5 * head.leaf_mm * k_half_diagonal);
+      return head.only_leading &&
+             head.unchanged_in_tool({double{x + head.centres.x[block]}, double{y + head.centres.y[block]}, double{z + head.centres.z[block]}},
+                                    0.5 * head.leaf_mm * k_half_diagonal);
     }
   };
   [[nodiscard]] Brick brick(Vec3 low_mm) const noexcept {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/print.h"
 #include "engine/base/text.h"
 #include "engine/rig/cube_rig.h"
-#include "engine/rig/print.h"
 
 namespace cavum {
 namespace {

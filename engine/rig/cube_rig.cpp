@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/rig/independent_runs.h"
-#include "engine/tooth/make_block.h"
+#include "engine/statistics/independent_runs.h"
+#include "engine/tooth/make/make_block.h"
 
 namespace cavum {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/print.h"
 #include "engine/rig/press_rig.h"
-#include "engine/rig/print.h"
 
 namespace cavum {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/rig/independent_runs.h"
 #include "engine/rig/published.h"
-#include "engine/rig/statistics.h"
-#include "engine/tooth/make_block.h"
+#include "engine/statistics/independent_runs.h"
+#include "engine/statistics/statistics.h"
+#include "engine/tooth/make/make_block.h"
 
 namespace cavum {
 namespace {

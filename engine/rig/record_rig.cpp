@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/rig/independent_runs.h"
-#include "engine/rig/print.h"
-#include "engine/tooth/make_block.h"
+#include "engine/base/print.h"
+#include "engine/statistics/independent_runs.h"
+#include "engine/tooth/make/make_block.h"
 
 namespace cavum {
 namespace {

@@ -8,7 +8,7 @@
 #include "engine/base/det_math.h"
 #include "engine/servo/real_time_json.h"
 #include "engine/session/simulation.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 
 namespace cavum {
 namespace {

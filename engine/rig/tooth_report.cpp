@@ -1,7 +1,7 @@
 // The cut through a tooth in words, tables and JSON.
 #include <nlohmann/json.hpp>
 
-#include "engine/rig/print.h"
+#include "engine/base/print.h"
 #include "engine/rig/tooth_rig.h"
 
 namespace cavum {

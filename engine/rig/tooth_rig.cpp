@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/rig/independent_runs.h"
+#include "engine/statistics/independent_runs.h"
 
 namespace cavum {
 namespace {

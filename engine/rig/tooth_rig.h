@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/rig/statistics.h"
 #include "engine/rig/testing_machine.h"
+#include "engine/statistics/statistics.h"
 
 namespace cavum {
 

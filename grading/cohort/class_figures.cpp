@@ -10,7 +10,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/csv.h"
 #include "grading/ledger/exam_scale.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/zones/zone_map.h"
 
 namespace cavum::cohort {
 namespace {

@@ -10,8 +10,8 @@
 #include "engine/session/session_reader.h"
 #include "grading/cohort/class_figures.h"
 #include "grading/grade.h"
-#include "scenarios/parse.h"
-#include "scenarios/surface_files.h"
+#include "scenarios/file/parse.h"
+#include "scenarios/file/surface_files.h"
 
 namespace cavum::cohort {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grading/ledger/filing.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/zones/zone_map.h"
 
 namespace cavum::cohort {
 

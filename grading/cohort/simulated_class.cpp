@@ -13,7 +13,7 @@
 #include "grading/close_exam.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/issue.h"
-#include "scenarios/simulated_exam.h"
+#include "scenarios/candidates/simulated_exam.h"
 
 namespace cavum::cohort {
 namespace {

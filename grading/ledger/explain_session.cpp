@@ -8,7 +8,7 @@
 #include "engine/session/verify.h"
 #include "grading/ledger/ticket.h"
 #include "grading/session_input.h"
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 
 namespace cavum {
 

@@ -7,7 +7,7 @@
 #include "engine/session/session_image.h"
 #include "grading/grade.h"
 #include "grading/school_mark.h"
-#include "scenarios/parse.h"
+#include "scenarios/file/parse.h"
 
 namespace cavum {
 namespace {

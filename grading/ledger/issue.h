@@ -6,7 +6,7 @@
 
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 
 namespace cavum {
 

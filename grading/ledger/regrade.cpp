@@ -2,7 +2,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
-#include "scenarios/parse.h"
+#include "scenarios/file/parse.h"
 
 namespace cavum {
 namespace {

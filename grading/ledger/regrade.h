@@ -7,7 +7,7 @@
 
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
-#include "scenarios/surface_files.h"
+#include "scenarios/file/surface_files.h"
 
 namespace cavum {
 

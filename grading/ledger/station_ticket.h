@@ -7,7 +7,7 @@
 
 #include "engine/session/resume.h"
 #include "grading/ledger/ticket.h"
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 
 namespace cavum {
 

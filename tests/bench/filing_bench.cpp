@@ -12,7 +12,7 @@
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "engine/cutting/carve_head.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"
 

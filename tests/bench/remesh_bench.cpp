@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/base/random.h"
-#include "engine/tooth/make_molar.h"
+#include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/surface_patches.h"
 #include "tests/bench/thread_clock.h"

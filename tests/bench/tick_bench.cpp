@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "engine/base/error.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "engine/device/station_pedal.h"
+#include "engine/device/hardware/station_pedal.h"
 #include "tests/device/emulated_pedal.h"
 #include "tests/device/program.h"
 #include "tests/engine/support/basics.h"

@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-#include "engine/device/falcon_kinematics.h"
+#include "engine/device/hardware/falcon_kinematics.h"
 #include "tests/device/emulated_usb.h"
 
 namespace cavum::testing_device {

@@ -13,7 +13,7 @@
 #include "engine/session/clock_check.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "engine/tooth/tooth.h"
 #include "tests/engine/support/basics.h"
 
@@ -155,8 +155,7 @@ TEST_F(ExamDevice, StoppedForFourSecondsTheLostTimeStandsInItsResultAndNothingIs
   const auto result = nlohmann::json::parse(session.result_json());
   const double made_up_s = RealTimeOptions{}.most_made_up * k_tick_s;  // ticks that are run at once after a pause: they count as time of the exam
   EXPECT_GE(result.value("lost_time_s", 0.0), k_stopped_s - made_up_s - k_tick_s) << "a stopped program gains no time unseen";
-  for (const auto& remark : check_clocks(session))
-    EXPECT_FALSE(remark.doubtful) << "what the recording owns up to is no finding: " << remark.what;
+  for (const auto& remark : check_clocks(session)) EXPECT_FALSE(remark.doubtful) << "what the recording owns up to is no finding: " << remark.what;
 }
 
 TEST_F(ExamDevice, GoesOnOnlyWithTheEncoderItWasBegunWith) {

@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "engine/base/file.h"
-#include "engine/device/station_pedal.h"
+#include "engine/device/hardware/station_pedal.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "engine/tooth/tooth.h"
 #include "tests/device/emulated_falcon.h"
 #include "tests/device/emulated_pedal.h"

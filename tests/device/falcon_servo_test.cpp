@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "engine/base/file.h"
-#include "engine/device/falcon_stylus.h"
-#include "engine/device/open_stylus.h"
+#include "engine/device/hardware/falcon_stylus.h"
+#include "engine/device/hardware/open_stylus.h"
 #include "engine/rig/servo_rig.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/session_writer.h"

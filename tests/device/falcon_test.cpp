@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "engine/base/file.h"
-#include "engine/device/falcon_stylus.h"
-#include "engine/device/open_stylus.h"
+#include "engine/device/hardware/falcon_stylus.h"
+#include "engine/device/hardware/open_stylus.h"
 #include "tests/device/emulated_falcon.h"
 #include "tests/device/emulated_pedal.h"
 #include "tests/engine/support/basics.h"

@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "engine/device/open_stylus.h"
+#include "engine/device/hardware/open_stylus.h"
 #include "tests/device/emulated_falcon.h"
 #include "tests/device/emulated_pedal.h"
 #include "tests/device/program.h"

@@ -8,8 +8,8 @@
 #include <random>
 #include <thread>
 
-#include "engine/device/open_stylus.h"
-#include "engine/device/openhaptics_stylus.h"
+#include "engine/device/hardware/open_stylus.h"
+#include "engine/device/hardware/openhaptics_stylus.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "engine/base/file.h"
-#include "engine/device/hid_pedal.h"
+#include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/simulated_stylus.h"
 #include "engine/device/with_pedal.h"
 #include "engine/rig/servo_rig.h"
@@ -13,7 +13,7 @@
 #include "engine/session/session_writer.h"
 #include "engine/session/simulation.h"
 #include "engine/session/verify.h"
-#include "engine/tooth/formula_tooth.h"
+#include "engine/tooth/make/formula_tooth.h"
 #include "tests/device/the_pedal.h"
 #include "tests/engine/support/basics.h"
 

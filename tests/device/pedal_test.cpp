@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "engine/device/hid_pedal.h"
+#include "engine/device/hardware/hid_pedal.h"
 #include "tests/device/the_pedal.h"
 
 namespace cavum {

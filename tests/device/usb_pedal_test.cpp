@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/device/hid_pedal.h"
+#include "engine/device/hardware/hid_pedal.h"
 #include "tests/device/emulated_usb_pedal.h"
 
 namespace cavum {

@@ -1,5 +1,5 @@
 // What a rig recorded: CSV with a position, CSV of force alone, or the rig's own description, by the first byte.
-#include "engine/explain/recording.h"
+#include "engine/explain/recording/recording.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 

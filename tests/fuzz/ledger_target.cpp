@@ -24,7 +24,8 @@ void fuzz_ticket(Data data) {
     mine["public_key"] = to_hex(school_key().public_key);
     const std::string signed_text = "CVTICKET" + mine.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const auto signature = school_key().sign(bytes_of(signed_text));
-    const Ticket ticket = parse_ticket(nlohmann::json{{"grant", facts.value("grant", "")}, {"signature", to_hex(signature)}, {"ticket", mine}}.dump(), "", "ticket");
+    const Ticket ticket =
+        parse_ticket(nlohmann::json{{"grant", facts.value("grant", "")}, {"signature", to_hex(signature)}, {"ticket", mine}}.dump(), "", "ticket");
     static_cast<void>(check_ticket(ticket, k_setup, ticket.not_after_utc_ns));
   } catch (const Error&) {
   } catch (const nlohmann::json::exception&) {  // our own writing of a text that is no UTF-8

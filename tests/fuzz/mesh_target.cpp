@@ -2,7 +2,7 @@
 #include <array>
 #include <fstream>
 
-#include "engine/tooth/import/read_mesh.h"
+#include "engine/tooth/mesh/read_mesh.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 

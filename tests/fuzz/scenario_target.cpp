@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "scenarios/parse.h"
+#include "scenarios/file/parse.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 

@@ -15,12 +15,12 @@
 #include <iterator>
 
 #include "engine/base/file.h"
-#include "engine/tooth/import/dicom_bytes.h"
-#include "engine/tooth/import/itk_volume.h"
-#include "engine/tooth/import/tiff_bytes.h"
-#include "engine/tooth/import/volume_files.h"
-#include "engine/tooth/import/volume_limits.h"
-#include "engine/tooth/import/volume_wire.h"
+#include "engine/tooth/volume/dicom_bytes.h"
+#include "engine/tooth/volume/itk/itk_volume.h"
+#include "engine/tooth/volume/tiff_bytes.h"
+#include "engine/tooth/volume/volume_files.h"
+#include "engine/tooth/volume/volume_limits.h"
+#include "engine/tooth/volume/volume_wire.h"
 #include "tests/engine/tooth/import/import_testing.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"

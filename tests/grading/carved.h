@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "grading/grade.h"
-#include "scenarios/parse.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/file/parse.h"
+#include "scenarios/zones/zone_map.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum::testing {

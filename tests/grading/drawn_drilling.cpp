@@ -8,7 +8,7 @@
 
 #include "engine/base/random.h"
 #include "engine/device/simulated_omni.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum::testing_grading {

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "grading/cut_surface.h"
-#include "grading/result_json.h"
-#include "scenarios/names.h"
+#include "grading/measures/cut_surface.h"
+#include "grading/result/result_json.h"
+#include "scenarios/file/names.h"
 #include "tests/grading/carved.h"
 
 namespace cavum {

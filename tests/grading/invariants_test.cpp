@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/random.h"
-#include "grading/result_json.h"
+#include "grading/result/result_json.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 

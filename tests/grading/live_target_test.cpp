@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "engine/base/random.h"
-#include "scenarios/runner.h"
+#include "scenarios/exam/runner.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 

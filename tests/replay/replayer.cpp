@@ -7,7 +7,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/session/verify.h"
-#include "grading/result_json.h"
+#include "grading/result/result_json.h"
 #include "grading/session_input.h"
 
 int main(int argc, char** argv) {

@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "engine/base/file.h"
-#include "scenarios/check.h"
+#include "scenarios/review/check.h"
 
 namespace cavum {
 namespace {

@@ -8,10 +8,10 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/toml_limits.h"
 #include "engine/tooth/distance.h"
-#include "engine/tooth/import/read_mesh.h"
-#include "engine/tooth/import/volume_limits.h"
-#include "scenarios/checked_toml.h"
-#include "scenarios/zone_work.h"
+#include "engine/tooth/mesh/read_mesh.h"
+#include "engine/tooth/volume/volume_limits.h"
+#include "scenarios/file/checked_toml.h"
+#include "scenarios/zones/zone_work.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/tooth/tooth.h"
-#include "scenarios/parse.h"
+#include "scenarios/file/parse.h"
 
 namespace cavum::testing {
 

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
-#include "grading/result_json.h"
+#include "grading/result/result_json.h"
 #include "grading/session_input.h"
-#include "scenarios/check.h"
-#include "scenarios/simulated_exam.h"
+#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/review/check.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/text.h"
-#include "scenarios/picture.h"
-#include "ui/chart_svg.h"
+#include "scenarios/review/picture.h"
+#include "ui/parts/chart_svg.h"
 #include "ui/report/print/html_writer.h"
 #include "ui/report/print/pdf_writer.h"
 

@@ -3,7 +3,7 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "scenarios/accommodations.h"
+#include "scenarios/file/accommodations.h"
 #include "ui/report/report_document.h"
 
 namespace cavum {

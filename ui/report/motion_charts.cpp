@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
-#include "ui/chart_svg.h"
+#include "ui/parts/chart_svg.h"
 #include "ui/report/figures/motion_track.h"
 
 namespace cavum {

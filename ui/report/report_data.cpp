@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/instrument/diamond_point.h"
-#include "scenarios/picture.h"
+#include "scenarios/review/picture.h"
 #include "ui/report/figures/motion_track.h"
 #include "ui/report/figures/packed_array.h"
 #include "ui/report/figures/tooth_grid.h"

@@ -5,7 +5,7 @@
 
 #include "engine/base/text.h"
 #include "grading/grade.h"
-#include "scenarios/picture.h"
+#include "scenarios/review/picture.h"
 #include "ui/report/figures/from_above.h"
 #include "ui/report/figures/section_pictures.h"
 #include "ui/report/motion_charts.h"

@@ -6,7 +6,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/instrument/diamond_point.h"
-#include "scenarios/runner.h"
+#include "scenarios/exam/runner.h"
 #include "ui/report/report_document.h"
 
 namespace cavum {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "grading/compare.h"
 #include "grading/grade.h"
+#include "grading/result/compare.h"
 #include "grading/session_input.h"
-#include "grading/why.h"
+#include "grading/words/why.h"
 
 namespace cavum {
 

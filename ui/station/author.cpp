@@ -12,7 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "ui/interrupt.h"
+#include "ui/parts/interrupt.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/script.h"
 #include "ui/station/window.h"

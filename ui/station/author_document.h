@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/edit_text.h"
+#include "scenarios/file/edit_text.h"
 
 namespace cavum {
 

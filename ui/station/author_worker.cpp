@@ -5,9 +5,9 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/surface_mesh.h"
-#include "scenarios/check.h"
-#include "scenarios/surface_files.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/file/surface_files.h"
+#include "scenarios/review/check.h"
+#include "scenarios/zones/zone_map.h"
 
 namespace cavum {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/tooth/tooth.h"
-#include "scenarios/parse.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/file/parse.h"
+#include "scenarios/zones/zone_map.h"
 #include "ui/station/author_zones.h"
 #include "ui/station/instrument_mesh.h"
 

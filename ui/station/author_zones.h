@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/shape.h"
+#include "scenarios/zones/shape.h"
 
 namespace cavum {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenarios/live_exam.h"
+#include "scenarios/exam/live_exam.h"
 
 namespace cavum {
 

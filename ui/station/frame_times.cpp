@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 #include "ui/station/gpu.h"
 #include "ui/station/scene.h"
 #include "ui/station/station.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenarios/exam.h"
+#include "scenarios/exam/exam.h"
 #include "ui/station/theme.h"
 
 namespace cavum {

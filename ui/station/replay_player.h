@@ -8,8 +8,8 @@
 
 #include "engine/session/session_reader.h"
 #include "engine/session/simulation.h"
-#include "scenarios/exam.h"
-#include "scenarios/runner.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/exam/runner.h"
 
 namespace cavum {
 

@@ -7,7 +7,7 @@
 
 #include "engine/base/pose.h"
 #include "engine/instrument/diamond_point.h"
-#include "scenarios/zone_map.h"
+#include "scenarios/zones/zone_map.h"
 #include "ui/station/camera.h"
 #include "ui/station/gpu.h"
 #include "ui/station/tooth_drawing.h"

@@ -9,7 +9,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/station_ticket.h"
-#include "scenarios/other_place.h"
+#include "scenarios/exam/other_place.h"
 
 namespace cavum {
 namespace {

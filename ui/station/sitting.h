@@ -11,7 +11,7 @@
 #include "engine/device/with_desk.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/station_ticket.h"
-#include "scenarios/live_exam.h"
+#include "scenarios/exam/live_exam.h"
 #include "ui/station/device_check.h"
 #include "ui/station/station_device.h"
 

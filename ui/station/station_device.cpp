@@ -4,7 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/device/simulated_stylus.h"
-#include "ui/live_source.h"
+#include "ui/parts/live_source.h"
 
 namespace cavum {
 namespace {

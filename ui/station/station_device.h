@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/device/pointer_stylus.h"
-#include "scenarios/candidate_device.h"
+#include "scenarios/candidates/candidate_device.h"
 
 namespace cavum {
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "engine/tooth/import/read_mesh.h"
+#include "engine/tooth/mesh/read_mesh.h"
 
 namespace cavum {
 namespace {

@@ -10,8 +10,8 @@
 #include "engine/tooth/distance.h"
 #include "engine/tooth/import/fill_mesh.h"
 #include "engine/tooth/import/layer_order.h"
-#include "engine/tooth/import/read_mesh.h"
-#include "engine/tooth/periodontium.h"
+#include "engine/tooth/make/periodontium.h"
+#include "engine/tooth/mesh/read_mesh.h"
 
 namespace cavum {
 namespace {

@@ -12,9 +12,9 @@
 #include "engine/tooth/import/layer_order.h"
 #include "engine/tooth/import/read_volume.h"
 #include "engine/tooth/import/segment.h"
-#include "engine/tooth/import/volume_files.h"
-#include "engine/tooth/import/volume_limits.h"
-#include "engine/tooth/periodontium.h"
+#include "engine/tooth/make/periodontium.h"
+#include "engine/tooth/volume/volume_files.h"
+#include "engine/tooth/volume/volume_limits.h"
 
 namespace cavum {
 namespace {

@@ -15,8 +15,8 @@
 #include <sstream>
 
 #include "engine/base/error.h"
-#include "engine/tooth/import/volume_limits.h"
-#include "engine/tooth/import/volume_wire.h"
+#include "engine/tooth/volume/volume_limits.h"
+#include "engine/tooth/volume/volume_wire.h"
 
 namespace cavum {
 namespace {

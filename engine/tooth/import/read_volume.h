@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/tooth/import/volume.h"
+#include "engine/tooth/volume/volume.h"
 
 namespace cavum {
 
@@ -22,7 +22,5 @@ inline constexpr double k_assumed_spacing_mm = 0.125;
 
 /// The program that reads: $CAVUM_READ_VOLUME, else `cavum-read-volume` beside the running program. Throws Error when it is not there.
 [[nodiscard]] std::string read_volume_program();
-/// Where that program writes to.
-inline constexpr int k_volume_descriptor = 3;
 
 }  // namespace cavum

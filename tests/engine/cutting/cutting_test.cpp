@@ -4,7 +4,7 @@
 #include <map>
 
 #include "engine/base/det_math.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "engine/device/station_stylus.h"
+#include "engine/device/hardware/station_stylus.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "engine/base/random.h"
-#include "engine/explain/recording.h"
+#include "engine/explain/recording/recording.h"
 
 namespace cavum::explain::made {
 

@@ -7,7 +7,7 @@
 #include "engine/base/det_math.h"
 #include "engine/force/series_compliance.h"
 #include "engine/force/tissue_terms.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 
 namespace cavum {

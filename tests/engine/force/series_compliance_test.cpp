@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 
 namespace cavum {

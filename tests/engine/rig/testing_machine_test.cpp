@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/rig/statistics.h"
-#include "engine/tooth/make_block.h"
+#include "engine/statistics/statistics.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum {

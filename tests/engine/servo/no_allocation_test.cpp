@@ -5,7 +5,7 @@
 #include <new>
 
 #include "engine/servo/real_time.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace {

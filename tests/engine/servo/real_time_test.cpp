@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "engine/device/simulated_stylus.h"
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 #include "tests/engine/support/faulty_device.h"
 

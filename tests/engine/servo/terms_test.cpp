@@ -1,7 +1,7 @@
 // The force terms inside the servo: state, hash, determinism, and that their absence changes nothing.
 #include <gtest/gtest.h>
 
-#include "engine/tooth/make_block.h"
+#include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 
 namespace cavum {

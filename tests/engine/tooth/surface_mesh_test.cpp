@@ -7,8 +7,8 @@
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "engine/tooth/distance.h"
-#include "engine/tooth/make_block.h"
-#include "engine/tooth/make_molar.h"
+#include "engine/tooth/make/make_block.h"
+#include "engine/tooth/make/make_molar.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {

@@ -10,8 +10,8 @@
 #include "engine/base/random.h"
 #include "engine/cutting/carve_head.h"
 #include "engine/tooth/distance.h"
-#include "engine/tooth/make_block.h"
-#include "engine/tooth/make_molar.h"
+#include "engine/tooth/make/make_block.h"
+#include "engine/tooth/make/make_molar.h"
 #include "tests/engine/support/engine_testing.h"
 #include "tests/engine/tooth/tooth_testing.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/session/session_reader.h"
-#include "scenarios/parse.h"
+#include "scenarios/file/parse.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum::cohort {

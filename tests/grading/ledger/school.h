@@ -16,9 +16,9 @@
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
 #include "grading/ledger/stations.h"
-#include "grading/result_json.h"
+#include "grading/result/result_json.h"
 #include "grading/session_input.h"
-#include "scenarios/simulated_exam.h"
+#include "scenarios/candidates/simulated_exam.h"
 #include "tests/engine/session/fixture.h"
 
 namespace cavum::testing_ledger {

@@ -7,9 +7,9 @@
 
 #include "grading/grade.h"
 #include "grading/ledger/ticket.h"
-#include "grading/result_json.h"
+#include "grading/result/result_json.h"
 #include "grading/session_input.h"
-#include "scenarios/simulated_exam.h"
+#include "scenarios/candidates/simulated_exam.h"
 
 namespace cavum::testing_ledger {
 

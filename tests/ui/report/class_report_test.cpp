@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "scenarios/exam.h"
-#include "scenarios/parse.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/file/parse.h"
 #include "tests/ui/program.h"
 #include "tests/ui/report/unpack.h"
 

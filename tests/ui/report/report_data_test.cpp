@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/session/session_reader.h"
-#include "grading/motion.h"
+#include "grading/measures/motion.h"
 #include "tests/ui/program.h"
 #include "tests/ui/report/unpack.h"
 #include "ui/report/figures/packed_array.h"

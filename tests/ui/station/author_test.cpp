@@ -12,7 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "scenarios/parse.h"
+#include "scenarios/file/parse.h"
 #include "tests/engine/support/basics.h"
 #include "tests/scenarios/test_teeth.h"
 #include "tests/ui/station/virtual_screen.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "grading/motion.h"
+#include "grading/measures/motion.h"
 
 namespace cavum {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grading/grade.h"
-#include "scenarios/picture.h"
+#include "scenarios/review/picture.h"
 
 namespace cavum {
 

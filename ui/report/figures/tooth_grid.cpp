@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
-#include "grading/removed_map.h"
+#include "grading/measures/removed_map.h"
 
 namespace cavum {
 namespace {

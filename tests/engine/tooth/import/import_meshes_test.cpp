@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "engine/tooth/import/read_mesh.h"
-#include "engine/tooth/make_molar.h"
+#include "engine/tooth/make/make_molar.h"
+#include "engine/tooth/mesh/read_mesh.h"
 #include "tests/engine/tooth/import/import_testing.h"
 
 namespace cavum {

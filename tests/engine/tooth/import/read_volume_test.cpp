@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "engine/base/random.h"
-#include "engine/tooth/import/volume_limits.h"
-#include "engine/tooth/import/volume_wire.h"
+#include "engine/tooth/volume/volume_limits.h"
+#include "engine/tooth/volume/volume_wire.h"
 #include "tests/engine/tooth/import/import_testing.h"
 
 namespace cavum {

@@ -8,7 +8,7 @@ export const k_within = "#f2f1ec";
 
 /** Lower edges of the bands in units of the whole: below the first everything counts as on target. */
 export const k_distance_edges = [0.2, 0.4, 0.6, 0.8, 1];
-/** Of the class's tooth, in shares of the class: those of the sections (scenarios/picture_colours.cpp). */
+/** Of the class's tooth, in shares of the class: those of the sections (scenarios/review/picture_colours.cpp). */
 export const k_heat_edges = [0.05, 0.2, 0.4, 0.6, 0.8];
 
 export function rgb_of(colour: string): [number, number, number] {

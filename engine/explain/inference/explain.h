@@ -1,0 +1,77 @@
+// Measured data against the simulation: what it gets wrong, why, and what fixing it gains. Definitions: DESIGN.md section 7.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/explain/inference/search.h"
+
+namespace cavum::explain {
+
+struct Interval {
+  double value = 0, low = 0, high = 0;  ///< 95 %
+};
+
+struct Cause {
+  Term term;
+  std::vector<std::string> aliases;  ///< other mechanisms that fit these data as well
+  std::vector<std::pair<std::string, Interval>> parameters;
+  double p_value = 1;
+  double effect_n = 0;  ///< root mean square of its force
+};
+
+struct Unexplained {
+  std::string variable, form;
+  double effect_n = 0;
+};
+
+struct NotTestable {
+  std::string mechanism, reason;
+};
+
+struct Gain {
+  double base_rmse_n = 0, extended_rmse_n = 0;  ///< on sessions that the fit had not seen
+  double noise_floor_n = 0;
+  Interval percent;          ///< 100 (1 − extended/base)
+  double share_percent = 0;  ///< of what lies between base and noise floor
+};
+
+struct Explanation {
+  std::string verdict;  ///< clean named alias unexplained not_testable data_fault
+  std::vector<Cause> causes;
+  std::optional<Unexplained> unexplained;
+  std::vector<NotTestable> not_testable;
+  std::vector<std::string> data_faults, notes;
+  Gain gain;
+  Base base;  ///< fitted with the causes
+  Interval k, c;
+  Noise noise;
+  std::string next_experiment;
+  std::vector<Structure> structures;           ///< of the residual that is left
+  std::vector<Candidate> candidates;           ///< of the first look, for the report
+  std::shared_ptr<const Recording> recording;  ///< as it was explained; the views refer to it
+  std::optional<View> before, after;           ///< base alone, and with the causes; none for data faults
+};
+
+struct ExplainOptions {
+  std::uint64_t seed = 1;
+  std::size_t twins = 24;  ///< at most, for each step of the search; 0 = a plain rule instead of the null, for comparison
+  int max_causes = 3;
+  const Series* fixed_n = nullptr;       ///< forces of a loaded model, [rows]
+  std::function<void(double)> progress;  ///< 0..1, may be called from other threads
+};
+
+[[nodiscard]] Explanation explain(const Recording& recording, const ExplainOptions& options = {});
+
+/// The contract of DESIGN.md section 7, and `base.k_n_per_mm`, `base.c_n_s_per_mm`, `notes[]` beside it.
+[[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
+[[nodiscard]] std::string to_text(const Explanation& explanation);
+/// A sentence about what is left when nothing was named and the simulation still misses by half as much again as the noise; else empty.
+[[nodiscard]] std::string left_over_words(const Explanation& explanation);
+
+}  // namespace cavum::explain

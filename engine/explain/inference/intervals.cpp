@@ -1,0 +1,160 @@
+#include "engine/explain/inference/intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace cavum::explain {
+namespace {
+
+constexpr double k_same_chi2 = 10.0;  // another variant of the formula this close fits as well
+constexpr double k_clock_rows =
+    0.05;  // standard deviation of the instant to which a row belongs, in rows: position and force are read one after the other
+constexpr double k_normal = 1.959964;  // of 95 %
+
+/// Parameters of all causes, then k and c, from shapes and a fit with tangents (or without: tangents 0).
+std::vector<std::vector<NamedValue>> named_values(const View& v, const Eigen::VectorXd& value) {
+  std::vector<std::vector<NamedValue>> out;
+  Eigen::Index own_at = 2, tangent_at = 2;
+  for (const auto& h : v.known) tangent_at += h.coefficients();
+  const Base base{value[0], value[1]};
+  for (const auto& h : v.known) {
+    const Mechanism& m = mechanism_at(h.term.mechanism);
+    std::vector<double> own(value.data() + own_at, value.data() + own_at + h.coefficients()), shape = h.term.shape;
+    own_at += h.coefficients();
+    for (std::size_t s = 0; s < shape.size(); ++s) {
+      if (!m.shape[s].fitted || shape[s] == 0.0 || tangent_at >= value.size()) continue;
+      shape[s] = std::clamp(shape[s] + value[tangent_at++], m.shape[s].low, m.shape[s].high);
+    }
+    out.push_back(m.parameters(shape, own, base));
+  }
+  out.push_back({{"k_n_per_mm", base.k_n_per_mm}, {"c_n_s_per_mm", base.c_n_s_per_mm}});
+  return out;
+}
+
+/// 95 % quantile of Student's t (Cornish and Fisher's expansion).
+double student(double freedom) {
+  const double z = k_normal, z3 = z * z * z;
+  return z + (z3 + z) / (4.0 * freedom) + (5.0 * z3 * z * z + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
+}
+
+/// Of one value, from the same value found without each session in turn.
+double jackknife_sd(const std::vector<double>& without) {
+  const auto n = static_cast<double>(without.size());
+  double mean = 0.0, square = 0.0;
+  for (const double w : without) mean += w / n;
+  for (const double w : without) square += (w - mean) * (w - mean);
+  return std::sqrt((n - 1.0) / n * square);
+}
+
+/// Other variants of cause `c` (shapes that are tried and not fitted) that fit as well, each with its parameters.
+std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, double inflation) {
+  std::vector<std::vector<NamedValue>> out;
+  const Term& term = v.causes[c];
+  const Mechanism& m = mechanism_at(term.mechanism);
+  const auto variant_of = [&](const std::vector<double>& shape) {
+    std::vector<double> variant;
+    for (std::size_t i = 0; i < shape.size(); ++i) variant.push_back(m.shape[i].fitted ? (shape[i] == 0.0 ? 0.0 : 1.0) : shape[i]);
+    return variant;
+  };
+  std::vector<std::vector<double>> tried{variant_of(term.shape)};
+  std::vector<Term> causes = v.causes;
+  const double own = fit_terms(v, causes).chi2;
+  const std::vector<std::vector<double>> grid = starts(m, v.scene);
+  for (const auto& point : grid) {
+    if (std::find(tried.begin(), tried.end(), variant_of(point)) != tried.end()) continue;
+    tried.push_back(variant_of(point));
+    double least = 1e300;
+    for (const auto& start : grid) {
+      if (variant_of(start) != variant_of(point)) continue;
+      std::vector<Term> trial = v.causes;
+      trial[c].shape = start;
+      if (const double chi2 = fit_terms(v, trial).chi2; chi2 < least) least = chi2, causes = trial;
+    }
+    if (least > own + 0.2 * (v.products.all(0, 0) - own)) continue;
+    causes = refine(v, causes, 1, c);
+    const FitResult f = fit_terms(v, causes);
+    if (f.chi2 > own + k_same_chi2 * inflation) continue;
+    Eigen::Index at = 2;
+    for (std::size_t i = 0; i < c; ++i) at += v.known[i].coefficients();
+    const auto count = m.columns(v.scene, causes[c].shape).own.size();
+    const std::vector<double> values(f.value.data() + at, f.value.data() + at + static_cast<std::ptrdiff_t>(count));
+    if (makes_sense(m, values.data(), count)) out.push_back(m.parameters(causes[c].shape, values, {f.value[0], f.value[1]}));
+  }
+  return out;
+}
+
+}  // namespace
+
+void set_parameters(Explanation& e, const View& v, const Null& null, double inflation) {
+  std::vector<const Hypothesis*> known;
+  for (const auto& h : v.known) known.push_back(&h);
+  const FitResult f = fit(v.products, known, -1, true);
+  const Eigen::VectorXd truth = [&] {  // what the twins were made with: shapes as they are
+    Eigen::VectorXd t = f.value;
+    t.head(v.base_fit.value.size()) = v.base_fit.value;
+    t.tail(t.size() - v.base_fit.value.size()).setZero();
+    return t;
+  }();
+  const auto middle = named_values(v, truth);
+  const double scale = std::max(1.0, f.chi2 / std::max(1.0, v.products.rows));
+  std::vector<std::vector<std::vector<NamedValue>>> without;  // by session that is left out
+  const std::size_t folds = v.products.by_session.size();
+  for (std::size_t s = 0; s < folds && folds > 1; ++s) without.push_back(named_values(v, fit(v.products, known, static_cast<int>(s)).value));
+  std::vector<std::vector<std::vector<NamedValue>>> twins;
+  for (const auto& value : null.values)
+    if (value.size() == truth.size()) twins.push_back(named_values(v, value));
+  std::vector<std::vector<Interval>> interval(middle.size());
+  for (std::size_t c = 0; c < middle.size(); ++c) {
+    const auto forms = c < v.causes.size() ? other_forms(v, c, inflation) : std::vector<std::vector<NamedValue>>{};
+    const bool lag = c < v.causes.size() && mechanism_at(v.causes[c].mechanism).like_when_short != nullptr;
+    for (std::size_t p = 0; p < middle[c].size(); ++p) {
+      const double value = middle[c][p].value;
+      Eigen::VectorXd slope(truth.size());
+      for (Eigen::Index i = 0; i < truth.size(); ++i) {
+        const double step = 1e-3 * std::sqrt(std::max(1e-30, f.covariance(i, i)));
+        Eigen::VectorXd moved = truth;
+        moved[i] += step;
+        slope[i] = (named_values(v, moved)[c][p].value - value) / step;
+      }
+      double variance = scale * slope.dot(f.covariance * slope);
+      double bias = 0.0, scatter = 0.0;
+      const auto n = static_cast<double>(twins.size());
+      for (const auto& twin : twins) {
+        const double d = twin[c][p].value - value;
+        bias += d / n;
+        scatter += d * d / n;
+      }
+      if (n > 3.0) variance = std::max(variance, (scatter - bias * bias) * n / (n - 1.0)) + bias * bias;
+      if (lag && middle[c][p].name == "tau_s") variance += std::pow(k_clock_rows * v.scene.dt_s.mean(), 2);
+      double half = k_normal * std::sqrt(std::max(0.0, variance));
+      std::vector<double> left;
+      for (const auto& w : without) left.push_back(w[c][p].value);
+      if (left.size() > 2) half = std::max(half, student(static_cast<double>(left.size()) - 1.0) * jackknife_sd(left));
+      Interval out{value, value - half, value + half};
+      for (const auto& form : forms)
+        for (const auto& other : form)
+          if (other.name == middle[c][p].name) out.low = std::min(out.low, other.value - half), out.high = std::max(out.high, other.value + half);
+      interval[c].push_back(out);
+    }
+  }
+  for (std::size_t c = 0; c < e.causes.size(); ++c) {
+    e.causes[c].parameters.clear();
+    for (std::size_t p = 0; p < middle[c].size(); ++p) e.causes[c].parameters.emplace_back(middle[c][p].name, interval[c][p]);
+    auto others = v.causes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
+    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].coefficients());
+    Eigen::Index to = 0, from = 2;
+    rest[to++] = v.base_fit.value[0];
+    rest[to++] = v.base_fit.value[1];
+    for (std::size_t k = 0; k < v.known.size(); ++k) {
+      for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
+        if (k != c) rest[to++] = v.base_fit.value[from];
+    }
+    e.causes[c].effect_n = std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
+  }
+  e.k = interval.back()[0];
+  e.c = interval.back()[1];
+}
+
+}  // namespace cavum::explain

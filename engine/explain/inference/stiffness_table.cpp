@@ -1,0 +1,241 @@
+#include "engine/explain/inference/stiffness_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/base/print.h"
+#include "engine/base/text.h"
+
+namespace cavum::explain {
+namespace {
+
+constexpr double k_exact_n = 1e-3;
+constexpr double k_95 = 1.96;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> out;
+  std::stringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) {
+    const auto from = cell.find_first_not_of(" \t\r\""), to = cell.find_last_not_of(" \t\r\"");
+    out.push_back(from == std::string::npos ? "" : cell.substr(from, to - from + 1));
+  }
+  return out;
+}
+
+bool is_comment(const std::string& line) {
+  const auto at = line.find_first_not_of(" \t\r");
+  return at == std::string::npos || line[at] == '#';
+}
+
+bool holds(const std::vector<std::string>& names, const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+/// Least squares on the columns asked for, without row `left_out`.
+TableFit fitted(const StiffnessTable& t, bool root, bool intercept, std::ptrdiff_t left_out = -1) {
+  std::vector<std::vector<double>> columns(1 + root + intercept);
+  std::vector<double> y;
+  for (std::size_t i = 0; i < t.f_n.size(); ++i) {
+    if (static_cast<std::ptrdiff_t>(i) == left_out) continue;
+    std::size_t at = 0;
+    columns[at++].push_back(t.k_n_per_mm[i]);
+    if (root) columns[at++].push_back(std::sqrt(t.k_n_per_mm[i]));
+    if (intercept) columns[at++].push_back(1.0);
+    y.push_back(t.f_n[i]);
+  }
+  const Fit f = fit_columns(columns, y);
+  TableFit out;
+  out.slope_mm = f.value[0];
+  out.slope_error = f.error[0];
+  if (root) out.root = f.value[1], out.root_error = f.error[1];
+  if (intercept) out.intercept_n = f.value[1 + root], out.intercept_error_n = f.error[1 + root];
+  out.rms_n = f.rms;
+  if (left_out >= 0) return out;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < t.f_n.size(); ++i)
+    sum += std::pow(t.f_n[i] - fitted(t, root, intercept, static_cast<std::ptrdiff_t>(i)).at(t.k_n_per_mm[i]), 2);
+  out.left_out_rms_n = std::sqrt(sum / static_cast<double>(t.f_n.size()));
+  return out;
+}
+
+Interval interval(double value, double error) { return {value, value - k_95 * error, value + k_95 * error}; }
+
+/// What the table says about the law, sentence by sentence.
+std::vector<std::string> sentences(const TableExplanation& e) {
+  const double v = e.table.v_mm_s.front(), most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
+  std::vector<std::string> out;
+  out.push_back(
+      printed("The Voigt law has no intercept: cutting steadily at V = %.3g mm/s it gives F = k V τ + c V, which is 0 N at k = 0 (eq. 5 "
+              "makes c = 0 there too). The table has %.3f N at k = 0, and no τ and no c can make it.",
+              v, e.line.intercept_n));
+  out.push_back(
+      printed("Friction, bias and edge force cannot be told apart here: the crosshead goes one way, at %s, always in contact and always cutting. "
+              "Friction of the joints, a zero error of the load cell and a constant force of the cutting edges lift every row by the same amount.",
+              std::set<double>(e.table.v_mm_s.begin(), e.table.v_mm_s.end()).size() == 1 ? "one speed" : "speeds of one sign"));
+  out.push_back(
+      printed("c V with c = 2 √k adds %.3f √k N, %.3f N at k = %.3g, and bends the row. A straight line laid through that bend alone "
+              "has a slope of %.3f mm and an intercept of %.3f N: so a line hides a √k as intercept and slope, yet it explains at most "
+              "%.0f %% of the intercept here.",
+              e.predicted_root, e.predicted_root * std::sqrt(most), most, e.of_root.slope_mm, e.of_root.intercept_n,
+              100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n))));
+  out.push_back(
+      printed("Fitted without an intercept, k X + √k takes %.3f √k N and a slope of %.3f mm to imitate it, and still misses by %.3f N "
+              "rms and by %.3f N at k = 0; with all three the table asks for %.3f ± %.3f √k N, where the published c V needs %.3f.",
+              e.voigt.root, e.voigt.slope_mm, e.voigt.rms_n, e.line.intercept_n, e.all.root, k_95 * e.all.root_error, e.predicted_root));
+  if (std::fabs(e.all.root - e.predicted_root) > std::max(k_95 * e.all.root_error, 0.1 * e.predicted_root))
+    out.push_back(
+        printed("A straight row speaks against a force of c V with c = 2 √k. If it were there all the same, the slope of k X would be "
+                "%.3f mm, and τ %.2f s instead of %.2f s.",
+                e.line.slope_mm - e.of_root.slope_mm, (e.line.slope_mm - e.of_root.slope_mm) / v, e.line.slope_mm / v));
+  if (e.exact)
+    out.push_back(
+        "The points lie on the line to a thousandth of a newton, as points taken from an equation do: the intervals say nothing about the scatter "
+        "of the measurement, and the straightness may be the equation's.");
+  return out;
+}
+
+constexpr const char* k_next =
+    "with the same cube and stylus: (1) read the load cell unloaded before and after: that is the bias; (2) stroke 20 mm to and fro in air at 0.25 "
+    "mm/s, "
+    "spindle off: what flips with the direction is friction, half the jump is its size; (3) the same at 0.05 and 1 mm/s: Stribeck or viscous "
+    "friction; "
+    "(4) press the k = 0 cube with the spindle off, then on: the step is the edge force; (5) repeat k = 0.2 and 1.2 at 0.1, 0.25 and 0.5 mm/s: c V "
+    "grows "
+    "with the speed, an intercept does not. Record time, position and force (cavum explain --protocol), not only the mean";
+
+}  // namespace
+
+double TableFit::at(double k_n_per_mm) const { return slope_mm * k_n_per_mm + root * std::sqrt(k_n_per_mm) + intercept_n; }
+
+bool is_stiffness_table(const std::string& csv) {
+  std::stringstream in(csv);
+  for (std::string line; std::getline(in, line);) {
+    if (is_comment(line)) continue;
+    const auto names = cells_of(line);
+    return holds(names, "k_n_per_mm") && holds(names, "f_n") && !holds(names, "t_s");
+  }
+  return false;
+}
+
+StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& where) {
+  StiffnessTable out;
+  std::vector<std::string> names;
+  std::stringstream in(csv);
+  std::size_t number = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string at = where + ":" + std::to_string(++number);
+    if (is_comment(line)) {
+      const auto from = line.find_first_not_of("# \t\r");
+      if (names.empty() && from != std::string::npos) out.origin += (out.origin.empty() ? "" : " ") + one_line(line.substr(from));
+      continue;
+    }
+    const auto cells = cells_of(line);
+    if (names.empty()) {
+      names = cells;
+      for (const char* wanted : {"k_n_per_mm", "f_n", "v_mm_s"})
+        if (!holds(names, wanted)) throw Error(at, std::string("there is no column '") + wanted + "'", "a table has k_n_per_mm, f_n and v_mm_s");
+      continue;
+    }
+    if (cells.size() != names.size())
+      throw Error(at, "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(names.size()), "complete the row");
+    const auto value = [&](const char* name, double least, bool above) {
+      const std::string& cell = cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+      double v = 0.0;
+      std::size_t used = 0;
+      try {
+        v = std::stod(cell, &used);
+      } catch (const std::exception&) {
+        used = 0;
+      }
+      if (used == 0 || used != cell.size() || !std::isfinite(v) || v < least || (above && v == least))
+        throw Error(at, "'" + one_line(cell) + "' in column " + name + " is no number in range", "correct the row");
+      return v;
+    };
+    out.k_n_per_mm.push_back(value("k_n_per_mm", 0.0, false));
+    out.f_n.push_back(value("f_n", -1e9, false));
+    out.v_mm_s.push_back(value("v_mm_s", 0.0, true));
+  }
+  if (out.f_n.empty()) throw Error(where, "has no rows", "give a table of k_n_per_mm, f_n and v_mm_s");
+  return out;
+}
+
+TableExplanation explain_table(const StiffnessTable& table) {
+  TableExplanation e;
+  e.table = table;
+  Explanation& said = e.said;
+  if (table.f_n.size() < 5 || std::set<double>(table.k_n_per_mm.begin(), table.k_n_per_mm.end()).size() < 4) {
+    said.verdict = "data_fault";
+    said.data_faults.push_back("a line, a root and an intercept need five rows of four stiffnesses at least");
+    said.next_experiment = "measure at more stiffnesses";
+    return e;
+  }
+  e.line = fitted(table, false, true);
+  e.voigt = fitted(table, true, false);
+  e.all = fitted(table, true, true);
+  e.predicted_root = 2.0 * table.v_mm_s.front();
+  StiffnessTable root = table;
+  for (std::size_t i = 0; i < root.f_n.size(); ++i) root.f_n[i] = e.predicted_root * std::sqrt(root.k_n_per_mm[i]);
+  e.of_root = fitted(root, false, true);
+  e.exact = e.line.rms_n < k_exact_n;
+
+  const double error = std::max(e.all.intercept_error_n, 1e-9), z = e.all.intercept_n / error;
+  said.verdict = z > 2.6 ? "alias" : "not_testable";
+  if (said.verdict == "alias") {
+    Cause c;
+    c.term.mechanism = known_mechanism("bias");
+    for (const char* other : {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"}) c.aliases.emplace_back(other);
+    c.parameters.emplace_back("bias_n", interval(e.line.intercept_n, e.line.intercept_error_n));
+    c.p_value = 0.5 * std::erfc(z / std::sqrt(2.0));
+    c.effect_n = e.line.intercept_n;
+    said.causes.push_back(c);
+  }
+  for (const auto& m : mechanisms()) {
+    const auto in_set = [&](const Cause& c) {
+      return c.term.mechanism == find_mechanism(m.name) || std::find(c.aliases.begin(), c.aliases.end(), m.name) != c.aliases.end();
+    };
+    if (std::none_of(said.causes.begin(), said.causes.end(), in_set)) said.not_testable.push_back({m.name, "a table of means at constant speed"});
+  }
+  said.gain.base_rmse_n = e.voigt.left_out_rms_n;
+  said.gain.extended_rmse_n = e.line.left_out_rms_n;
+  said.gain.noise_floor_n = e.line.rms_n;
+  const double gained = 100.0 * (1.0 - e.line.left_out_rms_n / std::max(1e-12, e.voigt.left_out_rms_n));
+  said.gain.percent = {gained, gained, gained};
+  said.notes = sentences(e);
+  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), "The table says of itself: " + table.origin);
+  said.next_experiment = k_next;
+  return e;
+}
+
+std::string to_text(const TableExplanation& e) {
+  const Explanation& said = e.said;
+  if (said.verdict == "data_fault") return to_text(said);
+  std::string out = said.verdict == "alias" ? "verdict: alias. A force is missing that does not depend on k; the table cannot tell which.\n"
+                                            : "verdict: not_testable. The table shows nothing beyond k X + c V, and could hardly show it.\n";
+  for (const auto& c : said.causes) {
+    out += printed("\ncause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, %.4f N at every k\n", c.effect_n);
+    out += "  none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest\n";
+  }
+  const auto fit = [](const char* name, const TableFit& f) {
+    return printed("  %-26s F = %7.3f k %+7.3f √k %+7.3f N   rms %.4f N, row left out %.4f N\n", name, f.slope_mm, f.root, f.intercept_n, f.rms_n,
+                   f.left_out_rms_n);
+  };
+  out += "\n" + fit("Voigt law, k X + c V", e.voigt) + fit("k X and an intercept", e.line) + fit("all three", e.all) + "\n";
+  for (const auto& s : said.notes) out += wrapped("- " + s);
+  out += "\n" + wrapped("next experiment: " + said.next_experiment);
+  return out;
+}
+
+nlohmann::json to_json(const TableExplanation& e) {
+  nlohmann::json j = to_json(e.said);
+  const auto fit = [](const TableFit& f) {
+    return nlohmann::json{
+        {"slope_mm", f.slope_mm}, {"root", f.root}, {"intercept_n", f.intercept_n}, {"rms_n", f.rms_n}, {"left_out_rms_n", f.left_out_rms_n}};
+  };
+  j["base"]["k_n_per_mm"] = nullptr;
+  j["base"]["c_n_s_per_mm"] = nullptr;
+  j["table"] = {{"line", fit(e.line)}, {"voigt", fit(e.voigt)}, {"all", fit(e.all)}, {"predicted_root", e.predicted_root}, {"exact", e.exact}};
+  return j;
+}
+
+}  // namespace cavum::explain

@@ -1,0 +1,190 @@
+// What the measurement does to the force: weight of the handpiece, inertia, gain, cross-talk, delay, lag, saturation.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/explain/model/lags.h"
+#include "engine/explain/model/mechanism.h"
+
+namespace cavum::explain {
+namespace {
+
+using Shape = std::vector<double>;
+using Grid = std::vector<Shape>;
+
+constexpr double k_radians = 3.14159265358979323846 / 180.0;
+
+Grid no_shape(const Scene&) { return {{}}; }
+
+Grid posture_grid(const Scene& s) {
+  const Series* posture = s.recording->column("posture_deg");
+  std::set<double> zero{0.0};  // the posture in which the load cell was zeroed: level, or one that was recorded
+  for (Eigen::Index i = 0; i < posture->size() && zero.size() < 6; ++i) zero.insert(std::round((*posture)[i] * 10.0) / 10.0);
+  Grid g;
+  for (const double z : zero) g.push_back({z});
+  return g;
+}
+
+/// From half a row to 0.3 s.
+Grid lag_grid(const Scene& s) {
+  const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
+  Grid g;
+  for (const double rows : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) g.push_back({rows * row});
+  return g;
+}
+
+/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so half rows up to 8 rows.
+Grid delay_grid(const Scene& s) {
+  const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
+  Grid g;
+  for (int half = 1; half <= 16; ++half) g.push_back({0.5 * half * row});
+  for (const double rows : {10.0, 13.0, 18.0, 25.0, 35.0}) g.push_back({rows * row});
+  return g;
+}
+
+Grid saturation_grid(const Scene& s) {
+  std::vector<double> pressed;
+  for (Eigen::Index i = 0; i < s.force_n.size(); ++i)
+    if (s.active[i] > 0.5) pressed.push_back(s.force_n[i]);
+  if (pressed.size() < 100) return {};
+  std::sort(pressed.begin(), pressed.end());
+  Grid g;
+  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995})
+    g.push_back({pressed[static_cast<std::size_t>(part * static_cast<double>(pressed.size() - 1))]});
+  return g;
+}
+
+Columns saturation_columns(const Scene& s, const Shape& p) {
+  const Series over = (s.force_n > p[0]).cast<double>();
+  return {{over * p[0]}, -s.spring_mm * over, -s.damper_mm_s * over};
+}
+
+}  // namespace
+
+std::vector<Mechanism> sensor_mechanisms() {
+  std::vector<Mechanism> m;
+  m.push_back({
+      .name = "gravity_posture",
+      .equation = "w (sin theta - sin theta0), in air too",
+      .words = "the weight of the handpiece, which changes with posture",
+      .separate = "hold the tool in air in three postures",
+      .needs = {"posture_deg"},
+      .shape = {{"theta0_deg", -180, 180, false, false}},
+      .grid = posture_grid,
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            const Series* posture = s.recording->column("posture_deg");
+            return Columns{{(*posture * k_radians).sin() - std::sin(p[0] * k_radians)}, {}, {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"weight_n", own[0]}, {"theta0_deg", p[0]}};
+          },
+  });
+
+  m.push_back({
+      .name = "inertia",
+      .equation = "m a, in air too",
+      .words = "the mass that is accelerated with the load cell",
+      .separate = "shake the tool in air at two rates",
+      .grid = no_shape,
+      .columns =
+          [](const Scene& s, const Shape&) {
+            return Columns{{s.motion.a_mm_s2}, {}, {}};
+          },
+      .parameters =
+          [](const Shape&, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"mass_kg", own[0] * 1000.0}};
+          },
+      .own = k_positive,
+  });
+
+  m.push_back({
+      .name = "gain_error",
+      .equation = "g F_sim",
+      .words = "a load cell whose gain is off",
+      .separate = "hang known weights on the load cell: no recording of k and c can show its gain",
+      .grid = no_shape,
+      .columns =
+          [](const Scene& s, const Shape&) {
+            return Columns{{s.force_n}, {}, {}};
+          },
+      .parameters =
+          [](const Shape&, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"gain", own[0]}};
+          },
+      .in_recordings = false,
+  });
+
+  m.push_back({
+      .name = "cross_talk",
+      .equation = "a Fy + b Fz",
+      .words = "lateral force that leaks into the feed's channel",
+      .separate = "press sideways in air",
+      .needs = {"fy_n", "fz_n"},
+      .grid = no_shape,
+      .columns =
+          [](const Scene& s, const Shape&) {
+            Columns c;
+            for (const char* name : {"fy_n", "fz_n"})
+              if (const Series* f = s.recording->column(name)) c.own.push_back(*f);
+            return c;
+          },
+      .parameters =
+          [](const Shape&, const Shape& own, Base) {
+            std::vector<NamedValue> p{{"a", own[0]}};
+            if (own.size() > 1) p.push_back({"b", own[1]});
+            return p;
+          },
+  });
+
+  m.push_back({
+      .name = "delay",
+      .equation = "F_sim(t - tau) - F_sim(t)",
+      .words = "a force channel that comes later than the position",
+      .separate = "press in fast ramps at two speeds, with sharp reversals",
+      .shape = {{"tau_s", 2e-4, 2.0, true, true}},
+      .grid = delay_grid,
+      .columns = [](const Scene& s, const Shape& p) { return delayed(s, p[0]); },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"tau_s", p[0]}};
+          },
+      .like_when_short = "low_pass",
+  });
+
+  m.push_back({
+      .name = "low_pass",
+      .equation = "lag(F_sim, tau) - F_sim",
+      .words = "a force channel that is smoothed by a filter",
+      .separate = "press in fast ramps at two speeds, with sharp reversals",
+      .shape = {{"tau_s", 2e-4, 2.0, true, true}},
+      .grid = lag_grid,
+      .columns = [](const Scene& s, const Shape& p) { return lagged(s, p[0]); },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"tau_s", p[0]}};
+          },
+      .variant_of = "delay",
+      .like_when_short = "delay",
+  });
+
+  m.push_back({
+      .name = "saturation",
+      .equation = "min(F_sim, Fmax) - F_sim",
+      .words = "a force channel that saturates",
+      .separate = "press harder, with a load cell of a larger range",
+      .shape = {{"f_max_n", 1e-4, 1e4, true, true}},
+      .grid = saturation_grid,
+      .columns = saturation_columns,
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"f_max_n", p[0] * own[0]}};
+          },
+      .own = {0.8, 1.25},
+  });
+
+  return m;
+}
+
+}  // namespace cavum::explain

@@ -1,0 +1,289 @@
+// What the tissue does beyond k X + c V: stiffness that is no constant, relaxation, direction, other laws of speed.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/explain/model/lags.h"
+#include "engine/explain/model/mechanism.h"
+#include "engine/force/series_compliance.h"
+#include "engine/force/term_laws.h"
+#include "engine/force/tissue_terms.h"
+
+namespace cavum::explain {
+namespace {
+
+using Shape = std::vector<double>;
+using Grid = std::vector<Shape>;
+
+constexpr double k_radians = k_pi / 180.0;
+constexpr double k_rest_mm_s = 1e-4;  // speeds below are taken for rest: |V|^n is infinitely steep there when n < 1
+
+double deepest_mm(const Scene& s) { return std::max(1e-6, s.spring_mm.maxCoeff()); }
+
+Grid points(std::initializer_list<double> values, double unit = 1.0) {
+  Grid g;
+  for (const double v : values) g.push_back({v * unit});
+  return g;
+}
+
+/// `law` of each value, by the engine.
+template <class Law>
+Series each(const Series& values, const Law& law) {
+  return values.unaryExpr([&](double v) { return law(v); });
+}
+
+/// z' = d(X^m)/dt − z/tau while in contact, 0 in air; exact for a constant rate within a row. m = 1: z' = V − z/tau.
+Series relaxing_mm(const Scene& s, double tau_s, double m) {
+  const auto stretch = [m](double x_mm) { return m == 1.0 ? x_mm : det_pow(x_mm, m); };
+  Series out(s.force_n.size());
+  for (const auto& rows : s.recording->sessions) {
+    double z = 0.0;
+    for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
+      const double x = s.motion.x_mm[i];
+      if (x <= 0.0) {
+        z = 0.0;
+      } else if (i > rows.begin) {
+        z = relaxed_mm(z, stretch(x) - stretch(std::max(0.0, s.motion.x_mm[i - 1])), s.dt_s[i - 1] / tau_s);
+      }
+      out[i] = z;
+    }
+  }
+  return out * s.active;
+}
+
+/// Shape {tau1, tau2, m}; tau2 = 0 for one exponential. Soft specimens, whose elastic force is a power of the depth, relax in
+/// proportion to that (quasi-linear viscoelasticity, Fung 1981): m > 1 is tried for them only.
+Grid relaxation_grid(const Scene& s) {
+  double longest = 0.0;
+  for (const auto& rows : s.recording->sessions) longest = std::max(longest, s.recording->t_s[rows.end - 1] - s.recording->t_s[rows.begin]);
+  Grid g;
+  std::vector<double> taus;
+  for (const double tau : {0.05, 0.13, 0.33, 0.85, 2.2, 5.5, 14.0})
+    if (tau < longest && tau > s.dt_s.minCoeff()) taus.push_back(tau);
+  for (const double tau : taus) g.push_back({tau, 0.0, 1.0});
+  for (std::size_t i = 0; i < taus.size(); ++i)
+    for (std::size_t j = i + 2; j < taus.size(); j += 2)
+      for (const double m : s.recording->specimens ? std::vector<double>{1.0, 1.5, 2.0, 3.0} : std::vector<double>{1.0})
+        g.push_back({taus[i], taus[j], m});
+  return g;
+}
+
+/// Shape {variant}: the part that turns is 0 the whole base force, 1 a force of its own while in contact.
+Columns anisotropy_columns(const Scene& s, const Shape& p) {
+  const Series& angle = *s.recording->column("approach_deg");
+  const Series what = p[0] < 0.5 ? s.force_n : s.active;
+  return {{what * each(angle, [](double deg) { return twice_angle(deg).cos; }), what * each(angle, [](double deg) { return twice_angle(deg).sin; })},
+          {},
+          {}};
+}
+
+}  // namespace
+
+std::vector<Mechanism> tissue_mechanisms() {
+  std::vector<Mechanism> m;
+  m.push_back({
+      .name = "series_compliance",
+      .equation = "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
+      .words = "something elastic between the tool and the tooth",
+      .separate = "press a block of steel in the same holder",
+      .term = &k_series_compliance,
+      .shape = {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
+      .grid =
+          [](const Scene& s) {  // either of the two: 0 = not that one
+            Grid g;
+            for (const double part : {0.5, 1.5, 5.0, 20.0}) g.push_back({part * std::max(1e-6, s.force_n.maxCoeff()), 0.0});
+            if (s.base.k_n_per_mm > 0.0 && s.base.c_n_s_per_mm > 1e-3 * s.base.k_n_per_mm)
+              for (const double softer : {0.03, 0.08, 0.2, 0.5, 1.2}) g.push_back({0.0, softer / s.base.k_n_per_mm});
+            return g;
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            if (p[1] > 0.0) return in_series(s, p[1]);
+            return Columns{{}, each(s.spring_mm, [&](double x) { return softened_mm(x, s.base.k_n_per_mm, p[0]); }), {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{p[1] > 0.0 ? NamedValue{"ks_n_per_mm", 1.0 / p[1]} : NamedValue{"softening_force_n", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        if (std::isfinite(value("ks_n_per_mm"))) return std::nullopt;
+        return Numbers{{value("softening_force_n"), 0.0}, {}};
+      },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            if (shape[1] > 0.0) out.emplace_back("whole", 1.0);
+            return true;
+          },
+      .variant_of = "nonlinear_stiffness",
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "nonlinear_stiffness",
+      .equation = "k (X^m - X), X in mm",
+      .words = "a stiffness that grows or falls as a power of the depth",
+      .separate = "press slowly to twice the depth",
+      .term = &k_nonlinear_stiffness,
+      .shape = {{"m", 0.1, 5.0, false, true}},
+      .grid =
+          [](const Scene&) {
+            return points({0.5, 0.7, 0.85, 0.95, 1.05, 1.2, 1.5, 2.0, 2.7, 3.5});
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{}, each(s.spring_mm, [&](double x) { return power_beyond_mm(x, p[0]); }), {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"m", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("m")}, {}};
+      },
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "hidden_layer",
+      .equation = "dk (X - d0)+",
+      .words = "a layer below the surface with another stiffness",
+      .separate = "press slowly through the depth of the kink, at two sites",
+      .term = &k_hidden_layer,
+      .shape = {{"d0_mm", 1e-4, 100, false, true}},
+      .grid =
+          [](const Scene& s) {
+            Grid g = points({0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, deepest_mm(s));
+            for (const double known : s.recording->rig.layer_depths_mm)
+              if (known > 0.0 && known < deepest_mm(s)) g.push_back({known});
+            return g;
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{each(s.motion.x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("d0_mm")}, {value("dk_n_per_mm")}};
+      },
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "graded_stiffness",
+      .equation = "-k alpha X^2",
+      .words = "a stiffness that changes evenly with depth",
+      .separate = "press slowly to twice the depth",
+      .term = &k_graded_stiffness,
+      .grid = [](const Scene&) { return Grid{{}}; },
+      .columns =
+          [](const Scene& s, const Shape&) {
+            return Columns{{each(s.spring_mm, [](double x) { return graded_n(1.0, -1.0, x); })}, {}, {}};
+          },
+      .parameters =
+          [](const Shape&, const Shape& own, Base b) {
+            return std::vector<NamedValue>{{"alpha_per_mm", -own[0] / b.k_n_per_mm}};
+          },
+      .from_term = [](const TermReader& value, Base base) -> std::optional<Numbers> {
+        return Numbers{{}, {-value("alpha_per_mm") * base.k_n_per_mm}};
+      },
+      .variant_of = "nonlinear_stiffness",
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "anisotropy",
+      .equation = "F_sim e cos 2(phi - phi0)",
+      .words = "a stiffness that depends on the angle of approach",
+      .separate = "approach one site at 0, 45, 90 and 135 degrees",
+      .term = &k_anisotropy,
+      .needs = {"approach_deg"},
+      .shape = {{"variant", 0, 1, false, false}},
+      .grid =
+          [](const Scene&) {
+            return points({0.0, 1.0});
+          },
+      .columns = anisotropy_columns,
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{p[0] < 0.5 ? "epsilon" : "amplitude_n", std::hypot(own[0], own[1])},
+                                           {"phi0_deg", 0.5 * std::atan2(own[1], own[0]) / k_radians}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        if (value("epsilon") != 0.0 && value("amplitude_n") != 0.0) return std::nullopt;
+        const double size = value("epsilon") != 0.0 ? value("epsilon") : value("amplitude_n");
+        const SinCos to = twice_angle(value("phi0_deg"));
+        return Numbers{{value("epsilon") != 0.0 ? 0.0 : 1.0}, {size * to.cos, size * to.sin}};
+      },
+  });
+
+  m.push_back({
+      .name = "relaxation",
+      .equation = "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
+      .words = "a force that decays while the tool is held still",
+      .separate = "hold for ten seconds at constant depth, three depths",
+      .term = &k_relaxation,
+      .shape = {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
+      .grid = relaxation_grid,
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            Columns c{{relaxing_mm(s, p[0], p[2])}, {}, {}};
+            if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2]));
+            return c;
+          },
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            if (p[1] <= 0.0) return std::vector<NamedValue>{{"k1_n_per_mm", own[0]}, {"tau1_s", p[0]}};
+            const std::size_t a = p[0] <= p[1] ? 0 : 1, b = 1 - a;
+            return std::vector<NamedValue>{{"k1_n_per_mm", own[a]}, {"tau1_s", p[a]}, {"k2_n_per_mm", own[b]}, {"tau2_s", p[b]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("tau1_s"), value("k2_n_per_mm") != 0.0 ? value("tau2_s") : 0.0, value("exponent")},
+                       {value("k1_n_per_mm"), value("k2_n_per_mm")}};
+      },
+      .shape_in_term =
+          [](const Shape& shape, TermParameters& out) {
+            out.emplace_back("exponent", shape[2]);
+            return true;
+          },
+      .own = k_positive,
+      .simpler =
+          [](const Shape& p) {
+            return p[1] > 0.0 ? Shape{std::sqrt(p[0] * p[1]), 0.0, p[2]} : Shape{};
+          },
+      .inside = true,
+  });
+
+  m.push_back({
+      .name = "feed_power_law",
+      .equation = "c (|V|^n sign V - V), V in mm/s",
+      .words = "a force that grows with another power of the speed",
+      .separate = "press at five speeds over two decades",
+      .term = &k_feed_power_law,
+      .shape = {{"n", 0.05, 4.0, false, true}},
+      .grid =
+          [](const Scene&) {
+            return points({0.15, 0.35, 0.55, 0.75, 0.9, 1.15, 1.5, 2.0});
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{}, {}, each(s.motion.v_mm_s, [&](double v) {
+                                     const double size = std::hypot(v, k_rest_mm_s);
+                                     return v / size * feed_beyond_mm_s(size, p[0]);
+                                   }) * s.active};
+          },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"n", p[0]}};
+          },
+      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
+        return Numbers{{value("n")}, {}};
+      },
+      .inside = true,
+  });
+
+  return m;
+}
+
+}  // namespace cavum::explain

@@ -1,0 +1,251 @@
+#include "engine/explain/model/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/explain/model/lines.h"
+
+namespace cavum::explain {
+namespace {
+
+constexpr int k_rounds = 3;          // of base, noise and weights in turn; more changed k by less than 1e-4 of itself
+constexpr double k_rig_doubt = 0.1;  // relative: rig.toml's k and c count as known to 10 %, which only matters where the data are silent
+
+/// Design matrix of base and causes, raw: force, k, c, own columns of each.
+struct Design {
+  std::vector<Series> columns;
+};
+
+Design design_of(const Scene& scene, const std::vector<Term>& causes) {
+  Design d;
+  Series spring = scene.spring_mm, damper = scene.damper_mm_s;
+  std::vector<Series> own;
+  for (const auto& term : causes) {
+    Columns c = mechanism_at(term.mechanism).columns(scene, term.shape);
+    if (c.spring.size() > 0) spring += c.spring;
+    if (c.damper.size() > 0) damper += c.damper;
+    for (auto& o : c.own) own.push_back(std::move(o));
+  }
+  d.columns.push_back(std::move(spring));
+  d.columns.push_back(std::move(damper));
+  for (auto& o : own) d.columns.push_back(std::move(o));
+  return d;
+}
+
+void set_prior(Products& p, const Rig& rig) {
+  const std::optional<double> given[2] = {rig.k_n_per_mm, rig.c_n_s_per_mm};
+  for (int i = 0; i < 2; ++i)
+    if (given[i]) {
+      p.prior_at[i] = *given[i];
+      p.prior[i] = 1.0 / std::pow(std::max(1e-6, k_rig_doubt * *given[i]), 2);
+    }
+}
+
+FitResult fit_design(const Design& design, const Series& force, const Whitening& white, const Rig& rig, bool covariance) {
+  const auto n = static_cast<Eigen::Index>(design.columns.size()) + 1;
+  Eigen::MatrixXd z(force.size(), n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Series column = i == 0 ? force : design.columns[static_cast<std::size_t>(i - 1)];
+    white.apply(column);
+    z.col(i) = column.matrix();
+  }
+  Products p;
+  set_prior(p, rig);
+  const Eigen::MatrixXd sums = z.transpose() * z;
+  Hypothesis rest;
+  rest.term.mechanism = 0;
+  rest.first = 3;
+  rest.own = n - 3;
+  return fit(sums, p, rest.own > 0 ? std::vector<const Hypothesis*>{&rest} : std::vector<const Hypothesis*>{}, -1, covariance);
+}
+
+Series combined(const Design& d, const Eigen::VectorXd& value) {
+  Series out = Series::Zero(d.columns.front().size());
+  for (std::size_t i = 0; i < d.columns.size(); ++i) out += value[static_cast<Eigen::Index>(i)] * d.columns[i];
+  return out;
+}
+
+/// Force of the base and of those causes that act inside the contact, as if it could pull, [rows].
+Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
+  Scene open = scene;
+  never_pull(open, nullptr);
+  Series f = value[0] * open.spring_mm + value[1] * open.damper_mm_s;
+  Eigen::Index at = 2;
+  for (const auto& term : causes) {
+    const Mechanism& m = mechanism_at(term.mechanism);
+    const Columns c = m.columns(open, term.shape);
+    if (m.inside) {
+      for (std::size_t i = 0; i < c.own.size(); ++i) f += value[at + static_cast<Eigen::Index>(i)] * c.own[i];
+      if (c.spring.size() > 0) f += value[0] * c.spring;
+      if (c.damper.size() > 0) f += value[1] * c.damper;
+    }
+    at += static_cast<Eigen::Index>(c.own.size());
+  }
+  return f;
+}
+
+bool any_inside(const std::vector<Term>& causes) {
+  return std::any_of(causes.begin(), causes.end(), [](const Term& t) { return mechanism_at(t.mechanism).inside; });
+}
+
+}  // namespace
+
+View without_pulling(const View& view, const std::vector<Term>& causes) {
+  View v = view;
+  const Series pressed = pressed_n(v.scene, causes, fit_terms(v, causes).value);
+  never_pull(v.scene, &pressed);
+  return v;
+}
+
+Series force_of(const Scene& scene, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
+  return combined(design_of(scene, causes), value);
+}
+
+Whitening whitening_of(const View& v) { return {*v.scene.recording, v.noise, v.scene.weight, v.robust}; }
+
+FitResult fit_terms(const View& v, const std::vector<Term>& causes, bool covariance) {
+  return fit_design(design_of(v.scene, causes), v.force_n, whitening_of(v), v.scene.recording->rig, covariance);
+}
+
+std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std::vector<double>& own, Base base) {
+  const Mechanism& m = mechanism_at(term.mechanism);
+  const auto force = [&](const std::vector<double>& shape) {
+    const Columns c = m.columns(scene, shape);
+    Series f = Series::Zero(scene.force_n.size());
+    for (std::size_t i = 0; i < c.own.size() && i < own.size(); ++i) f += own[i] * c.own[i];
+    if (c.spring.size() > 0) f += base.k_n_per_mm * c.spring;
+    if (c.damper.size() > 0) f += base.c_n_s_per_mm * c.damper;
+    return f;
+  };
+  std::vector<Series> out;
+  for (std::size_t i = 0; i < m.shape.size(); ++i) {
+    if (!m.shape[i].fitted || term.shape[i] == 0.0) continue;
+    const double step = m.shape[i].logarithmic ? 0.02 * term.shape[i] : 0.01 * std::max(0.1, std::fabs(term.shape[i]));
+    const std::string name = m.shape[i].name;
+    const double real_step = name == "frequency_hz" ? 1e-3 : name == "rate_ratio" ? 3e-6 : step;
+    auto up = term.shape, down = term.shape;
+    up[i] += real_step;
+    down[i] -= real_step;
+    out.push_back((force(up) - force(down)) / (2 * real_step));
+  }
+  return out;
+}
+
+std::vector<std::pair<Eigen::Index, Eigen::Index>> folds_of(const Recording& r) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> out;
+  constexpr std::size_t k_most = 12;
+  const std::size_t n = r.sessions.size();
+  if (n == 1) {
+    for (Eigen::Index i = 0; i < 5; ++i) out.emplace_back(r.rows() * i / 5, r.rows() * (i + 1) / 5);
+    return out;
+  }
+  const std::size_t folds = std::min(n, k_most);
+  for (std::size_t f = 0; f < folds; ++f) out.emplace_back(r.sessions[f * n / folds].begin, r.sessions[(f + 1) * n / folds - 1].end);
+  return out;
+}
+
+View make_view(const Recording& recording, const Motion& motion, const std::vector<Term>& causes, std::optional<Base> start,
+               const ViewOptions& options) {
+  View v;
+  v.causes = causes;
+  if (options.sharp && motion.quantum_mm > 1e-5 && recording.v_mm_s.size() == 0) v.sharp = estimate_sharp_motion(recording);
+  v.force_n = options.fixed_n != nullptr ? Series(recording.f_n - *options.fixed_n) : recording.f_n;
+  Base base;
+  if (start) {
+    base = *start;
+  } else if (recording.rig.k_n_per_mm) {
+    base = {*recording.rig.k_n_per_mm, recording.rig.c_n_s_per_mm.value_or(0.0)};
+  }
+  double noise_sd = 0.0;
+  Series pressed;
+  for (int round = 0; round < k_rounds; ++round) {
+    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr);
+    if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0};
+    const Design d = design_of(v.scene, causes);
+    v.base_fit = fit_design(d, v.force_n, whitening_of(v), recording.rig, false);
+    v.model_n = combined(d, v.base_fit.value);
+    v.residual_n = v.force_n - v.model_n;
+    base = {std::max(1e-9, v.base_fit.value[0]),
+            std::max(0.0, v.base_fit.value[1])};  // a damper that pushes is an offset in disguise: no contact is lost by it
+    v.noise = estimate_noise(recording, v.residual_n, v.scene.weight);
+    noise_sd = v.noise.sd_n;
+    if (any_inside(causes)) pressed = pressed_n(v.scene, causes, v.base_fit.value);
+    v.robust.resize(0);
+    Series z = v.residual_n;
+    whitening_of(v).apply(z);
+    v.robust = robust_weights(z);
+  }
+  if (!options.products) return v;
+
+  const Whitening white = whitening_of(v);
+  {
+    Series z = v.residual_n;
+    white.apply(z);
+    v.scene.lines_hz = strongest_lines_hz(v.scene, z, 2);
+  }
+  // whitened columns, one after the other; then their products by session
+  std::vector<Series> z;
+  const auto add = [&](Series column) {
+    white.apply(column);
+    z.push_back(std::move(column));
+    return static_cast<Eigen::Index>(z.size()) - 1;
+  };
+  add(v.force_n);
+  add(v.scene.spring_mm);
+  add(v.scene.damper_mm_s);
+  const auto add_term = [&](const Term& term) {
+    Hypothesis h;
+    h.term = term;
+    Columns c = mechanism_at(term.mechanism).columns(v.scene, term.shape);
+    h.first = static_cast<Eigen::Index>(z.size());
+    const Mechanism& m = mechanism_at(term.mechanism);
+    h.repeats = m.by_session ? static_cast<Eigen::Index>(session_groups(recording)) : 1;
+    h.own = static_cast<Eigen::Index>(c.own.size()) / h.repeats;
+    for (Eigen::Index i = 0; i < h.own; ++i) {  // columns of different sessions do not overlap: their sum holds them all
+      Series whole = std::move(c.own[static_cast<std::size_t>(i)]);
+      for (Eigen::Index s = 1; s < h.repeats; ++s) whole += c.own[static_cast<std::size_t>(s * h.own + i)];
+      add(std::move(whole));
+    }
+    if (c.spring.size() > 0) h.spring = add(std::move(c.spring));
+    if (c.damper.size() > 0) h.damper = add(std::move(c.damper));
+    return h;
+  };
+  Eigen::Index own_at = 2;
+  for (const auto& term : causes) {
+    Hypothesis h = add_term(term);
+    std::vector<double> own;
+    for (Eigen::Index i = 0; i < h.coefficients(); ++i) own.push_back(v.base_fit.value[own_at++]);
+    h.tangents = static_cast<Eigen::Index>(z.size());
+    for (auto& t : tangents_of(v.scene, term, own, base)) {
+      add(std::move(t));
+      ++h.tangent_count;
+    }
+    v.known.push_back(h);
+  }
+  for (std::size_t m = 0; m < mechanisms().size(); ++m)
+    for (auto& shape : mechanisms()[m].grid(v.scene)) v.grid.push_back(add_term({static_cast<int>(m), std::move(shape)}));
+
+  set_prior(v.products, recording.rig);
+  v.products.rows = (white.root_weight() * v.noise.step_sd_n).square().sum();
+  const auto count = static_cast<Eigen::Index>(z.size());
+  v.products.all = Eigen::MatrixXd::Zero(count, count);
+  constexpr Eigen::Index k_block = 512;  // rows that stay in the cache
+  Eigen::MatrixXf block(k_block, count);
+  v.folds = folds_of(recording);
+  for (const auto& [begin, end] : v.folds) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count, count);
+    for (Eigen::Index at = begin; at < end; at += k_block) {
+      const Eigen::Index rows = std::min(k_block, end - at);
+      for (Eigen::Index c = 0; c < count; ++c) block.col(c).head(rows) = z[static_cast<std::size_t>(c)].segment(at, rows).cast<float>().matrix();
+      Eigen::MatrixXf part = Eigen::MatrixXf::Zero(count, count);
+      part.selfadjointView<Eigen::Lower>().rankUpdate(block.topRows(rows).transpose());
+      sums.triangularView<Eigen::Lower>() += part.cast<double>();
+    }
+    sums.triangularView<Eigen::StrictlyUpper>() = sums.transpose();
+    v.products.all += sums;
+    v.products.by_session.push_back(std::move(sums));
+  }
+  return v;
+}
+
+}  // namespace cavum::explain

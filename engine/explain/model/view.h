@@ -1,0 +1,49 @@
+// One look at a recording with the causes known so far: motion, base force, noise, weights, and the products of all
+// hypotheses, ready for the search. The data and every twin go through this same function.
+#pragma once
+
+#include "engine/explain/model/fit.h"
+
+namespace cavum::explain {
+
+struct View {
+  Scene scene;
+  Motion sharp;  ///< estimate_sharp_motion of a coarse recording without a measured speed, for twins; else empty
+  Noise noise;
+  Series force_n;  ///< what is to be explained: measured force less the fixed forces of a loaded model
+  Series robust;   ///< weights of single rows
+  std::vector<Term> causes;
+  FitResult base_fit;             ///< k, c and the causes' coefficients (no tangents)
+  Series model_n;                 ///< their force, [rows]
+  Series residual_n;              ///< force − model
+  std::vector<Hypothesis> grid;   ///< all mechanisms at all points of their grids
+  std::vector<Hypothesis> known;  ///< the causes, with tangents
+  Products products;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> folds;  ///< rows [begin, end) that are left out together; products.by_session follows them
+};
+
+/// At most 12 folds: sessions, neighbouring ones together when there are more; five stretches when there is one session.
+[[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> folds_of(const Recording& recording);
+
+struct ViewOptions {
+  bool sharp = false;               ///< fill View::sharp
+  bool products = true;             ///< false: only the base and the causes are fitted
+  const Series* fixed_n = nullptr;  ///< forces of a loaded model, [rows]; nullptr = none
+};
+
+/// `motion` as estimate_motion gives it. `start`: k and c to begin with; none = the rig's, or found from the data.
+[[nodiscard]] View make_view(const Recording& recording, const Motion& motion, const std::vector<Term>& causes, std::optional<Base> start = {},
+                             const ViewOptions& options = {});
+
+/// The view with contact lost where base and `causes` together would pull, as they fit now; weights and noise stay, so that chi² can be compared.
+[[nodiscard]] View without_pulling(const View& view, const std::vector<Term>& causes);
+/// Whitening as the view's products were made with.
+[[nodiscard]] Whitening whitening_of(const View& view);
+/// Force of causes at given values (in the order of FitResult), on any scene.
+[[nodiscard]] Series force_of(const Scene& scene, const std::vector<Term>& causes, const Eigen::VectorXd& value);
+/// Numerical derivatives of a term's force by its fitted shapes, in the order of the shapes; k, c and own coefficients given.
+[[nodiscard]] std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std::vector<double>& own, Base base);
+/// Fit of the base and `causes` alone, with columns computed anew: for refining shapes. Same whitening as the view's.
+[[nodiscard]] FitResult fit_terms(const View& view, const std::vector<Term>& causes, bool covariance = false);
+
+}  // namespace cavum::explain

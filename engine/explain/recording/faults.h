@@ -1,0 +1,12 @@
+// Faults of a recording that would make every answer wrong: found before anything is explained.
+#pragma once
+
+#include "engine/explain/recording/recording.h"
+
+namespace cavum::explain {
+
+/// In words, each with what to do; empty when there is none. Looks at the order of time stamps, at the time base (does the
+/// integral of v give x?), at units (metres for millimetres, milliseconds for seconds), and at clipped force.
+[[nodiscard]] std::vector<std::string> data_faults(const Recording& recording);
+
+}  // namespace cavum::explain

@@ -1,0 +1,309 @@
+#include "engine/explain/recording/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cavum::explain {
+namespace {
+
+constexpr double k_min_walk = 1e-5;  // (mm/s)²/s: a hold may creep by 3 µm/s in a second
+constexpr double k_exact_mm = 3e-7;  // a position without quantum is written with about six digits
+constexpr double k_shared_s = 0.4;   // a hold is pulled to the middle of its cell after this time; of 0.15 to 1 s it gave the least error of speed
+constexpr double k_slope_s = 0.015;  // on each side, for the acceleration of a coarse position; of 5 to 40 ms it gave inertia with the least error
+constexpr std::size_t k_window = 4;  // rows on each side over which the walk's variance is averaged
+constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maximisation; more changed speeds by less than 1 %
+// Where a coarse encoder says nothing (within a cell) the walk's variance would stay at its first guess: a prior towards rest,
+// as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/recording/motion_test.cpp).
+constexpr double k_steps_of_span = 4.0;  // of the encoder, for its position to be held against a measured speed
+constexpr double k_prior_weight = 0.3, k_prior_walk = 1e-3;
+
+struct State {
+  double x = 0, v = 0, xx = 0, xv = 0, vv = 0;
+};
+
+/// Scalar observation hx·x + hv·v = z with variance r.
+void observe(State& s, double hx, double hv, double z, double r) {
+  const double px = s.xx * hx + s.xv * hv, pv = s.xv * hx + s.vv * hv;
+  const double gain = 1.0 / (hx * px + hv * pv + r), e = (z - hx * s.x - hv * s.v) * gain;
+  s.x += px * e;
+  s.v += pv * e;
+  s.xx -= px * px * gain;
+  s.xv -= px * pv * gain;
+  s.vv -= pv * pv * gain;
+}
+
+struct Session {
+  Eigen::Index n = 0;
+  const double *t = nullptr, *x = nullptr, *v = nullptr;
+  double q = 0, r_v = 0;
+  double shared_rows = 1;                  // at most so many rows share the observation of one run
+  std::vector<double> run_rows;            // length of the run that the row is in
+  std::vector<double> r_x;                 // variance of the row's position; 0 = none
+  std::vector<double> border_z, border_r;  // border crossed on the way to this row; variance 0 = none
+  std::vector<double> pin_z;               // border of the cell that the estimate left; NaN = none
+  std::vector<double> walk;                // variance per second of the way from this row to the next
+  std::vector<State> predicted, filtered, smoothed;
+};
+
+double median_of(std::vector<double> v) {
+  if (v.empty()) return 0.0;
+  const auto mid = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), mid, v.end());
+  return *mid;
+}
+
+void set_observations(Session& s) {
+  const auto n = static_cast<std::size_t>(s.n);
+  s.r_x.assign(n, k_exact_mm * k_exact_mm);
+  s.border_z.assign(n, 0.0);
+  s.border_r.assign(n, 0.0);
+  s.pin_z.assign(n, std::nan(""));
+  if (s.q <= 0.0) return;
+  std::vector<std::size_t> run_of(n);
+  s.run_rows.assign(n, 1.0);
+  for (std::size_t begin = 0; begin < n;) {
+    std::size_t end = begin + 1;
+    while (end < n && std::fabs(s.x[end] - s.x[begin]) < 0.5 * s.q) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      s.r_x[i] = s.q * s.q / 12.0 * std::min(s.shared_rows, static_cast<double>(end - begin));
+      run_of[i] = end - begin;
+      s.run_rows[i] = static_cast<double>(end - begin);
+    }
+    begin = end;
+  }
+  for (std::size_t i = 1; i < n; ++i) {
+    const double step = s.x[i] - s.x[i - 1];
+    if (std::fabs(step) < 0.5 * s.q || std::fabs(step) > 1.5 * s.q) continue;
+    // crossed at some instant between the two rows, at about q/run per row
+    const double per_row = s.q / static_cast<double>(std::max(run_of[i], run_of[i - 1]));
+    const double nearest = s.q / static_cast<double>(std::min(run_of[i], run_of[i - 1]));
+    s.border_z[i] = 0.5 * (s.x[i] + s.x[i - 1]);
+    s.border_r[i] = (per_row * nearest) / 12.0 + k_exact_mm * k_exact_mm;
+  }
+}
+
+void filter(Session& s) {
+  State now{s.x[0], 0.0, s.q * s.q + 1e-4, 0.0, 1e2};
+  for (Eigen::Index row = 0; row < s.n; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    double dt = 0.0;
+    if (row > 0) {
+      dt = s.t[row] - s.t[row - 1];
+      const double w = s.walk[i - 1];
+      now.x += now.v * dt;
+      now.xx += dt * (2 * now.xv + dt * now.vv) + w * dt * dt * dt / 3;
+      now.xv += dt * now.vv + w * dt * dt / 2;
+      now.vv += w * dt;
+    }
+    s.predicted[i] = now;
+    observe(now, 1.0, 0.0, s.x[row], s.r_x[i]);
+    if (s.border_r[i] > 0.0) observe(now, 1.0, -0.5 * dt, s.border_z[i], s.border_r[i]);
+    if (s.v != nullptr) observe(now, 0.0, 1.0, s.v[row], s.r_v);
+    if (!std::isnan(s.pin_z[i])) observe(now, 1.0, 0.0, s.pin_z[i], 0.01 * s.q * s.q);
+    s.filtered[i] = now;
+  }
+}
+
+/// Backwards; also what the walk did between rows: E[(v' − v)²] per second.
+void smooth(Session& s, std::vector<double>& moved) {
+  const auto n = static_cast<std::size_t>(s.n);
+  s.smoothed[n - 1] = s.filtered[n - 1];
+  for (std::size_t i = n - 1; i-- > 0;) {
+    const double dt = s.t[i + 1] - s.t[i];
+    const State &f = s.filtered[i], &p = s.predicted[i + 1], &next = s.smoothed[i + 1];
+    const double det = p.xx * p.vv - p.xv * p.xv;
+    const double ixx = p.vv / det, ixv = -p.xv / det, ivv = p.xx / det;
+    const double axx = f.xx + dt * f.xv, axv = f.xv, avx = f.xv + dt * f.vv, avv = f.vv;  // P Fᵀ
+    const double gxx = axx * ixx + axv * ixv, gxv = axx * ixv + axv * ivv, gvx = avx * ixx + avv * ixv, gvv = avx * ixv + avv * ivv;
+    const double ex = next.x - p.x, ev = next.v - p.v;
+    const double dxx = next.xx - p.xx, dxv = next.xv - p.xv, dvv = next.vv - p.vv;
+    State& o = s.smoothed[i];
+    o.x = f.x + gxx * ex + gxv * ev;
+    o.v = f.v + gvx * ex + gvv * ev;
+    o.xx = f.xx + gxx * (gxx * dxx + gxv * dxv) + gxv * (gxx * dxv + gxv * dvv);
+    o.xv = f.xv + gvx * (gxx * dxx + gxv * dxv) + gvv * (gxx * dxv + gxv * dvv);
+    o.vv = f.vv + gvx * (gvx * dxx + gvv * dxv) + gvv * (gvx * dxv + gvv * dvv);
+    const double lag = gvx * next.xv + gvv * next.vv;  // Cov(v, v')
+    const double dv = next.v - o.v;
+    moved[i] = std::max(0.0, dv * dv + next.vv + o.vv - 2 * lag) / dt;
+  }
+}
+
+void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
+  const auto n = static_cast<std::size_t>(s.n);
+  set_observations(s);
+  // a first guess that follows everything: the speed of the whole way may change within 50 ms
+  double path = 0.0;
+  for (std::size_t i = 1; i < n; ++i) path += std::fabs(s.x[i] - s.x[i - 1]);
+  const double typical = path / std::max(1e-9, s.t[n - 1] - s.t[0]);
+  s.walk.assign(n, std::max(k_min_walk, typical * typical / 0.05));
+  s.predicted.resize(n);
+  s.filtered.resize(n);
+  s.smoothed.resize(n);
+  std::vector<double> moved(n, 0.0), sums(n + 1, 0.0);
+  const int passes = s.q > 0.0 ? (sharp ? 2 * k_passes_coarse : k_passes_coarse) : k_passes_exact;
+  const std::size_t window = sharp ? 0 : k_window;
+  for (int pass = 0; pass < passes; ++pass) {
+    filter(s);
+    smooth(s, moved);
+    if (pass + 1 == passes) break;
+    for (std::size_t i = 0; i < n; ++i) sums[i + 1] = sums[i] + moved[i];
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const std::size_t from = i > window ? i - window : 0, to = std::min(n - 1, i + window + 1);
+      const double seen = (sums[to] - sums[from]) / static_cast<double>(to - from);
+      s.walk[i] = std::max(k_min_walk, s.q > 0.0 ? (seen + k_prior_weight * k_prior_walk) / (1.0 + k_prior_weight) : seen);
+    }
+    if (s.q > 0.0 && pass >= 1)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double off = s.smoothed[i].x - s.x[i];
+        if (std::fabs(off) > 0.52 * s.q && std::isnan(s.pin_z[i])) s.pin_z[i] = s.x[i] + (off > 0 ? 0.45 : -0.45) * s.q;
+      }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Index row = begin + static_cast<Eigen::Index>(i);
+    const State& o = s.smoothed[i];
+    out.x_mm[row] = o.x;
+    out.v_mm_s[row] = o.v;
+    // in a hold the rows repeat one error: what the shared observations seem to have learned beyond that is not there
+    const double repeated =
+        s.q > 0.0 && s.run_rows[i] > s.shared_rows && s.v == nullptr ? s.q * s.q / 12.0 * (1.0 - s.shared_rows / s.run_rows[i]) : 0.0;
+    out.sd_x_mm[row] = std::sqrt(std::max({0.0, o.xx, repeated}));
+    out.sd_v_mm_s[row] = std::sqrt(std::max(0.0, o.vv));
+    // slope of a straight line through the speeds around: what the steps of an encoder do from row to row is no acceleration
+    const double dt = (s.t[n - 1] - s.t[0]) / static_cast<double>(n - 1);
+    const auto half = s.q > 0.0 && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / std::max(1e-9, dt)), 1L, 50L)) : 1;
+    const std::size_t before = i > half ? i - half : 0, after = std::min(n - 1, i + half);
+    double mean = 0.0, moment = 0.0, square = 0.0;
+    for (std::size_t j = before; j <= after; ++j) mean += s.t[j] / static_cast<double>(after - before + 1);
+    for (std::size_t j = before; j <= after; ++j) moment += (s.t[j] - mean) * s.smoothed[j].v, square += (s.t[j] - mean) * (s.t[j] - mean);
+    out.a_mm_s2[row] = square > 0.0 ? moment / square : 0.0;
+  }
+}
+
+/// Scatter of a measured speed from its third differences, which a smooth motion hardly has (20 = 1 + 9 + 9 + 1).
+double speed_scatter_mm_s(const Recording& r) {
+  std::vector<double> d;
+  for (const auto& s : r.sessions)
+    for (Eigen::Index i = s.begin + 3; i < s.end; ++i)
+      d.push_back(std::fabs(r.v_mm_s[i] - 3 * r.v_mm_s[i - 1] + 3 * r.v_mm_s[i - 2] - r.v_mm_s[i - 3]));
+  return 1.4826 * median_of(std::move(d)) / std::sqrt(20.0);
+}
+
+}  // namespace
+
+Series intervals_s(const Recording& r) {
+  Series dt = Series::Zero(r.rows());
+  for (const auto& s : r.sessions) {
+    for (Eigen::Index i = s.begin; i + 1 < s.end; ++i) dt[i] = r.t_s[i + 1] - r.t_s[i];
+    if (s.end - s.begin > 1) dt[s.end - 1] = dt[s.end - 2];
+  }
+  return dt;
+}
+
+double seen_quantum_mm(const Recording& r) {
+  std::vector<double> steps;
+  for (const auto& s : r.sessions)
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) {
+      const double d = std::fabs(r.x_mm[i] - r.x_mm[i - 1]);
+      if (d > 1e-9) steps.push_back(d);
+    }
+  if (steps.size() < 50) return 0.0;  // too few to tell a lattice from chance
+  const double q = *std::min_element(steps.begin(), steps.end());
+  const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff();
+  if (q < 1e-5 * range) return 0.0;
+  for (const double d : steps)
+    if (std::fabs(d / q - std::round(d / q)) > 0.01 * std::max(1.0, d / q)) return 0.0;
+  // one step in most rows would be a constant speed, not a lattice
+  return std::count_if(steps.begin(), steps.end(), [&](double d) { return d < 1.5 * q; }) < static_cast<std::ptrdiff_t>(r.rows()) * 9 / 10 ? q : 0.0;
+}
+
+namespace {
+
+Motion estimated(const Recording& r, bool sharp) {
+  Motion out;
+  const Eigen::Index n = r.rows();
+  for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
+  if (r.exact_motion) {
+    out.x_mm = r.x_mm;
+    out.v_mm_s = r.v_mm_s;
+    for (const auto& rows : r.sessions)
+      for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) out.a_mm_s2[i] = (r.v_mm_s[i] - r.v_mm_s[i - 1]) / (r.t_s[i] - r.t_s[i - 1]);
+    return out;
+  }
+  out.quantum_mm = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
+  if (r.v_mm_s.size() > 0) out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
+  const bool recedes = surface_recedes(r);
+  for (const auto& rows : r.sessions) {
+    Session s;
+    s.n = rows.end - rows.begin;
+    s.t = r.t_s.data() + rows.begin;
+    s.x = r.x_mm.data() + rows.begin;
+    s.v = r.v_mm_s.size() > 0 && !recedes ? r.v_mm_s.data() + rows.begin : nullptr;
+    s.r_v = out.speed_sd_mm_s * out.speed_sd_mm_s;
+    s.q = out.quantum_mm > 1e-5 ? out.quantum_mm : 0.0;
+    s.shared_rows = std::max(8.0, k_shared_s * static_cast<double>(s.n - 1) / std::max(1e-9, s.t[s.n - 1] - s.t[0]));
+    if (s.n < 2) {
+      out.x_mm.segment(rows.begin, s.n) = r.x_mm.segment(rows.begin, s.n);
+      continue;
+    }
+    estimate(s, out, rows.begin, sharp);
+    if (recedes)
+      for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
+        const Eigen::Index a = std::max(rows.begin, i - 1), b = std::min(rows.end - 1, i + 1);
+        out.v_mm_s[i] = r.v_mm_s[i];
+        out.sd_v_mm_s[i] = out.speed_sd_mm_s;
+        out.a_mm_s2[i] = (r.v_mm_s[b] - r.v_mm_s[a]) / (r.t_s[b] - r.t_s[a]);
+      }
+  }
+  return out;
+}
+
+}  // namespace
+
+Agreement position_over_speed(const Recording& r) {
+  if (r.v_mm_s.size() == 0) return {};
+  const Series* rpm = r.column("spindle_rpm");
+  double xy[2] = {0, 0}, xx[2] = {0, 0}, yy[2] = {0, 0}, spans = 0.0;
+  const double q = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
+  for (const auto& s : r.sessions) {
+    // long enough for several steps of the encoder, and eight spans at least
+    double path = 0.0;
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) path += std::fabs(r.x_mm[i] - r.x_mm[i - 1]);
+    const double rows = static_cast<double>(s.end - s.begin), steps = path > 0.0 ? k_steps_of_span * q / path * rows : 0.0;
+    const auto span = static_cast<Eigen::Index>(std::max({2.0, rows / 200, std::min(steps, rows / 8)}));
+    for (Eigen::Index a = s.begin; a + span < s.end; a += span) {
+      double way = 0.0;
+      for (Eigen::Index i = a; i < a + span; ++i) way += 0.5 * (r.v_mm_s[i] + r.v_mm_s[i + 1]) * (r.t_s[i + 1] - r.t_s[i]);
+      const double moved = r.x_mm[a + span] - r.x_mm[a];
+      const int cutting = rpm != nullptr && ((*rpm)[a] > 0.0 || (*rpm)[a + span] > 0.0) && std::max(r.x_mm[a], r.x_mm[a + span]) > 0.0;
+      xy[cutting] += way * moved;
+      xx[cutting] += way * way;
+      yy[cutting] += moved * moved;
+      spans += cutting == 0 ? 1.0 : 0.0;
+    }
+  }
+  Agreement out;
+  if (xx[0] > 0.0 && yy[0] > 0.0) out = {xy[0] / xx[0], xy[0] / std::sqrt(xx[0] * yy[0]), 0.0, 0.0, 1.0};
+  if (const double noise2 = q * q / 6.0; xx[0] > 0.0) {  // both ends of a span are rounded
+    out.slope_sd = std::sqrt(noise2 / xx[0]);
+    out.expected_correlation = std::sqrt(xx[0] / (xx[0] + spans * noise2));
+  }
+  if (xx[1] > 0.0) out.cutting_slope = xy[1] / xx[1];
+  return out;
+}
+
+bool surface_recedes(const Recording& r) {
+  const Agreement a = position_over_speed(r);
+  return a.slope > 0.9 && a.slope < 1.1 && a.correlation > 0.9 && a.cutting_slope != 0.0 && a.cutting_slope < 0.9;
+}
+
+bool moves_one_way(const Motion& m) {
+  const double fastest = m.v_mm_s.maxCoeff();
+  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
+}
+
+Motion estimate_motion(const Recording& r) { return estimated(r, false); }
+Motion estimate_sharp_motion(const Recording& r) { return estimated(r, true); }
+
+}  // namespace cavum::explain

@@ -1,0 +1,167 @@
+#include "engine/explain/recording/session_recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/session/session_reader.h"
+#include "engine/session/simulation.h"
+
+namespace cavum::explain {
+namespace {
+
+constexpr double k_row_s = 0.005;
+constexpr double k_least_contact_s = 0.5;
+
+/// A force over time, linear between its samples.
+struct Force {
+  std::vector<double> t_s, f_n;
+  std::string source;
+  /// Nothing outside the samples, and where two of them are further than 0.1 s apart.
+  [[nodiscard]] std::optional<double> at(double t) const {
+    const auto after = std::lower_bound(t_s.begin(), t_s.end(), t - 1e-9);
+    if (after == t_s.end()) return std::nullopt;
+    const auto i = static_cast<std::size_t>(after - t_s.begin());
+    if (std::fabs(*after - t) < 1e-9) return f_n[i];
+    if (i == 0 || t_s[i] - t_s[i - 1] > 0.1) return std::nullopt;
+    return f_n[i - 1] + (t - t_s[i - 1]) / (t_s[i] - t_s[i - 1]) * (f_n[i] - f_n[i - 1]);
+  }
+};
+
+Force force_of_csv(const std::string& path) {
+  const Recording r = parse_recording(read_text_file(path, k_largest_table), path, {}, false);
+  Force out{{r.t_s.data(), r.t_s.data() + r.rows()}, {r.f_n.data(), r.f_n.data() + r.rows()}, "measured, " + path};
+  if (!std::is_sorted(out.t_s.begin(), out.t_s.end())) throw Error(path, "its times do not grow", "sort the rows by t_s");
+  return out;
+}
+
+Force force_of_events(const SessionReader& session, double tick_s) {
+  Force out;
+  out.source = "measured, in the session";
+  for (const auto& event : session.events()) {
+    if (event.kind != k_measured_force_event) continue;
+    const auto detail = parse_json_or_null(event.detail_json);
+    const std::string where = session.path() + ": event " + k_measured_force_event + " at tick " + std::to_string(event.tick);
+    if (!detail.is_object() || !detail.contains("f_n") || !detail["f_n"].is_array())
+      throw Error(where, "holds no list f_n", "record {\"f_n\": [...], \"every_ticks\": N}");
+    const auto& told = member_of(detail, "every_ticks");
+    const double every = told.is_number() ? std::clamp(told.get<double>(), 1.0, 1e9) : 1.0;
+    double at = static_cast<double>(event.tick);
+    for (const auto& value : detail["f_n"]) {
+      if (!value.is_number()) throw Error(where, "f_n holds something that is no number", "record forces in N");
+      if (!out.t_s.empty() && !(at * tick_s > out.t_s.back())) throw Error(where, "overlaps the one before", "record each tick once");
+      out.t_s.push_back(at * tick_s);
+      out.f_n.push_back(value.get<double>());
+      at += every;
+    }
+  }
+  return out;
+}
+
+/// One row, as the replay gives it.
+struct Row {
+  double t_s, x_mm, v_mm_s, f_n, k, c, rpm, removed_mm3, point, approach_deg, slide_mm_s, tilt_deg;
+};
+
+double degrees(double rad) { return rad * 57.29577951308232; }
+
+/// Material with the greatest stiffness: what k and c are measured by.
+Viscoelastic stiffest(const ForceModel& model) {
+  Viscoelastic out;
+  for (const auto& [name, m] : model.materials)
+    if (m.voigt.stiffness_n_per_mm > out.stiffness_n_per_mm) out = m.voigt;
+  return out;
+}
+
+}  // namespace
+
+Recording read_session_recording(const std::string& path, const std::string& force_csv) {
+  const SessionReader session(path);
+  session.require_readable();
+  if (session.number("physics_version", 0) != k_physics_version)
+    throw Error(path, "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
+                "explain it with the program that recorded it");
+  Simulation simulation = make_simulation(session.setup(), path);
+  const double tick_s = simulation.model.config.tick_s;
+  const Force measured = force_csv.empty() ? force_of_events(session, tick_s) : force_of_csv(force_csv);
+  const bool rendered = measured.t_s.empty();
+  const Viscoelastic reference = stiffest(simulation.model.force);
+  if (!(reference.stiffness_n_per_mm > 0.0)) throw Error(path, "no material of its force model resists", "explain a session in which something does");
+
+  const auto every = std::max<std::int64_t>(1, std::llround(k_row_s / tick_s));
+  std::vector<std::vector<Row>> contacts(1);
+  std::map<int, double> removed;
+  std::int64_t tick = 0;
+  Vec3 last_tip = simulation.state.last_tip_mm;
+  for (std::size_t chunk = 0; chunk < session.chunks().size(); ++chunk) {
+    const ChunkMotion motion = session.motion(chunk);
+    for (std::size_t i = 0; i < motion.inputs.size(); ++i, ++tick) {
+      const TickInput& input = motion.inputs[i];
+      const TickOutput out = step(simulation.model, simulation.state, input);
+      if (!(make_tick_record(out) == motion.records[i]))
+        throw Error(path, "its replay differs from the record at tick " + std::to_string(tick), "see what `cavum replay --verify` says of it");
+      double& worn = removed[input.point];
+      worn += out.removed_count * simulation.state.tooth.leaf_volume_mm3();
+      const Vec3 moved = simulation.state.last_tip_mm - last_tip;
+      last_tip = simulation.state.last_tip_mm;
+      if (!out.contact) {
+        if (!contacts.back().empty()) contacts.emplace_back();
+        continue;
+      }
+      if (tick % every != 0) continue;
+      const double t = static_cast<double>(tick) * tick_s;
+      const std::optional<double> force = rendered ? std::optional(dot(out.rendered_force_n, out.normal)) : measured.at(t);
+      if (!force) {
+        if (!contacts.back().empty()) contacts.emplace_back();
+        continue;
+      }
+      const auto& touched = simulation.state.contact.touched.means.of;
+      const Vec3 axis = simulation.state.contact.rotation * Vec3{0, 0, 1};
+      contacts.back().push_back({t, out.penetration_mm, out.approach_mm_s, *force, touched.stiffness_n_per_mm, touched.damping_n_s_per_mm, out.rpm,
+                                 worn, static_cast<double>(input.point), degrees(std::atan2(out.normal.x, out.normal.z)),
+                                 length(moved - out.normal * dot(moved, out.normal)) / tick_s,
+                                 degrees(std::acos(std::clamp(dot(axis, out.normal), -1.0, 1.0)))});
+    }
+  }
+  std::vector<const Row*> rows;
+  Recording r;
+  const auto least = static_cast<std::size_t>(k_least_contact_s / (tick_s * static_cast<double>(every)));
+  for (const auto& contact : contacts) {
+    if (contact.size() < least) continue;
+    const auto begin = static_cast<Eigen::Index>(rows.size());
+    for (const auto& row : contact) rows.push_back(&row);
+    r.sessions.push_back({"contact " + std::to_string(r.sessions.size() + 1), begin, static_cast<Eigen::Index>(rows.size())});
+  }
+  if (rows.empty())
+    throw Error(path, rendered ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
+                "explain a session in which the tooth was touched for longer");
+  const auto series = [&rows](double Row::*field) {
+    Series out(static_cast<Eigen::Index>(rows.size()));
+    for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = rows[static_cast<std::size_t>(i)]->*field;
+    return out;
+  };
+  r.t_s = series(&Row::t_s);
+  r.x_mm = series(&Row::x_mm);
+  r.v_mm_s = series(&Row::v_mm_s);
+  r.f_n = series(&Row::f_n);
+  r.relative_k = series(&Row::k) / reference.stiffness_n_per_mm;
+  r.relative_c = series(&Row::c) / std::max(1e-12, reference.damping_n_s_per_mm);
+  r.exact_motion = true;
+  r.columns = {{"spindle_rpm", series(&Row::rpm)},           {"removed_mm3", series(&Row::removed_mm3)}, {"bur_id", series(&Row::point)},
+               {"approach_deg", series(&Row::approach_deg)}, {"slide_mm_s", series(&Row::slide_mm_s)},   {"tilt_deg", series(&Row::tilt_deg)}};
+  r.rig.k_n_per_mm = reference.stiffness_n_per_mm;
+  if (reference.damping_n_s_per_mm > 0.0) r.rig.c_n_s_per_mm = reference.damping_n_s_per_mm;
+  r.rig.force_quantum_n = rendered ? 1e-6 : 0.0;
+  if (rendered) r.rig.force_limit_n = simulation.model.config.limits.peak_n;
+  r.notes.push_back(rendered
+                        ? "force: as rendered by the simulation, for the session holds no measured one. What is found is what rendering, safety and "
+                          "the session's own force terms make of k X + c V; it says nothing about real tissue"
+                        : "force: " + measured.source + ". X and V are the simulation's");
+  r.notes.push_back(std::to_string(r.sessions.size()) + " contacts of half a second or more count as sessions; time in air is left out");
+  return r;
+}
+
+}  // namespace cavum::explain

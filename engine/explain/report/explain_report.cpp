@@ -1,0 +1,97 @@
+// The explanation as JSON and as words.
+#include <cmath>
+
+#include "engine/base/print.h"
+#include "engine/explain/inference/explain.h"
+
+namespace cavum::explain {
+namespace {
+
+using nlohmann::json;
+
+const Mechanism& mechanism_of(const Cause& c) { return mechanism_at(c.term.mechanism); }
+
+json to_json(const Interval& i) { return {{"value", i.value}, {"low", i.low}, {"high", i.high}}; }
+
+std::string in_words(const Explanation& e) {
+  if (e.verdict == "clean") return "nothing that these data can show is missing from the simulation";
+  if (e.verdict == "not_testable") return "these data cannot show anything either way: every mechanism that matters can hide behind k and c";
+  if (e.verdict == "data_fault") return "the recording cannot be trusted, so nothing was explained";
+  if (e.verdict == "unexplained") return "the force depends on something that no mechanism here describes";
+  const std::string more = e.unexplained ? ", and that is not all: something about " + e.unexplained->variable + " stays unexplained" : "";
+  if (e.verdict == "alias") return "something is missing, but these data cannot tell which of several mechanisms it is" + more;
+  return "the simulation lacks what is named below" + more;
+}
+
+}  // namespace
+
+json to_json(const Explanation& e) {
+  json j;
+  j["verdict"] = e.verdict;
+  j["causes"] = json::array();
+  for (const auto& c : e.causes) {
+    json parameters = json::object();
+    for (const auto& [name, interval] : c.parameters) parameters[name] = to_json(interval);
+    j["causes"].push_back(
+        {{"mechanism", mechanism_of(c).name}, {"aliases", c.aliases}, {"parameters", parameters}, {"p_value", c.p_value}, {"effect_n", c.effect_n}});
+  }
+  j["unexplained"] = nullptr;
+  if (e.unexplained) j["unexplained"] = {{"variable", e.unexplained->variable}, {"effect_n", e.unexplained->effect_n}, {"form", e.unexplained->form}};
+  j["not_testable"] = json::array();
+  for (const auto& n : e.not_testable) j["not_testable"].push_back(n.mechanism);
+  j["data_faults"] = e.data_faults;
+  j["base"] = {{"heldout_rmse_n", e.gain.base_rmse_n}, {"k_n_per_mm", e.base.k_n_per_mm}, {"c_n_s_per_mm", e.base.c_n_s_per_mm}};
+  j["extended"] = {{"heldout_rmse_n", e.gain.extended_rmse_n}};
+  j["noise_floor_n"] = e.gain.noise_floor_n;
+  j["gain"] = {{"percent", e.gain.percent.value},
+               {"low", e.gain.percent.low},
+               {"high", e.gain.percent.high},
+               {"share_of_explainable_percent", e.gain.share_percent}};
+  j["next_experiment"] = e.next_experiment;
+  j["notes"] = e.notes;
+  return j;
+}
+
+std::string left_over_words(const Explanation& e) {
+  constexpr double k_more_than_noise = 1.5;
+  if (!e.causes.empty() || e.unexplained || e.verdict == "data_fault" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return "";
+  return printed("The simulation misses by %.4f N rms where the noise is %.4f N: something is there, and these data cannot say what.",
+                 e.gain.base_rmse_n, e.gain.noise_floor_n);
+}
+
+std::string to_text(const Explanation& e) {
+  std::string out = "verdict: " + e.verdict + ". " + in_words(e) + ".\n";
+  for (const auto& f : e.data_faults) out += wrapped("fault: " + f);
+  if (e.verdict == "data_fault") return out;
+  for (const auto& c : e.causes) {
+    const Mechanism& m = mechanism_of(c);
+    out += printed("\ncause: %s (%s), %.4f N rms, p = %.2g\n", m.name, m.words, c.effect_n, c.p_value);
+    out += printed("  force %s\n", m.equation);
+    for (const auto& [name, i] : c.parameters) out += printed("  %-20s %12.5g   95 %%: %.5g to %.5g\n", name.c_str(), i.value, i.low, i.high);
+    if (!c.aliases.empty()) {
+      out += "  fits as well:";
+      for (const auto& a : c.aliases) out += " " + a;
+      out += "\n";
+    }
+  }
+  if (e.unexplained)
+    out += wrapped(printed("unexplained: the force depends on %s (%s), %.4f N rms.", e.unexplained->variable.c_str(), e.unexplained->form.c_str(),
+                           e.unexplained->effect_n));
+  if (const std::string left = left_over_words(e); !left.empty()) out += wrapped(left);
+  out += printed("\nk = %.5g N/mm (%.5g to %.5g), c = %.5g N s/mm (%.5g to %.5g)\n", e.base.k_n_per_mm, e.k.low, e.k.high, e.base.c_n_s_per_mm,
+                 e.c.low, e.c.high);
+  out += printed("on sessions not seen: base %.4f N, extended %.4f N rms; noise floor %.4f N\n", e.gain.base_rmse_n, e.gain.extended_rmse_n,
+                 e.gain.noise_floor_n);
+  out += printed("gain %.1f %% (%.1f to %.1f), %.0f %% of what could be explained\n", e.gain.percent.value, e.gain.percent.low, e.gain.percent.high,
+                 e.gain.share_percent);
+  if (!e.not_testable.empty()) {
+    std::string list = "not testable with these data:";
+    for (const auto& n : e.not_testable) list += " " + n.mechanism;
+    out += wrapped(list);
+  }
+  out += wrapped("next experiment: " + e.next_experiment);
+  for (const auto& n : e.notes) out += wrapped("note: " + n);
+  return out;
+}
+
+}  // namespace cavum::explain

@@ -1,0 +1,39 @@
+#include "engine/tooth/make/formula_tooth.h"
+
+#include "engine/base/error.h"
+#include "engine/tooth/distance.h"
+#include "engine/tooth/make/periodontium.h"
+
+namespace cavum {
+
+void check_choice(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    throw Error(name, "is " + std::to_string(value), "choose from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+TissueGrid formula_grid(const FormulaBox& box, double leaf_mm, double periodontium_mm, const std::string& name) {
+  check_choice("--leaf-mm", leaf_mm, 0.03, 0.5);
+  check_choice("--periodontium-mm", periodontium_mm, 0.0, 5.0);
+  const double margin = 4 * leaf_mm;
+  const auto down = [&](double mm) { return static_cast<std::int32_t>(-std::ceil((-mm + margin) / leaf_mm)); };
+  const auto up = [&](double mm) { return static_cast<std::int32_t>(std::ceil((mm + margin) / leaf_mm)); };
+  const IVec3 low{down(box.low_mm.x), down(box.low_mm.y), down(box.low_mm.z)}, high{up(box.high_mm.x), up(box.high_mm.y), up(box.high_mm.z)};
+  TissueGrid grid;
+  check_lattice(high - low, leaf_mm, name);
+  grid.allocate(high - low, leaf_mm, Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm);
+  return grid;
+}
+
+Tooth finish_formula_tooth(TissueGrid& grid, const std::vector<float>& field, const std::function<double(Vec3)>& solid, double periodontium_mm,
+                           const std::string& name, const std::string& source) {
+  Tooth tooth;
+  set_surface_from_field(grid, tooth.tissues, field, solid);
+  const auto around = add_periodontium(grid, periodontium_mm);
+  tooth.octree = Octree(grid, tooth.tissues);
+  tooth.name = name;
+  tooth.source = source + "; leaf " + std::to_string(grid.leaf_mm) + " mm; ";
+  tooth.source += around > 0 ? "periodontium " + std::to_string(periodontium_mm) + " mm around the roots" : "no periodontium";
+  return tooth;
+}
+
+}  // namespace cavum

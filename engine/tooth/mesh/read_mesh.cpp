@@ -1,0 +1,307 @@
+#include "engine/tooth/mesh/read_mesh.h"
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/tooth/mesh/polygon_files.h"
+
+namespace cavum {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+};
+using Surface = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+std::string place(Vec3 p) {
+  std::ostringstream s;
+  s.precision(5);
+  s << '(' << p.x << ", " << p.y << ", " << p.z << ')';
+  return s.str();
+}
+
+Vec3 point(const Surface& surface, Surface::VertexHandle v) {
+  const auto& p = surface.point(v);
+  return {p[0], p[1], p[2]};
+}
+
+constexpr std::size_t k_stl_head = 84, k_stl_facet = 50;
+
+/// Facets that a binary STL says it holds.
+std::size_t stl_facets(const Bytes& file) {
+  std::uint32_t facets = 0;
+  if (file.size() >= k_stl_head) std::memcpy(&facets, file.data() + k_stl_head - 4, 4);
+  return facets;
+}
+bool is_binary_stl(const Bytes& file) { return file.size() >= k_stl_head && file.size() == k_stl_head + k_stl_facet * stl_facets(file); }
+
+/// A binary STL of another length than its count of triangles asks for, and a text one that ends within a facet.
+void require_whole_stl(const Bytes& file, const std::string& name) {
+  if (file.empty() || is_binary_stl(file)) return;
+  const auto printable = [](unsigned char c) { return c >= 32 || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\v'; };
+  if (std::all_of(file.begin(), file.end(), printable)) {
+    std::istringstream text(std::string(file.begin(), file.end()));
+    std::size_t begun = 0, ended = 0;
+    bool solid = false, whole = false;
+    for (std::string word; text >> word;) {
+      begun += word == "facet" ? 1 : 0;
+      ended += word == "endfacet" ? 1 : 0;
+      solid = solid || word == "solid";
+      whole = whole || word == "endsolid";
+    }
+    if (begun != ended)
+      throw Error(name, "is cut off: it begins " + std::to_string(begun) + " facets and ends " + std::to_string(ended),
+                  "copy or export the whole file again");
+    if (begun > 0 && solid && !whole) throw Error(name, "is cut off: its 'endsolid' is missing", "copy or export the whole file again");
+    return;
+  }
+  if (file.size() < k_stl_head)
+    throw Error(name, "is cut off: it has " + std::to_string(file.size()) + " bytes, and the head of a binary STL alone has 84",
+                "copy or export the whole file again");
+  const std::size_t held = (file.size() - k_stl_head) / k_stl_facet, said = stl_facets(file);
+  throw Error(name,
+              "says that it holds " + std::to_string(said) + (said == 1 ? " triangle" : " triangles") + ", and its length is that of " +
+                  std::to_string(held) + ((file.size() - k_stl_head) % k_stl_facet != 0 ? " and a part" : "") +
+                  (held < said ? ": it is cut off" : ": the count is wrong"),
+              "copy or export the whole file again, as STL");
+}
+
+/// OpenMesh walks around a corner for each triangle that it joins there: at one that 190,000 share it would walk for minutes.
+constexpr std::size_t k_most_at_corner = 2000;
+
+[[noreturn]] void fail_crowded(const std::string& name) {
+  throw Error(name, "more than " + std::to_string(k_most_at_corner) + " triangles meet at one corner", "remesh the surface in a mesh editor");
+}
+
+using Corner = std::array<float, 3>;
+/// `corners` of all triangles, in any order.
+void require_few_at_each(std::vector<Corner> corners, const std::string& name) {
+  std::sort(corners.begin(), corners.end());
+  for (std::size_t i = k_most_at_corner; i < corners.size(); ++i)
+    if (corners[i] == corners[i - k_most_at_corner]) fail_crowded(name);
+}
+
+/// The same of polygons, which become fans about their first corners.
+void require_few_at_each(const Polygons& polygons, const std::string& name) {
+  std::vector<std::size_t> at(polygons.corners_mm.size());
+  for (const auto& polygon : polygons.polygons)
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      if ((at[polygon[i]] += i == 0 ? polygon.size() - 2 : 1) > k_most_at_corner) fail_crowded(name);
+}
+
+/// OpenMesh joins the equal corners of an STL while it reads; a corner that is no number is equal to any other, vanishes in that, and
+/// leaves a hole. So they are looked for in the file itself.
+void require_numbers_in_stl(const Bytes& file, const std::string& name) {
+  require_whole_stl(file, name);
+  const auto fail = [&](const std::string& where) { throw Error(name, where + " has a corner that is no number", "export the mesh again, in mm"); };
+  constexpr std::size_t k_normal = 12;
+  std::vector<Corner> corners;
+  if (is_binary_stl(file)) {
+    for (std::size_t f = 0; f < stl_facets(file); ++f)
+      for (std::size_t i = 0; i < 3; ++i) {
+        Corner c{};
+        std::memcpy(c.data(), file.data() + k_stl_head + f * k_stl_facet + k_normal + i * sizeof c, sizeof c);
+        for (float& value : c) {
+          if (!std::isfinite(value)) fail("facet " + std::to_string(f + 1));
+          value += 0.0F;  // no zero below zero
+        }
+        corners.push_back(c);
+      }
+    return require_few_at_each(std::move(corners), name);
+  }
+  std::istringstream text(std::string(file.begin(), file.end()));
+  std::size_t number = 0;
+  for (std::string line; std::getline(text, line);) {
+    ++number;
+    std::istringstream words(line);
+    std::string word;
+    for (bool first = true; words >> word; first = false) {
+      if (first && (word == "solid" || word == "endsolid")) break;  // its name may be anything
+      if (word != "vertex") continue;
+      Corner c{};
+      for (float& value : c) {
+        words >> word;
+        char* end = nullptr;
+        value = static_cast<float>(std::clamp(std::strtod(word.c_str(), &end), -1e30, 1e30)) + 0.0F;
+        if (!words || !std::isfinite(std::strtod(word.c_str(), nullptr)) || *end != '\0') fail("line " + std::to_string(number));
+      }
+      corners.push_back(c);
+    }
+  }
+  require_few_at_each(std::move(corners), name);
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+/// OpenMesh reports on the console; our errors say the same with the file's name.
+void quieten_openmesh() {
+  omout().disable();
+  omlog().disable();
+  omerr().disable();
+}
+
+/// The bytes of an STL as OpenMesh joins them, once they are known to be sound.
+Surface surface_of_stl(const Bytes& file, const std::string& name) {
+  require_numbers_in_stl(file, name);
+  quieten_openmesh();
+  std::istringstream bytes(std::string(file.begin(), file.end()));
+  OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
+  Surface surface;
+  if (!OpenMesh::IO::read_mesh(surface, bytes, ".stl", options) || surface.n_faces() == 0)
+    throw Error(name, "holds no triangle of an STL surface", "export the surface again as STL, text or binary");
+  return surface;
+}
+
+/// Polygons as triangles. One that does not fit among its neighbours gets corners of its own, and so shows as open.
+Surface surface_of(const Polygons& polygons, const std::string& name) {
+  require_few_at_each(polygons, name);
+  quieten_openmesh();
+  Surface surface;
+  for (const Vec3& p : polygons.corners_mm) surface.add_vertex({p.x, p.y, p.z});
+  for (const auto& polygon : polygons.polygons) {
+    std::vector<Surface::VertexHandle> corners;
+    for (const auto i : polygon) corners.emplace_back(static_cast<int>(i));
+    std::vector<std::uint32_t> once = polygon;
+    std::sort(once.begin(), once.end());
+    if (std::adjacent_find(once.begin(), once.end()) != once.end()) continue;  // a corner twice: it encloses nothing
+    if (surface.add_face(corners).is_valid()) continue;
+    for (auto& c : corners) c = surface.add_vertex(Surface::Point(surface.point(c)));
+    surface.add_face(corners);
+  }
+  return surface;
+}
+
+Surface load(const std::string& path) {
+  require_mesh_file(path);
+  const std::string extension = extension_of(path);
+  const Bytes file = read_file(path);
+  Surface surface;
+  if (extension == ".stl")
+    surface = surface_of_stl(file, path);
+  else if (extension == ".ply")
+    surface = surface_of(read_ply(file, path), path);
+  else if (extension == ".obj")
+    surface = surface_of(read_obj(file, path), path);
+  else if (extension == ".off")
+    surface = surface_of(read_off(file, path), path);
+  if (surface.n_faces() == 0) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
+  return surface;
+}
+
+/// The surface checked, and its faces turned outwards. `path` names it in errors.
+ReadMesh closed(const Surface& surface, const std::string& path);
+
+}  // namespace
+
+void require_mesh_file(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) throw Error(path, "is a folder, not a mesh", "name an STL, PLY, OBJ or OFF file");
+  if (!std::filesystem::is_regular_file(path, none)) throw Error(path, "no such mesh file", "check the path");
+}
+
+std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices_mm.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles)
+    for (const std::size_t i : {1u, 2u}) parent[std::max(root(t[0]), root(t[i]))] = std::min(root(t[0]), root(t[i]));
+  std::vector<std::uint32_t> part_of(parent.size(), ~0u), place_of(parent.size(), ~0u);
+  std::vector<TriangleMesh> parts;
+  for (const auto& t : mesh.triangles) {
+    auto& part = part_of[root(t[0])];
+    if (part == ~0u) {
+      part = static_cast<std::uint32_t>(parts.size());
+      parts.emplace_back();
+    }
+    TriangleMesh& to = parts[part];
+    std::array<std::uint32_t, 3> copy{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (place_of[t[i]] == ~0u) {
+        place_of[t[i]] = static_cast<std::uint32_t>(to.vertices_mm.size());
+        to.vertices_mm.push_back(mesh.vertices_mm[t[i]]);
+      }
+      copy[i] = place_of[t[i]];
+    }
+    to.triangles.push_back(copy);
+  }
+  return parts;
+}
+
+ReadMesh read_closed_mesh(const std::string& path) { return closed(load(path), path); }
+
+ReadMesh read_closed_stl(const Bytes& file, const std::string& name) { return closed(surface_of_stl(file, name), name); }
+
+namespace {
+
+ReadMesh closed(const Surface& surface, const std::string& path) {
+  for (const auto v : surface.vertices()) {  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
+    const Vec3 p = point(surface, v);
+    if (!surface.is_isolated(v) && (!is_finite(p) || length(p) > 1e6))
+      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
+  }
+  std::size_t open_edges = 0;
+  Vec3 open_at;
+  for (const auto e : surface.edges()) {
+    if (!surface.is_boundary(e)) continue;
+    const auto h = surface.halfedge_handle(e, 0);
+    if (open_edges++ == 0) open_at = (point(surface, surface.from_vertex_handle(h)) + point(surface, surface.to_vertex_handle(h))) * 0.5;
+  }
+  if (open_edges > 0)
+    throw Error(path, "the surface is not closed: " + std::to_string(open_edges) + " open or non-manifold edges, one at " + place(open_at),
+                "close the holes in a mesh editor and export again");
+
+  ReadMesh out;
+  std::vector<std::uint32_t> renumbered(surface.n_vertices(), ~0u);
+  std::size_t pinched = 0;
+  for (const auto v : surface.vertices()) {
+    if (surface.is_isolated(v)) continue;
+    const Vec3 p = point(surface, v);
+    pinched += !surface.is_manifold(v);
+    renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(out.mesh.vertices_mm.size());
+    out.mesh.vertices_mm.push_back(p);
+  }
+  const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
+  if (isolated > 0) out.notes.push_back(path + ": " + std::to_string(isolated) + " unused vertices deleted");
+  if (pinched > 0) throw Error(path, std::to_string(pinched) + " non-manifold vertices", "repair the mesh in a mesh editor and export again");
+  for (const auto f : surface.faces()) {
+    std::array<std::uint32_t, 3> t{};
+    std::size_t i = 0;
+    for (const auto v : surface.fv_range(f)) t[i++] = renumbered[static_cast<std::size_t>(v.idx())];
+    out.mesh.triangles.push_back(t);
+  }
+  out.volume_mm3 = signed_volume_mm3(out.mesh);
+  if (!(std::fabs(out.volume_mm3) > 1e-6)) throw Error(path, "the surface encloses no volume", "check the file and its unit (mm)");
+  if (out.volume_mm3 < 0) {
+    for (auto& t : out.mesh.triangles) std::swap(t[1], t[2]);
+    out.volume_mm3 = -out.volume_mm3;
+    out.notes.push_back(path + ": the faces looked inwards and were turned");
+  }
+  Vec3 moment;
+  for (const auto& t : out.mesh.triangles) {
+    const Vec3 a = out.mesh.vertices_mm[t[0]], b = out.mesh.vertices_mm[t[1]], c = out.mesh.vertices_mm[t[2]];
+    moment += (a + b + c) * (dot(a, cross(b, c)) / 24);
+  }
+  out.centroid_mm = moment / out.volume_mm3;
+  return out;
+}
+
+}  // namespace
+
+}  // namespace cavum

@@ -1,0 +1,138 @@
+#include "engine/tooth/volume/volume_wire.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+
+#include "engine/base/bytes.h"
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::string_view k_magic = "CVVOLUME";
+constexpr std::uint32_t k_error = 0, k_volume = 1, k_longest_text = 4096;
+constexpr const char* k_intact = "give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series";
+constexpr std::size_t k_head_bytes = 3 * 4 + 15 * 8;
+
+bool send(int fd, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const auto n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+ByteWriter begun(std::uint32_t kind) {
+  ByteWriter out;
+  for (const char c : k_magic) out.put(c);
+  out.put(kind);
+  return out;
+}
+
+/// What comes from one descriptor, until a moment.
+class Incoming {
+ public:
+  Incoming(int fd, std::string path, int seconds)
+      : fd_(fd), path_(std::move(path)), seconds_(seconds), until_(std::chrono::steady_clock::now() + std::chrono::seconds(seconds)) {}
+
+  void fill(std::span<std::uint8_t> to) {
+    while (!to.empty()) {
+      const auto n = some(to);
+      if (n == 0) throw VolumeCutOff(path_, "cannot be read as a volume: the reading ended early", k_intact);
+      to = to.subspan(n);
+    }
+  }
+  void require_end() {
+    std::array<std::uint8_t, 1> more{};
+    if (some(more) != 0) fail("gave more than a volume");
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(path_, "cannot be read as a volume: the reading " + what, k_intact); }
+
+ private:
+  /// 0 at the end.
+  std::size_t some(std::span<std::uint8_t> to) {
+    for (;;) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until_ - std::chrono::steady_clock::now()).count();
+      pollfd ready{fd_, POLLIN, 0};
+      const int events = left > 0 ? ::poll(&ready, 1, static_cast<int>(left)) : 0;
+      if (events < 0 && errno == EINTR) continue;
+      if (events == 0) fail("took longer than the limit of " + std::to_string(seconds_) + " s");
+      const auto n = ::read(fd_, to.data(), to.size());
+      if (n >= 0) return static_cast<std::size_t>(n);
+      if (errno != EINTR && errno != EAGAIN) fail("broke off");
+    }
+  }
+
+  int fd_;
+  std::string path_;
+  int seconds_;
+  std::chrono::steady_clock::time_point until_;
+};
+
+/// Made again of its text, `where: what; what to do`.
+[[noreturn]] void throw_sent(const std::string& text, const std::string& path) {
+  const auto where = text.find(": "), todo = text.rfind("; ");
+  if (where == std::string::npos || todo == std::string::npos || todo < where + 2) throw Error(path, text, "give an intact volume");
+  throw Error(text.substr(0, where), text.substr(where + 2, todo - where - 2), text.substr(todo + 2));
+}
+
+}  // namespace
+
+bool send_volume_error(int fd, const std::string& text) {
+  ByteWriter out = begun(k_error);
+  out.put_string(text.substr(0, k_longest_text));
+  return send(fd, out.bytes());
+}
+
+bool send_volume(int fd, const Volume& head, std::span<const float> gray) {
+  ByteWriter out = begun(k_volume);
+  for (const auto n : {head.size.x, head.size.y, head.size.z}) out.put(n);
+  for (const double s : head.spacing_mm) out.put(s);
+  for (const Vec3& v : {head.axis[0], head.axis[1], head.axis[2], head.origin_mm})
+    for (const double x : {v.x, v.y, v.z}) out.put(x);
+  return send(fd, out.bytes()) && send(fd, {reinterpret_cast<const std::uint8_t*>(gray.data()), gray.size_bytes()});
+}
+
+Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int seconds) {
+  Incoming in(fd, path, seconds);
+  std::array<std::uint8_t, k_head_bytes> head{};
+  const std::span<std::uint8_t> begin(head.data(), k_magic.size() + 8);
+  in.fill(begin);
+  ByteReader first(begin, path);
+  const auto magic = first.get_bytes(k_magic.size());
+  if (!std::equal(magic.begin(), magic.end(), k_magic.begin())) in.fail("gave no volume");
+  const auto kind = first.get<std::uint32_t>();
+  if (kind == k_error) {
+    std::string text(std::min(first.get<std::uint32_t>(), k_longest_text), ' ');
+    in.fill({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
+    throw_sent(one_line(text), path);
+  }
+  if (kind != k_volume) in.fail("gave no volume");
+  std::copy_n(head.begin() + k_magic.size() + 4, 4, head.begin());  // of the size, which has come already
+  in.fill(std::span(head).subspan(4));
+  ByteReader rest(head, path);
+  Volume v;
+  for (auto* n : {&v.size.x, &v.size.y, &v.size.z}) {
+    *n = rest.get<std::int32_t>();
+    if (*n < 1 || *n > 1 << 16) in.fail("gave an impossible size");
+  }
+  if (v.voxels() > most) in.fail("gave " + std::to_string(v.voxels()) + " voxels, more than the limit of " + std::to_string(most));
+  for (double& s : v.spacing_mm) s = rest.get<double>();
+  for (Vec3* p : {&v.axis[0], &v.axis[1], &v.axis[2], &v.origin_mm}) {
+    for (double* x : {&p->x, &p->y, &p->z}) *x = rest.get<double>();
+    if (!is_finite(*p)) in.fail("gave a place that is none");
+  }
+  v.gray.resize(v.voxels());
+  in.fill({reinterpret_cast<std::uint8_t*>(v.gray.data()), v.gray.size() * sizeof(float)});
+  in.require_end();
+  return v;
+}
+
+}  // namespace cavum

@@ -1,0 +1,213 @@
+#include "grading/measures/access.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grading/measures/bounds.h"
+#include "grading/measures/cut_surface.h"
+
+namespace cavum {
+namespace {
+
+/// A mark for each leaf of the zones' box.
+class Marks {
+ public:
+  explicit Marks(const ZoneMap& zones)
+      : low_(zones.low()),
+        size_(zones.size()),
+        mark_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0) {}
+  [[nodiscard]] std::uint8_t at(IVec3 leaf) const noexcept {
+    const IVec3 l = leaf - low_;
+    return l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z ? std::uint8_t{0} : mark_[index(l)];
+  }
+  void set(IVec3 leaf, std::uint8_t mark) noexcept { mark_[index(leaf - low_)] = mark; }
+  /// What of a cube of leaves lies in the box.
+  void set_cube(IVec3 at, int edge, std::uint8_t mark) noexcept {
+    const IVec3 a = at - low_;
+    for (int z = std::max(0, a.z); z < std::min(size_.z, a.z + edge); ++z)
+      for (int y = std::max(0, a.y); y < std::min(size_.y, a.y + edge); ++y)
+        for (int x = std::max(0, a.x); x < std::min(size_.x, a.x + edge); ++x) mark_[index({x, y, z})] = mark;
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(IVec3 l) const noexcept {
+    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
+           static_cast<std::size_t>(l.x);
+  }
+  IVec3 low_, size_;
+  std::vector<std::uint8_t> mark_;
+};
+
+/// Connected pieces of marked leaves (over corners, too), in their order; the marks are used up. `counts(mark)`: whether a leaf counts to `part`.
+template <class Counts>
+std::vector<Piece> pieces_of(Marks& marks, const std::vector<IVec3>& leaves, const ZoneMap& zones, double worth, const Counts& counts) {
+  std::vector<Piece> pieces;
+  std::vector<IVec3> next;
+  for (const IVec3 first : leaves) {
+    if (marks.at(first) == 0) continue;
+    Piece piece;
+    Vec3 sum;
+    double n = 0;
+    const auto take = [&](IVec3 leaf) {
+      const std::uint8_t mark = marks.at(leaf);
+      if (mark == 0) return;
+      if (counts(mark)) piece.part += worth;
+      piece.whole += worth;
+      sum += zones.centre_mm(leaf);
+      n += 1;
+      marks.set(leaf, 0);
+      next.push_back(leaf);
+    };
+    take(first);
+    while (!next.empty()) {
+      const IVec3 leaf = next.back();
+      next.pop_back();
+      for (int i = 0; i < 27; ++i) take(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1});
+    }
+    piece.middle_mm = sum / n;
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+Marks aim_leaves(const GradeInput& input) {
+  Marks aim(input.zones);
+  std::array<bool, 256> wanted{};
+  for (const auto& t : input.before.tissues)
+    for (const auto& name : input.scenario.perforation.aims) wanted[t.id] = wanted[t.id] || t.name == name;
+  input.before.octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
+    if (wanted[tissue]) aim.set_cube(at, edge, 1);
+  });
+  return aim;
+}
+
+void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
+  const ZoneMap& zones = input.zones;
+  const Octree& tree = input.before.octree;
+  const Vec3 down = zones.approach() * (-0.5 * zones.leaf_mm());
+  Marks left(zones);
+  std::vector<IVec3> leaves;
+  bool any_aim = false;
+  zones.for_each_target_leaf([&](IVec3 leaf) {
+    any_aim = any_aim || aim.at(leaf) != 0;
+    if (!input.after.is_solid(input.after.tissue(leaf))) return;
+    Vec3 p = zones.centre_mm(leaf);
+    for (IVec3 below = leaf; zones.zone(below) == Zone::target; p += down, below = tree.leaf_at(p))
+      if (aim.at(below) != 0) {
+        left.set(leaf, 1);
+        leaves.push_back(leaf);
+        return;
+      }
+  });
+  if (!any_aim) return;  // this target opens nothing
+  std::uint64_t border = 0;
+  Vec3 sum;
+  for (const IVec3 leaf : leaves) {
+    sum += zones.centre_mm(leaf);
+    for (const IVec3 step : k_six_neighbours)
+      if (left.at(leaf + step) == 0) {
+        ++border;
+        break;
+      }
+  }
+  const double leaf_mm3 = zones.leaf_volume_mm3();
+  m.overhang = Volume{static_cast<double>(leaves.size()) * leaf_mm3, 0.5 * static_cast<double>(border) * leaf_mm3};
+  if (!leaves.empty()) m.overhang_middle_mm = sum / static_cast<double>(leaves.size());
+  m.overhang_pieces = pieces_of(left, leaves, zones, leaf_mm3, [](std::uint8_t) { return true; });
+  std::stable_sort(m.overhang_pieces.begin(), m.overhang_pieces.end(), [](const Piece& a, const Piece& b) { return a.part > b.part; });
+}
+
+void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
+  constexpr std::uint8_t k_open = 1, k_covered = 2;
+  const ZoneMap& zones = input.zones;
+  const Octree& tree = input.before.octree;
+  const Vec3 up = zones.approach() * (0.5 * zones.leaf_mm());
+  Marks mouth(zones);
+  std::vector<IVec3> mouths;
+  double covered = 0, border = 0;
+  Vec3 sum;
+  zones.for_each_leaf([&](IVec3 leaf, Zone zone) {
+    if (zone == Zone::target || aim.at(leaf) == 0 || zones.wall(leaf) != Wall::floor) return;
+    Vec3 p = zones.centre_mm(leaf);
+    if (zones.zone(tree.leaf_at(p + up * 2.0)) != Zone::target) return;
+    bool blocked = false;
+    for (IVec3 above = leaf; zones.in_box(above) && !blocked; p += up, above = tree.leaf_at(p))
+      blocked = input.after.is_solid(input.after.tissue(above));
+    mouth.set(leaf, blocked ? k_covered : k_open);
+    mouths.push_back(leaf);
+    covered += blocked ? 1 : 0;
+    if (blocked) sum += zones.centre_mm(leaf);
+  });
+  if (mouths.empty()) return;
+  for (const IVec3 leaf : mouths)
+    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
+      if (mouth.at(leaf + step) != mouth.at(leaf)) {
+        border += 1;
+        break;
+      }
+  const auto all = static_cast<double>(mouths.size());
+  m.canals_covered_percent = 100.0 * covered / all;
+  m.canals_bound_percent = 50.0 * border / all;
+  if (covered > 0) m.canals_covered_mm = sum / covered;
+  m.canal_mouths = pieces_of(mouth, mouths, zones, 1.0, [](std::uint8_t mark) { return mark == k_covered; });
+}
+
+void measure_floor(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, AccessMeasures& m) {
+  const ZoneMap& zones = input.zones;
+  const auto below = [&](IVec3 leaf) { return zones.zone(leaf) != Zone::target && zones.wall(leaf) == Wall::floor; };
+  std::uint64_t count = 0, border = 0;
+  for (const auto& r : input.removed) {
+    const IVec3 leaf = r.leaf.leaf();
+    if (r.tick > last_tick || removed.tick(leaf) != r.tick || !input.before.octree.is_solid(r.leaf.tissue) || !below(leaf)) continue;
+    if (count++ == 0) m.floor_first = {r.tick, zones.centre_mm(leaf)};
+    for (const IVec3 step : k_six_neighbours)
+      if (!removed.has(leaf + step) || !below(leaf + step)) {
+        ++border;
+        break;
+      }
+  }
+  m.floor_cut = {static_cast<double>(count) * zones.leaf_volume_mm3(), 0.5 * static_cast<double>(border) * zones.leaf_volume_mm3()};
+}
+
+void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
+  constexpr double k_cos_45 = 0.70710678118654752440;
+  const ZoneMap& zones = input.zones;
+  const Octree& before = input.before.octree;
+  const double leaf = zones.leaf_mm();
+  double up = 0, across = 0;
+  std::vector<WallHeight> walls(k_walls + 1);
+  zones.for_each_target_leaf([&](IVec3 at) {
+    bool at_wall = false;
+    for (const IVec3 step : k_six_neighbours)
+      at_wall = at_wall || (zones.zone(at + step) != Zone::target && before.is_solid(before.tissue(at + step)));
+    if (!at_wall) return;
+    const Vec3 p = zones.centre_mm(at);
+    const auto slope = [&](Vec3 step) { return zones.distance_mm(p + step * leaf) - zones.distance_mm(p - step * leaf); };
+    const Vec3 inwards = normalized(-Vec3{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})});
+    if (std::fabs(inwards.z) >= k_cos_45) return;
+    WallHeight& wall = walls[static_cast<std::size_t>(zones.wall(at))];
+    wall.places += 1;
+    wall.low_mm = std::min(wall.low_mm, p.z);
+    wall.high_mm = std::max(wall.high_mm, p.z);
+    up += inwards.z;
+    across += std::sqrt(inwards.x * inwards.x + inwards.y * inwards.y);
+  });
+  if (across > 0) m.target_taper_deg = atan_deg(up / across);
+  m.target_taper_bound_deg = taper_bound_deg(walls, leaf);
+}
+
+}  // namespace
+
+AccessMeasures measure_access(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+  AccessMeasures m;
+  if (!input.scenario.perforation.aims.empty()) {
+    const Marks aim = aim_leaves(input);
+    measure_overhang(input, aim, m);
+    measure_canals(input, aim, m);
+  }
+  measure_floor(input, removed, last_tick, m);
+  measure_target_taper(input, m);
+  return m;
+}
+
+}  // namespace cavum

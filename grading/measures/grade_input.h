@@ -1,0 +1,29 @@
+// What a grade is measured from: the tooth before and after, the motion, what happened, and the scenario's zones.
+#pragma once
+
+#include <span>
+
+#include "engine/session/session.h"
+#include "engine/session/session_reader.h"
+#include "scenarios/file/scenario.h"
+#include "scenarios/zones/zone_map.h"
+
+namespace cavum {
+
+/// Everything a grade depends on. `inputs` and `records` are of one length; `removed` is in order of ticks.
+struct GradeInput {
+  const Scenario& scenario;
+  const Tooth& before;
+  const ZoneMap& zones;
+  const Octree& after;
+  std::span<const TickInput> inputs;
+  std::span<const TickRecord> records;
+  std::span<const RemovedAt> removed;
+  std::span<const SessionEvent> events;  ///< kinds as event_name gives them; others are ignored
+  std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
+};
+
+/// Ticks of `recorded` that count: up to and with the one in which the exam was over.
+[[nodiscard]] std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events);
+
+}  // namespace cavum

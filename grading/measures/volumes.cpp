@@ -1,0 +1,246 @@
+#include "grading/measures/volumes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grading/measures/bounds.h"
+#include "scenarios/zones/leaf_parts.h"
+
+namespace cavum {
+namespace {
+
+/// A step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut exactly along the target's
+/// surface removes all of the target.
+constexpr double k_code = k_distance_band_leaves / k_distance_far;
+
+/// How much of a leaf, 0..1: all of it or nothing, or part by part.
+struct Share {
+  bool all_or_nothing = true;
+  bool all = false;
+  LeafParts parts;  // otherwise
+  explicit Share(bool is_all) : all(is_all) {}
+  explicit Share(const LeafParts& p) : all_or_nothing(false), parts(p) {}
+};
+
+/// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
+class Shares {
+ public:
+  Shares(const GradeInput& input, const RemovedMap& removed, bool by_parts)
+      : input_(input), removed_(removed), leaf_mm_(input.zones.leaf_mm()), by_parts_(by_parts) {}
+
+  [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
+    const bool gone = removed_.has(leaf);
+    if (!by_parts_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
+    const double centre = decode_distance(input_.after.distance_code(leaf));
+    if (gone ? centre > k_parts_reach_leaves : centre < -k_parts_reach_leaves) return Share(gone);
+    LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
+    for (double& p : parts) p = share_beyond(p);
+    if (gone) return Share(parts);
+    const LeafParts before = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l)); });
+    for (std::size_t i = 0; i < k_parts; ++i) parts[i] = std::min(parts[i], share_beyond(-before[i]));
+    return Share(parts);
+  }
+  /// Part of the leaf that lies nearer to the target than `level_mm`, or inside it.
+  [[nodiscard]] Share within(IVec3 leaf, double level_mm) const {
+    const double centre = (level_mm - input_.zones.distance_mm(leaf)) / leaf_mm_;
+    if (std::fabs(centre) > k_parts_reach_leaves) return Share(centre > 0);
+    LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
+    for (double& p : parts) p = share_beyond(p);
+    return Share(parts);
+  }
+
+ private:
+  const GradeInput& input_;
+  const RemovedMap& removed_;
+  double leaf_mm_;
+  bool by_parts_;
+};
+
+double sum(const Share& share) {
+  if (share.all_or_nothing) return share.all ? 1.0 : 0.0;
+  double s = 0;
+  for (const double p : share.parts) s += p;
+  return s / k_parts;
+}
+double sum_of_both(const Share& a, const Share& b) {
+  if (a.all_or_nothing) return a.all ? sum(b) : 0.0;
+  if (b.all_or_nothing) return b.all ? sum(a) : 0.0;
+  double s = 0;
+  for (std::size_t i = 0; i < k_parts; ++i) s += std::min(a.parts[i], b.parts[i]);
+  return s / k_parts;
+}
+
+/// Leaves, as a sum of shares, and how many of them lie on a border.
+struct Count {
+  double leaves = 0;
+  std::uint64_t border = 0;
+};
+
+/// Gives each zone what of a leaf was removed in it, in leaves; returns the sum.
+template <class Give>
+double share_out(const GradeInput& input, const Shares& shares, bool late, IVec3 leaf, std::uint8_t held, const Give& give) {
+  const ZoneMap& zones = input.zones;
+  const Share gone = shares.removed(leaf, held);
+  const double total = sum(gone);
+  if (!(total > 0)) return 0;
+  const Zone own = zones.zone(leaf);
+  const auto part = [&](Zone z, double share) {
+    if (share > 0) give(z, share);
+  };
+  if (late || !zones.in_box(leaf)) {
+    part(own, total);
+    return total;
+  }
+  const double target = sum_of_both(gone, shares.within(leaf, 0));
+  part(Zone::target, target);
+  if (own == Zone::protected_) {
+    part(Zone::protected_, total - target);
+    return total;
+  }
+  const ZoneSpec& spec = input.scenario.zones;
+  const bool bottom = zones.wall(leaf) == Wall::floor;
+  const double leeway_mm = bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm;
+  const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
+  const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
+  const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
+  part(bottom ? Zone::leeway_bottom : Zone::leeway_sides, leeway - target);
+  part(bottom ? Zone::container_bottom : Zone::container_sides, container - leeway);
+  part(Zone::none, total - container);
+  return total;
+}
+
+/// Calls `visit(leaf, tissue, tick)` for each removed leaf, then, with tick -1, for each solid one that stayed beside them and may be gone in part.
+template <class Visit>
+void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, bool late, RemovedMap::Marks& seen,
+                      const Visit& visit) {
+  std::vector<IVec3> beside;
+  for (const auto& r : input.removed) {
+    const IVec3 leaf = r.leaf.leaf();
+    if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
+    visit(leaf, r.leaf.tissue, r.tick);
+    if (late) continue;
+    for (int i = 0; i < 27; ++i) {
+      const IVec3 n = leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+      if (!removed.has(n) && seen.first_time(n)) beside.push_back(n);
+    }
+  }
+  const Octree& before = input.before.octree;
+  for (const IVec3 leaf : beside)
+    if (const std::uint8_t held = before.tissue(leaf); before.is_solid(held)) visit(leaf, held, std::int64_t{-1});
+}
+
+bool removed_late(const GradeInput& input, std::int64_t last_tick) {
+  return std::any_of(input.removed.begin(), input.removed.end(), [&](const RemovedAt& r) { return r.tick > last_tick; });
+}
+
+/// Something that stayed lies beside the leaf, or it did itself.
+bool beside_what_stayed(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
+  return tick < 0 || std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours), [&](IVec3 step) { return !removed.has(leaf + step); });
+}
+
+/// When a leaf went; of one that is gone in part, when the last leaf beside it did.
+std::int64_t tick_of(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
+  for (int i = 0; i < 27 && tick < 0; ++i) tick = std::max(tick, removed.tick(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
+  return tick;
+}
+
+}  // namespace
+
+bool on_border(const ZoneMap& zones, const RemovedMap& removed, IVec3 leaf) {
+  return std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours),
+                     [&](IVec3 step) { return !removed.has(leaf + step) || zones.zone(leaf + step) != zones.zone(leaf); });
+}
+
+void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                            const std::function<void(const RemovedShare&)>& visit) {
+  const bool late = removed_late(input, last_tick);
+  const Shares shares(input, removed, !late);
+  RemovedMap::Marks seen = removed.marks();
+  for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+    const bool edge = beside_what_stayed(removed, leaf, tick);
+    const std::int64_t when = tick_of(removed, leaf, tick);
+    share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
+      visit({leaf, held, when, z, share * input.zones.leaf_volume_mm3(), edge || share < 1});
+    });
+  });
+}
+
+VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+  const ZoneMap& zones = input.zones;
+  const Octree& before = input.before.octree;
+  const double leaf_mm3 = zones.leaf_volume_mm3();
+  const bool late = removed_late(input, last_tick);
+  const Shares shares(input, removed, !late);
+  VolumeMeasures v;
+  std::array<Count, k_zones> zone{};
+  std::array<Count, 256> tissue{};
+  Count all;
+
+  RemovedMap::Marks seen = removed.marks();
+  for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+    const bool edge = beside_what_stayed(removed, leaf, tick);
+    if (tick >= 0) {
+      tissue[held].leaves += 1;
+      tissue[held].border += on_border(zones, removed, leaf) ? 1 : 0;
+      Trace& first = v.tissue_first[held];
+      if (first.tick < 0 || tick < first.tick) first = {tick, zones.centre_mm(leaf)};
+    }
+    const std::int64_t when = tick_of(removed, leaf, tick);
+    const auto wall = static_cast<std::size_t>(zones.wall(leaf));
+    if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == Zone::target) last = {tick, zones.centre_mm(leaf)};
+    const double total = share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
+      const auto i = static_cast<std::size_t>(z);
+      zone[i].leaves += share;
+      zone[i].border += edge || share < 1 ? 1 : 0;
+      v.zone[i].by_wall_mm3[wall] += share * leaf_mm3;
+      Trace& first = v.zone[i].first;
+      if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
+    });
+    all.leaves += total;
+    if (total > 0) all.border += edge || total < 1 ? 1 : 0;
+  });
+
+  Count missed;
+  double target = 0;
+  const double reach_mm = k_parts_reach_leaves * zones.leaf_mm();
+  zones.for_each_leaf([&](IVec3 leaf, Zone z) {
+    const double d = zones.distance_mm(leaf);
+    if (z != Zone::target && (late || d > reach_mm)) return;
+    if (z != Zone::target && before.tissue(leaf) == k_air) return;
+    const Share in = late || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
+    const double share = sum(in);
+    if (share < k_code) return;
+    const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
+    const double left = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
+    target += share;
+    v.target_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += share * leaf_mm3;
+    if (left < k_code) return;
+    missed.leaves += left;
+    v.missed_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += left * leaf_mm3;
+    bool edge = left < 1;
+    for (const IVec3 step : k_six_neighbours) edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != Zone::target;
+    missed.border += edge ? 1 : 0;
+    if (edge) v.missed_bound_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += 0.5 * leaf_mm3;
+  });
+
+  const auto volume = [&](const Count& c) { return Volume{c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; };
+  for (std::size_t z = 0; z < k_zones; ++z) v.zone[z].removed = volume(zone[z]);
+  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume(tissue[t]);
+  v.target = volume({target, zones.target_border_leaves()});
+  v.removed = volume(all);
+  v.missed = volume(missed);
+  v.target_removed_percent = 100.0 * (target - missed.leaves) / target;
+  const Volume& in_target = v.zone[static_cast<std::size_t>(Zone::target)].removed;
+  Volume beyond;
+  for (std::size_t z = 0; z < k_zones; ++z)
+    if (z != static_cast<std::size_t>(Zone::target)) {
+      beyond.mm3 += v.zone[z].removed.mm3;
+      beyond.bound_mm3 += v.zone[z].removed.bound_mm3;
+    }
+  v.target_removed_bound_percent = share_bound_percent(in_target, v.missed);
+  v.dice_bound = dice_bound(in_target, v.missed, beyond);
+  v.dice = 2.0 * (target - missed.leaves) / (all.leaves + target);
+  return v;
+}
+
+}  // namespace cavum

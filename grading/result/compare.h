@@ -1,0 +1,61 @@
+// Regrading and appeal: a new result beside the one that a session was sealed with, criterion by criterion, and what made the
+// difference. The old result is read from the session and never written to.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/result/result.h"
+#include "scenarios/file/scenario.h"
+
+namespace cavum {
+
+/// What a sealed result says, as far as an appeal needs it.
+struct OldCriterion {
+  std::string id;
+  std::optional<double> value;
+  double points = 0.0, max = 0.0;
+};
+struct OldResult {
+  std::string verdict;
+  double points = 0.0, max = 0.0;
+  std::vector<OldCriterion> criteria;
+};
+/// None when there is no result in it.
+[[nodiscard]] std::optional<OldResult> read_old_result(const std::string& json_text);
+
+struct CriterionChange {
+  std::string id, unit;
+  std::optional<double> old_points, old_max, old_value, new_points, new_max, new_value;
+  std::vector<std::string> why;  ///< what changed, in words; empty when nothing did
+  [[nodiscard]] double difference() const { return new_points.value_or(0) - old_points.value_or(0); }
+};
+
+struct Comparison {
+  std::string by;  ///< what it was marked anew by, in words: "the rubric r.toml"
+  OldResult before;
+  std::string verdict;
+  double points = 0.0, max = 0.0;
+  std::vector<CriterionChange> criteria;  ///< the new rubric's, then those that it has no longer
+  std::vector<std::string> rules;         ///< changes of pass mark, band and rule
+  /// Verdict or points are not those that the session was sealed with.
+  [[nodiscard]] bool differs() const;
+};
+
+/// `again` is the session graded by this program with its own scenario and rubric: what differs between it and the sealed
+/// result comes from the program, the rest from the new rubric or scenario.
+[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now,
+                                 const RubricSpec& new_rubric);
+
+/// "+1.5", "-0.3", "+0.0".
+[[nodiscard]] std::string signed_points(double difference);
+/// Says that a result is a regrade, by what, and what the session was sealed with: one sentence.
+[[nodiscard]] std::string regrade_text(const Comparison& comparison);
+/// {by, old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit,
+/// difference, changed[]}, rules[]}
+[[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
+[[nodiscard]] std::string to_text(const Comparison& comparison);
+
+}  // namespace cavum

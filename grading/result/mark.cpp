@@ -1,0 +1,217 @@
+#include "grading/result/mark.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/text.h"
+#include "grading/result/loss.h"
+#include "scenarios/file/names.h"
+
+namespace cavum {
+namespace {
+
+/// Metrics that an untouched tooth does badly in of itself: they measure the work, not the care taken with it.
+bool measures_work(const std::string& metric) {
+  for (const char* name :
+       {"target_removed_percent", "missed_mm3", "dice", "steps_completed", "outline_width_mm", "outline_length_mm", "outline_width_error_mm",
+        "outline_length_error_mm", "depth_mm", "depth_error_mm", "overhang_mm3", "canals_covered_percent"})
+    if (metric == name) return true;
+  return false;
+}
+
+struct Work {
+  double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
+  std::string where;
+  double bound_percent = 0.0;
+  [[nodiscard]] double share(double off = 0) const { return std::clamp((percent + off * bound_percent) / k_care_counts_percent, 0.0, 1.0); }
+};
+
+/// How much of the work was done that a criterion judges the care of.
+Work work_done(const Result& r, const std::string& metric) {
+  const auto towards = [&](std::size_t first, std::size_t end, const std::string& where) -> Work {
+    double all = 0, missed = 0, bound = 0;
+    for (std::size_t w = first; w < end; ++w) {
+      all += r.volumes.target_by_wall_mm3[w];
+      missed += r.volumes.missed_by_wall_mm3[w];
+      bound += r.volumes.missed_bound_by_wall_mm3[w];
+    }
+    if (all > 0) return {100 * (1 - missed / all), where, 100 * bound / all};
+    if (!(r.volumes.target.mm3 > 0)) return {};
+    return {r.volumes.target_removed_percent, "", r.volumes.target_removed_bound_percent};
+  };
+  if (measures_work(metric)) return {};
+  const bool of_walls = metric.ends_with("_mm");  // a distance; volumes, also of what lies below the floor, ask for all of the work
+  if (of_walls && metric.rfind("side_walls_", 0) == 0) return towards(0, 4, " towards the side walls");
+  for (std::size_t w = 0; w < k_walls; ++w)
+    if (of_walls && metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return towards(w, w + 1, " towards " + wall_text(w));
+  return towards(0, k_walls + 1, "");
+}
+
+/// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never did.
+Trace clock_at(const Result& r, double seconds) {
+  auto tick = static_cast<std::int64_t>(std::floor(seconds * k_ticks_per_second));
+  for (const auto& p : r.pauses)
+    if (p.begin <= tick) tick += p.end - p.begin;
+  return tick >= 0 && tick <= r.end.tick ? Trace{tick, {}} : Trace{};
+}
+
+/// Digits that it takes to tell a value from another one and from nothing.
+int digits_for(double value, double other) {
+  constexpr int k_most = 6;
+  int digits = 2;
+  while (digits < k_most &&
+         ((value != other && fixed(value, digits) == fixed(other, digits)) || (value != 0 && fixed(value, digits) == fixed(0, digits))))
+    ++digits;
+  return digits;
+}
+
+/// The question whether something was broken into that must not be: what force and tissue may disagree on.
+bool asks_for_perforation(const Result& r, const std::string& metric) {
+  return metric == "perforated" || metric == "perforation_volume_mm3" || metric == "perforation_events" ||
+         (r.perforation.fault.perforated && metric == "touched_" + r.perforation.fault.tissue + "_mm3");
+}
+
+CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
+  CriterionResult out;
+  out.id = c.id;
+  out.title = c.title;
+  out.metric = c.metric;
+  out.unit = std::string(metric_unit(c.metric));
+  if (out.unit.empty() && c.metric.ends_with("_mm3")) out.unit = "mm3";
+  out.max = c.points;
+  out.doubtful = !r.perforation.agree() && asks_for_perforation(r, c.metric);
+  const MetricValue v = metric_value(r, c.metric);
+  out.value = v.value;
+  out.bound = v.bound;
+  if (!v.value) {
+    out.reason = "cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind";
+    out.critical_failed = c.critical_below.has_value();
+    out.first = r.end;
+    return out;
+  }
+  const Work work = work_done(r, c.metric);
+  const auto share_at = [&c](double value) { return std::clamp((value - c.zero) / (c.full - c.zero), 0.0, 1.0); };
+  const double share = share_at(*v.value), low = share_at(*v.value - v.bound), high = share_at(*v.value + v.bound);
+  out.work_share = work.share();
+  out.points = c.points * share * out.work_share + 0.0;  // never -0
+  out.points_bound =
+      std::max(c.points * std::max(low, high) * work.share(1) - out.points, out.points - c.points * std::min(low, high) * work.share(-1)) + 0.0;
+  out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
+  if (share >= 1.0 && !out.critical_failed) {
+    out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
+  } else {
+    Loss loss = loss_of(r, c.metric);
+    if (c.metric == "time_s") {
+      loss.first = clock_at(r, c.full);
+      if (loss.first.tick >= 0) loss.text = "that time was over at " + when(loss.first);
+    }
+    if (loss.first.tick < 0 && r.end.tick >= 0) {
+      loss.first = r.end;
+      loss.text += std::string(loss.text.empty() ? "" : ", ") + "as it stood at the end, " + when(r.end);
+    }
+    out.first = loss.first;
+    const int digits = digits_for(*v.value, c.full);
+    out.reason = amount_text(*v.value, v.bound, digits, out.unit) + " where " + amount_text(c.full, 0, digits, out.unit) + " gives full marks" +
+                 (loss.text.empty() ? "" : ": " + loss.text);
+  }
+  const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
+  if (out.critical_failed) {
+    const bool above = c.critical_above && *v.value > *c.critical_above;
+    const auto& limit = above ? c.critical_above : c.critical_below;
+    out.reason += std::string("; critical ") + (above ? "above " : "below ") + fixed(*limit, 2);
+    if (near(limit)) out.reason += ", which lies within the bound of the figure";
+    out.reason += out.doubtful ? "; this alone would fail the exam, but force and tissue disagree on it" : "; this alone fails the exam";
+  } else if (near(c.critical_above) || near(c.critical_below)) {
+    out.reason += "; the critical limit of " + fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2) +
+                  " lies within the bound of the figure";
+  }
+  if (out.work_share < 1) {
+    if (out.first.tick < 0) out.first = r.end;
+    out.work_text = amount_text(work.percent, work.bound_percent, 1, "%") + " of the target" + work.where + " was removed";
+    out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + out.work_text + ", and care counts in full from " +
+                  fixed(k_care_counts_percent, 0) + " % on";
+  }
+  return out;
+}
+
+/// What counts against the pass mark: all points together, or each criterion by itself.
+struct Standing {
+  double percent = 100.0;
+  std::string which;
+  double bound_percent = 0.0;
+};
+
+/// `in_favour`: as if what force and tissue disagree on were decided for the candidate.
+Standing standing_of(const Result& r, bool in_favour) {
+  const auto points = [&](const CriterionResult& c) { return in_favour && c.doubtful ? c.max : c.points; };
+  Standing s;
+  if (r.compensatory) {
+    double sum = 0;
+    for (const auto& c : r.criteria) sum += points(c);
+    if (!(r.max_points > 0)) return {0, "the sum"};
+    return {100 * sum / r.max_points, "the sum", 100 * r.points_bound / r.max_points};
+  }
+  for (const auto& c : r.criteria) {
+    if (!(c.max > 0)) continue;
+    const double percent = 100 * points(c) / c.max;
+    if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id, 100 * c.points_bound / c.max};
+  }
+  return s;
+}
+
+}  // namespace
+
+void mark(Result& r, const RubricSpec& rubric) {
+  r.criteria.clear();
+  r.verdict_reasons.clear();
+  r.points = r.max_points = r.points_bound = 0;
+  r.compensatory = rubric.compensatory;
+  r.pass_percent = rubric.pass_percent;
+  r.borderline_percent = rubric.borderline_percent;
+  for (const auto& c : rubric.criteria) {
+    r.criteria.push_back(mark_one(r, c));
+    r.points += r.criteria.back().points;
+    r.points_bound += r.criteria.back().points_bound;
+    r.max_points += r.criteria.back().max;
+  }
+  bool critical = false;  // and beyond doubt
+  for (const auto& c : r.criteria) {
+    if (!c.critical_failed) continue;
+    critical = critical || !c.doubtful;
+    r.verdict_reasons.push_back("critical criterion " + c.id + ": " + c.reason);
+  }
+  const Standing standing = standing_of(r, false);
+  const double beyond = standing.percent - rubric.pass_percent;
+  const bool doubt = !r.perforation.agree(), band = std::fabs(beyond) < rubric.borderline_percent;
+  r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
+  if (!critical && band) r.verdict = Verdict::review;
+  std::string text = standing.which + " reaches " + fixed(standing.percent, 1) + " %, " +
+                     (critical && beyond >= 0 ? "which alone would be enough: " : "") + "the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
+  if (!critical && band) text += ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %";
+  if (!critical && !band && std::fabs(beyond) < standing.bound_percent)
+    text += "; the score's bound of ± " + fixed(standing.bound_percent, 1) +
+            " % reaches across it (every figure off by all of its bound, each to the same side)";
+  r.verdict_reasons.push_back(text);
+  if (!r.compensatory)
+    for (const auto& c : r.criteria)
+      if (const double percent = c.max > 0 ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.which != "criterion " + c.id)
+        r.verdict_reasons.push_back("criterion " + c.id + " reaches " + fixed(percent, 1) + " %, below the pass mark, too");
+  if (doubt) {
+    const std::string what = r.perforation.detected() ? "the force shows a faulty breakthrough, the tissue does not"
+                                                      : "the tissue shows a faulty breakthrough, the force does not";
+    // a person is asked only where the answer matters
+    const bool open = !critical && standing_of(r, true).percent > rubric.pass_percent - rubric.borderline_percent;
+    if (open) r.verdict = Verdict::review;
+    r.verdict_reasons.push_back(what + (open ? ": a person decides" : "; the exam is failed either way"));
+  }
+  if (r.perforation.fault.perforated &&
+      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, c.metric); }))
+    r.verdict_reasons.push_back(r.perforation.fault.tissue + " was opened, which is a fault, and no criterion of this rubric asks for it");
+  for (const auto& note : r.notes)
+    if (note.find("a person must") != std::string::npos) {
+      r.verdict = Verdict::review;
+      r.verdict_reasons.push_back(note);
+    }
+}
+
+}  // namespace cavum

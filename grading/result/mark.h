@@ -1,0 +1,27 @@
+// Marks by a rubric what was measured: the value of each measure by its name, criteria, points and verdict.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "grading/result/result.h"
+#include "scenarios/file/scenario.h"
+
+namespace cavum {
+
+/// Value of a measure by its name in scenarios/file/names.h (`touched_NAME_mm3` for any tissue); none when it cannot be
+/// measured. Throws Error when there is no such measure.
+struct MetricValue {
+  std::optional<double> value;
+  double bound = 0.0;
+};
+[[nodiscard]] MetricValue metric_value(const Result& measured, const std::string& metric);
+
+/// What was not done cannot be done well: the points of a criterion that judges care (everything that an untouched tooth would
+/// do best in) count in proportion until this much of the target was removed; for a wall, of the target towards it.
+inline constexpr double k_care_counts_percent = 50.0;
+
+/// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
+void mark(Result& result, const RubricSpec& rubric);
+
+}  // namespace cavum

@@ -1,0 +1,209 @@
+// The result of an exam: every figure that grading/README.md defines, each with what it is uncertain by and, where points
+// were lost, when and where. Plain data; grade.h makes it, result_json.h writes it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/vec.h"
+#include "scenarios/exam/runner.h"
+#include "scenarios/zones/zone_map.h"
+
+namespace cavum {
+
+/// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
+inline constexpr int k_grading_version = 1;
+
+/// When and where something happened; tick -1 = never.
+struct Trace {
+  std::int64_t tick = -1;
+  Vec3 site_mm;
+  [[nodiscard]] double t_s() const noexcept { return static_cast<double>(tick) * k_tick_s; }
+};
+
+/// A volume and half a leaf over its border: the true volume lies within ± bound.
+struct Volume {
+  double mm3 = 0.0, bound_mm3 = 0.0;
+};
+
+/// What was removed in one zone.
+struct ZoneVolume {
+  Volume removed;
+  std::array<double, k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
+  Trace first;                                    ///< first leaf removed there, all of it or a part
+};
+
+struct VolumeMeasures {
+  Volume target, removed, missed;
+  double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
+  double dice = 0.0, dice_bound = 0.0;
+  std::array<ZoneVolume, k_zones> zone;  ///< by Zone
+  std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
+  std::array<Volume, 256> tissue;              ///< removed, by tissue id
+  std::array<Trace, 256> tissue_first;         ///< first leaf removed of each
+  std::array<Trace, k_walls + 1> target_last;  ///< last leaf of the target removed towards each wall
+  /// R without T, L and C: in no zone, or protected wherever that lies.
+  [[nodiscard]] Volume outside() const noexcept {
+    const Volume &none = zone[static_cast<std::size_t>(Zone::none)].removed, &guarded = zone[static_cast<std::size_t>(Zone::protected_)].removed;
+    return {none.mm3 + guarded.mm3, none.bound_mm3 + guarded.bound_mm3};
+  }
+};
+
+/// Signed distance of the cut surface from the target's, mm, + = overcut. Meaningless when samples == 0.
+struct WallMeasures {
+  std::size_t samples = 0;  ///< leaves of cut surface
+  double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
+  /// Of the mean and the 95th percentile; of the largest it is ShapeMeasures::bound_mm.
+  double mean_bound_mm = 0.0, p95_bound_mm = 0.0;
+  Trace worst_over, worst_under;
+};
+
+struct ShapeMeasures {
+  std::array<WallMeasures, k_walls> wall;
+  double bound_mm = 0.0;                                           ///< of every place on a surface, and so of a distance between two
+  std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
+  double taper_bound_deg = 0.0;
+  double target_length_mm = 0.0, target_width_mm = 0.0, target_depth_mm = 0.0;
+  /// What is missing of the target's and what is too much, together: one does not make up for the other. None where nothing of the target was cut.
+  /// Each is the sum of two distances: twice the bound.
+  std::optional<double> length_error_mm, width_error_mm, depth_error_mm;
+  /// The two errors of the outline end by end: mesial, distal, buccal, lingual.
+  struct EndError {
+    double part_mm = 0.0;    ///< of the error; both ends of an outline add up to it
+    double beyond_mm = 0.0;  ///< the cut's end beyond the target's, negative: short of it
+  };
+  std::array<EndError, 4> end_error;
+};
+
+/// A connected piece of something, for places.
+struct Piece {
+  Vec3 middle_mm;
+  double part = 0.0, whole = 0.0;  ///< what of it counts, and all of it
+};
+
+/// Straight-line access; see grading/measures/access.h.
+struct AccessMeasures {
+  std::optional<Volume> overhang;                ///< roof left above the aim; none when the target holds none of it
+  std::optional<double> canals_covered_percent;  ///< of the canals' mouths; none without canals
+  double canals_bound_percent = 0.0;
+  Vec3 overhang_middle_mm, canals_covered_mm;  ///< middle of what is left over, and of the mouths under it
+  std::vector<Piece> overhang_pieces;          ///< mm3, the largest first
+  std::vector<Piece> canal_mouths;             ///< covered leaves of all, in the order of the tooth's leaves
+  Volume floor_cut;                            ///< hard tissue removed below the target
+  Trace floor_first;
+  std::optional<double> target_taper_deg;
+  double target_taper_bound_deg = 0.0;
+};
+
+/// A breakthrough seen in the force.
+struct PerforationEvent {
+  std::int64_t tick = 0;       ///< onset of the drop
+  std::int64_t seen_tick = 0;  ///< when the detector could say so
+  double sureness = 0.0;       ///< 0..1, of the detector; 0.5 = as likely as not
+  Vec3 site_mm;                ///< tip
+  double force_before_n = 0.0, force_after_n = 0.0;
+  double advance_mm = 0.0;  ///< of the tip, against the force, while it dropped
+  bool fault = false;       ///< by the place: outside target and leeway, or no aim in this scenario
+  bool confirmed = false;   ///< tissue of that kind was removed then
+};
+
+struct PerforationTruth {
+  bool perforated = false;
+  Trace first;
+  std::string tissue;
+  double volume_mm3 = 0.0, bound_mm3 = 0.0;  ///< in whole leaves, of all tissues of the kind
+};
+
+struct PerforationMeasures {
+  std::vector<PerforationEvent> events;  ///< in order of time
+  PerforationTruth fault, aim;           ///< `aim`: the breakthrough that the task asks for
+  bool has_aims = false;                 ///< the task asks for one
+  [[nodiscard]] bool detected() const noexcept {
+    for (const auto& e : events)
+      if (e.fault) return true;
+    return false;
+  }
+  /// Force and tissue tell the same story about faults.
+  [[nodiscard]] bool agree() const noexcept { return detected() == fault.perforated; }
+  /// The aim was opened, and no event of the force tells of it.
+  [[nodiscard]] bool aim_unseen() const noexcept {
+    for (const auto& e : events)
+      if (!e.fault) return false;
+    return has_aims && aim.perforated;
+  }
+};
+
+struct MotionMeasures {
+  double time_s = 0.0, handpiece_time_s = 0.0, idle_s = 0.0, path_mm = 0.0;
+  double force_mean_n = 0.0, force_peak_n = 0.0, force_over_limit_s = 0.0;
+  /// Durations: a tick for each time that it began or ended, idle a tenth of a second. Way and force: what rounding in the recording leaves open.
+  double time_bound_s = 0.0, handpiece_bound_s = 0.0, idle_bound_s = 0.0, over_limit_bound_s = 0.0, path_bound_mm = 0.0, force_bound_n = 0.0;
+  Trace force_peak, first_over_limit;
+  double lost_s = 0.0;            ///< in which the station's program stood still: the exam's clock does not show it, and the candidate had it
+  std::int64_t late_ticks = 0;    ///< recorded after the exam was over; they count nowhere
+  double late_removed_mm3 = 0.0;  ///< removed in them
+};
+
+/// A pause, in ticks of the recording: the exam's clock stood still from `begin` up to `end`, which counts again.
+struct PauseMeasure {
+  std::int64_t begin = 0, end = 0;
+};
+
+/// What a candidate went on to do when time was up: not simulated, and nothing of it counts.
+struct LateWork {
+  std::int64_t ticks = 0, pedal_ticks = 0;
+};
+
+struct ProgressMeasures {
+  int steps = 0, steps_completed = 0, steps_failed = 0, violations = 0;
+  Trace first_violation;
+  std::string finish = "running";
+};
+
+struct CriterionResult {
+  std::string id, title, metric, unit, reason;
+  std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
+  double bound = 0.0;
+  double points = 0.0, max = 0.0;
+  double points_bound = 0.0;  ///< by the bounds of the value and of the work's share
+  double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
+  std::string work_text;      ///< that in words; empty when all of them count
+  bool critical_failed = false;
+  bool doubtful = false;  ///< it asks for a perforation, and force and tissue disagree about that
+  Trace first;            ///< where the loss began
+};
+
+enum class Verdict { pass, fail, review };
+
+struct Result {
+  std::string scenario_id, scenario_title, tooth_name;
+  double leaf_mm = 0.0;
+  Verdict verdict = Verdict::fail;
+  std::vector<std::string> verdict_reasons;
+  double points = 0.0, max_points = 0.0;
+  double points_bound = 0.0;  ///< the sum of the criteria's
+  bool compensatory = true;
+  double pass_percent = 0.0, borderline_percent = 0.0;
+  std::vector<CriterionResult> criteria;
+  VolumeMeasures volumes;
+  ShapeMeasures shape;
+  AccessMeasures access;
+  PerforationMeasures perforation;
+  MotionMeasures motion;
+  ProgressMeasures progress;
+  Accommodations accommodations;
+  Trace end;                     ///< last tick that counts, and where the tip was
+  std::int64_t limit_ticks = 0;  ///< of the exam's clock, with what was granted
+  std::vector<PauseMeasure> pauses;
+  int pauses_refused = 0;
+  LateWork late_work;
+  std::vector<std::string> notes;  ///< what a reader must know: disagreement in the record, late ticks
+  std::vector<Tissue> tissues;
+};
+
+[[nodiscard]] inline const char* verdict_name(Verdict v) noexcept { return v == Verdict::pass ? "pass" : v == Verdict::fail ? "fail" : "review"; }
+
+}  // namespace cavum

@@ -1,0 +1,263 @@
+#include "grading/result/result_json.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "grading/result/loss.h"
+#include "grading/result/mark.h"
+
+namespace cavum {
+
+double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json optional(const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); }
+Json point(Vec3 p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z)}); }
+Json time_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(rounded(t.t_s())); }
+Json place_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : point(t.site_mm); }
+Json tick_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(t.tick); }
+
+Json truth_json(const PerforationTruth& t) {
+  return {{"perforated", t.perforated},
+          {"first_t_s", time_of(t.first)},
+          {"first_tick", tick_of(t.first)},
+          {"site_mm", place_of(t.first)},
+          {"tissue", t.perforated ? Json(t.tissue) : Json(nullptr)},
+          {"volume_mm3", rounded(t.volume_mm3)},
+          {"bound_mm3", rounded(t.bound_mm3)}};
+}
+
+Json wall_json(const WallMeasures& w, double bound_mm) {
+  const auto figure = [&](double v) { return w.samples == 0 ? Json(nullptr) : Json(rounded(v)); };
+  return {{"mean_mm", figure(w.mean_mm)},
+          {"p95_mm", figure(w.p95_mm)},
+          {"max_over_mm", figure(w.max_over_mm)},
+          {"max_under_mm", figure(w.max_under_mm)},
+          {"bounds",
+           {{"mean_mm", figure(w.mean_bound_mm)},
+            {"p95_mm", figure(w.p95_bound_mm)},
+            {"max_over_mm", figure(bound_mm)},
+            {"max_under_mm", figure(bound_mm)}}},
+          {"samples", w.samples},
+          {"max_over_site_mm", place_of(w.worst_over)},
+          {"max_over_tick", tick_of(w.worst_over)},
+          {"max_under_site_mm", place_of(w.worst_under)},
+          {"max_under_tick", tick_of(w.worst_under)}};
+}
+
+std::string padded(std::string s, std::size_t width) {
+  while (s.size() < width) s += ' ';
+  return s;
+}
+
+}  // namespace
+
+Json to_json(const Result& r) {
+  const auto zone = [&](Zone z) -> const ZoneVolume& { return r.volumes.zone[static_cast<std::size_t>(z)]; };
+  Json j;
+  j["scenario"] = {{"id", r.scenario_id}, {"title", r.scenario_title}};
+  j["tooth"] = r.tooth_name;
+  j["leaf_mm"] = r.leaf_mm;
+  j["verdict"] = verdict_name(r.verdict);
+  j["verdict_reasons"] = r.verdict_reasons;
+  j["score"] = {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
+                {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
+                {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
+  j["criteria"] = Json::array();
+  for (const auto& c : r.criteria) {
+    j["criteria"].push_back({{"id", c.id},
+                             {"title", c.title},
+                             {"metric", c.metric},
+                             {"value", optional(c.value)},
+                             {"unit", c.unit},
+                             {"bound", rounded(c.bound)},
+                             {"points", rounded(c.points)},
+                             {"max", rounded(c.max)},
+                             {"points_bound", rounded(c.points_bound)},
+                             {"critical_failed", c.critical_failed},
+                             {"reason", c.reason},
+                             {"first_tick", tick_of(c.first)},
+                             {"first_t_s", time_of(c.first)}});
+    if (c.work_share < 1) j["criteria"].back()["work_share"] = rounded(c.work_share);
+    if (c.doubtful) j["criteria"].back()["doubtful"] = true;
+  }
+  Json tissues = Json::object(), tissue_bounds = Json::object();
+  for (const auto& t : r.tissues) {
+    tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
+    tissue_bounds[t.name] = rounded(r.volumes.tissue[t.id].bound_mm3);
+  }
+  const auto mm3 = [&](Zone z) { return rounded(zone(z).removed.mm3); };
+  const auto bound = [&](Zone z) { return rounded(zone(z).removed.bound_mm3); };
+  j["volumes"] = {{"target_mm3", rounded(r.volumes.target.mm3)},
+                  {"target_removed_percent", rounded(r.volumes.target_removed_percent)},
+                  {"missed_mm3", rounded(r.volumes.missed.mm3)},
+                  {"removed_mm3", rounded(r.volumes.removed.mm3)},
+                  {"outside_mm3", rounded(r.volumes.outside().mm3)},
+                  {"protected_mm3", mm3(Zone::protected_)},
+                  {"dice", rounded(r.volumes.dice)},
+                  {"overcut",
+                   {{"leeway_sides_mm3", mm3(Zone::leeway_sides)},
+                    {"leeway_bottom_mm3", mm3(Zone::leeway_bottom)},
+                    {"container_sides_mm3", mm3(Zone::container_sides)},
+                    {"container_bottom_mm3", mm3(Zone::container_bottom)}}},
+                  {"tissue_mm3", tissues},
+                  {"bounds",
+                   {{"target_mm3", rounded(r.volumes.target.bound_mm3)},
+                    {"target_removed_percent", rounded(r.volumes.target_removed_bound_percent)},
+                    {"missed_mm3", rounded(r.volumes.missed.bound_mm3)},
+                    {"removed_mm3", rounded(r.volumes.removed.bound_mm3)},
+                    {"outside_mm3", rounded(r.volumes.outside().bound_mm3)},
+                    {"protected_mm3", bound(Zone::protected_)},
+                    {"leeway_sides_mm3", bound(Zone::leeway_sides)},
+                    {"leeway_bottom_mm3", bound(Zone::leeway_bottom)},
+                    {"container_sides_mm3", bound(Zone::container_sides)},
+                    {"container_bottom_mm3", bound(Zone::container_bottom)},
+                    {"dice", rounded(r.volumes.dice_bound)},
+                    {"tissue_mm3", tissue_bounds}}}};
+  j["walls"] = Json::object();
+  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape.bound_mm);
+  j["shape"] = {{"outline_length_mm", optional(r.shape.length_mm)},
+                {"outline_width_mm", optional(r.shape.width_mm)},
+                {"depth_mm", optional(r.shape.depth_mm)},
+                {"taper_deg", optional(r.shape.taper_deg)},
+                {"target_length_mm", rounded(r.shape.target_length_mm)},
+                {"target_width_mm", rounded(r.shape.target_width_mm)},
+                {"target_depth_mm", rounded(r.shape.target_depth_mm)},
+                {"bound_mm", rounded(r.shape.bound_mm)},
+                {"taper_bound_deg", rounded(r.shape.taper_bound_deg)}};
+  if (r.access.overhang) {  // only where the task opens something
+    j["access"] = {{"overhang_mm3", rounded(r.access.overhang->mm3)},
+                   {"canals_covered_percent", optional(r.access.canals_covered_percent)},
+                   {"floor_cut_mm3", rounded(r.access.floor_cut.mm3)},
+                   {"target_taper_deg", optional(r.access.target_taper_deg)},
+                   {"bounds",
+                    {{"overhang_mm3", rounded(r.access.overhang->bound_mm3)},
+                     {"canals_covered_percent", rounded(r.access.canals_bound_percent)},
+                     {"floor_cut_mm3", rounded(r.access.floor_cut.bound_mm3)},
+                     {"target_taper_deg", rounded(r.access.target_taper_bound_deg)}}}};
+  }
+  Json events = Json::array();
+  for (const auto& e : r.perforation.events)
+    events.push_back({{"t_s", rounded(static_cast<double>(e.tick) * k_tick_s)},
+                      {"tick", e.tick},
+                      {"seen_t_s", rounded(static_cast<double>(e.seen_tick) * k_tick_s)},
+                      {"site_mm", point(e.site_mm)},
+                      {"force_before_n", rounded(e.force_before_n)},
+                      {"force_after_n", rounded(e.force_after_n)},
+                      {"sureness", rounded(e.sureness)},
+                      {"advance_mm", rounded(e.advance_mm)},
+                      {"kind", e.fault ? "fault" : "aim"},
+                      {"confirmed", e.confirmed}});
+  j["perforation"] = {{"detected", r.perforation.detected()},
+                      {"events", events},
+                      {"truth", truth_json(r.perforation.fault)},
+                      {"aim", truth_json(r.perforation.aim)},
+                      {"agree", r.perforation.agree()}};
+  j["time_s"] = rounded(r.motion.time_s);
+  j["handpiece_time_s"] = rounded(r.motion.handpiece_time_s);
+  j["idle_s"] = rounded(r.motion.idle_s);
+  j["force"] = {
+      {"mean_n", rounded(r.motion.force_mean_n)}, {"peak_n", rounded(r.motion.force_peak_n)}, {"over_limit_s", rounded(r.motion.force_over_limit_s)}};
+  j["path_mm"] = rounded(r.motion.path_mm);
+  j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
+  j["violations"] = r.progress.violations;
+  j["finish"] = r.progress.finish;
+  j["extra_time_percent"] = r.accommodations.extra_time_percent;
+  j["late_ticks"] = r.motion.late_ticks + r.late_work.ticks;
+  j["grading_version"] = k_grading_version;
+  j["bounds"] = {{"time_s", rounded(r.motion.time_bound_s)},   {"handpiece_time_s", rounded(r.motion.handpiece_bound_s)},
+                 {"idle_s", rounded(r.motion.idle_bound_s)},   {"over_limit_s", rounded(r.motion.over_limit_bound_s)},
+                 {"path_mm", rounded(r.motion.path_bound_mm)}, {"force_n", rounded(r.motion.force_bound_n)}};
+  // Only where there is something to say: a session graded before these were known grades to the same text.
+  const auto& a = r.accommodations;
+  if (a != Accommodations{}) {
+    j["accommodations"] = {{"extra_time_percent", a.extra_time_percent},
+                           {"extra_time_s", a.extra_time_s},
+                           {"left_handed", a.left_handed},
+                           {"high_contrast", a.high_contrast}};
+    j["time_limit_s"] = rounded(static_cast<double>(r.limit_ticks) * k_tick_s);
+  }
+  if (!r.pauses.empty() || r.pauses_refused > 0) {
+    Json list = Json::array();
+    std::int64_t sum = 0;
+    for (const auto& p : r.pauses) {
+      list.push_back({{"from_tick", p.begin}, {"to_tick", p.end}});
+      sum += p.end - p.begin;
+    }
+    j["pauses"] = {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
+  }
+  if (r.motion.lost_s > 0) j["lost_time_s"] = rounded(r.motion.lost_s);
+  if (r.motion.late_ticks > 0) j["late_removed_mm3"] = rounded(r.motion.late_removed_mm3);
+  if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
+  j["notes"] = r.notes;
+  return j;
+}
+
+std::string to_text(const Result& r) {
+  std::string s = one_line(r.scenario_title + " (" + r.tooth_name + ")") + "\n";
+  s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points (± " +
+       fixed(r.points_bound, 1) + " if every figure were off by its whole bound)\n";
+  for (const auto& reason : r.verdict_reasons) s += "  " + one_line(reason) + "\n";
+  s += "\n";
+  for (const auto& c : r.criteria)
+    s += "  " + padded(one_line(c.id) + " ", 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) +
+         padded("± " + fixed(c.points_bound, 1), 9) + one_line(c.reason) + "\n";
+  const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
+  const auto volume = [&](const std::string& name, const Volume& v) {
+    return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";
+  };
+  s += "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) + fixed(r.volumes.target_removed_percent, 1) + " ± " +
+       fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" + volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
+  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}) s += volume(zone_name(z), zone(z));
+  s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(Zone::protected_));
+  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + " ± " + fixed(r.volumes.dice_bound, 3) +
+       "\n\nwalls, mm (+ = overcut)                       mean            p95   over  under (± " + fixed(r.shape.bound_mm, 2) + ")\n";
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const WallMeasures& m = r.shape.wall[w];
+    s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
+    if (m.samples == 0)
+      s += "not cut\n";
+    else {
+      char line[80];
+      std::snprintf(line, sizeof line, "%6.2f ± %.2f  %6.2f ± %.2f %6.2f %6.2f\n", m.mean_mm, m.mean_bound_mm, m.p95_mm, m.p95_bound_mm,
+                    m.max_over_mm, m.max_under_mm);
+      s += line;
+    }
+  }
+  const auto shape = [&](const char* name, const std::optional<double>& v, double bound, const char* unit) {
+    s += "  " + padded(name, 22) + (v ? fixed(*v, 2) + " ± " + fixed(bound, 2) + unit : std::string("not cut")) + "\n";
+  };
+  s += "\ncavity\n";
+  shape("length", r.shape.length_mm, r.shape.bound_mm, " mm");
+  shape("width", r.shape.width_mm, r.shape.bound_mm, " mm");
+  shape("depth", r.shape.depth_mm, r.shape.bound_mm, " mm");
+  shape("wall taper", r.shape.taper_deg, r.shape.taper_bound_deg, " degrees");
+  s += "\nperforation\n";
+  if (r.perforation.events.empty()) s += "  no breakthrough seen in the force\n";
+  for (const auto& e : r.perforation.events)
+    s += "  force: " + std::string(e.fault ? "fault" : "aim") + " at " + fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s, " +
+         fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N, " +
+         (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue") + "\n";
+  const auto truth = [&](const char* kind, const PerforationTruth& t) {
+    s +=
+        "  tissue: " + std::string(kind) +
+        (t.perforated ? ", " + t.tissue + " first touched at " + fixed(t.first.t_s(), 3) + " s, " + amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3\n")
+                      : " not touched\n");
+  };
+  truth("fault", r.perforation.fault);
+  if (r.perforation.has_aims) truth("aim", r.perforation.aim);
+  if (r.perforation.aim_unseen()) s += "  the breakthrough into the aim was not seen in the force, which costs nothing\n";
+  s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
+       " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
+       " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +
+       std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
+  for (const auto& note : r.notes) s += "note: " + one_line(note) + "\n";
+  return s;
+}
+
+}  // namespace cavum

@@ -1,0 +1,18 @@
+// A result as JSON (names fixed by tests, and more detail under further names), and as text for a terminal.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "grading/result/result.h"
+
+namespace cavum {
+
+/// Every name is always present; a figure that could not be measured is null.
+[[nodiscard]] nlohmann::ordered_json to_json(const Result& result);
+[[nodiscard]] std::string to_text(const Result& result);
+
+/// To a millionth, so that a figure reads the same wherever it is printed; never -0.
+[[nodiscard]] double rounded(double v);
+
+}  // namespace cavum

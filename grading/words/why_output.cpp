@@ -1,0 +1,86 @@
+// What `grade --why` found, as JSON and as text.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "grading/measures/motion.h"
+#include "grading/result/loss.h"
+#include "grading/result/result_json.h"
+#include "grading/words/why.h"
+
+namespace cavum {
+
+namespace {
+using Json = nlohmann::ordered_json;
+}
+
+Json to_json(const Why& w) {
+  const auto& c = w.criterion;
+  Json items = Json::array();
+  for (const auto& i : w.items) {
+    const auto time = [](std::int64_t tick) { return tick < 0 ? Json(nullptr) : Json(rounded(static_cast<double>(tick) * k_tick_s)); };
+    const auto number = [](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
+    items.push_back({{"t_s", time(i.tick)},
+                     {"to_t_s", time(i.end_tick)},
+                     {"tick", i.tick < 0 ? Json(nullptr) : Json(i.tick)},
+                     {"to_tick", i.end_tick < 0 ? Json(nullptr) : Json(i.end_tick)},
+                     {"site_mm", i.site_mm ? Json::array({rounded(i.site_mm->x), rounded(i.site_mm->y), rounded(i.site_mm->z)}) : Json(nullptr)},
+                     {"amount", number(i.amount)},
+                     {"bound", number(i.bound)},
+                     {"unit", i.unit},
+                     {"points_lost", number(i.points_lost)},
+                     {"what", i.what}});
+  }
+  return {{"criterion",
+           {{"id", c.id},
+            {"title", c.title},
+            {"metric", c.metric},
+            {"value", c.value ? Json(rounded(*c.value)) : Json(nullptr)},
+            {"unit", c.unit},
+            {"bound", rounded(c.bound)},
+            {"full", rounded(w.full)},
+            {"zero", rounded(w.zero)},
+            {"points", rounded(c.points)},
+            {"max", rounded(c.max)},
+            {"critical_failed", c.critical_failed},
+            {"reason", c.reason}}},
+          {"points_lost", rounded(c.max - c.points)},
+          {"moments", items},
+          {"moments_left_out", w.left_out},
+          {"left_out_amount", rounded(w.left_out_amount)},
+          {"left_out_points", rounded(w.left_out_points)}};
+}
+
+std::string to_text(const Why& w) {
+  const auto& c = w.criterion;
+  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
+                  " lost\n  " + (c.value ? amount_text(*c.value, c.bound, 3, c.unit) : std::string("not measured")) + "; full marks at " +
+                  amount_text(w.full, 0, 3, c.unit) + (w.full < w.zero ? " or less" : " or more") + ", none from " +
+                  amount_text(w.zero, 0, 3, c.unit) + " on\n  " + c.reason + "\n";
+  if (!w.items.empty()) s += "\n";
+  for (const auto& i : w.items) {
+    std::string time;
+    if (i.tick >= 0) {
+      time = fixed(static_cast<double>(i.tick) * k_tick_s, 3);
+      if (i.end_tick > i.tick) time += " to " + fixed(static_cast<double>(i.end_tick) * k_tick_s, 3);
+      time += " s";
+    }
+    time.resize(std::max<std::size_t>(time.size(), 22), ' ');
+    const std::string amount = i.amount ? amount_text(*i.amount, i.bound.value_or(0), 3, i.unit) : "";
+    s += "  " + time + "  ";
+    if (i.what.starts_with("of "))
+      s += amount + " " + i.what;
+    else
+      s += i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
+    if (i.site_mm) s += ", at " + place(*i.site_mm);
+    if (i.tick >= 0) s += ", tick " + std::to_string(i.tick);
+    if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";
+    s += "\n";
+  }
+  if (w.left_out > 0)
+    s += "  and " + std::to_string(w.left_out) + " smaller moments, " + fixed(w.left_out_amount, 3) + " in all" +
+         (w.left_out_points > 0 ? ", " + fixed(w.left_out_points, 2) + " points" : "") + "\n";
+  return s;
+}
+
+}  // namespace cavum

@@ -1,0 +1,268 @@
+#include "scenarios/exam/exam.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "scenarios/file/rubric_check.h"
+#include "scenarios/file/surface_files.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
+void fill(ExamSetup& setup, const std::string& scenario_path, const std::string& tooth_path, const std::vector<std::string>& point_paths) {
+  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path, Reading::recorded);
+  use_surfaces(setup.scenario, setup.session.attachments);
+  setup.scenario.accommodations = granted(setup.scenario.accommodations, setup.session.notes, scenario_path);
+  setup.tooth = load_tooth(setup.session.tooth, tooth_path);
+  for (std::size_t i = 0; i < setup.session.points_toml.size(); ++i) {
+    setup.points.push_back(
+        parse_diamond_point(setup.session.points_toml[i], i < point_paths.size() ? point_paths[i] : "diamond point of the session"));
+    setup.point_names.push_back(setup.points.back().name);
+  }
+  setup.zones = build_zones(setup.scenario, setup.tooth);
+}
+
+std::vector<fs::path> data_folders(const std::string& folder, const std::string& near_file) {
+  std::vector<fs::path> places;
+  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder);
+  places.push_back(fs::path(near_file).parent_path() / ".." / folder);
+  places.push_back(fs::path("data") / folder);
+  places.push_back(fs::path(CAVUM_DATA_DIR) / folder);
+  return places;
+}
+
+}  // namespace
+
+std::string event_detail(const ExamEvent& event, const Scenario& scenario, const Tooth& tooth) {
+  nlohmann::json detail = nlohmann::json::object();
+  const auto index = static_cast<std::size_t>(event.index);
+  switch (event.kind) {
+    case ExamEventKind::step_started:
+    case ExamEventKind::step_completed:
+    case ExamEventKind::step_failed:
+    case ExamEventKind::step_time_limit:
+      detail["step"] = index < scenario.steps.size() ? scenario.steps[index].id : "";
+      break;
+    case ExamEventKind::pause_started:
+    case ExamEventKind::pause_ended:
+      detail["pause"] = event.index;
+      break;
+    case ExamEventKind::pause_refused:
+      detail["pauses"] = event.index;
+      break;
+    case ExamEventKind::point_not_allowed:
+      detail["point"] = event.index;
+      break;
+    case ExamEventKind::aim_reached:
+    case ExamEventKind::perforation: {
+      detail["tissue"] = tooth.tissue_name(static_cast<std::uint8_t>(event.index));
+      const Vec3 at = tooth.octree.centre_mm({event.leaf[0], event.leaf[1], event.leaf[2]});
+      detail["site_mm"] = {at.x, at.y, at.z};
+      break;
+    }
+    case ExamEventKind::finished:
+      detail["how"] = finish_name(static_cast<Finish>(event.index));
+      break;
+    default:
+      break;
+  }
+  return detail.dump();
+}
+
+std::vector<std::string> data_names(const std::string& folder, const std::string& near_file) {
+  for (const auto& place : data_folders(folder, near_file)) {
+    std::error_code none;
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(place, none))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    if (!names.empty()) return names;
+  }
+  return {};
+}
+
+std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file) {
+  std::string looked;
+  for (const auto& place : data_folders(folder, near_file)) {
+    const fs::path p = place / name;
+    if (fs::exists(p)) return p.lexically_normal().string();
+    looked += (looked.empty() ? "" : ", ") + p.lexically_normal().string();
+  }
+  throw Error(folder + "/" + name, "is nowhere to be found (looked at " + looked + ")", "correct the name or set CAVUM_DATA to the data folder");
+}
+
+std::string force_model_path(const std::string& wanted, const std::string& near_file) {
+  if (wanted.ends_with(".toml")) return wanted;
+  if (wanted.empty() || wanted.find('/') != std::string::npos) {
+    std::string known;
+    for (const auto& name : data_names("materials", near_file)) known += (known.empty() ? "" : ", ") + name;
+    throw Error("--model", "'" + wanted + "' is no force model", "name one of " + known + ", or a file ending in .toml");
+  }
+  return find_data_file("materials", wanted + ".toml", near_file);
+}
+
+std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }
+
+std::vector<std::string> check_servo(const std::string& servo_toml, const Scenario& scenario) {
+  const ServoConfig is = parse_servo_config(servo_toml, "servo.toml"), usual;
+  std::vector<std::string> findings;
+  const auto same = [&](const char* name, double value, double wanted) {
+    if (value != wanted)
+      findings.push_back("servo.toml: " + std::string(name) + " is " + plain_number(value) + ", and exams of this scenario run with " +
+                         plain_number(wanted));
+  };
+  const auto at_most = [&](const char* name, double value, double most) {
+    if (!(value > 0 && value <= most)) same(name, value, most);
+  };
+  constexpr double k_coarsest_mm = 0.1;  // no stylus for exams resolves less
+  same("tick_s", is.tick_s, usual.tick_s);
+  same("max_rpm", is.max_rpm, scenario.max_rpm);
+  same("spin_up_s", is.spin_up_s, usual.spin_up_s);
+  same("slew_n_per_s", is.limits.slew_n_per_s, usual.limits.slew_n_per_s);
+  same("sustained_budget_n_s", is.limits.sustained_budget_n_s, usual.limits.sustained_budget_n_s);
+  same("watchdog_s", is.limits.watchdog_s, usual.limits.watchdog_s);
+  at_most("peak_n", is.limits.peak_n, usual.limits.peak_n);
+  at_most("continuous_n", is.limits.continuous_n, usual.limits.continuous_n);
+  if (is.position_quantum_mm > k_coarsest_mm) same("position_quantum_mm", is.position_quantum_mm, k_coarsest_mm);
+  return findings;
+}
+
+std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
+  auto setup = std::make_unique<ExamSetup>();
+  SessionSetup& s = setup->session;
+  s.scenario_toml = read_text_file(scenario_path);
+  Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
+  if (const auto wrong = read_surfaces(scenario, s.attachments); !wrong.empty()) throw Error(wrong[0].where, wrong[0].what, wrong[0].what_to_do);
+  s.candidate = options.candidate;
+  s.device = options.device;
+  s.source = options.source;
+  require_sound(options.grant, "accommodations");
+  s.notes = options.notes;
+  for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
+  const std::string tooth_path = options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file;
+  s.tooth = read_file(tooth_path);
+  const std::string model_path = force_model_path(options.force_model, scenario_path);
+  s.force_model_toml = read_text_file(model_path);
+  static_cast<void>(parse_force_model(s.force_model_toml, model_path));  // its mistakes are named with its own file
+  std::vector<std::string> point_paths;
+  for (const auto& name : scenario.points) {
+    point_paths.push_back(find_data_file("points", name + ".toml", scenario_path));
+    s.points_toml.push_back(read_text_file(point_paths.back()));
+  }
+  if (!options.rubric_file.empty()) {
+    s.rubric_toml = read_text_file(options.rubric_file);
+  }
+  ServoConfig config;
+  config.max_rpm = scenario.max_rpm;
+  config.position_quantum_mm = options.position_quantum_mm;
+  // A device that bears more than usual gives no more: every candidate feels the same tooth.
+  if (options.peak_n > 0) config.limits.peak_n = std::min(config.limits.peak_n, options.peak_n);
+  if (options.continuous_n > 0) config.limits.continuous_n = std::min(config.limits.continuous_n, options.continuous_n);
+  s.servo_toml = to_toml(config);
+  fill(*setup, scenario_path, tooth_path, point_paths);
+  require_tissues(setup->scenario, setup->tooth);
+  if (!options.rubric_file.empty()) require_none(not_in_this_exam(parse_rubric(s.rubric_toml, options.rubric_file), setup->scenario, setup->tooth));
+  return setup;
+}
+
+std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
+  auto setup = std::make_unique<ExamSetup>();
+  setup->session = session;
+  fill(*setup, "scenario of the session", "tooth of the session", {});
+  return setup;
+}
+
+Exam::Exam(const ExamSetup& setup, Simulation simulation)
+    : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names), simulation_(std::move(simulation)) {}
+
+std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm, const ReadClocks& clocks) {
+  SessionSetup session = setup.session;
+  const TickInput first = make_tick_input({first_tip_mm, {}}, 0, k_stylus_fresh, 0, {});
+  session.first_tip_nm = first.tip_nm;
+  std::unique_ptr<Exam> exam(new Exam(setup, make_simulation(session, path)));
+  exam->last_input_ = first;
+  exam->last_.proxy_mm = first_tip_mm;
+  exam->recorder_.emplace(Recorder::create(path, session, clocks));
+  return exam;
+}
+
+std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source, const ReadClocks& clocks) {
+  std::unique_ptr<Exam> exam(new Exam(setup, {}));
+  ResumedSession resumed = resume_session(
+      path,
+      [&](std::int64_t, const TickInput& input, const TickOutput& output, const ServoState& state) {
+        exam->runner_.advance(*exam->runner_state_, input, output, state.removed);
+        exam->last_input_ = input;
+        exam->last_ = output;
+      },
+      source, clocks);
+  if (resumed.ticks == 0) {
+    exam->last_input_.tip_nm = resumed.setup.first_tip_nm;
+    exam->last_.proxy_mm = resumed.setup.first_tip_mm();
+  }
+  exam->events_recorded_ = exam->runner_state_->event_count;
+  exam->simulation_ = std::move(resumed.simulation);
+  exam->recorder_.emplace(std::move(resumed.recorder));
+  return exam;
+}
+
+void Exam::record_events() {
+  const RunnerState& r = *runner_state_;
+  for (; events_recorded_ < r.event_count; ++events_recorded_) {
+    const ExamEvent& e = r.events[events_recorded_];
+    recorder_->add_event(e.tick, event_name(e.kind), event_detail(e, setup_.scenario, setup_.tooth));
+  }
+}
+
+const TickOutput& Exam::tick(const TickInput& wanted) {
+  TickInput input = wanted;
+  if (Runner::paused(*runner_state_)) input.pedal_q16 = 0;  // what is recorded is what the step consumed
+  return follow(input);
+}
+
+const TickOutput& Exam::follow(const TickInput& input) {
+  last_input_ = input;
+  last_ = step(simulation_.model, simulation_.state, input);
+  runner_.advance(*runner_state_, input, last_, simulation_.state.removed);
+  record_events();  // before the tick, so that both are written in one transaction
+  try {
+    recorder_->append(input, make_tick_record(last_), simulation_.state.removed, state_hash(simulation_.state));
+  } catch (const DatabaseError& refusal) {
+    keep(refusal);
+  }
+  if (!problem_.empty() && recorder_->ticks() - recorder_->ticks_on_disk() < k_chunk_ticks)
+    problem_.clear();  // all but the running second is on disk
+  return last_;
+}
+
+/// The tick is in the recorder's memory. Without a second place it is tried again with the next second.
+void Exam::keep(const DatabaseError& refusal) {
+  problem_ = refusal.what();
+  if (second_place_.empty() || recorder_->path() == second_place_) return;
+  try {
+    recorder_->move_to(second_place_, refusal.what());
+  } catch (const Error& also) {
+    problem_ += "; and elsewhere: " + std::string(also.what());
+  }
+}
+
+void Exam::end() {
+  runner_.end(*runner_state_);
+  record_events();
+}
+
+void Exam::note_late(std::int64_t ticks, std::int64_t pedal_ticks) {
+  const nlohmann::json detail{{"ticks", ticks}, {"pedal_ticks", pedal_ticks}};
+  recorder_->add_event(runner_state_->ticks - 1, k_late_work, detail.dump());
+}
+
+void Exam::close(const std::string& result_json) { recorder_->close(save_tooth(tooth_now()), result_json); }
+
+}  // namespace cavum

@@ -1,0 +1,35 @@
+#include "scenarios/exam/other_place.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+
+namespace cavum {
+
+std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string& second_place,
+                                      const std::function<std::unique_ptr<Exam>(const std::string& path)>& begin) {
+  std::unique_ptr<Exam> exam;
+  try {
+    exam = begin(path);
+  } catch (const DatabaseError& refusal) {
+    if (second_place.empty())
+      throw Error(path, "cannot be written, and the exam has not begun (" + one_line(refusal.what()) + ")",
+                  "make room, or name a file on another disk too: --out-if-full");
+    exam = begin(second_place);
+    const nlohmann::json detail{{"from", std::filesystem::path(path).filename().string()}, {"ticks", 0}, {"why", one_line(refusal.what())}};
+    exam->recorder().add_event(0, "moved", detail.dump());
+  }
+  exam->set_second_place(second_place);
+  return exam;
+}
+
+std::string rescue_place(const std::string& path) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string stem = std::filesystem::path(path).stem().string();
+  std::string place = (folder / (stem + "-rescued.cavum")).string();
+  for (int i = 2; std::filesystem::exists(place); ++i) place = (folder / (stem + "-rescued-" + std::to_string(i) + ".cavum")).string();
+  return place;
+}
+
+}  // namespace cavum

@@ -1,0 +1,235 @@
+#include "scenarios/exam/runner.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "scenarios/file/names.h"
+
+namespace cavum {
+namespace {
+
+/// Ticks that the exam's clock has counted: pauses stand outside.
+std::int64_t clock(const RunnerState& s) noexcept { return s.ticks - s.paused_ticks; }
+
+}  // namespace
+
+const char* event_name(ExamEventKind kind) noexcept {
+  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed",  "step_time_limit", "time_limit",
+                                     "point_not_allowed", "over_speed",     "aim_reached",  "perforation",     "finished",
+                                     "pause_started",     "pause_ended",    "pause_refused"};
+  return k_names[static_cast<std::size_t>(kind)];
+}
+
+const char* finish_name(Finish finish) noexcept {
+  constexpr const char* k_names[] = {"running", "completed", "failed", "time", "ended"};
+  return k_names[static_cast<std::size_t>(finish)];
+}
+
+std::int64_t time_in_ticks(double seconds, double extra_percent, double extra_s) noexcept {
+  const double ticks = seconds * k_ticks_per_second * (100.0 + extra_percent) / 100.0 + extra_s * k_ticks_per_second;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(ticks + 0.5));
+}
+
+std::int64_t exam_limit_ticks(const Scenario& s) noexcept {
+  return time_in_ticks(s.time_limit_s, s.accommodations.extra_time_percent, s.accommodations.extra_time_s);
+}
+
+std::int64_t step_limit_ticks(const Scenario& s, const StepSpec& step) noexcept {
+  const double extra_s = s.time_limit_s > 0 ? s.accommodations.extra_time_s / s.time_limit_s : 0.0;  // per second
+  return time_in_ticks(*step.time_limit_s, s.accommodations.extra_time_percent, *step.time_limit_s * extra_s);
+}
+
+Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray)
+    : scenario_(scenario),
+      zones_(zones),
+      limit_ticks_(exam_limit_ticks(scenario)),
+      longest_pause_ticks_(time_in_ticks(scenario.pauses.longest_s, 0)) {
+  for (const auto& q : k_live_quantities) names_.emplace_back(q.name);
+  for (const auto& t : tooth.tissues) {
+    names_.push_back("touched_" + t.name);
+    touched_ids_.push_back(t.id);
+  }
+  if (scenario.steps.empty()) throw Error(scenario.path, "the scenario has no step", "add [[steps]]");
+  // a tissue that this tooth does not have is simply never touched
+  const auto name_all = [&](const std::string& text) {
+    for (const auto& used : names_in_expression(text))
+      if (std::find(names_.begin(), names_.end(), used) == names_.end() && used.rfind("touched_", 0) == 0) names_.push_back(used);
+  };
+  const auto wrong = [&](const StepSpec& step, const std::runtime_error& e) {
+    return Error(scenario.path, "step '" + step.id + "': " + e.what(), "correct the condition");
+  };
+  for (const auto& step : scenario.steps) {
+    try {
+      name_all(step.complete_when);
+      if (!step.fail_when.empty()) name_all(step.fail_when);
+    } catch (const std::runtime_error& e) {
+      throw wrong(step, e);
+    }
+  }
+  values_.assign(names_.size(), 0.0);  // from here on their addresses stay
+  for (const auto& step : scenario.steps) {
+    try {
+      CompiledStep compiled{Expression(step.complete_when, names_, values_), {}, std::numeric_limits<std::int64_t>::max()};
+      if (!step.fail_when.empty()) compiled.fail.emplace_back(step.fail_when, names_, values_);
+      if (step.time_limit_s) compiled.limit_ticks = step_limit_ticks(scenario, step);
+      steps_.push_back(std::move(compiled));
+    } catch (const std::runtime_error& e) {
+      throw wrong(step, e);
+    }
+  }
+  for (const auto& t : tooth.tissues) {
+    const auto among = [&](const std::vector<std::string>& list) { return std::find(list.begin(), list.end(), t.name) != list.end(); };
+    role_[t.id] = among(scenario.perforation.aims) ? 1 : among(scenario.perforation.faults) ? 2 : 0;
+  }
+  for (std::size_t i = 0; i < tray.size() && i < allowed_.size(); ++i)
+    allowed_[i] = std::find(scenario.points.begin(), scenario.points.end(), tray[i]) != scenario.points.end();
+}
+
+void Runner::emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf) noexcept {
+  if (state.event_count == RunnerState::k_most_events) {
+    ++state.events_dropped;
+    return;
+  }
+  state.events[state.event_count++] = {state.ticks, kind, index, {leaf.x, leaf.y, leaf.z}};
+}
+
+void Runner::finish(RunnerState& state, Finish how) const noexcept {
+  state.finish = how;
+  // the end must be known even when the list is full: it replaces the last entry
+  if (state.event_count == RunnerState::k_most_events) {
+    --state.event_count;
+    ++state.events_dropped;
+  }
+  emit(state, ExamEventKind::finished, static_cast<std::int32_t>(how));
+}
+
+void Runner::count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept {
+  for (const auto& r : removed) {
+    ++state.removed_in_zone[static_cast<std::size_t>(zones_.zone(r.leaf()))];
+    state.target_shares += zones_.target_share(r.leaf());
+    const bool first = state.removed_of_tissue[r.tissue]++ == 0;
+    if (!first || role_[r.tissue] == 0) continue;
+    emit(state, role_[r.tissue] == 1 ? ExamEventKind::aim_reached : ExamEventKind::perforation, r.tissue, r.leaf());
+    state.perforated = state.perforated || role_[r.tissue] == 2;
+  }
+}
+
+void Runner::fill_values(const RunnerState& s, const TickInput& input, const TickOutput& output) noexcept {
+  const double leaf = zones_.leaf_volume_mm3();
+  const auto zone_mm3 = [&](Zone z) { return static_cast<double>(s.removed_in_zone[static_cast<std::size_t>(z)]) * leaf; };
+  double removed = 0;
+  for (const auto n : s.removed_in_zone) removed += static_cast<double>(n);
+  const double quantity[] = {
+      static_cast<double>(clock(s) + 1) * k_tick_s,
+      static_cast<double>(clock(s) + 1 - s.step_start) * k_tick_s,
+      100.0 * static_cast<double>(s.target_shares) / static_cast<double>(zones_.target_shares()),
+      removed * leaf,
+      zone_mm3(Zone::leeway_sides) + zone_mm3(Zone::leeway_bottom),
+      zone_mm3(Zone::container_sides) + zone_mm3(Zone::container_bottom),
+      zone_mm3(Zone::none) + zone_mm3(Zone::protected_),
+      zone_mm3(Zone::protected_),
+      s.depth_mm,
+      output.proxy_mm.x,
+      output.proxy_mm.y,
+      output.proxy_mm.z,
+      length(output.rendered_force_n),
+      s.peak_force_n,
+      input.pedal(),
+      output.rpm,
+      output.contact ? 1.0 : 0.0,
+      output.cutting ? 1.0 : 0.0,
+      static_cast<double>(input.point),
+      (input.flags & k_button_1) != 0 ? 1.0 : 0.0,
+      (input.flags & k_button_2) != 0 ? 1.0 : 0.0,
+      s.perforated ? 1.0 : 0.0,
+  };
+  static_assert(std::size(quantity) == k_live_quantities.size());
+  std::copy(std::begin(quantity), std::end(quantity), values_.begin());
+  for (std::size_t i = 0; i < touched_ids_.size(); ++i)
+    values_[k_live_quantities.size() + i] = static_cast<double>(s.removed_of_tissue[touched_ids_[i]]) * leaf;
+}
+
+void Runner::next_step(RunnerState& state) const noexcept {
+  ++state.step;
+  state.step_start = clock(state) + 1;
+  if (static_cast<std::size_t>(state.step) < steps_.size()) emit(state, ExamEventKind::step_started, state.step);
+}
+
+bool Runner::pause(RunnerState& state, const TickInput& input, const TickOutput& output) const noexcept {
+  const PauseSpec& spec = scenario_.pauses;
+  if (spec.count == 0) return false;
+  const bool held = (input.flags & (spec.button == 1 ? k_button_1 : k_button_2)) != 0, pressed = held && !state.pause_button;
+  state.pause_button = held;
+  if (state.pause_start >= 0) {
+    if (!pressed && state.ticks - state.pause_start < longest_pause_ticks_) return true;
+    state.pause_start = -1;
+    emit(state, ExamEventKind::pause_ended, state.pauses - 1);
+    return false;
+  }
+  if (!pressed) return false;
+  if (state.pauses >= spec.count || output.rpm > 0) {
+    emit(state, ExamEventKind::pause_refused, state.pauses);
+    return false;
+  }
+  state.pause_start = state.ticks;
+  emit(state, ExamEventKind::pause_started, state.pauses++);
+  return true;
+}
+
+void Runner::advance(RunnerState& state, const TickInput& input, const TickOutput& output, std::span<const RemovedLeaf> removed) noexcept {
+  if (state.finish != Finish::running) return;
+  if (state.ticks == 0) emit(state, ExamEventKind::step_started, 0);
+  count(state, removed);
+  if (pause(state, input, output)) {
+    ++state.paused_ticks;
+    ++state.ticks;
+    return;
+  }
+  if (output.contact) state.depth_mm = std::max(state.depth_mm, zones_.opening_z_mm() - output.proxy_mm.z);
+  state.peak_force_n = std::max(state.peak_force_n, length(output.rendered_force_n));
+  if (input.point != state.last_point && !allowed_[input.point]) emit(state, ExamEventKind::point_not_allowed, input.point);
+  state.last_point = input.point;
+  const bool too_fast = output.rpm > scenario_.max_rpm * (1 + 1e-9);
+  if (too_fast && !state.over_speed) emit(state, ExamEventKind::over_speed, static_cast<std::int32_t>(output.rpm));
+  state.over_speed = too_fast;
+
+  fill_values(state, input, output);
+  const auto at = static_cast<std::size_t>(state.step);
+  const CompiledStep& step = steps_[at];
+  bool end = false;
+  Finish how = Finish::completed;  // of the last step
+  if (step.complete.is_true()) {
+    emit(state, ExamEventKind::step_completed, state.step);
+    next_step(state);
+  } else {
+    const bool failed = !step.fail.empty() && step.fail[0].is_true();
+    const bool late = clock(state) + 1 - state.step_start >= step.limit_ticks;
+    if (failed || late) {
+      emit(state, failed ? ExamEventKind::step_failed : ExamEventKind::step_time_limit, state.step);
+      end = scenario_.steps[at].failure_ends_exam;
+      how = failed ? Finish::failed : Finish::time;
+      next_step(state);
+    }
+  }
+  if (end)
+    finish(state, Finish::failed);
+  else if (static_cast<std::size_t>(state.step) >= steps_.size())
+    finish(state, how);
+  else if (clock(state) + 1 >= limit_ticks_) {
+    emit(state, ExamEventKind::time_limit, 0);
+    finish(state, Finish::time);
+  }
+  ++state.ticks;
+}
+
+void Runner::end(RunnerState& state) noexcept {
+  if (state.finish == Finish::running) finish(state, Finish::ended);
+}
+
+const std::string& Runner::instruction(const RunnerState& state) const noexcept {
+  static const std::string k_over;
+  const auto at = static_cast<std::size_t>(state.step);
+  return state.finish == Finish::running && at < scenario_.steps.size() ? scenario_.steps[at].instruction : k_over;
+}
+
+}  // namespace cavum

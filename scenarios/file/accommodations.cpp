@@ -1,0 +1,81 @@
+#include "scenarios/file/accommodations.h"
+
+#include <array>
+#include <charconv>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+constexpr const char* k_percent = "accommodation.extra_time_percent";
+constexpr const char* k_seconds = "accommodation.extra_time_s";
+constexpr const char* k_left = "accommodation.left_handed";
+constexpr const char* k_contrast = "accommodation.high_contrast";
+constexpr double k_most_percent = 400, k_most_s = 36000;
+
+std::string in_full(double v) {  // the shortest text that reads back as the same number
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), v).ptr;
+  return {text.data(), end};
+}
+
+double number_in(const std::string& text, double most, const std::string& where) {
+  double v = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+  if (error != std::errc() || end != text.data() + text.size() || !(v >= 0 && v <= most))
+    throw Error(where, "'" + text + "' is no extra time", "use 0 to " + plain_number(most));
+  return v;
+}
+
+bool truth_in(const std::string& text, const std::string& where) {
+  if (text != "true" && text != "false") throw Error(where, "'" + text + "' is neither true nor false", "use one of them");
+  return text == "true";
+}
+
+}  // namespace
+
+void require_sound(const Grant& g, const std::string& where) {
+  const auto within = [&](const std::optional<double>& v, double most, const char* name) {
+    if (v && !(*v >= 0 && *v <= most)) throw Error(where, std::string(name) + " is " + plain_number(*v), "use 0 to " + plain_number(most));
+  };
+  within(g.extra_time_percent, k_most_percent, "extra time in percent");
+  within(g.extra_time_s, k_most_s, "extra time in seconds");
+}
+
+std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {
+  std::vector<std::pair<std::string, std::string>> notes;
+  if (g.extra_time_percent) notes.emplace_back(k_percent, in_full(*g.extra_time_percent));
+  if (g.extra_time_s) notes.emplace_back(k_seconds, in_full(*g.extra_time_s));
+  if (g.left_handed) notes.emplace_back(k_left, *g.left_handed ? "true" : "false");
+  if (g.high_contrast) notes.emplace_back(k_contrast, *g.high_contrast ? "true" : "false");
+  return notes;
+}
+
+Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes, const std::string& where) {
+  Accommodations a = by_file;
+  for (const auto& [key, value] : notes) {
+    if (key == k_percent) a.extra_time_percent = number_in(value, k_most_percent, where);
+    if (key == k_seconds) a.extra_time_s = number_in(value, k_most_s, where);
+    if (key == k_left) a.left_handed = truth_in(value, where);
+    if (key == k_contrast) a.high_contrast = truth_in(value, where);
+  }
+  return a;
+}
+
+std::string accommodations_text(const Accommodations& a) {
+  std::string text;
+  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (a.extra_time_percent > 0 && a.extra_time_s > 0)
+    add(plain_number(a.extra_time_percent) + " % and " + plain_number(a.extra_time_s) + " s extra time");
+  else if (a.extra_time_percent > 0)
+    add(plain_number(a.extra_time_percent) + " % extra time");
+  else if (a.extra_time_s > 0)
+    add(plain_number(a.extra_time_s) + " s extra time");
+  if (a.left_handed) add("left-handed");
+  if (a.high_contrast) add("high-contrast colours");
+  return text;
+}
+
+}  // namespace cavum

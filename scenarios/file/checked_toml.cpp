@@ -1,0 +1,266 @@
+#include "scenarios/file/checked_toml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+const char* kind_of(const toml::node& node) {
+  if (node.is_string()) return "a text";
+  if (node.is_number()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  if (node.is_array()) return "a list";
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string suggestion(const std::string& wrong, const std::vector<std::string>& words) {
+  std::size_t best = 3;
+  const std::string* closest = nullptr;
+  for (const auto& w : words) {
+    const auto d = edit_distance(wrong, w);
+    if (d < best && d < w.size()) {
+      best = d;
+      closest = &w;
+    }
+  }
+  if (closest != nullptr) return "did you mean '" + *closest + "'?";
+  std::string all = "use one of";
+  for (std::size_t i = 0; i < words.size(); ++i) all += (i == 0 ? " " : ", ") + words[i];
+  return all;
+}
+
+void ProblemList::add(const toml::source_region& at, const std::string& what, const std::string& what_to_do) {
+  add(Place{static_cast<int>(at.begin.line), static_cast<int>(at.begin.column)}, what, what_to_do);
+}
+
+void ProblemList::add(Place at, const std::string& what, const std::string& what_to_do) {
+  problems_.push_back({path_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column), what, what_to_do, at.line, at.column});
+}
+
+std::vector<Problem> ProblemList::take() {
+  std::stable_sort(problems_.begin(), problems_.end(),
+                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+  return std::move(problems_);
+}
+
+toml::source_region CheckedTable::where(std::string_view key) const {
+  if (const auto* node = table_.get(key); node != nullptr && node->source().begin.line > 0) return node->source();
+  return table_.source();
+}
+
+void CheckedTable::problem_in(std::string_view key, std::size_t item, const std::string& what, const std::string& what_to_do) {
+  const auto* array = table_[key].as_array();
+  const bool known = array != nullptr && item < array->size() && (*array)[item].source().begin.line > 0;
+  problems_.add(known ? (*array)[item].source() : where(key), what, what_to_do);
+}
+
+void CheckedTable::note(std::map<std::string, Place>& places, std::string_view key, const std::string& name) const {
+  const auto* node = table_.get(key);
+  if (node == nullptr) return;
+  const auto place = [](const toml::node& n) { return Place{static_cast<int>(n.source().begin.line), static_cast<int>(n.source().begin.column)}; };
+  places[name] = place(*node);
+  if (const auto* array = node->as_array())
+    for (std::size_t i = 0; i < array->size(); ++i) places[name + "/" + std::to_string(i)] = place((*array)[i]);
+}
+
+const toml::node* CheckedTable::ask(std::string_view key, bool required) {
+  asked_.emplace_back(key);
+  const auto* node = table_.get(key);
+  if (node == nullptr && required) problems_.add(table_.source(), name_ + " has no '" + std::string(key) + "'", "add it");
+  return node;
+}
+
+double CheckedTable::number(std::string_view key, double low, double high, double fallback, bool required) {
+  const auto* node = ask(key, required);
+  if (node == nullptr) return fallback;
+  if (!node->is_number()) {
+    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a number");
+    return fallback;
+  }
+  const double v = node->value<double>().value_or(fallback);
+  if (!(v >= low && v <= high)) {
+    problem(key, "'" + std::string(key) + "' is " + plain_number(v), "use " + plain_number(low) + " to " + plain_number(high));
+    return fallback;
+  }
+  return v;
+}
+
+int CheckedTable::whole(std::string_view key, int low, int high, int fallback, bool required) {
+  const double v = number(key, low, high, fallback, required);
+  if (v == std::floor(v)) return static_cast<int>(v);
+  problem(key, "'" + std::string(key) + "' is " + plain_number(v), "write a whole number");
+  return fallback;
+}
+
+std::string CheckedTable::text(std::string_view key, const std::string& fallback, bool required) {
+  const auto* node = ask(key, required);
+  if (node == nullptr) return fallback;
+  if (!node->is_string()) {
+    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a text in quotes");
+    return fallback;
+  }
+  std::string s = node->value<std::string>().value_or(fallback);
+  if (s.find('\0') != std::string::npos) problem(key, "'" + std::string(key) + "' holds a zero byte", "leave it out");
+  if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, "'" + std::string(key) + "' is empty", "write a text");
+  return s;
+}
+
+bool CheckedTable::truth(std::string_view key, bool fallback) {
+  const auto* node = ask(key, false);
+  if (node == nullptr) return fallback;
+  if (!node->is_boolean()) {
+    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write true or false");
+    return fallback;
+  }
+  return node->value<bool>().value_or(fallback);
+}
+
+std::size_t CheckedTable::word(std::string_view key, const std::vector<std::string>& words, std::size_t fallback, bool required) {
+  const auto* node = ask(key, false);
+  if (node == nullptr) {
+    if (required) problems_.add(table_.source(), name_ + " has no '" + std::string(key) + "'", suggestion("", words));
+    return required ? k_wrong : fallback;
+  }
+  if (!node->is_string()) {
+    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), suggestion("", words));
+    return k_wrong;
+  }
+  const std::string s = node->value<std::string>().value_or("");
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (s == words[i]) return i;
+  problem(key, "'" + std::string(key) + "' is \"" + s + "\"", suggestion(s, words));
+  return k_wrong;
+}
+
+bool CheckedTable::too_many(std::string_view key, std::size_t count, std::size_t most) {
+  if (count <= most) return false;
+  problem(key, "'" + std::string(key) + "' has " + std::to_string(count) + " items", "list at most " + std::to_string(most));
+  return true;
+}
+
+std::vector<std::string> CheckedTable::texts(std::string_view key, bool required) {
+  const auto* node = ask(key, required);
+  std::vector<std::string> list;
+  if (node == nullptr) return list;
+  const auto* array = node->as_array();
+  if (array == nullptr) {
+    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a list of texts, [\"a\", \"b\"]");
+    return list;
+  }
+  if (too_many(key, array->size(), k_most_items)) return list;
+  for (const auto& item : *array) {
+    if (item.is_string())
+      list.push_back(item.value<std::string>().value_or(""));
+    else
+      problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write a text in quotes");
+  }
+  if (required && array->empty()) problem(key, "'" + std::string(key) + "' is empty", "list at least one");
+  return list;
+}
+
+namespace {
+
+bool read_vector(const toml::node& node, std::size_t count, Vec3& out) {
+  const auto* array = node.as_array();
+  if (array == nullptr || array->size() != count) return false;
+  double v[3] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(*array)[i].is_number()) return false;
+    v[i] = (*array)[i].value<double>().value_or(0.0);
+    if (!(std::fabs(v[i]) <= 1000.0)) return false;
+  }
+  out = {v[0], v[1], v[2]};
+  return true;
+}
+
+}  // namespace
+
+Vec3 CheckedTable::vector(std::string_view key, std::size_t count, Vec3 fallback, bool required) {
+  const auto* node = ask(key, required);
+  if (node == nullptr) return fallback;
+  Vec3 v = fallback;
+  if (!read_vector(*node, count, v))
+    problem(key, "'" + std::string(key) + "' is not a list of " + std::to_string(count) + " numbers within 1000 mm",
+            count == 2 ? "write [x, y]" : "write [x, y, z]");
+  return v;
+}
+
+std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_least, bool required) {
+  const auto* node = ask(key, required);
+  std::vector<Vec3> list;
+  if (node == nullptr) return list;
+  const auto* array = node->as_array();
+  if (array == nullptr || array->size() < at_least) {
+    problem(key, "'" + std::string(key) + "' needs at least " + std::to_string(at_least) + " points", "write [[x, y], [x, y], ...]");
+    return list;
+  }
+  if (too_many(key, array->size(), k_most_points)) return list;
+  for (const auto& item : *array) {
+    Vec3 v;
+    if (read_vector(item, 2, v))
+      list.push_back(v);
+    else
+      problems_.add(item.source(), "a point of '" + std::string(key) + "' is not two numbers within 1000 mm", "write [x, y]");
+  }
+  return list;
+}
+
+const toml::table* CheckedTable::table(std::string_view key, bool required) {
+  const auto* node = ask(key, required);
+  if (node == nullptr) return nullptr;
+  if (node->as_table() == nullptr) problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a table, [" + std::string(key) + "]");
+  return node->as_table();
+}
+
+std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool required) {
+  const auto* node = ask(key, required);
+  std::vector<const toml::table*> list;
+  if (node == nullptr) return list;
+  if (const auto* one = node->as_table()) return {one};
+  const auto* array = node->as_array();
+  if (array == nullptr) {
+    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write tables, [[" + std::string(key) + "]]");
+    return list;
+  }
+  if (too_many(key, array->size(), k_most_items)) return list;
+  for (const auto& item : *array) {
+    if (const auto* t = item.as_table())
+      list.push_back(t);
+    else
+      problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write tables, [[" + std::string(key) + "]]");
+  }
+  if (required && list.empty()) problem(key, "'" + std::string(key) + "' is empty", "add at least one");
+  return list;
+}
+
+void CheckedTable::finish() {
+  for (auto&& [key, node] : table_) {
+    const std::string name(key.str());
+    if (std::find(asked_.begin(), asked_.end(), name) == asked_.end())
+      problems_.add(key.source(), name_ + " has an unknown key '" + name + "'", asked_.empty() ? "take it out" : suggestion(name, asked_));
+  }
+}
+
+}  // namespace cavum

@@ -1,0 +1,315 @@
+#include "scenarios/file/parse.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/toml_limits.h"
+#include "scenarios/file/checked_toml.h"
+#include "scenarios/file/names.h"
+#include "scenarios/file/parse_steps.h"
+#include "scenarios/file/parse_zones.h"
+#include "scenarios/file/surface_files.h"
+
+namespace cavum {
+namespace {
+
+CriterionSpec read_criterion(const toml::table& table, const std::string& at, Places& places, ProblemList& problems) {
+  CheckedTable t(table, "[[rubric.criteria]]", problems);
+  CriterionSpec c;
+  c.id = read_id(t, "");
+  c.title = t.text("title", c.id);
+  c.metric = t.text("metric", "", true);
+  std::vector<std::string> names;
+  for (const auto& m : k_metrics) names.emplace_back(m.name);
+  if (!c.metric.empty() && std::find(names.begin(), names.end(), c.metric) == names.end() && c.metric.rfind("touched_", 0) != 0)
+    t.problem("metric", "there is no measure '" + c.metric + "'", suggestion(c.metric, names));
+  for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, at + "/" + key);
+  const auto place_of = [&](const char* key) {
+    const auto found = places.find(at + "/" + key);
+    return found != places.end() ? found->second : Place{static_cast<int>(table.source().begin.line), static_cast<int>(table.source().begin.column)};
+  };
+  c.metric_at = place_of("metric");
+  c.zero_at = place_of("zero");
+  const auto problems_before = problems.size();
+  c.full = t.number("full", -1e9, 1e9, 1, true);
+  c.zero = t.number("zero", -1e9, 1e9, 0, true);
+  if (problems.size() == problems_before && c.full == c.zero)
+    t.problem("zero", "'full' and 'zero' are the same value", "points run linearly from one to the other: make them differ");
+  c.points = t.number("points", 0, 1000, 1, true);
+  if (t.has("critical_above"))
+    c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
+  else
+    t.number("critical_above", 0, 0, 0);
+  if (t.has("critical_below"))
+    c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
+  else
+    t.number("critical_below", 0, 0, 0);
+  t.finish();
+  return c;
+}
+
+RubricSpec read_rubric(const toml::table& table, const std::string& name, Places& places, ProblemList& problems) {
+  CheckedTable t(table, name, problems);
+  RubricSpec r;
+  r.compensatory = t.word("rule", {"compensatory", "non-compensatory"}, 0, true) == 0;
+  r.pass_percent = t.number("pass_percent", 0, 100, 60, true);
+  r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
+  double sum = 0;
+  for (const auto* c : t.tables("criteria", true)) {
+    r.criteria.push_back(read_criterion(*c, "rubric/criteria/" + std::to_string(r.criteria.size()), places, problems));
+    sum += r.criteria.back().points;
+    for (std::size_t i = 0; i + 1 < r.criteria.size(); ++i)
+      if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
+        problems.add(c->source(), "two criteria are called '" + r.criteria[i].id + "'", "give each its own id");
+  }
+  if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", "no criterion gives any points", "give at least one some points");
+  t.finish();
+  return r;
+}
+
+void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!good_id(list[i])) t.problem_in(key, i, "'" + list[i] + "' is no name of a tissue", "use names such as pulp or periodontium");
+}
+
+PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
+  CheckedTable t(table, "[pauses]", problems);
+  PauseSpec p;
+  p.count = t.whole("count", 0, 20, 0, true);
+  p.longest_s = t.number("longest_s", 0.001, 3600, 60, true);
+  p.button = t.whole("button", 1, 2, 2);
+  t.finish();
+  return p;
+}
+
+CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, ProblemList& problems) {
+  CheckedTable t(table, "[careless]", problems);
+  CarelessSpec c;
+  c.fails_by = t.text("fails_by", "", true);
+  c.sides_mm = t.number("sides_mm", -3, 0.9, 0);
+  c.bottom_mm = t.number("bottom_mm", -3, 3, 0);
+  c.opening_percent = t.number("opening_percent", 10, 100, 100);
+  c.perforates = t.truth("perforates", false);
+  std::vector<std::string> ids;
+  for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
+  if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
+    t.problem("fails_by", "the rubric has no criterion '" + c.fails_by + "'", suggestion(c.fails_by, ids));
+  if (c.perforates && scenario.perforation.faults.empty() && problems.strict())
+    t.problem("perforates", "'perforates' is true, and no tissue is a fault",
+              "list what is broken into under faults of [perforation], or leave 'perforates' out");
+  if (c == CarelessSpec{.fails_by = c.fails_by})
+    t.problem("fails_by", "nothing is done carelessly", "set sides_mm, bottom_mm, opening_percent or perforates");
+  t.finish();
+  return c;
+}
+
+GaugeSpec read_gauges(CheckedTable& scenario) {
+  GaugeSpec gauges;
+  const std::vector<std::string> known{"speed", "force", "depth"};
+  const auto names = scenario.texts("gauges");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(known.begin(), known.end(), names[i]) == known.end())
+      scenario.problem_in("gauges", i, "there is no gauge '" + names[i] + "'", suggestion(names[i], known));
+    gauges.speed |= names[i] == "speed";
+    gauges.force |= names[i] == "force";
+    gauges.depth |= names[i] == "depth";
+  }
+  return gauges;
+}
+
+Scenario read_table(const toml::table& table, const std::string& path, ProblemList& problems) {
+  CheckedTable t(table, "the scenario", problems);
+  Scenario s;
+  s.path = path;
+  s.id = read_id(t, "");
+  s.title = t.text("title", "", true);
+  s.description = t.text("description", "");
+  s.tooth_file = t.text("tooth", "", true);
+  s.points = t.texts("points", true);
+  for (std::size_t i = 0; i < s.points.size(); ++i)
+    if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
+      t.problem_in("points", i, "'" + s.points[i] + "' is no name of a diamond point", "use names of data/points, such as round-1.0");
+    else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
+             s.points.begin() + static_cast<std::ptrdiff_t>(i))
+      t.problem_in("points", i, "'" + s.points[i] + "' is listed twice", "list each point once");
+  if (s.points.size() > k_most_tray) {
+    t.problem("points", "'points' has " + std::to_string(s.points.size()) + " items", "list at most " + std::to_string(k_most_tray));
+    s.points.resize(k_most_tray);
+  }
+  s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
+  s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
+  s.force_limit_n = t.number("force_limit_n", 0, 100, 0);
+  s.gauges = read_gauges(t);
+  if (const auto* a = t.table("accommodations")) {
+    CheckedTable at(*a, "[accommodations]", problems);
+    s.accommodations.extra_time_percent = at.number("extra_time_percent", 0, 400, 0);
+    s.accommodations.extra_time_s = at.number("extra_time_s", 0, 36000, 0);
+    s.accommodations.left_handed = at.truth("left_handed", false);
+    s.accommodations.high_contrast = at.truth("high_contrast", false);
+    at.finish();
+  }
+  if (const auto* p = t.table("pauses")) s.pauses = read_pauses(*p, problems);
+  for (const char* key : {"tooth", "points", "time_limit_s", "zones"}) t.note(s.places, key, key);
+  s.steps = read_steps(t, s.places, problems);
+  check_pause_button(s, problems);
+  if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, s.places, problems);
+  if (const auto* p = t.table("perforation", true)) {
+    CheckedTable pt(*p, "[perforation]", problems);
+    s.perforation.aims = pt.texts("aims");
+    s.perforation.faults = pt.texts("faults");
+    for (const char* key : {"aims", "faults"}) pt.note(s.places, key, std::string("perforation/") + key);
+    check_tissues(pt, "aims", s.perforation.aims);
+    check_tissues(pt, "faults", s.perforation.faults);
+    for (const auto& aim : s.perforation.aims)
+      if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
+        pt.problem("faults", "'" + aim + "' is both an aim and a fault", "keep it in one of the two lists");
+    pt.finish();
+  }
+  if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
+  s.rubric.path = path;
+  if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s, problems);
+  t.finish();
+  return s;
+}
+
+/// Parses the TOML itself; a file that is no TOML has exactly one problem.
+bool read_toml(const std::string& text, const std::string& path, toml::table& table, ProblemList& problems) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string::npos) {
+    const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    problems.add(Place{1, 1}, wide ? "this is a text in UTF-16" : "this is no text: it holds zero bytes",
+                 wide ? "save it as UTF-8" : "give a scenario or rubric, a text file (TOML)");
+    return false;
+  }
+  if (const auto beyond = beyond_toml_limits(text)) {
+    problems.add(Place{static_cast<int>(beyond->line), 1}, beyond->what, beyond->what_to_do);
+    return false;
+  }
+  try {
+    table = toml::parse(text, path);
+    return true;
+  } catch (const toml::parse_error& e) {
+    const bool encoding = e.description().find("utf-8") != std::string_view::npos;
+    if (encoding)
+      problems.add(e.source(), "a letter here is not in UTF-8, as in a text saved as Latin-1", "save the file as UTF-8");
+    else
+      problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
+    return false;
+  }
+}
+
+std::string summary(const std::vector<Problem>& list) {
+  const auto more = list.size() - 1;
+  return list[0].what_to_do + (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
+}
+
+void throw_first(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
+  const auto more = problems.size() - 1;
+  const std::string rest = more == 0 ? "" : " (and " + std::to_string(more) + " more: `cavum scenario check` names every mistake of a scenario)";
+  throw Error(problems[0].where, problems[0].what, problems[0].what_to_do + rest);
+}
+
+}  // namespace
+
+ProblemsError::ProblemsError(std::vector<Problem> list) : Error(list.at(0).where, list[0].what, summary(list)), problems_(std::move(list)) {}
+
+void require_none(std::vector<Problem> problems) {
+  if (!problems.empty()) throw ProblemsError(std::move(problems));
+}
+
+ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading) {
+  ProblemList problems(path, reading);
+  toml::table table;
+  ReadScenario read;
+  if (read_toml(text, path, table, problems)) read.scenario = read_table(table, path, problems);
+  read.problems = problems.take();
+  return read;
+}
+
+std::vector<Problem> check_scenario(const std::string& text, const std::string& path) { return read_scenario(text, path).problems; }
+
+Scenario parse_scenario(const std::string& text, const std::string& path, Reading reading) {
+  ReadScenario read = read_scenario(text, path, reading);
+  throw_first(read.problems);
+  return std::move(read.scenario);
+}
+
+Scenario load_scenario(const std::string& path) {
+  Scenario s = parse_scenario(read_text_file(path), path);
+  SurfaceFiles files;
+  throw_first(read_surfaces(s, files));
+  return s;
+}
+
+RubricSpec parse_rubric(const std::string& text, const std::string& path) {
+  ProblemList problems(path);
+  toml::table table;
+  RubricSpec r;
+  Places places;
+  if (read_toml(text, path, table, problems)) {
+    const auto* inner = table.get_as<toml::table>("rubric");
+    r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", places, problems);
+  }
+  r.path = path;
+  require_none(problems.take());
+  return r;
+}
+
+std::string find_tooth_file(const Scenario& scenario) {
+  namespace fs = std::filesystem;
+  const fs::path written(scenario.tooth_file), folder = fs::path(scenario.path).parent_path();
+  if (written.is_absolute() && fs::exists(written)) return written.string();
+  std::vector<fs::path> places{folder / written, folder / ".." / "teeth" / written, fs::path("data/teeth") / written};
+  if (const char* data = std::getenv("CAVUM_DATA")) places.push_back(fs::path(data) / "teeth" / written);
+  places.push_back(fs::path(CAVUM_DATA_DIR) / "teeth" / written);
+  for (const fs::path& candidate : places)
+    if (fs::exists(candidate)) return candidate.lexically_normal().string();
+  throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",
+              "put it beside the scenario or in data/teeth, or name another with --tooth");
+}
+
+std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
+  std::vector<std::string> known;
+  for (const auto& t : tooth.tissues) known.push_back(t.name);
+  std::vector<Problem> problems;
+  const auto need = [&](const std::string& name, const std::string& place) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      problems.push_back(problem_at(s, place, "this tooth has no tissue '" + name + "'", suggestion(name, known)));
+  };
+  for (const auto& [key, list] : {std::pair("perforation/aims/", &s.perforation.aims), std::pair("perforation/faults/", &s.perforation.faults)})
+    for (std::size_t i = 0; i < list->size(); ++i) need((*list)[i], key + std::to_string(i));
+  for (const auto& [key, list] : {std::pair("zones/target/", &s.zones.target), std::pair("zones/protected/", &s.zones.protected_shapes)})
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const ShapeSpec& shape = (*list)[i];
+      const std::string place = key + std::to_string(i);
+      const bool column = shape.kind == ShapeSpec::Kind::column;
+      if (shape.kind == ShapeSpec::Kind::tissue || shape.kind == ShapeSpec::Kind::canal_cone) need(shape.tissue, place + "/tissue");
+      if (column && shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
+      if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
+        need(shape.bottom.tissue, place + "/bottom");
+    }
+  for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
+    const std::string& metric = s.rubric.criteria[i].metric;
+    if (metric.starts_with("touched_") && metric.ends_with("_mm3") && metric.size() > 12)
+      need(metric.substr(8, metric.size() - 12), "rubric/criteria/" + std::to_string(i) + "/metric");
+  }
+  return problems;
+}
+
+void require_tissues(const Scenario& scenario, const Tooth& tooth) { require_none(missing_tissues(scenario, tooth)); }
+
+Problem problem_at(const Scenario& s, const std::string& place, const std::string& what, const std::string& what_to_do) {
+  // the place itself, else what holds it
+  for (std::string key = place;; key.erase(key.rfind('/'))) {
+    const auto at = s.places.find(key);
+    if (at != s.places.end())
+      return {s.path + ":" + std::to_string(at->second.line) + ":" + std::to_string(at->second.column), what, what_to_do, at->second.line,
+              at->second.column};
+    if (key.rfind('/') == std::string::npos) return {s.path, what, what_to_do};
+  }
+}
+
+}  // namespace cavum

@@ -1,0 +1,60 @@
+// Reads scenario and rubric files. Every mistake of a file is found in one go, each with its place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/tooth/tooth.h"
+#include "scenarios/file/scenario.h"
+
+namespace cavum {
+
+/// One mistake, or a warning of what is legal but unwise: `where` is file:line:column.
+struct Problem {
+  std::string where, what, what_to_do;
+  int line = 0, column = 0;
+  bool warning = false;
+  [[nodiscard]] std::string text() const { return where + ": " + (warning ? "warning: " : "") + what + "; " + what_to_do; }
+};
+
+/// Several mistakes at once. `what()` is the first one's text and how many more there are; the command line prints each on a line of its own.
+class ProblemsError : public Error {
+ public:
+  explicit ProblemsError(std::vector<Problem> list);
+  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+/// Throws ProblemsError unless the list is empty.
+void require_none(std::vector<Problem> problems);
+
+/// A scenario that is to be examined with, or one that an exam has run with already: rules that came later do not bind that one.
+enum class Reading { to_be_run, recorded };
+
+/// All mistakes of a scenario file, in the order of the file; empty when it is sound. `path` names the file in them.
+[[nodiscard]] std::vector<Problem> check_scenario(const std::string& text, const std::string& path);
+/// Throws Error naming the first mistake, and how many there are.
+[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
+/// Both at once: what could be read of a file, and its mistakes.
+struct ReadScenario {
+  Scenario scenario;
+  std::vector<Problem> problems;
+};
+[[nodiscard]] ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
+[[nodiscard]] Scenario load_scenario(const std::string& path);
+/// A problem that stands at one of the scenario's `places`, or at the nearest one that holds it.
+[[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const std::string& what, const std::string& what_to_do);
+/// Every tissue that zones, perforation or the rubric's measures name and the tooth does not have.
+[[nodiscard]] std::vector<Problem> missing_tissues(const Scenario& scenario, const Tooth& tooth);
+/// Throws ProblemsError when a tissue that the scenario names is none of the tooth's: misspelt, it would never be touched.
+void require_tissues(const Scenario& scenario, const Tooth& tooth);
+/// A rubric alone: the same keys as [rubric] of a scenario, at the top of the file (or under [rubric]). Throws ProblemsError naming every mistake.
+[[nodiscard]] RubricSpec parse_rubric(const std::string& text, const std::string& path);
+
+/// The tooth file of a scenario: beside the scenario file, else in ../teeth of it, else data/teeth of the
+/// working directory. Throws Error when none is there.
+[[nodiscard]] std::string find_tooth_file(const Scenario& scenario);
+
+}  // namespace cavum

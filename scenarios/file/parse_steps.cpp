@@ -1,0 +1,110 @@
+#include "scenarios/file/parse_steps.h"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "scenarios/file/condition.h"
+#include "scenarios/file/expression.h"
+#include "scenarios/file/names.h"
+
+namespace cavum {
+namespace {
+
+void check_condition(CheckedTable& t, const char* key, const std::string& text, const ProblemList& problems) {
+  if (text.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& q : k_live_quantities) names.emplace_back(q.name);
+  for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
+  constexpr std::size_t k_longest = 2000;
+  if (text.size() > k_longest) {
+    t.problem(key, "'" + std::string(key) + "' has " + std::to_string(text.size()) + " characters", "write at most 2000");
+    return;
+  }
+  for (const auto& function : functions_in_expression(text))
+    if (function != "min" && function != "max" && function != "abs") {
+      t.problem(key, "'" + std::string(key) + "' uses the unknown function '" + function + "'", "use min, max or abs");
+      return;
+    }
+  try {
+    std::vector<std::string> known = names;
+    for (const auto& used : names_in_expression(text)) {
+      if (std::find(names.begin(), names.end(), used) != names.end()) continue;
+      if (used.rfind("touched_", 0) != 0)
+        t.problem(key, "'" + std::string(key) + "' uses the unknown quantity '" + used + "'", suggestion(used, names));
+      known.push_back(used);
+    }
+    std::vector<double> values(known.size(), 0.0);
+    const Expression compiled(text, known, values);
+    static_cast<void>(compiled);
+    if (const auto fault = problems.strict() ? condition_fault(text) : std::nullopt)
+      t.problem(key, "'" + std::string(key) + "' " + fault->what, fault->what_to_do);
+    else if (problems.strict() && !is_condition(text))
+      t.problem(key, "'" + std::string(key) + "' is a number, not a condition",
+                "compare it with something, for example \"target_removed_percent >= 90\"");
+  } catch (const std::runtime_error& e) {
+    t.problem(key, "'" + std::string(key) + "' cannot be read (" + e.what() + ")",
+              "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
+  }
+}
+
+}  // namespace
+
+bool good_id(const std::string& id) {
+  return !id.empty() &&
+         std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-'; });
+}
+
+std::string read_id(CheckedTable& t, const std::string& fallback) {
+  std::string id = t.text("id", fallback, true);
+  if (!id.empty() && !good_id(id)) t.problem("id", "'id' is \"" + id + "\"", "use small letters, digits, _ and -");
+  return id;
+}
+
+std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, ProblemList& problems) {
+  std::vector<StepSpec> steps;
+  for (const auto* table : scenario.tables("steps", true)) {
+    CheckedTable t(*table, "[[steps]]", problems);
+    StepSpec s;
+    const std::string at = "steps/" + std::to_string(steps.size());
+    s.id = read_id(t, "");
+    s.instruction = t.text("instruction", "", true);
+    s.complete_when = t.text("complete_when", "", true);
+    check_condition(t, "complete_when", s.complete_when, problems);
+    t.note(places, "complete_when", at + "/complete_when");
+    s.fail_when = t.text("fail_when", "");
+    check_condition(t, "fail_when", s.fail_when, problems);
+    t.note(places, "fail_when", at + "/fail_when");
+    t.note(places, "time_limit_s", at + "/time_limit_s");
+    if (t.has("time_limit_s"))
+      s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 60);
+    else
+      t.number("time_limit_s", 0, 0, 0);
+    s.failure_ends_exam = t.truth("failure_ends_exam", false);
+    t.finish();
+    for (const auto& other : steps)
+      if (other.id == s.id && !s.id.empty()) t.problem("id", "two steps are called '" + s.id + "'", "give each its own id");
+    steps.push_back(std::move(s));
+  }
+  return steps;
+}
+
+void check_pause_button(const Scenario& s, ProblemList& problems) {
+  if (s.pauses.count == 0) return;
+  const std::string button = "button_" + std::to_string(s.pauses.button);
+  for (std::size_t i = 0; i < s.steps.size(); ++i)
+    for (const auto& [key, text] : {std::pair("complete_when", s.steps[i].complete_when), std::pair("fail_when", s.steps[i].fail_when)}) {
+      std::vector<std::string> used;
+      try {
+        if (!text.empty()) used = names_in_expression(text);
+      } catch (const std::runtime_error&) {
+        continue;  // named already
+      }
+      if (std::find(used.begin(), used.end(), button) == used.end()) continue;
+      const Place at = s.places.at("steps/" + std::to_string(i) + "/" + key);
+      problems.add(at, std::string("'") + key + "' asks for " + button + ", which begins and ends pauses",
+                   "use the other button, or set 'button' of [pauses]");
+    }
+}
+
+}  // namespace cavum

@@ -1,0 +1,252 @@
+#include "scenarios/file/parse_zones.h"
+
+#include <array>
+#include <cmath>
+
+namespace cavum {
+namespace {
+
+constexpr double k_largest_mm = 100.0;
+constexpr std::size_t k_most_bodies = 12;  // of all zones
+
+using Places = std::map<std::string, Place>;
+
+/// True when two sides of a closed polygon meet anywhere but at their common corner.
+bool crosses_itself(const std::vector<Vec3>& p) {
+  const std::size_t n = p.size();
+  const auto side = [](Vec3 a, Vec3 b, Vec3 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;
+      const Vec3 a = p[i], b = p[(i + 1) % n], c = p[j], d = p[(j + 1) % n];
+      const double one = side(a, b, c), two = side(a, b, d), three = side(c, d, a), four = side(c, d, b);
+      if (((one > 0) != (two > 0)) && ((three > 0) != (four > 0))) return true;
+    }
+  return false;
+}
+
+double area_mm2(const std::vector<Vec3>& p) {
+  double twice = 0;
+  for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) twice += p[j].x * p[i].y - p[i].x * p[j].y;
+  return std::fabs(0.5 * twice);
+}
+
+/// Outlines that are none; exams recorded before this was asked keep theirs.
+void check_outline(CheckedTable& t, const OutlineSpec& o, const ProblemList& problems) {
+  using Kind = OutlineSpec::Kind;
+  if (!problems.strict()) return;
+  if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) || (o.kind == Kind::stroke && 0.5 * o.width_mm + o.offset_mm <= 0))
+    t.problem("offset_mm", "'offset_mm' leaves nothing of the outline", "move it inwards by less than half its width");
+  if (o.kind != Kind::polygon || o.points_mm.size() < 3) return;
+  if (crosses_itself(o.points_mm))
+    t.problem("points_mm", "the polygon crosses itself", "list its corners in their order around the outline");
+  else if (area_mm2(o.points_mm) < 0.01)
+    t.problem("points_mm", "the polygon encloses nothing", "give corners that do not lie on one line");
+}
+
+TissuePart read_part(CheckedTable& t) { return t.word("part", {"all", "chamber"}, 0) == 1 ? TissuePart::chamber : TissuePart::all; }
+
+OutlineSpec read_outline(const toml::table& table, const std::string& name, ProblemList& problems) {
+  using Kind = OutlineSpec::Kind;
+  CheckedTable t(table, name + " outline", problems);
+  OutlineSpec o;
+  const std::size_t kind = t.word("kind", {"circle", "polygon", "stroke", "projection"}, 0, true);
+  if (kind == CheckedTable::k_wrong) return o;  // what else it needs depends on the kind
+  o.kind = static_cast<Kind>(kind);
+  o.offset_mm = t.number("offset_mm", -5, 5, 0);
+  switch (o.kind) {
+    case Kind::circle:
+      o.radius_mm = t.number("radius_mm", 0.05, 20, 1, true);
+      break;
+    case Kind::polygon:
+      o.points_mm = t.points("points_mm", 3, true);
+      break;
+    case Kind::stroke:
+      o.points_mm = t.points("points_mm", 2, true);
+      o.width_mm = t.number("width_mm", 0.1, 20, 1, true);
+      break;
+    case Kind::projection:
+      o.tissue = t.text("tissue", "pulp");
+      o.part = read_part(t);
+      o.rounding_mm = t.number("rounding_mm", 0, 5, 0);
+      break;
+  }
+  if (o.kind != Kind::projection) {
+    o.centre_mm = t.vector("centre_mm", 2, {});
+    o.from_chamber = t.word("from", {"tooth", "chamber"}, 0) == 1;
+  }
+  check_outline(t, o, problems);
+  t.finish();
+  return o;
+}
+
+BottomSpec read_bottom(const toml::table& table, const std::string& name, ProblemList& problems) {
+  using Kind = BottomSpec::Kind;
+  CheckedTable t(table, name + " bottom", problems);
+  BottomSpec b;
+  const std::size_t kind = t.word("kind", {"level", "below_surface", "below_lowest", "below_mean", "tissue_roof", "tissue_floor"}, 0, true);
+  if (kind == CheckedTable::k_wrong) return b;
+  b.kind = static_cast<Kind>(kind);
+  switch (b.kind) {
+    case Kind::level:
+      b.z_mm = t.number("z_mm", -k_largest_mm, k_largest_mm, 0, true);
+      break;
+    case Kind::below_surface:
+    case Kind::below_lowest:
+    case Kind::below_mean:
+      b.depth_mm = t.number("depth_mm", 0.05, 30, 1, true);
+      break;
+    default:
+      b.tissue = t.text("tissue", "pulp");
+      b.part = read_part(t);
+      b.deeper_mm = t.number("deeper_mm", -5, 5, 0);
+  }
+  t.finish();
+  return b;
+}
+
+ShapeSpec read_shape(const toml::table& table, const std::string& name, const std::string& at, Places& places, ProblemList& problems) {
+  using Kind = ShapeSpec::Kind;
+  CheckedTable t(table, name, problems);
+  ShapeSpec s;
+  s.line = static_cast<int>(table.source().begin.line);
+  s.column = static_cast<int>(table.source().begin.column);
+  places[at] = {s.line, s.column};
+  for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, at + "/" + key);
+  const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone"}, 0, true);
+  const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
+  if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
+  s.kind = static_cast<Kind>(kind);
+  s.combine = static_cast<ShapeSpec::Combine>(combine);
+  const auto outline = [&] {
+    if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
+  };
+  const auto axis = [&] {
+    const Vec3 along = t.vector("axis", 3, {0, 0, 1});
+    if (length(along) < 1e-6) t.problem("axis", "'axis' has no direction", "write for example [0, 0, 1]");
+    s.axis = normalized(along);
+  };
+  const auto pose = [&](bool turnable) {
+    s.at_mm = t.vector("at_mm", 3, {}, true);
+    axis();
+    if (turnable) s.turn_deg = t.number("turn_deg", -360, 360, 0);
+  };
+  switch (s.kind) {
+    case Kind::box: {
+      pose(true);
+      s.size_mm = t.vector("size_mm", 3, {1, 1, 1}, true);
+      if (!(s.size_mm.x > 0 && s.size_mm.y > 0 && s.size_mm.z > 0)) t.problem("size_mm", "'size_mm' must be positive", "write three lengths in mm");
+      break;
+    }
+    case Kind::cylinder:
+      pose(false);
+      s.radius_mm = t.number("radius_mm", 0.05, k_largest_mm, 1, true);
+      s.height_mm = t.number("height_mm", 0.05, k_largest_mm, 1, true);
+      break;
+    case Kind::cone:
+      pose(false);
+      s.radius_mm = t.number("radius_mm", 0, k_largest_mm, 1, true);
+      s.top_radius_mm = t.number("top_radius_mm", 0, k_largest_mm, 1, true);
+      s.height_mm = t.number("height_mm", 0.05, k_largest_mm, 1, true);
+      break;
+    case Kind::ball:
+      s.at_mm = t.vector("at_mm", 3, {}, true);
+      s.radius_mm = t.number("radius_mm", 0.05, k_largest_mm, 1, true);
+      break;
+    case Kind::prism:
+      pose(true);
+      s.height_mm = t.number("height_mm", 0.05, k_largest_mm, 1, true);
+      outline();
+      if (s.outline.kind == OutlineSpec::Kind::projection) t.problem("outline", "a prism cannot use a projection", "use shape = \"column\"");
+      break;
+    case Kind::column:
+      s.taper_deg = t.number("taper_deg", -30, 45, 0);
+      outline();
+      if (const auto* b = t.table("bottom", true)) s.bottom = read_bottom(*b, name, problems);
+      break;
+    case Kind::tissue:
+      s.tissue = t.text("tissue", "pulp", true);
+      s.part = read_part(t);
+      s.offset_mm = t.number("offset_mm", -5, 5, 0);
+      break;
+    case Kind::stl: {
+      s.file = t.text("file", "", true);
+      const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
+      if (!s.file.empty() && !named) t.problem("file", "'file' is no STL file", "name a closed surface in mm, in the tooth's frame, ending in .stl");
+      break;
+    }
+    case Kind::canal_cone: {
+      s.tissue = t.text("tissue", "pulp");
+      const std::size_t side =
+          t.word("canals", {"all", "mesial", "distal", "buccal", "lingual", "mesiobuccal", "mesiolingual", "distobuccal", "distolingual"}, 0);
+      constexpr std::array<std::array<int, 2>, 9> k_sides{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+      if (side != CheckedTable::k_wrong) {
+        s.canals_x = k_sides[side][0];
+        s.canals_y = k_sides[side][1];
+      }
+      s.radius_mm = t.number("radius_mm", 0.05, 5, 0);
+      s.taper_deg = t.number("taper_deg", 0, 45, 5);
+      s.deeper_mm = t.number("deeper_mm", -5, 5, 0);
+      axis();
+      break;
+    }
+  }
+  t.finish();
+  return s;
+}
+
+std::vector<ShapeSpec> read_shapes(CheckedTable& zones, const char* key, bool required, Places& places, ProblemList& problems) {
+  std::vector<ShapeSpec> list;
+  for (const auto* table : zones.tables(key, required)) {
+    list.push_back(
+        read_shape(*table, std::string("[[zones.") + key + "]]", "zones/" + std::string(key) + "/" + std::to_string(list.size()), places, problems));
+    if (list.size() == 1 && list[0].combine != ShapeSpec::Combine::add)
+      problems.add(table->source(), "the first shape of a zone must be added", "take out 'combine' or put another shape first");
+  }
+  return list;
+}
+
+/// Each list may be as long as is allowed, and all together take too long.
+void check_sum(CheckedTable& zones, const ZoneSpec& z) {
+  std::size_t bodies = 0, points = 0;
+  for (const auto* list : {&z.target, &z.protected_shapes})
+    for (const auto& shape : *list) {
+      ++bodies;
+      points += shape.outline.points_mm.size();
+    }
+  if (bodies > k_most_bodies)
+    zones.problem("target", "the zones have " + std::to_string(bodies) + " bodies", "use at most " + std::to_string(k_most_bodies));
+  if (points > k_most_points)
+    zones.problem("target", "the outlines have " + std::to_string(points) + " points in all", "use at most " + std::to_string(k_most_points));
+}
+
+MarginSpec read_margin(CheckedTable& zones, const char* key, ProblemList& problems) {
+  MarginSpec m;
+  if (const auto* table = zones.table(key, true)) {
+    CheckedTable t(*table, std::string("[zones.") + key + "]", problems);
+    m.sides_mm = t.number("sides_mm", 0, 5, 0, true);
+    m.bottom_mm = t.number("bottom_mm", 0, 5, 0, true);
+    t.finish();
+  }
+  return m;
+}
+
+}  // namespace
+
+ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& places, ProblemList& problems) {
+  CheckedTable t(table, "[zones]", problems);
+  ZoneSpec z;
+  z.target = read_shapes(t, "target", true, places, problems);
+  for (const char* key : {"leeway", "container"}) t.note(places, key, std::string("zones/") + key);
+  const std::size_t before = problems.size();
+  z.leeway = read_margin(t, "leeway", problems);
+  z.container = read_margin(t, "container", problems);
+  if (problems.size() == before && (z.container.sides_mm < z.leeway.sides_mm || z.container.bottom_mm < z.leeway.bottom_mm))
+    t.problem("container", "the container is narrower than the leeway", "make it at least as wide: it is measured from the target too");
+  z.protected_shapes = read_shapes(t, "protected", false, places, problems);
+  check_sum(t, z);
+  t.finish();
+  return z;
+}
+
+}  // namespace cavum

@@ -1,0 +1,102 @@
+#include "scenarios/file/surface_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/tooth/mesh/read_mesh.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::size_t k_most_bytes = 32u << 20;
+constexpr double k_furthest_mm = 200;
+
+/// `where: what; what to do` without its where.
+struct Said {
+  std::string what, what_to_do;
+};
+Said said(const Error& e, const std::string& where) {
+  const std::string text = e.what();
+  const auto then = text.rfind("; ");
+  return {text.substr(where.size() + 2, then - where.size() - 2), text.substr(then + 2)};
+}
+
+/// Calls `visit(shape, place)` for every STL of the zones.
+template <class AnyScenario, class Visit>
+void for_each_surface(AnyScenario& s, const Visit& visit) {
+  const auto all = [&](auto& list, const std::string& key) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (list[i].kind == ShapeSpec::Kind::stl) visit(list[i], "zones/" + key + "/" + std::to_string(i) + "/file");
+  };
+  all(s.zones.target, "target");
+  all(s.zones.protected_shapes, "protected");
+}
+
+/// Throws Error(name, ...).
+void take(ShapeSpec& shape, const Bytes& bytes, const std::string& name) {
+  ReadMesh read = read_closed_stl(bytes, name);
+  for (const Vec3 v : read.mesh.vertices_mm)
+    if (std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) > k_furthest_mm)
+      throw Error(name, "the surface reaches further than 200 mm from the tooth's origin", "export it in mm, in the tooth's frame");
+  shape.file_sha256 = sha256(bytes);
+  shape.surface = std::make_shared<const TriangleMesh>(std::move(read.mesh));
+}
+
+const Bytes* find(const SurfaceFiles& files, const std::string& name) {
+  const auto at = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.first == name; });
+  return at == files.end() ? nullptr : &at->second;
+}
+
+}  // namespace
+
+std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
+  namespace fs = std::filesystem;
+  std::vector<Problem> problems;
+  for_each_surface(scenario, [&](ShapeSpec& shape, const std::string& place) {
+    if (!shape.file.ends_with(".stl") && !shape.file.ends_with(".STL")) return;  // a mistake of the text, named already
+    const auto wrong = [&](const std::string& what, const std::string& what_to_do) {
+      problems.push_back(problem_at(scenario, place, "'" + shape.file + "': " + what, what_to_do));
+    };
+    const fs::path path = fs::path(scenario.path).parent_path() / shape.file;
+    std::error_code none;
+    if (fs::is_directory(path, none)) return wrong("it is a folder, not a file", "name the STL file in it");
+    if (!fs::is_regular_file(path, none)) return wrong("there is no such file", "put it beside the scenario, or give the way to it from there");
+    if (fs::file_size(path, none) > k_most_bytes) return wrong("the file is larger than 32 MB", "thin the surface out: a leaf is 0.05 mm wide");
+    try {
+      if (find(files, shape.file) == nullptr) files.emplace_back(shape.file, read_file(path.string()));
+      take(shape, *find(files, shape.file), shape.file);
+    } catch (const Error& e) {
+      const Said s = said(e, shape.file);
+      wrong(s.what, s.what_to_do);
+    }
+  });
+  return problems;
+}
+
+void use_surfaces(Scenario& scenario, const SurfaceFiles& files) {
+  for_each_surface(scenario, [&](ShapeSpec& shape, const std::string&) {
+    const Bytes* bytes = find(files, shape.file);
+    if (bytes == nullptr) throw Error(scenario.path, "the session does not hold the surface '" + shape.file + "'", "use an intact copy");
+    take(shape, *bytes, scenario.path + ": " + shape.file);
+  });
+}
+
+void require_same_surfaces(const Scenario& scenario, const Scenario& recorded) {
+  for_each_surface(scenario, [&](const ShapeSpec& now, const std::string& place) {
+    for_each_surface(recorded, [&](const ShapeSpec& then, const std::string&) {
+      if (now.file != then.file || now.file_sha256 == then.file_sha256) return;
+      const auto begin = [](const Sha256& hash) { return to_hex(hash).substr(0, 12); };
+      const Problem p = problem_at(scenario, place,
+                                   "'" + now.file + "' is not the surface that the session ran with (SHA-256 " + begin(now.file_sha256) +
+                                       "... instead of " + begin(then.file_sha256) + "...)",
+                                   "put the old one back, or give the corrected surface a name of its own");
+      throw Error(p.where, p.what, p.what_to_do);
+    });
+  });
+}
+
+}  // namespace cavum

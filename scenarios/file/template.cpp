@@ -1,0 +1,382 @@
+#include "scenarios/file/template.h"
+
+#include <array>
+#include <string_view>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+/// A tooth that tasks are written for. A new tooth is a new line here, with a line in k_tasks for each task it is good for.
+struct ToothKind {
+  std::string_view word, file, how;  ///< as --tooth names it; file of data/teeth; where it comes from
+};
+constexpr std::array<ToothKind, 5> k_teeth{{
+    {"molar", "lower_molar.cvt", "lower first molar, ships with Cavum"},
+    {"premolar", "upper_premolar.cvt", "upper second premolar, ships with Cavum"},
+    {"incisor", "upper_incisor.cvt", "upper central incisor, ships with Cavum"},
+    {"carious_molar", "molar_lesion.cvt", "lower first molar with a hidden lesion: cavum tooth make molar --lesion 0.2,0,-0.85,1.5,1.1,0.55"},
+    {"block", "block.cvt",
+     "ships with Cavum: cavum tooth make block --size-mm 10,10,6 --layers enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3 --leaf-mm 0.05"},
+}};
+
+/// A task on a tooth. `zones` is what is to be removed, in the tooth's own lengths; `kind` chooses steps, margins and rubric.
+enum class Kind { cavity, access };
+struct Task {
+  std::string_view tooth, word;
+  Kind kind;
+  std::string_view title, what, points;
+  double time_limit_s;
+  std::string_view aims, faults;
+  std::string_view zones, guard;
+};
+
+constexpr std::string_view k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
+constexpr std::string_view k_pulp_guard =
+    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
+shape = "tissue"
+tissue = "pulp"
+offset_mm = 0.5
+)";
+constexpr std::string_view k_lesion_guard =
+    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
+shape = "tissue"
+tissue = "pulp"
+offset_mm = 0.3
+)";
+constexpr std::string_view k_root_guard =
+    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
+shape = "tissue"
+tissue = "periodontium"
+)";
+
+constexpr std::array<Task, 10> k_tasks{{
+    {"molar", "access", Kind::access, "Access to the pulp chamber", "Remove the whole roof of the pulp chamber; leave walls and floor.",
+     R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
+     R"(# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to the chamber's floor.
+[[zones.target]]
+shape = "column"
+outline = { kind = "projection", tissue = "pulp", part = "chamber", offset_mm = 0.1, rounding_mm = 0.55 }
+bottom = { kind = "tissue_floor", tissue = "pulp", part = "chamber" }
+)",
+     k_root_guard},
+    {"molar", "class_1", Kind::cavity, "Class I cavity along the central fissure", "Flat floor 1.8 mm below the fissure, 1.4 mm wide, upright walls.",
+     k_cavity_tray, 480, "[]", R"(["pulp", "periodontium"])",
+     R"(# A stroke along the fissure: half circles of 0.7 mm at its ends, 4.4 mm long in all.
+[[zones.target]]
+shape = "column"
+outline = { kind = "stroke", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }
+bottom = { kind = "below_lowest", depth_mm = 1.8 }
+taper_deg = 0
+)",
+     k_pulp_guard},
+    {"molar", "class_2", Kind::cavity, "Class II cavity, mesial", "An occlusal step along the fissure, and a box through the mesial ridge.",
+     k_cavity_tray, 900, "[]", R"(["pulp", "periodontium"])",
+     R"(# The occlusal step ...
+[[zones.target]]
+shape = "column"
+outline = { kind = "stroke", points_mm = [[-1.5, 0], [3.6, 0]], width_mm = 1.4 }
+bottom = { kind = "below_lowest", depth_mm = 1.8 }
+
+# ... and the box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
+[[zones.target]]
+shape = "prism"
+at_mm = [0, 0, -1.0]
+height_mm = 6
+outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
+)",
+     k_pulp_guard},
+    {"molar", "slot", Kind::cavity, "Slot at the mesial surface", "A box through the mesial ridge without a step in the fissure.", k_cavity_tray, 600,
+     "[]", R"(["pulp", "periodontium"])",
+     R"(# The box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
+[[zones.target]]
+shape = "prism"
+at_mm = [0, 0, -1.0]
+height_mm = 6
+outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
+)",
+     k_pulp_guard},
+    {"premolar", "access", Kind::access, "Access to the pulp chamber",
+     "Remove the whole roof of the pulp chamber with both horns; spare the mesial and distal walls.",
+     R"(["cylinder-round-1.0", "endo-access-1.0", "round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
+     R"(# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canal begins.
+[[zones.target]]
+shape = "column"
+outline = { kind = "projection", tissue = "pulp", part = "chamber", offset_mm = 0.1, rounding_mm = 0.55 }
+bottom = { kind = "tissue_floor", tissue = "pulp", part = "chamber" }
+)",
+     k_root_guard},
+    {"incisor", "access", Kind::access, "Access to the pulp chamber",
+     "From the lingual side: remove roof, horns and lingual shoulder; leave the labial wall.",
+     R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
+     R"(# A triangle with rounded corners in the lingual fossa, along an axis that leans 30 degrees towards lingual: the first body's axis is the
+# way in. In the prism's frame y runs to incisal; at_mm is the middle of its lower face.
+[[zones.target]]
+shape = "prism"
+at_mm = [0, 0, -3.0]
+axis = [0, -0.5, 0.8660254]
+height_mm = 12
+outline = { kind = "polygon", points_mm = [[-0.95, 2.65], [-0.45, 0.05], [0.45, 0.05], [0.95, 2.65]], offset_mm = 0.55 }
+
+# Nothing labial of the pulp: a plane just inside its labial wall.
+[[zones.target]]
+shape = "box"
+combine = "subtract"
+at_mm = [0, 4.04, -0.255]
+size_mm = [12, 6, 24]
+axis = [0, 0.085, 0.9964]
+)",
+     k_root_guard},
+    {"carious_molar", "lesion", Kind::cavity, "Removal of a hidden lesion",
+     "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])",
+     600, "[]", R"(["pulp", "periodontium"])",
+     R"(# The lesion itself ...
+[[zones.target]]
+shape = "tissue"
+tissue = "lesion"
+
+# ... and the way to it: its shadow, down to its roof.
+[[zones.target]]
+shape = "column"
+outline = { kind = "projection", tissue = "lesion", rounding_mm = 0.55 }
+bottom = { kind = "tissue_roof", tissue = "lesion" }
+)",
+     k_lesion_guard},
+    {"block", "class_1", Kind::cavity, "Cavity like a class I in a block", "4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor.",
+     k_cavity_tray, 480, "[]", R"(["pulp"])",
+     R"(# A stroke of 1.4 mm with half circles at its ends, 4.4 mm long in all.
+[[zones.target]]
+shape = "column"
+outline = { kind = "stroke", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }
+bottom = { kind = "below_surface", depth_mm = 1.8 }
+taper_deg = 0
+)",
+     k_pulp_guard},
+    {"block", "slot", Kind::cavity, "Slot through a block", "1.5 mm wide and 1.8 mm deep, from the middle of the block out through its mesial side.",
+     k_cavity_tray, 480, "[]", R"(["pulp"])",
+     R"(# A box that stands out over the block: only tissue counts. at_mm is its centre.
+[[zones.target]]
+shape = "box"
+at_mm = [3.0, 0, 0]
+size_mm = [6, 1.5, 3.6]
+)",
+     k_pulp_guard},
+    {"block", "cross", Kind::cavity, "Cross in a block", "Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles.", k_cavity_tray, 600,
+     "[]", R"(["pulp"])",
+     R"(# One groove from mesial to distal ...
+[[zones.target]]
+shape = "column"
+outline = { kind = "stroke", points_mm = [[-2.3, 0], [2.3, 0]], width_mm = 1.4 }
+bottom = { kind = "below_surface", depth_mm = 1.5 }
+
+# ... and one from lingual to buccal.
+[[zones.target]]
+shape = "column"
+outline = { kind = "stroke", points_mm = [[0, -2.3], [0, 2.3]], width_mm = 1.4 }
+bottom = { kind = "below_surface", depth_mm = 1.5 }
+)",
+     k_pulp_guard},
+}};
+
+constexpr std::string_view k_head = R"(# A scenario of Cavum. Lengths in mm, times in s, forces in N.
+# Frame of a tooth: origin at the crown's centre (of a block: the centre of its top face), +x mesial, +y buccal, +z occlusal.
+#   cavum scenario check FILE                every mistake, and what is legal but unwise
+#   cavum scenario show FILE --out F.svg     the zones on three sections and from above
+#   cavum scenario solve FILE                the built-in expert proves that the task can be passed
+)";
+
+constexpr std::string_view k_frame = R"(
+[accommodations]                     # for everyone who takes it; `cavum exam` grants others to one candidate
+extra_time_percent = 0               # of every time limit
+extra_time_s = 0                     # besides, of the exam's limit
+left_handed = false
+high_contrast = false
+
+# [pauses]                           # breaks, taken with a button of the stylus while the handpiece stands still
+# count = 1                          # how many; the clock stands still in them
+# longest_s = 120                    # each ends by itself after this
+# button = 2
+
+# Steps, one after the other. complete_when and fail_when are conditions over live quantities:
+#   time_s step_time_s target_removed_percent removed_mm3 leeway_mm3 container_mm3 outside_mm3 protected_mm3 depth_mm
+#   x_mm y_mm z_mm force_n peak_force_n pedal rpm contact cutting point button_1 button_2 perforated touched_NAME (mm3 of a tissue)
+# with + - * / < <= > >= == != && || ?: and min(), max(), abs(). A step may also have
+#   fail_when = "outside_mm3 > 5"    time_limit_s = 300    failure_ends_exam = true
+)";
+
+constexpr std::string_view k_cavity_steps = R"([[steps]]
+id = "entry"
+instruction = "Enter in the middle of the outline and go to full depth."
+complete_when = "target_removed_percent >= 10"
+
+[[steps]]
+id = "extension"
+instruction = "Extend to the outline at constant depth. Release the pedal and lift off when done."
+complete_when = "target_removed_percent >= 88 && pedal < 0.05 && contact == 0"
+)";
+constexpr std::string_view k_access_steps = R"([[steps]]
+id = "outline"
+instruction = "Cut the outline of the access through the enamel."
+complete_when = "target_removed_percent >= 20 || touched_pulp > 0"
+
+[[steps]]
+id = "chamber"
+instruction = "Go deeper in the middle of the outline until you fall into the pulp chamber."
+complete_when = "touched_pulp > 0.05"
+
+[[steps]]
+id = "roof"
+instruction = "Remove the rest of the roof. Do not touch the floor. Release the pedal and lift off when done."
+complete_when = "target_removed_percent >= 85 && pedal < 0.05 && contact == 0"
+)";
+
+constexpr std::string_view k_shapes = R"(
+# What is to be removed: shapes combined in their order (combine = "add", "subtract" or "intersect").
+#   box      at_mm (centre), size_mm, axis, turn_deg
+#   ball     at_mm, radius_mm
+#   cylinder at_mm (middle of the lower face), radius_mm, height_mm, axis
+#   cone     the same, and top_radius_mm
+#   prism    at_mm, height_mm, axis, turn_deg, outline
+#   column   outline, bottom, taper_deg: from the occlusal surface down to the bottom
+#   tissue   tissue, part, offset_mm: the leaves of a tissue, grown
+#   canal_cone  canals = "all" or "mesial", "distobuccal" ..., radius_mm (else the mouth's own), taper_deg, deeper_mm, axis: on the canals' mouths
+#   stl      file = "zone.stl": a closed surface in mm, in the tooth's frame, beside this file
+# outline = { kind = "circle", radius_mm } | { kind = "polygon", points_mm } | { kind = "stroke", points_mm, width_mm }
+#         | { kind = "projection", tissue, part = "all" or "chamber", rounding_mm }; all with offset_mm, the first three
+#           with centre_mm and from = "tooth" or "chamber"
+# bottom  = { kind = "level", z_mm } | { kind = "below_surface" or "below_lowest" or "below_mean", depth_mm }
+#         | { kind = "tissue_roof" or "tissue_floor", tissue, part, deeper_mm }
+)";
+
+constexpr std::string_view k_margins = R"(
+[zones.leeway]                       # tolerated, this far beside and below the target
+sides_mm = 0.25
+bottom_mm = 0.2
+
+[zones.container]                    # damage, measured from the target too; everything beyond it counts as outside
+sides_mm = 1.0
+bottom_mm = 0.8
+
+)";
+
+constexpr std::string_view k_rubric = R"(
+[rubric]
+rule = "compensatory"                # or "non-compensatory": each criterion must reach pass_percent
+pass_percent = 65
+borderline_percent = 3               # this close to the pass mark a person decides
+
+# Points run linearly from `full` to `zero`. critical_above or critical_below: beyond it the exam is failed.
+[[rubric.criteria]]
+id = "removed"
+title = "Cavity complete"
+metric = "target_removed_percent"
+full = 92
+zero = 60
+points = 45
+critical_below = 60
+
+[[rubric.criteria]]
+id = "walls"
+title = "Walls not overcut"
+metric = "container_sides_mm3"
+full = 0.3
+zero = 3
+points = 20
+
+[[rubric.criteria]]
+id = "floor"
+title = "Floor not too deep"
+metric = "container_bottom_mm3"
+full = 0.1
+zero = 1.5
+points = 15
+
+[[rubric.criteria]]
+id = "elsewhere"
+title = "Nothing removed elsewhere"
+metric = "outside_mm3"
+full = 0.05
+zero = 1
+points = 10
+
+[[rubric.criteria]]
+id = "perforation"
+title = "No perforation"
+metric = "perforated"
+full = 0
+zero = 1
+points = 10
+critical_above = 0.5
+
+# What the task exists to catch: the simulated candidate `careless` does it, and must fail by that criterion
+# (cavum exam FILE --operator careless ...).
+# [careless]
+# sides_mm = 0.6                     # beyond the target's sides; bottom_mm: below its floor; both may be negative
+# opening_percent = 100              # less: opens only the middle of the outline
+# perforates = false                 # true: goes on through the floor into a tissue under faults
+# fails_by = "walls"
+)";
+
+std::string line(const std::string& text, const std::string& comment) {
+  std::string s = text;
+  if (!comment.empty()) s += std::string(s.size() < 36 ? 37 - s.size() : 1, ' ') + "# " + comment;
+  return s + "\n";
+}
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+std::string all_choices() {
+  std::string text;
+  for (const auto& tooth : k_teeth) {
+    text += (text.empty() ? "" : "; ") + std::string(tooth.word) + " with";
+    bool first = true;
+    for (const auto& task : k_tasks)
+      if (task.tooth == tooth.word) {
+        text += (first ? " " : ", ") + std::string(task.word);
+        first = false;
+      }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<TemplateChoice> template_choices() {
+  std::vector<TemplateChoice> list;
+  for (const auto& t : k_tasks) list.push_back({std::string(t.tooth), std::string(t.word)});
+  return list;
+}
+
+std::string scenario_template(const std::string& tooth_word, const std::string& task_word) {
+  const ToothKind* tooth = nullptr;
+  const Task* task = nullptr;
+  for (const auto& t : k_teeth)
+    if (t.word == tooth_word) tooth = &t;
+  for (const auto& t : k_tasks)
+    if (t.tooth == tooth_word && t.word == task_word) task = &t;
+  if (tooth == nullptr) throw Error("--tooth " + tooth_word, "there is no such tooth to write a scenario for", "choose " + all_choices());
+  if (task == nullptr) throw Error("--task " + task_word, "there is no such task for the " + tooth_word, "choose " + all_choices());
+  const bool access = task->kind == Kind::access;
+  std::string s(k_head);
+  s += line("id = " + quoted(std::string(tooth_word) + "_" + task_word), "small letters, digits, _ and -");
+  s += line("title = " + quoted(task->title), "what the candidate reads first");
+  s += line("description = " + quoted(task->what), "");
+  s += "# " + std::string(tooth->how) + "\n";
+  s += line("tooth = " + quoted(tooth->file), "beside this file, or in data/teeth");
+  s += "# allowed diamond points (data/points); the first is mounted\n" + line("points = " + std::string(task->points), "");
+  s += line("max_rpm = 200000", "a faster handpiece is a violation");
+  s += line("time_limit_s = " + std::to_string(static_cast<int>(task->time_limit_s)), "to the tick of 1 ms; what is done later does not count");
+  s += line("force_limit_n = 2.5", "pressing harder is counted; 0 = no limit");
+  s += k_frame;
+  s += access ? k_access_steps : k_cavity_steps;
+  s += "\n[perforation]\n" + line("aims = " + std::string(task->aims), "tissues that are to be opened") +
+       line("faults = " + std::string(task->faults), "tissues that must not be");
+  s += k_shapes;
+  s += task->zones;
+  s += k_margins;
+  s += task->guard;
+  s += k_rubric;
+  return s;
+}
+
+}  // namespace cavum

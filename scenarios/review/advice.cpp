@@ -1,0 +1,370 @@
+#include "scenarios/review/advice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "engine/base/text.h"
+#include "scenarios/candidates/expert_time.h"
+#include "scenarios/candidates/operator.h"
+#include "scenarios/exam/runner.h"
+#include "scenarios/file/checked_toml.h"
+#include "scenarios/file/condition.h"
+#include "scenarios/file/expression.h"
+#include "scenarios/file/names.h"
+#include "scenarios/file/rubric_check.h"
+#include "scenarios/zones/relief.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_no_end = 1e300;
+constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
+constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a point's reach
+constexpr double k_coarse_leaf_mm = 0.1;
+constexpr double k_least_wall_mm2 = 0.05;  // less hard tissue beside the target is no wall
+using Ranges = std::map<std::string, ValueRange>;
+
+class Adviser {
+ public:
+  Adviser(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points)
+      : s_(scenario), tooth_(tooth), zones_(zones), points_(points), limit_s_(static_cast<double>(exam_limit_ticks(scenario)) * k_tick_s) {
+    for (const auto& t : tooth.tissues) role_[t.id] = among(s_.perforation.aims, t.name) ? 1 : among(s_.perforation.faults, t.name) ? 2 : 0;
+  }
+
+  void target();
+  void leeway();
+  void walls();
+  void time(std::optional<double>& expert_s);
+  void steps();
+  void criteria();
+  [[nodiscard]] std::vector<Problem> take() { return std::move(problems_); }
+
+ private:
+  static bool among(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
+  void warn(const std::string& place, const std::string& what, const std::string& what_to_do) {
+    problems_.push_back(problem_at(s_, place, what, what_to_do));
+    problems_.back().warning = true;
+  }
+  [[nodiscard]] std::string mm3(std::uint64_t leaves) const { return fixed(static_cast<double>(leaves) * zones_.leaf_volume_mm3(), 2) + " mm3"; }
+  [[nodiscard]] double volume(std::initializer_list<Zone> list) const {
+    double sum = 0;
+    for (const Zone z : list) sum += static_cast<double>(zones_.count(z)) * zones_.leaf_volume_mm3();
+    return sum;
+  }
+  [[nodiscard]] Ranges common_ranges() const;
+  void step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges);
+  void criterion(std::size_t i, const CriterionSpec& c, const ValueRange& range);
+  void wall_criterion(std::size_t i, const CriterionSpec& c, const std::array<double, k_walls>& mm2);
+  [[nodiscard]] std::array<double, k_walls> wall_mm2() const;
+
+  const Scenario& s_;
+  const Tooth& tooth_;
+  const ZoneMap& zones_;
+  const std::vector<DiamondPoint>& points_;
+  double limit_s_;
+  std::array<int, 256> role_{};  // 1 aim, 2 fault
+  std::vector<Problem> problems_;
+};
+
+void Adviser::target() {
+  std::array<std::uint64_t, 256> inside{}, beside{};
+  const Octree& tree = tooth_.octree;
+  zones_.for_each_target_leaf([&](IVec3 leaf) {
+    ++inside[tree.tissue(leaf)];
+    for (const IVec3 step : k_six_neighbours)
+      if (zones_.zone(leaf + step) != Zone::target) ++beside[tree.tissue(leaf + step)];
+  });
+  for (const auto& t : tooth_.tissues) {
+    if (t.id == k_air || role_[t.id] == 1 || (role_[t.id] == 0 && tree.is_solid(t.id))) continue;
+    const std::string stays = role_[t.id] == 2 ? ", which must not be opened" : ", which is neither an aim nor a fault";
+    const std::string remedy = role_[t.id] == 2 ? "make the target smaller, or list '" + t.name + "' under aims"
+                                                : "list '" + t.name + "' under aims or faults of [perforation]";
+    if (inside[t.id] > 0)
+      warn("zones/target/0", "the target holds " + mm3(inside[t.id]) + " of " + t.name + stays, remedy);
+    else if (beside[t.id] > 0)
+      warn("zones/target/0", "the target touches the " + t.name + stays, remedy);
+  }
+  if (zones_.guarded_in_target() > 0)
+    warn("zones/target/0", "the target reaches " + mm3(zones_.guarded_in_target()) + " of what is protected, and the protection counts there",
+         "make the target smaller, or protect less");
+}
+
+void Adviser::leeway() {
+  std::array<std::uint64_t, 256> reached{};
+  std::uint64_t guarded = 0;
+  const auto& leeway = s_.zones.leeway;
+  zones_.for_each_leaf([&](IVec3 leaf, Zone zone) {
+    if (zone == Zone::target) return;
+    const Wall wall = zones_.wall(leaf);
+    if (wall == Wall::opening || zones_.distance_mm(leaf) > (wall == Wall::floor ? leeway.bottom_mm : leeway.sides_mm)) return;
+    const auto tissue = tooth_.octree.tissue(leaf);
+    if (tissue == k_air) return;
+    ++reached[tissue];
+    guarded += zone == Zone::protected_ && role_[tissue] != 2 ? 1 : 0;
+  });
+  for (const auto& t : tooth_.tissues)
+    if (role_[t.id] == 2 && reached[t.id] > 0)
+      warn("zones/leeway", "the leeway reaches " + mm3(reached[t.id]) + " of " + t.name + ", which must not be opened: it is wider than the wall",
+           "make the leeway narrower, or the target smaller");
+  if (guarded > 0)
+    warn("zones/leeway", "the leeway reaches " + mm3(guarded) + " of what is protected, and the protection counts there",
+         "make the leeway narrower, or protect less");
+}
+
+/// Walls that end in the air before the leeway does.
+void Adviser::walls() {
+  const ColumnMap surface = surface_relief(tooth_);
+  const Octree& tree = tooth_.octree;
+  const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope
+  std::array<std::uint64_t, k_walls> thin{};
+  const auto air_within = [&](IVec3 from, IVec3 way, double mm) {
+    IVec3 at = from + way;
+    if (zones_.zone(at) == Zone::target || tree.tissue(at) == k_air) return false;  // no wall there
+    for (double far = leaf; far <= mm; far += leaf) {
+      at = at + way;
+      if (tree.tissue(at) == k_air) return true;
+    }
+    return false;
+  };
+  zones_.for_each_target_leaf([&](IVec3 at) {
+    const IVec3 n = tree.size();
+    if (at.x < 0 || at.y < 0 || at.x >= n.x || at.y >= n.y) return;
+    if (air_within(at, {0, 0, -1}, s_.zones.leeway.bottom_mm)) ++thin[static_cast<std::size_t>(Wall::floor)];
+    if (surface.value[surface.index(at.x, at.y)] - zones_.centre_mm(at).z < rim_mm) return;
+    for (const IVec3 way : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
+      if (air_within(at, way, s_.zones.leeway.sides_mm)) ++thin[static_cast<std::size_t>(wall_of({double(way.x), double(way.y), 0}))];
+  });
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const double mm2 = static_cast<double>(thin[w]) * leaf * leaf;
+    if (mm2 < k_thin_wall_mm2) continue;
+    const bool floor = static_cast<Wall>(w) == Wall::floor;
+    warn("zones/leeway",
+         "the leeway is wider than the " + std::string(floor ? "floor" : wall_name(static_cast<Wall>(w))) + (floor ? "" : " wall") +
+             " of the tooth over " + fixed(mm2, 1) + " mm2: it leads out into the air",
+         "make the leeway narrower, or move the target inwards");
+  }
+}
+
+void Adviser::time(std::optional<double>& expert_s) {
+  if (zones_.leaf_mm() > k_coarse_leaf_mm)
+    warn("tooth", "the tooth's leaves are " + plain_number(zones_.leaf_mm()) + " mm wide: zones, reach and figures are known to half of that only",
+         "make the tooth with leaves of 0.05 mm");
+  if (!zones_.target_is_open()) {
+    warn("zones/target/0", "the target lies buried: no part of it is at the tooth's surface, so no point comes to it without cutting elsewhere",
+         "let the target reach up to the surface, for example by a shape \"column\" over it");
+    return;
+  }
+  std::vector<ContactTool> tray;
+  for (const auto& p : points_) tray.push_back(make_contact_tool(p));
+  const ChosenPoint chosen = choose_point(zones_, tooth_, tray);
+  // on coarse leaves a point may fit by half a leaf, which the plan cannot tell: only what fails with that to spare is sure
+  const double spare = 0.5 * zones_.leaf_mm();
+  const MarginSpec at_most{k_expert_margin.sides_mm + spare, k_expert_margin.bottom_mm + spare};
+  std::vector<double> covers = chosen.covers;
+  if (!covers.empty() && *std::min_element(covers.begin(), covers.end()) < k_poor_share) {
+    const FreeRoom room = free_room(zones_, tooth_, at_most);
+    for (std::size_t i = 0; i < tray.size(); ++i)
+      if (covers[i] < k_poor_share) covers[i] = std::max(covers[i], coverage(room, reach_map(room, zones_, tooth_, tray[i]), tray[i]));
+  }
+  double best = 0;
+  for (const double share : covers) best = std::max(best, share);
+  const auto percent = [](double share) { return fixed(100 * share, 0) + " %"; };
+  for (std::size_t i = 0; i < tray.size(); ++i)
+    if (covers[i] < k_useless_share)
+      warn("points/" + std::to_string(i), "the point '" + points_[i].name + "' fits into " + percent(covers[i]) + " of the target",
+           "take it out, or make the target wider");
+  if (best < k_poor_share)
+    warn("points", "no allowed point removes more than " + percent(best) + " of the target", "allow one that fits, or make the target wider");
+  if (chosen.index == tray.size()) return;
+  const auto way = plan_cut(chosen.map, tooth_, PlanOptions{});
+  expert_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
+  if (*expert_s > limit_s_)
+    warn("time_limit_s", "the built-in expert needs about " + fixed(*expert_s, 0) + " s, and the limit is " + plain_number(limit_s_) + " s",
+         "allow more time, or see what `cavum scenario solve` reaches");
+}
+
+/// What can happen in this tooth, for quantities and measures that share a name.
+Ranges Adviser::common_ranges() const {
+  double all = 0;
+  const auto leaves = tooth_.octree.count_leaves();
+  Ranges r;
+  for (const auto& t : tooth_.tissues) {
+    const double mm3_of = static_cast<double>(leaves[t.id]) * zones_.leaf_volume_mm3();
+    if (t.id != k_air) all += mm3_of;
+    r["touched_" + t.name] = r["touched_" + t.name + "_mm3"] = {0, mm3_of};
+  }
+  r["time_s"] = r["handpiece_time_s"] = r["idle_s"] = {0, limit_s_};
+  r["target_removed_percent"] = {0, 100};
+  r["missed_mm3"] = {0, zones_.target_mm3()};
+  r["removed_mm3"] = r["floor_cut_mm3"] = {0, all};
+  r["overhang_mm3"] = {0, zones_.target_mm3()};
+  r["canals_covered_percent"] = {0, 100};
+  r["dice"] = {0, 1};
+  r["protected_mm3"] = {0, volume({Zone::protected_})};
+  r["leeway_sides_mm3"] = {0, volume({Zone::leeway_sides})};
+  r["leeway_bottom_mm3"] = {0, volume({Zone::leeway_bottom})};
+  r["leeway_mm3"] = {0, volume({Zone::leeway_sides, Zone::leeway_bottom})};
+  r["container_sides_mm3"] = {0, volume({Zone::container_sides})};
+  r["container_bottom_mm3"] = {0, volume({Zone::container_bottom})};
+  r["container_mm3"] = {0, volume({Zone::container_sides, Zone::container_bottom})};
+  r["outside_mm3"] = r["overcut_mm3"] = {0, all};
+  r["steps_completed"] = r["steps_failed"] = {0, static_cast<double>(s_.steps.size())};
+  r["force_over_limit_s"] = {0, s_.force_limit_n > 0 ? limit_s_ : 0.0};
+  r["perforated"] = {0, s_.perforation.faults.empty() ? 0.0 : 1.0};
+  for (const char* grows : {"force_mean_n", "force_peak_n", "force_n", "peak_force_n", "path_mm", "violations", "perforation_events"})
+    r[grows] = {0, k_no_end};
+  for (const char* yes_no : {"pedal", "contact", "cutting", "button_1", "button_2"}) r[yes_no] = {0, 1};
+  r["rpm"] = {0, s_.max_rpm};
+  r["point"] = {0, static_cast<double>(s_.points.size()) - 1};
+  return r;
+}
+
+void Adviser::step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges) {
+  if (text.empty()) return;
+  const std::string place = "steps/" + std::to_string(step) + "/" + key;
+  std::vector<std::string> known;
+  for (const auto& t : tooth_.tissues) known.push_back("touched_" + t.name);
+  Ranges with_missing = ranges;
+  for (const auto& name : names_in_expression(text)) {
+    if (name.rfind("touched_", 0) != 0 || ranges.count(name) > 0) continue;
+    warn(place, "this tooth has no tissue '" + name.substr(8) + "', so '" + name + "' stays 0", suggestion(name, known));
+    with_missing[name] = {0, 0};
+  }
+  const Outlook outlook = judge_condition(text, with_missing);
+  const bool completes = std::string(key) == "complete_when";
+  if (outlook == Outlook::never)
+    warn(place, "'" + std::string(key) + "' can never come true",
+         completes ? "ask for something that can be reached, or the step ends by its time limit only"
+                   : "ask for something that can happen, or take it out");
+  if (outlook == Outlook::always)
+    warn(place, "'" + std::string(key) + "' is true from the first tick", completes ? "ask for something that is still to be done" : "take it out");
+}
+
+void Adviser::steps() {
+  Ranges ranges = common_ranges();
+  for (std::size_t i = 0; i < s_.steps.size(); ++i) {
+    const StepSpec& step = s_.steps[i];
+    ranges["step_time_s"] = {0, std::min(limit_s_, step.time_limit_s.value_or(limit_s_) * (1 + s_.accommodations.extra_time_percent / 100))};
+    step_condition(i, "complete_when", step.complete_when, ranges);
+    step_condition(i, "fail_when", step.fail_when, ranges);
+    if (step.time_limit_s && *step.time_limit_s > s_.time_limit_s)
+      warn("steps/" + std::to_string(i) + "/time_limit_s", "the step's time limit is longer than the exam's", "make it shorter, or take it out");
+  }
+}
+
+void Adviser::criterion(std::size_t i, const CriterionSpec& c, const ValueRange& range) {
+  const std::string place = "rubric/criteria/" + std::to_string(i);
+  const auto share = [&](double v) { return std::clamp((v - c.zero) / (c.full - c.zero), 0.0, 1.0); };
+  const double best = std::max(share(range.low), share(range.high)), worst = std::min(share(range.low), share(range.high));
+  const std::string runs = "'" + c.metric + "' " +
+                           (range.high >= k_no_end    ? "never falls below " + plain_number(range.low)
+                            : range.low == range.high ? "is always " + plain_number(range.low) + " here"
+                                                      : "runs from " + plain_number(range.low) + " to " + plain_number(range.high) + " here");
+  if (c.points > 0 && best <= 0)
+    warn(place + "/zero", "nobody can win these points: " + runs, "set 'full' and 'zero' within that");
+  else if (c.points > 0 && worst >= 1)
+    warn(place + "/full", "nobody can lose these points: " + runs, "set 'full' and 'zero' within that, or take the criterion out");
+  else if (c.points > 0 && best < 1)
+    warn(place + "/full", "nobody can win all of these points: " + runs, "set 'full' within that");
+  if (c.critical_below && c.critical_above && *c.critical_below > *c.critical_above)
+    warn(place + "/critical_below",
+         "everybody fails: every value is below " + plain_number(*c.critical_below) + " or above " + plain_number(*c.critical_above),
+         "make critical_below the smaller of the two");
+  else if ((c.critical_below && c.full < *c.critical_below) || (c.critical_above && c.full > *c.critical_above))
+    warn(place + (c.critical_below && c.full < *c.critical_below ? "/critical_below" : "/critical_above"),
+         "who has full marks at " + plain_number(c.full) + " fails by it all the same", "let the critical limit lie beyond 'full'");
+  if (among({"overhang_mm3", "canals_covered_percent"}, c.metric) && s_.perforation.aims.empty())
+    warn(place + "/metric",
+         "'" + c.metric + "' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points",
+         "name the aim in [perforation], or take the criterion out");
+  if ((c.critical_above && *c.critical_above < range.low) || (c.critical_below && *c.critical_below > range.high))
+    warn(place + (c.critical_above && *c.critical_above < range.low ? "/critical_above" : "/critical_below"), "everybody fails by this: " + runs,
+         "set it within that");
+  else if (c.critical_above && *c.critical_above >= range.high)
+    warn(place + "/critical_above", "nobody can fail by this: " + runs, "set it within that, or take it out");
+  else if (c.critical_below && *c.critical_below <= range.low)
+    warn(place + "/critical_below", "nobody can fail by this: " + runs, "set it within that, or take it out");
+}
+
+/// Hard tissue that stands beside the target, by wall.
+std::array<double, k_walls> Adviser::wall_mm2() const {
+  std::array<double, k_walls> mm2{};
+  const Octree& tree = tooth_.octree;
+  zones_.for_each_target_leaf([&](IVec3 leaf) {
+    for (const IVec3 step : k_six_neighbours)
+      if (const IVec3 beside = leaf + step; zones_.zone(beside) != Zone::target && tree.is_solid(tree.tissue(beside)))
+        if (const auto wall = static_cast<std::size_t>(zones_.wall(beside)); wall < k_walls) mm2[wall] += zones_.leaf_mm() * zones_.leaf_mm();
+  });
+  return mm2;
+}
+
+/// A figure of a wall that the cavity does not have.
+void Adviser::wall_criterion(std::size_t i, const CriterionSpec& c, const std::array<double, k_walls>& mm2) {
+  for (std::size_t w = 0; w < k_walls; ++w) {
+    const std::string name = wall_name(static_cast<Wall>(w));
+    if (!c.metric.starts_with(name + "_") || !c.metric.ends_with("_mm") || mm2[w] >= k_least_wall_mm2) continue;
+    warn("rubric/criteria/" + std::to_string(i) + "/metric",
+         "the cavity has no " + name + (w == static_cast<std::size_t>(Wall::floor) ? "" : " wall") +
+             " in this tooth: " + (c.metric.ends_with("max_over_mm") ? "nobody can lose these points" : "nobody can win these points"),
+         "take the criterion out, or measure a wall that stays");
+  }
+}
+
+void Adviser::criteria() {
+  const Ranges ranges = common_ranges();
+  const auto walls_mm2 = wall_mm2();
+  for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
+    const CriterionSpec& c = s_.rubric.criteria[i];
+    const std::string place = "rubric/criteria/" + std::to_string(i);
+    if (!(c.points > 0) && !c.critical_above && !c.critical_below)
+      warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
+    if (const auto range = ranges.find(c.metric); range != ranges.end())
+      criterion(i, c, range->second);
+    else if (c.metric.ends_with("max_over_mm") || c.metric.ends_with("max_under_mm") || c.metric.ends_with("_error_mm") ||
+             c.metric.ends_with("_error_deg"))
+      criterion(i, c, {0, k_no_end});
+    wall_criterion(i, c, walls_mm2);
+  }
+  for (auto& p : turned_round(s_.rubric)) problems_.push_back(std::move(p));
+  const bool guard_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) {
+    return among({"protected_mm3", "outside_mm3", "overcut_mm3"}, c.metric) && (c.points > 0 || c.critical_above);
+  });
+  if (!guard_judged && !s_.zones.protected_shapes.empty())
+    warn("zones/protected/0", "what is protected can be removed for nothing: no criterion measures it",
+         "add one on protected_mm3, outside_mm3 or overcut_mm3, or take [[zones.protected]] out");
+  const bool fault_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(),
+                                        [&](const CriterionSpec& c) { return c.metric.starts_with("perforat") || c.metric.starts_with("touched_"); });
+  if (!fault_judged && !s_.perforation.faults.empty())
+    warn("rubric/criteria/0/metric", "who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it",
+         "add one on perforated, with critical_above = 0.5");
+  if (!(s_.rubric.pass_percent > 0)) warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
+}
+
+}  // namespace
+
+std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, const Tooth& tooth, const ZoneMap& zones) {
+  scenario.rubric = rubric;
+  scenario.path = rubric.path;
+  scenario.places.clear();
+  for (std::size_t i = 0; i < rubric.criteria.size(); ++i)
+    scenario.places["rubric/criteria/" + std::to_string(i)] = rubric.criteria[i].metric_at;  // and so of all that it holds
+  Adviser a(scenario, tooth, zones, {});
+  a.criteria();
+  return a.take();
+}
+
+std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
+                            std::optional<double>& expert_s) {
+  Adviser a(scenario, tooth, zones, points);
+  a.target();
+  a.leeway();
+  a.walls();
+  a.time(expert_s);
+  a.steps();
+  a.criteria();
+  return a.take();
+}
+
+}  // namespace cavum

@@ -1,0 +1,22 @@
+// Warnings of what is legal but unwise in a scenario on its tooth: a target that opens what must stay closed, a leeway wider than
+// the wall, a limit shorter than the built-in expert needs, marks that nobody can win or lose, points and steps without use.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/instrument/diamond_point.h"
+#include "scenarios/file/parse.h"
+#include "scenarios/zones/zone_map.h"
+
+namespace cavum {
+
+/// Everything to warn of, in no order. `points` are the allowed ones, in the scenario's order. `expert_s` becomes the time that the
+/// built-in expert will need, about, when it can do the task at all.
+[[nodiscard]] std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
+                                          std::optional<double>& expert_s);
+
+/// What of it speaks of the rubric, when another one than the scenario's own is to mark an exam.
+[[nodiscard]] std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, const Tooth& tooth, const ZoneMap& zones);
+
+}  // namespace cavum

@@ -1,0 +1,114 @@
+#include "scenarios/review/check.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/file/checked_toml.h"
+#include "scenarios/file/surface_files.h"
+#include "scenarios/review/advice.h"
+
+namespace cavum {
+namespace {
+
+/// `where: what; what to do` of an Error as a problem at `place`; where the Error itself names a line of `path`, that stands.
+Problem problem_of(const Error& e, const Scenario& s, const std::string& place) {
+  const std::string text = e.what();
+  const auto then = text.rfind("; ");
+  const auto at = text.find(": ");
+  Problem p = problem_at(s, place, text.substr(at + 2, then - at - 2), text.substr(then + 2));
+  const std::string where = text.substr(0, at);
+  int line = 0, column = 0;
+  if (where.rfind(s.path + ":", 0) == 0) {
+    const char* end = where.data() + where.size();
+    const auto after_line = std::from_chars(where.data() + s.path.size() + 1, end, line);
+    if (after_line.ptr < end) std::from_chars(after_line.ptr + 1, end, column);
+  }
+  if (line > 0 && column > 0) {
+    p.where = where;
+    p.line = line;
+    p.column = column;
+  }
+  return p;
+}
+
+/// Diamond points of the tray; those that do not exist are problems.
+std::vector<DiamondPoint> read_points(const Scenario& s, std::vector<Problem>& problems) {
+  std::vector<DiamondPoint> points;
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    const std::string place = "points/" + std::to_string(i);
+    try {
+      const std::string file = find_data_file("points", s.points[i] + ".toml", s.path);
+      try {
+        points.push_back(parse_diamond_point(read_text_file(file), file));
+      } catch (const Error& e) {
+        problems.push_back(problem_at(s, place, "its file is wrong (" + std::string(e.what()) + ")", "mend that file, or use another point"));
+      }
+    } catch (const Error&) {
+      const auto known = data_names("points", s.path);
+      problems.push_back(problem_at(s, place, "there is no diamond point '" + s.points[i] + "'",
+                                    known.empty() ? "set CAVUM_DATA to the data folder" : suggestion(s.points[i], known)));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+bool CheckedScenario::sound() const {
+  return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
+}
+
+CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file) {
+  ReadScenario read = read_scenario(text, path);
+  CheckedScenario checked{std::move(read.problems), {}};
+  std::vector<Problem>& problems = checked.problems;
+  SurfaceFiles files;
+  for (auto& p : read_surfaces(read.scenario, files)) problems.push_back(std::move(p));
+  const Scenario& s = read.scenario;
+  const bool names_sound = checked.sound();
+  const auto points = names_sound || !s.points.empty() ? read_points(s, problems) : std::vector<DiamondPoint>();
+  std::optional<Tooth> tooth;
+  if (!tooth_file.empty()) {
+    tooth = load_tooth_file(tooth_file);
+    const auto name_of = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+    if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
+      problems.push_back(problem_at(s, "tooth",
+                                    "the scenario was written for " + name_of(s.tooth_file) + ", and is checked on " + name_of(tooth_file),
+                                    "see where its zones lie: `cavum scenario show --tooth`"));
+      problems.back().warning = true;
+    }
+  } else if (!s.tooth_file.empty()) {
+    try {
+      const std::string found = find_tooth_file(s);
+      try {
+        tooth = load_tooth_file(found);
+      } catch (const Error& e) {
+        problems.push_back(problem_at(s, "tooth", "the tooth cannot be read (" + std::string(e.what()) + ")", "name another, or make it again"));
+      }
+    } catch (const Error& e) {
+      problems.push_back(problem_of(e, s, "tooth"));
+    }
+  }
+  if (tooth) {
+    for (auto& p : missing_tissues(s, *tooth)) problems.push_back(std::move(p));
+    if (checked.sound()) {
+      try {
+        const ZoneMap zones = build_zones(s, *tooth);
+        for (auto& p : advise(s, *tooth, zones, points, checked.expert_s)) problems.push_back(std::move(p));
+      } catch (const Error& e) {
+        problems.push_back(problem_of(e, s, "zones"));
+      }
+    }
+  }
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+  problems.erase(std::unique(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a.text() == b.text(); }),
+                 problems.end());
+  return checked;
+}
+
+}  // namespace cavum

@@ -1,0 +1,22 @@
+// Everything that can be said of a scenario file before anyone takes it: mistakes of the text, what its tooth and its tray do
+// not have, and warnings of what is legal but unwise. `cavum scenario check` prints it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/file/parse.h"
+
+namespace cavum {
+
+struct CheckedScenario {
+  std::vector<Problem> problems;     ///< mistakes and warnings, in the order of the file
+  std::optional<double> expert_s;    ///< what the built-in expert needs, about; none with mistakes
+  [[nodiscard]] bool sound() const;  ///< no mistakes; warnings may be
+};
+
+/// `tooth_file`: lay the zones into this tooth instead of the scenario's own. Throws Error when that one cannot be read.
+[[nodiscard]] CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file = "");
+
+}  // namespace cavum

@@ -1,0 +1,133 @@
+#include "scenarios/review/picture_colours.h"
+
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "engine/base/text.h"
+#include "scenarios/review/picture.h"
+
+namespace cavum {
+namespace {
+
+// Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
+constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0", "#56b4e9", "#f0b74d",
+                          "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+// For candidates who need stronger contrasts: light and dark alone tell the tissues apart.
+constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#0047ab", "#ff8c00",
+                           "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
+
+// For what many did: the tissues recede.
+constexpr Palette k_grey{"#f7f7f7", "#e9e9e9", "#cfcfcf", "#dddddd", "#e0e0e0", "#56b4e9", "#f0b74d",
+                         "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+struct HeatBand {
+  double from_percent;
+  const char *over, *under;
+};
+// Orange against blue, which common colour blindnesses leave apart; lighter = rarer. Steps and colours are those of the class's tooth in 3D
+// (ui/report/page/src/deviation.ts).
+constexpr HeatBand k_heat[] = {{80, "#9c3a02", "#0b4488"},
+                               {60, "#dd6410", "#2b78bd"},
+                               {40, "#f58f3d", "#63a5d6"},
+                               {20, "#fdb777", "#9fc8e6"},
+                               {k_least_heat_percent, "#fdd9b5", "#cfe1f2"}};
+
+struct KeyEntry {
+  std::string colour, text;
+  bool is_line;
+};
+
+std::string key_svg(const std::vector<KeyEntry>& entries) {
+  std::string items;
+  double x = 4;
+  for (const auto& e : entries) {
+    if (e.is_line)
+      items += "<path d='M" + svg_number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
+    else
+      items += "<rect x='" + svg_number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
+    items += "<text x='" + svg_number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + e.text + "</text>";
+    x += 34 + 6.6 * static_cast<double>(e.text.size());
+  }
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + svg_number(x) + "' height='22' viewBox='0 0 " + svg_number(x) +
+         " 22' font-family='sans-serif'>" + items + "</svg>\n";
+}
+
+}  // namespace
+
+const char* heat_colour(double percent) {
+  for (const auto& band : k_heat)
+    if (std::fabs(percent) >= band.from_percent) return percent > 0 ? band.over : band.under;
+  return "";
+}
+
+const Palette& palette_of(bool high_contrast) { return high_contrast ? k_strong : k_usual; }
+
+const Palette& grey_palette() { return k_grey; }
+
+std::string svg_number(double v) {
+  std::string s = fixed(v, 2);
+  while (s.back() == '0') s.pop_back();
+  if (s.back() == '.') s.pop_back();
+  return s == "-0" ? "0" : s;
+}
+
+const char* tissue_colour(const Palette& colours, std::uint8_t t) {
+  switch (t) {
+    case k_enamel:
+      return colours.enamel;
+    case k_dentin:
+      return colours.dentin;
+    case k_pulp:
+      return colours.pulp;
+    case k_periodontium:
+      return colours.periodontium;
+    default:
+      return colours.other;
+  }
+}
+
+const char* finding_colour(const Palette& colours, Zone zone) {
+  switch (zone) {
+    case Zone::target:
+      return colours.removed;
+    case Zone::leeway_sides:
+    case Zone::leeway_bottom:
+      return colours.leeway;
+    default:
+      return colours.overcut;
+  }
+}
+
+std::string tissue_colour(std::uint8_t tissue, bool high_contrast) { return tissue_colour(palette_of(high_contrast), tissue); }
+
+std::string heat_legend_svg() {
+  std::vector<KeyEntry> entries{{k_grey.target_line, "target", true}};
+  const auto band = [](std::size_t i) {
+    return svg_number(k_heat[i].from_percent) + (i == 0 ? " % or more" : " to " + svg_number(k_heat[i - 1].from_percent) + " %");
+  };
+  for (std::size_t i = std::size(k_heat); i-- > 0;)
+    entries.push_back({k_heat[i].over, (i + 1 == std::size(k_heat) ? "removed, damage: " : "") + band(i), false});
+  for (std::size_t i = std::size(k_heat); i-- > 0;)
+    entries.push_back({k_heat[i].under, (i + 1 == std::size(k_heat) ? "left standing: " : "") + band(i), false});
+  return key_svg(entries);
+}
+
+std::string legend_svg(bool with_removed, bool high_contrast) {
+  const Palette& colours = palette_of(high_contrast);
+  std::vector<KeyEntry> entries{{colours.enamel, "enamel", false},
+                                {colours.dentin, "dentin", false},
+                                {colours.pulp, "pulp", false},
+                                {colours.periodontium, "periodontium", false},
+                                {colours.target_line, "target", true},
+                                {colours.leeway_line, "leeway", true},
+                                {colours.container_line, "container", true}};
+  if (!with_removed) entries.push_back({colours.guard_line, "protected", true});
+  if (with_removed) {
+    entries.push_back({colours.removed, "removed, target", false});
+    entries.push_back({colours.leeway, "removed, leeway", false});
+    entries.push_back({colours.overcut, "removed, damage", false});
+  }
+  return key_svg(entries);
+}
+
+}  // namespace cavum

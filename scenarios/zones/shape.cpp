@@ -1,0 +1,359 @@
+#include "scenarios/zones/shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "engine/base/det_math.h"
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "scenarios/zones/distance_transform.h"
+#include "scenarios/zones/mesh_body.h"
+#include "scenarios/zones/outline.h"
+
+namespace cavum {
+namespace {
+
+/// Distance of a body that is the meeting of two independent directions.
+double meet(double a, double b) noexcept {
+  if (a > 0 && b > 0) return std::sqrt(a * a + b * b);
+  return std::max(a, b);
+}
+
+class Box final : public Shape {
+ public:
+  explicit Box(const ShapeSpec& s) : frame_(shape_frame(s)), half_(s.size_mm * 0.5) {}
+  double distance_mm(Vec3 p) const noexcept override {
+    const Vec3 q = frame_.local(p);
+    const Vec3 d{std::fabs(q.x) - half_.x, std::fabs(q.y) - half_.y, std::fabs(q.z) - half_.z};
+    const double inside = std::max({d.x, d.y, d.z});
+    if (inside <= 0) return inside;
+    return length({std::max(d.x, 0.0), std::max(d.y, 0.0), std::max(d.z, 0.0)});
+  }
+
+ private:
+  ShapeFrame frame_;
+  Vec3 half_;
+};
+
+class Ball final : public Shape {
+ public:
+  explicit Ball(const ShapeSpec& s) : centre_(s.at_mm), radius_(s.radius_mm) {}
+  double distance_mm(Vec3 p) const noexcept override { return length(p - centre_) - radius_; }
+
+ private:
+  Vec3 centre_;
+  double radius_;
+};
+
+/// Cylinder and cone: a four-cornered profile turned about the axis.
+class Frustum final : public Shape {
+ public:
+  Frustum(const ShapeSpec& s, double top) : frame_(shape_frame(s)), low_(s.radius_mm), top_(top), height_(s.height_mm) {}
+  double distance_mm(Vec3 p) const noexcept override {
+    const Vec3 q = frame_.local(p);
+    const double r = std::sqrt(q.x * q.x + q.y * q.y), z = q.z;
+    const std::array<Vec3, 4> corner{{{0, 0, 0}, {low_, 0, 0}, {top_, height_, 0}, {0, height_, 0}}};
+    double nearest = 1e300;
+    for (std::size_t i = 0; i < 3; ++i) nearest = std::min(nearest, segment_distance({r, z, 0}, corner[i], corner[i + 1]));
+    const double side = (r - low_) * height_ - (top_ - low_) * z;  // sign of being outside the slanted wall
+    return z > 0 && z < height_ && side < 0 ? -nearest : nearest;
+  }
+  std::uint64_t pieces() const noexcept override { return 3; }
+
+ private:
+  ShapeFrame frame_;
+  double low_, top_, height_;
+};
+
+class Prism final : public Shape {
+ public:
+  explicit Prism(const ShapeSpec& s)
+      : frame_(shape_frame(s)), height_(s.height_mm), outline_(make_outline(s.outline, s.outline.centre_mm, nullptr)) {}
+  double distance_mm(Vec3 p) const noexcept override {
+    const Vec3 q = frame_.local(p);
+    return meet(outline_->distance_mm(q.x, q.y), std::fabs(q.z - 0.5 * height_) - 0.5 * height_);
+  }
+  std::uint64_t pieces() const noexcept override { return 1 + outline_->pieces(); }
+
+ private:
+  ShapeFrame frame_;
+  double height_;
+  std::unique_ptr<Outline> outline_;
+};
+
+/// An outline dropped from above; it has no upper end, for the occlusal opening is no wall.
+class Column final : public Shape {
+ public:
+  /// `bottom` has the tooth's columns. The outline's distance is the same all the way down, so it is taken once for each of them.
+  Column(std::unique_ptr<Outline> outline, ColumnMap bottom, double taper_deg, double outline_z)
+      : outline_(std::move(outline)), bottom_(std::move(bottom)), outline_z_(outline_z) {
+    at_centre_.reserve(bottom_.value.size());
+    for (int y = 0; y < bottom_.ny; ++y)
+      for (int x = 0; x < bottom_.nx; ++x)
+        at_centre_.push_back(outline_->distance_mm(centre(bottom_.origin_mm.x, x), centre(bottom_.origin_mm.y, y)));
+    const SinCos a = det_sincos(taper_deg * k_pi / 180);
+    tan_ = a.sin / a.cos;
+    cos_ = a.cos;
+  }
+  double distance_mm(Vec3 p) const noexcept override {
+    const double side = (outline_mm(p.x, p.y) - tan_ * (p.z - outline_z_)) * cos_;
+    return meet(side, bottom_.at(p.x, p.y) - p.z);
+  }
+
+ private:
+  [[nodiscard]] double centre(double origin, int i) const noexcept { return origin + (i + 0.5) * bottom_.leaf_mm; }
+  [[nodiscard]] double outline_mm(double x_mm, double y_mm) const noexcept {
+    const double qx = (x_mm - bottom_.origin_mm.x) / bottom_.leaf_mm, qy = (y_mm - bottom_.origin_mm.y) / bottom_.leaf_mm;
+    if (qx >= 0 && qy >= 0 && qx < bottom_.nx && qy < bottom_.ny) {
+      const int x = static_cast<int>(qx), y = static_cast<int>(qy);
+      if (centre(bottom_.origin_mm.x, x) == x_mm && centre(bottom_.origin_mm.y, y) == y_mm) return at_centre_[bottom_.index(x, y)];
+    }
+    return outline_->distance_mm(x_mm, y_mm);
+  }
+  std::unique_ptr<Outline> outline_;
+  ColumnMap bottom_;
+  std::vector<double> at_centre_;  // by ColumnMap::index of the tooth's columns
+  double outline_z_, tan_ = 0.0, cos_ = 1.0;
+};
+
+/// Leaves of a tissue, grown: a dense distance around them.
+class TissueBody final : public Shape {
+ public:
+  TissueBody(const Tooth& tooth, std::uint8_t id, double lowest_mm, double offset_mm, ZoneWork& work) : offset_mm_(offset_mm) {
+    const Octree& tree = tooth.octree;
+    leaf_mm_ = tree.leaf_mm();
+    IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
+    const auto counts = [&](IVec3 at, int edge, std::uint8_t t) { return t == id && tree.origin_mm().z + (at.z + edge) * leaf_mm_ > lowest_mm; };
+    tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+      if (!counts(at, edge, t)) return;
+      low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+      high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
+    });
+    const int pad = static_cast<int>(std::max(0.0, offset_mm) / leaf_mm_) + 3;
+    // leaves beyond the tooth's are not asked for; one layer of them is known, for what reaches the end of the tooth ends there
+    const auto padded = [](int v, int n) { return std::clamp(v, -3, n + 3); };
+    const IVec3 n = tree.size();
+    low = {padded(low.x - pad, n.x), padded(low.y - pad, n.y), padded(low.z - pad, n.z)};
+    size_ = IVec3{padded(high.x + pad, n.x), padded(high.y + pad, n.y), padded(high.z + pad, n.z)} - low;
+    work.body_leaves(static_cast<std::uint64_t>(size_.x) * static_cast<std::uint64_t>(size_.y) * static_cast<std::uint64_t>(size_.z));
+    origin_ = tree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_;
+    std::vector<std::uint8_t> in(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0);
+    tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+      if (!counts(at, edge, t)) return;
+      for (int z = 0; z < edge; ++z)
+        for (int y = 0; y < edge; ++y)
+          for (int x = 0; x < edge; ++x)
+            if (tree.centre_mm(at + IVec3{x, y, z}).z > lowest_mm) in[index(at - low + IVec3{x, y, z})] = 1;
+    });
+    std::vector<std::uint8_t> out;
+    out.reserve(in.size());
+    for (const auto i : in) out.push_back(i == 0 ? 1 : 0);
+    const auto to_in = nearest_seed(size_, in), to_out = nearest_seed(size_, out);
+    value_.resize(in.size());
+    for (int z = 0; z < size_.z; ++z)
+      for (int y = 0; y < size_.y; ++y)
+        for (int x = 0; x < size_.x; ++x) {
+          const auto i = index({x, y, z});
+          const std::int32_t other = in[i] != 0 ? to_out[i] : to_in[i];
+          const std::int32_t plane = size_.x * size_.y;
+          const double dx = other % size_.x - x, dy = other / size_.x % size_.y - y, dz = other / plane - z;
+          const double d = (std::sqrt(dx * dx + dy * dy + dz * dz) - 0.5) * leaf_mm_;
+          value_[i] = static_cast<float>(in[i] != 0 ? -d : d);
+        }
+  }
+  double distance_mm(Vec3 p) const noexcept override {
+    const Vec3 q = (p - origin_) / leaf_mm_;
+    const IVec3 c{static_cast<int>(std::clamp(q.x, 0.0, size_.x - 1.0)), static_cast<int>(std::clamp(q.y, 0.0, size_.y - 1.0)),
+                  static_cast<int>(std::clamp(q.z, 0.0, size_.z - 1.0))};
+    const Vec3 centre = origin_ + Vec3{c.x + 0.5, c.y + 0.5, c.z + 0.5} * leaf_mm_;
+    const bool beyond = q.x < 0 || q.y < 0 || q.z < 0 || q.x > size_.x || q.y > size_.y || q.z > size_.z;
+    return static_cast<double>(value_[index(c)]) - offset_mm_ + (beyond ? length(p - centre) : 0.0);
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(IVec3 i) const noexcept {
+    return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size_.x) +
+           static_cast<std::size_t>(i.x);
+  }
+  double offset_mm_, leaf_mm_ = 0.05;
+  IVec3 size_;
+  Vec3 origin_;
+  std::vector<float> value_;
+};
+
+class Combined final : public Shape {
+ public:
+  void add(ShapeSpec::Combine how, std::unique_ptr<Shape> shape) { parts_.emplace_back(how, std::move(shape)); }
+  double distance_mm(Vec3 p) const noexcept override {
+    double d = 1e3;
+    for (const auto& [how, shape] : parts_) {
+      const double s = shape->distance_mm(p);
+      switch (how) {
+        case ShapeSpec::Combine::add:
+          d = std::min(d, s);
+          break;
+        case ShapeSpec::Combine::subtract:
+          d = std::max(d, -s);
+          break;
+        case ShapeSpec::Combine::intersect:
+          d = std::max(d, s);
+          break;
+      }
+    }
+    return d;
+  }
+  std::uint64_t pieces() const noexcept override {
+    std::uint64_t sum = 0;
+    for (const auto& part : parts_) sum += part.second->pieces();
+    return sum;
+  }
+
+ private:
+  std::vector<std::pair<ShapeSpec::Combine, std::unique_ptr<Shape>>> parts_;
+};
+
+/// Cones that stand on the canals' mouths and open towards occlusal; like a column they have no upper end.
+std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Vec3 middle, const std::string& where) {
+  constexpr double k_out_of_any_tooth_mm = 60;
+  const SinCos taper = det_sincos(spec.taper_deg * k_pi / 180);
+  auto all = std::make_unique<Combined>();
+  std::string found;
+  bool any = false;
+  const auto mouths = canal_mouths(tooth, spec.tissue, where);
+  if (mouths.empty())
+    throw Error(where, "no canal leaves the " + spec.tissue + " of '" + tooth.name + "'", "choose a tooth with canals, or another shape");
+  for (const CanalMouth& mouth : mouths) {
+    found += (found.empty() ? "[" : ", [") + fixed(mouth.at_mm.x, 2) + ", " + fixed(mouth.at_mm.y, 2) + ", " + fixed(mouth.at_mm.z, 2) + "]";
+    const Vec3 off = mouth.at_mm - middle;
+    if (spec.canals_x * off.x < 0 || spec.canals_y * off.y < 0) continue;
+    any = true;
+    ShapeSpec cone = spec;
+    cone.at_mm = mouth.at_mm - spec.axis * spec.deeper_mm;
+    if (cone.radius_mm == 0) cone.radius_mm = mouth.radius_mm;
+    cone.height_mm = k_out_of_any_tooth_mm;
+    all->add(ShapeSpec::Combine::add, std::make_unique<Frustum>(cone, cone.radius_mm + cone.height_mm * taper.sin / taper.cos));
+  }
+  if (!any)
+    throw Error(where, "no canal lies on that side of the chamber's middle; the mouths are at " + found + " mm",
+                "choose another side in 'canals', or \"all\"");
+  return all;
+}
+
+}  // namespace
+
+ShapeFrame shape_frame(const ShapeSpec& s) {
+  ShapeFrame f;
+  f.at = s.at_mm;
+  f.z = s.axis;
+  const Vec3 x0 = std::fabs(f.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - f.z * f.z.x) : normalized(Vec3{0, 1, 0} - f.z * f.z.y);
+  const Vec3 y0 = cross(f.z, x0);
+  const SinCos turn = det_sincos(s.turn_deg * k_pi / 180);
+  f.x = x0 * turn.cos + y0 * turn.sin;
+  f.y = y0 * turn.cos - x0 * turn.sin;
+  return f;
+}
+
+std::string place_text(const std::string& file, const ShapeSpec& spec) {
+  return file + ":" + std::to_string(spec.line) + ":" + std::to_string(spec.column);
+}
+
+struct ShapeMaker::Cache {
+  std::optional<ColumnMap> surface;
+  std::map<std::pair<std::string, bool>, TissueRelief> relief;
+};
+
+ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where)
+    : tooth_(tooth), where_(std::move(where)), work_(where_), cache_(std::make_unique<Cache>()) {}
+ShapeMaker::~ShapeMaker() = default;
+
+const ColumnMap& ShapeMaker::surface() {
+  if (!cache_->surface) cache_->surface = surface_relief(tooth_);
+  return *cache_->surface;
+}
+
+std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
+  auto all = std::make_unique<Combined>();
+  for (const auto& spec : list) all->add(spec.combine, make_one(spec));
+  return all;
+}
+
+std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
+  const std::string where = place_text(where_, spec);
+  const auto relief_of = [&](const std::string& tissue, TissuePart part) -> const TissueRelief& {
+    const std::pair<std::string, bool> key{tissue, part == TissuePart::chamber};
+    auto found = cache_->relief.find(key);
+    if (found == cache_->relief.end()) found = cache_->relief.emplace(key, tissue_relief(tooth_, tissue, part, where)).first;
+    return found->second;
+  };
+  switch (spec.kind) {
+    case ShapeSpec::Kind::box:
+      return std::make_unique<Box>(spec);
+    case ShapeSpec::Kind::ball:
+      return std::make_unique<Ball>(spec);
+    case ShapeSpec::Kind::cylinder:
+      return std::make_unique<Frustum>(spec, spec.radius_mm);
+    case ShapeSpec::Kind::cone:
+      return std::make_unique<Frustum>(spec, spec.top_radius_mm);
+    case ShapeSpec::Kind::prism:
+      return std::make_unique<Prism>(spec);
+    case ShapeSpec::Kind::tissue: {
+      const TissueRelief& relief = relief_of(spec.tissue, spec.part);  // also tells whether the tissue is there at all
+      return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? relief.lowest_mm : -1e9,
+                                          spec.offset_mm, work_);
+    }
+    case ShapeSpec::Kind::stl:
+      if (spec.surface == nullptr) throw Error(where, "the surface '" + spec.file + "' was not read", "read it first");
+      count_mesh_body(tooth_, *spec.surface, work_);
+      return std::make_unique<MeshBody>(tooth_, *spec.surface);
+    case ShapeSpec::Kind::canal_cone:
+      return canal_cones(tooth_, spec, relief_of(spec.tissue, TissuePart::chamber).middle_mm, where);
+    case ShapeSpec::Kind::column:
+      break;
+  }
+  const OutlineSpec& o = spec.outline;
+  Vec3 centre = o.centre_mm;
+  if (o.from_chamber) {
+    const Vec3 middle = relief_of("pulp", TissuePart::chamber).middle_mm;
+    centre += Vec3{middle.x, middle.y, 0};
+  }
+  const TissueRelief* shadow = o.kind == OutlineSpec::Kind::projection ? &relief_of(o.tissue, o.part) : nullptr;
+  auto outline = make_outline(o, centre, shadow);
+
+  const ColumnMap& top = surface();
+  ColumnMap bottom = top;
+  double outline_z = 0;
+  const BottomSpec& b = spec.bottom;
+  if (b.kind == BottomSpec::Kind::level) {
+    outline_z = b.z_mm;
+    std::fill(bottom.value.begin(), bottom.value.end(), b.z_mm);
+  } else if (b.kind == BottomSpec::Kind::tissue_roof || b.kind == BottomSpec::Kind::tissue_floor) {
+    const TissueRelief& relief = relief_of(b.tissue, b.part);
+    bottom = b.kind == BottomSpec::Kind::tissue_roof ? relief.roof_mm : relief.floor_mm;
+    outline_z = (b.kind == BottomSpec::Kind::tissue_roof ? relief.highest_mm : relief.lowest_mm) - b.deeper_mm;
+    for (double& z : bottom.value) z -= b.deeper_mm;
+  } else {
+    // heights of the surface inside the outline
+    double lowest = 1e9, sum = 0;
+    int count = 0;
+    for (int y = 0; y < top.ny; ++y)
+      for (int x = 0; x < top.nx; ++x) {
+        const double z = top.value[top.index(x, y)];
+        const Vec3 at = top.origin_mm + Vec3{x + 0.5, y + 0.5, 0} * top.leaf_mm;
+        if (z == k_no_tooth_mm || outline->distance_mm(at.x, at.y) >= 0) continue;
+        lowest = std::min(lowest, z);
+        sum += z;
+        ++count;
+      }
+    if (count == 0) throw Error(where, "the outline lies beside the tooth '" + tooth_.name + "'", "move it over the crown");
+    const double mean = sum / count, from = b.kind == BottomSpec::Kind::below_lowest ? lowest : mean;
+    outline_z = from - b.depth_mm;
+    for (double& z : bottom.value) z = b.kind == BottomSpec::Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : outline_z;
+  }
+  work_.steps(bottom.value.size(), outline->pieces());
+  return std::make_unique<Column>(std::move(outline), std::move(bottom), spec.taper_deg, outline_z);
+}
+
+}  // namespace cavum

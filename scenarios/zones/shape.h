@@ -1,0 +1,56 @@
+// Bodies as signed distance: negative inside, mm. Exact for the primitive bodies, near their surface also
+// for columns and combined ones; zone_map.h makes true distances of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/tooth/tooth.h"
+#include "scenarios/file/scenario.h"
+#include "scenarios/zones/relief.h"
+#include "scenarios/zones/zone_work.h"
+
+namespace cavum {
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+  /// Signed distance at a point of the tooth frame, mm. Where it is not a true distance it keeps its sign.
+  [[nodiscard]] virtual double distance_mm(Vec3 p) const noexcept = 0;
+  /// How many pieces are looked at for one distance, at a leaf's centre.
+  [[nodiscard]] virtual std::uint64_t pieces() const noexcept { return 1; }
+};
+
+/// A right-handed frame: x and y across a body, z along its axis.
+struct ShapeFrame {
+  Vec3 at, x, y, z;
+  [[nodiscard]] Vec3 local(Vec3 p) const noexcept { return {dot(p - at, x), dot(p - at, y), dot(p - at, z)}; }
+};
+/// That of a body which has a place, an axis and a turn about it.
+[[nodiscard]] ShapeFrame shape_frame(const ShapeSpec& spec);
+
+/// "file:line:column" of a shape.
+[[nodiscard]] std::string place_text(const std::string& file, const ShapeSpec& spec);
+
+/// Makes bodies for one tooth; keeps what they have in common (surface, pulp chamber).
+class ShapeMaker {
+ public:
+  /// `where` names the scenario in errors.
+  ShapeMaker(const Tooth& tooth, std::string where);
+  ~ShapeMaker();
+  /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to, and beyond a limit of zone_work.h.
+  [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);
+  [[nodiscard]] const ColumnMap& surface();
+  [[nodiscard]] ZoneWork& work() noexcept { return work_; }
+
+ private:
+  [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
+  struct Cache;
+  const Tooth& tooth_;
+  std::string where_;
+  ZoneWork work_;
+  std::unique_ptr<Cache> cache_;
+};
+
+}  // namespace cavum

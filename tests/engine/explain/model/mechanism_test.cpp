@@ -1,0 +1,100 @@
+#include "engine/explain/model/mechanism.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cavum::explain {
+namespace {
+
+/// A scene on a path given by formula, without uncertainty: k = 0.8, c = 0.
+struct Stage {
+  Recording recording;
+  Scene scene;
+  explicit Stage(const std::function<double(double)>& x, Base base = {0.8, 0.0}, double length_s = 10.0) {
+    const double dt = 0.005;
+    const auto n = static_cast<Eigen::Index>(length_s / dt);
+    recording.t_s = Series::LinSpaced(n, 0.0, dt * static_cast<double>(n - 1));
+    recording.sessions = {{"1", 0, n}};
+    Motion m;
+    m.x_mm = recording.t_s.unaryExpr(x);
+    m.v_mm_s = recording.t_s.unaryExpr([&](double t) { return (x(t + 1e-5) - x(t - 1e-5)) / 2e-5; });
+    m.a_mm_s2 = m.sd_x_mm = m.sd_v_mm_s = Series::Zero(n);
+    recording.x_mm = m.x_mm;
+    recording.f_n = Series::Zero(n);
+    scene = make_scene(recording, m, base, 0.0, 0.0);
+  }
+  [[nodiscard]] Columns columns(const char* name, const std::vector<double>& shape) const {
+    return mechanism_at(find_mechanism(name)).columns(scene, shape);
+  }
+};
+
+TEST(Mechanisms, AllOfTheContractAreThere) {
+  EXPECT_EQ(mechanisms().size(), 27u);
+  for (const auto& m : mechanisms()) {
+    EXPECT_GT(std::string(m.equation).size(), 0u) << m.name;
+    EXPECT_GT(std::string(m.separate).size(), 0u) << m.name;
+  }
+  EXPECT_EQ(find_mechanism("magic"), -1);
+}
+
+TEST(Mechanisms, RelaxationDecaysInAHoldAsOneExponential) {
+  const Stage s([](double t) { return t < 1 ? 0.5 * t : 0.5; });
+  const Series z = s.columns("relaxation", {2.0, 0.0, 1.0}).own[0];
+  // loading at 0.5 mm/s for 1 s gives 0.5·2·(1 − e^(−1/2)), then it decays with 2 s
+  const double at_one = 0.5 * 2.0 * (1 - std::exp(-0.5));
+  EXPECT_NEAR(z[200], at_one, 2e-3);
+  EXPECT_NEAR(z[1000], at_one * std::exp(-4.0 / 2.0), 2e-3);
+}
+
+TEST(Mechanisms, LowPassAnswersAStepWithAnExponential) {
+  const Stage s([](double t) { return t < 1 ? 1e-6 : 1.0; });
+  const Series change = s.columns("low_pass", {0.25}).spring;
+  EXPECT_NEAR(change[250] + s.scene.spring_mm[250], 1 - std::exp(-0.25 / 0.25), 0.02);
+}
+
+TEST(Mechanisms, DelayShiftsARampByTauTimesItsSpeed) {
+  const Stage s([](double t) { return 0.1 + 0.2 * t; });
+  const Series change = s.columns("delay", {0.033}).spring;
+  EXPECT_NEAR(change[1000], -0.2 * 0.033, 1e-9);
+}
+
+TEST(Mechanisms, BacklashStandsStillForTwiceItsRadiusAfterAReversal) {
+  const double b = 0.05;
+  const Stage s([](double t) { return t < 5 ? 0.1 + 0.1 * t : 0.6 - 0.1 * (t - 5); });
+  const Series y = s.columns("backlash", {0, b}).spring + s.scene.spring_mm;
+  EXPECT_NEAR(y[800], 0.5 - b, 1e-6);         // behind by b on the way in
+  EXPECT_NEAR(y[1190], y[1000], 1e-3);        // 0.95 s after the turn: still within the play of 0.1 mm
+  EXPECT_NEAR(y[1600], 0.6 - 0.3 + b, 2e-3);  // ahead by b on the way out
+}
+
+TEST(Mechanisms, DahlLoopEndsAtItsDistance) {
+  const Stage s([](double t) { return 0.1 * t + 1e-3; });
+  const Series z = s.columns("hysteresis", {1, 0.05}).own[0];
+  EXPECT_NEAR(z[1999], 0.05, 1e-3);
+  EXPECT_NEAR(z[100], 0.05 * (1 - std::exp(-0.05 / 0.05)), 1e-3);  // z = d (1 − e^(−X/d)), X = 0.05 mm
+}
+
+TEST(Mechanisms, HiddenLayerAndPowerAreClosedForms) {
+  const Stage s([](double t) { return 0.1 * t + 1e-3; });
+  EXPECT_NEAR(s.columns("hidden_layer", {0.3}).own[0][1000], 0.501 - 0.3, 1e-9);
+  EXPECT_NEAR(s.columns("nonlinear_stiffness", {1.5}).spring[1000], std::pow(0.501, 1.5) - 0.501, 1e-9);
+  EXPECT_NEAR(s.columns("graded_stiffness", {}).own[0][1000], 0.501 * 0.501, 1e-9);
+}
+
+TEST(Mechanisms, FrictionFlipsWithTheMotionInAirToo) {
+  const Stage s([](double t) { return -1 + 0.2 * std::sin(t); });
+  const Series f = s.columns("coulomb_friction", {0.01}).own[0];
+  EXPECT_NEAR(f[0], 1.0, 1e-6);
+  EXPECT_NEAR(f[628], -1.0, 1e-6);  // t = pi
+}
+
+TEST(Mechanisms, FrictionThatPushesMakesNoSense) {
+  const auto& m = mechanism_at(find_mechanism("coulomb_friction"));
+  const double pushes = -0.1, resists = 0.1;
+  EXPECT_FALSE(makes_sense(m, &pushes, 1));
+  EXPECT_TRUE(makes_sense(m, &resists, 1));
+}
+
+}  // namespace
+}  // namespace cavum::explain

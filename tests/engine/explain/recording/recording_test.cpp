@@ -1,0 +1,98 @@
+#include "engine/explain/recording/recording.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "engine/explain/recording/faults.h"
+#include "tests/engine/explain/made_recording.h"
+
+namespace cavum::explain {
+namespace {
+
+std::string error_of(const std::string& csv, const ColumnNames& names = {}) {
+  try {
+    static_cast<void>(parse_recording(csv, "r.csv", names));
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+bool has_fault(const Recording& r, const std::string& word) {
+  for (const auto& f : data_faults(r))
+    if (f.find(word) != std::string::npos) return true;
+  return false;
+}
+
+TEST(Recording, KeepsSessionsKnownAndUnknownColumnsAndNumbersWords) {
+  const Recording r = parse_recording("# note\nsession,t_s,x_mm,f_n,bur_id,humidity\na,0,1,2,old,40\na,0.1,1.5,2.5,old,41\nb,0,1,2,new,\n", "r.csv");
+  ASSERT_EQ(r.sessions.size(), 2u);
+  EXPECT_EQ(r.sessions[1].begin, 2);
+  EXPECT_EQ((*r.column("bur_id"))[2], 1.0);
+  EXPECT_EQ((*r.column("humidity"))[2], 41.0);  // missing: the last one
+  EXPECT_EQ(r.notes.size(), 1u);
+  EXPECT_EQ(r.column("wet"), nullptr);
+}
+
+TEST(Recording, ColumnsOfOtherNamesAreMapped) {
+  const Recording r = parse_recording("time;way;load\n0;1;2\n1;2;3\n", "r.csv", {{"t_s", "time"}, {"x_mm", "way"}, {"f_n", "load"}});
+  EXPECT_EQ(r.x_mm[1], 2.0);
+  EXPECT_EQ(r.sessions.size(), 1u);
+}
+
+TEST(Recording, ErrorsNameLineAndColumn) {
+  EXPECT_NE(error_of("session,t_s,x_mm\n").find("no column 'f_n'"), std::string::npos);
+  EXPECT_NE(error_of("t_s,x_mm,f_n\n0,1,2\n1,nan,2\n").find("r.csv:3: 'nan' in column x_mm"), std::string::npos);
+  EXPECT_NE(error_of("t_s,x_mm,f_n\n0,1\n").find("r.csv:2: has 2 cells"), std::string::npos);
+  EXPECT_NE(error_of("session,t_s,x_mm,f_n\na,0,1,2\nb,0,1,2\na,1,1,2\n").find("in two places"), std::string::npos);
+  EXPECT_NE(error_of("").find("is empty"), std::string::npos);
+  EXPECT_NE(error_of("t_s,x_mm,f_n\n0,1,2\n", {{"v_mm_s", "speed"}}).find("no column 'speed'"), std::string::npos);
+}
+
+TEST(Recording, RigFileIsStrict) {
+  const Rig rig = parse_rig("k_n_per_mm = 0.8\nposition_quantum_mm = 0.055\n", "rig.toml");
+  EXPECT_EQ(*rig.k_n_per_mm, 0.8);
+  EXPECT_FALSE(rig.c_n_s_per_mm);
+  EXPECT_THROW(static_cast<void>(parse_rig("k = 0.8\n", "rig.toml")), Error);
+  EXPECT_THROW(static_cast<void>(parse_rig("k_n_per_mm = -1\n", "rig.toml")), Error);
+}
+
+TEST(Faults, ASoundRecordingHasNone) { EXPECT_TRUE(data_faults(made::recording({})).empty()); }
+
+TEST(Faults, ShuffledAndRepeatedTimeStamps) {
+  Recording r = made::recording({});
+  std::swap(r.t_s[100], r.t_s[101]);
+  EXPECT_TRUE(has_fault(r, "run backwards"));
+  r = made::recording({});
+  r.t_s[100] = r.t_s[99];
+  EXPECT_TRUE(has_fault(r, "repeated"));
+}
+
+TEST(Faults, SpeedThatDoesNotIntegrateToThePosition) {
+  Recording r = made::recording({});
+  r.v_mm_s = Series::Zero(r.rows());
+  for (const auto& s : r.sessions)
+    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i) r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
+  EXPECT_TRUE(data_faults(r).empty());
+  Recording slow = r;
+  slow.t_s *= 1.05;
+  EXPECT_TRUE(has_fault(slow, "time base"));
+  Recording metres = r;
+  metres.x_mm *= 1e-3;
+  EXPECT_TRUE(has_fault(metres, "units"));
+  metres.v_mm_s *= 1e-3;  // both: the rig's stiffness tells
+  EXPECT_TRUE(has_fault(metres, "units"));
+}
+
+TEST(Faults, ClippedForce) {
+  Recording r = made::recording({});
+  r.f_n = r.f_n.min(0.4);
+  EXPECT_TRUE(has_fault(r, "clipped"));  // the plateau is exact
+  r = made::recording({});
+  r.rig.force_limit_n = 0.4;
+  r.f_n = r.f_n.min(0.4);
+  EXPECT_TRUE(has_fault(r, "force_limit_n"));
+}
+
+}  // namespace
+}  // namespace cavum::explain

@@ -1,0 +1,55 @@
+#include "engine/tooth/make/plant_lesion.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "engine/base/random.h"
+#include "engine/tooth/make/make_block.h"
+#include "tests/engine/tooth/tooth_testing.h"
+
+namespace cavum {
+namespace {
+
+Tooth block() { return make_block({6, 6, 5}, parse_layers("enamel:1.0,dentin:2.5,pulp:0.5,dentin:1.0"), 0.05); }
+
+double volume_mm3(const Tooth& tooth, std::uint8_t tissue) {
+  return static_cast<double>(tooth.octree.count_leaves()[tissue]) * tooth.octree.leaf_volume_mm3();
+}
+
+TEST(PlantLesion, HasTheVolumeOfItsEllipsoidAndTakesItFromTheDentinAlone) {
+  const Tooth before = block(), after = plant_lesion(block(), {{0.3, -0.2, -2.2}, {1.4, 1.0, 0.8}});
+  const std::uint8_t id = after.tissue_id("lesion");
+  const double ellipsoid = 4.0 / 3 * 3.14159265358979 * 1.4 * 1.0 * 0.8;
+  EXPECT_NEAR(volume_mm3(after, id), ellipsoid, 0.01 * ellipsoid);
+  EXPECT_NEAR(volume_mm3(after, k_dentin), volume_mm3(before, k_dentin) - volume_mm3(after, id), 1e-9);
+  EXPECT_EQ(volume_mm3(after, k_enamel), volume_mm3(before, k_enamel));
+  EXPECT_TRUE(after.octree.is_solid(id));
+}
+
+TEST(PlantLesion, LeavesTheSurfaceAsItWasAndTheEnamelSound) {
+  const Tooth before = block(), after = plant_lesion(block(), {{0, 0, -1.4}, {1.5, 1.5, 0.9}});  // reaches 0.5 mm into the enamel
+  EXPECT_EQ(volume_mm3(after, k_enamel), volume_mm3(before, k_enamel));
+  Random random(testing_tooth::drawn_seed("PlantLesion.LeavesTheSurfaceAsItWas"));
+  Octree::Cursor a, b;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p{random.uniform(-3.2, 3.2), random.uniform(-3.2, 3.2), random.uniform(-5.2, 0.2)};
+    ASSERT_EQ(before.octree.sample(p, a).distance_mm, after.octree.sample(p, b).distance_mm);
+  }
+}
+
+TEST(PlantLesion, ThatWouldOpenIntoPulpOrAirOrHitsNoDentinIsRefused) {
+  for (const auto& [lesion, part] : {std::pair<LesionShape, std::string>{{{0, 0, -3.0}, {1, 1, 0.6}}, "open into pulp"},
+                                     {{{2.5, 0, -2}, {1, 0.5, 0.5}}, "open into air"},
+                                     {{{0, 0, -0.5}, {1, 1, 0.3}}, "no dentin"},
+                                     {{{0, 0, -2}, {1, 0, 0.5}}, "a radius"}}) {
+    try {
+      static_cast<void>(plant_lesion(block(), lesion));
+      ADD_FAILURE() << part;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cavum

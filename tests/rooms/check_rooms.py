@@ -1,0 +1,73 @@
+"""Usage: check_rooms.py ROOMS SOURCE_DIR. ROOMS has a line for each room: name|folder|rooms below|sources.
+
+Prints what is wrong and exits with 1: a source that includes a header of a room that is not below its own; a room that is above itself; a source that no
+room compiles; a header or source in a folder that is no room; a header that is not there.
+"""
+import re
+import sys
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+TOPS = ("engine", "scenarios", "grading", "ui")
+PROGRAMS = {"ui/verbs/main.cpp", "engine/tooth/volume/itk/cavum_read_volume.cpp"}
+# rooms that some builds leave out; their sources are then nobody's
+OPTIONAL = {"engine/tooth/volume", "engine/tooth/volume/itk", "engine/tooth/import"}
+
+
+def read_rooms(text):
+    rooms = {}
+    for line in text.splitlines():
+        name, folder, below, sources = line.split("|")
+        rooms[name] = (folder, below.split(), sources.split())
+    return rooms
+
+
+def all_below(rooms, name, seen):
+    for room in rooms[name][1]:
+        if room not in seen:
+            seen.add(room)
+            all_below(rooms, room, seen)
+    return seen
+
+
+def problems(rooms, root):
+    out = []
+    root = Path(root)
+    room_of = {folder: name for name, (folder, _, _) in rooms.items()}
+    compiled = {str(Path(s).relative_to(root)) for _, _, sources in rooms.values() for s in sources} | PROGRAMS
+    for name in rooms:
+        if name in all_below(rooms, name, set()):
+            out.append(f"room {name} is above itself")
+    for top in TOPS:
+        for path in sorted([*(root / top).rglob("*.h"), *(root / top).rglob("*.cpp")]):
+            file, folder = str(path.relative_to(root)), str(path.parent.relative_to(root))
+            if folder not in room_of:
+                if folder not in OPTIONAL:
+                    out.append(f"{file}: {folder} is no room")
+                continue
+            if path.suffix == ".cpp" and file not in compiled:
+                out.append(f"{file}: no room compiles it")
+            allowed = all_below(rooms, room_of[folder], {room_of[folder]})
+            for included in INCLUDE.findall(path.read_text(errors="replace")):
+                if not (root / included).is_file():
+                    out.append(f"{file}: includes {included}, which is not there")
+                    continue
+                other = room_of.get(str(Path(included).parent))
+                if other is None and str(Path(included).parent) in OPTIONAL:
+                    continue
+                if other not in allowed:
+                    out.append(f"{file}: includes {included} of {other}, which is not below {room_of[folder]}")
+    return out
+
+
+def main():
+    rooms = read_rooms(Path(sys.argv[1]).read_text())
+    wrong = problems(rooms, sys.argv[2])
+    for line in wrong:
+        print(line)
+    print(f"{len(rooms)} rooms, {len(wrong)} wrong")
+    return 1 if wrong or not rooms else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+#include "scenarios/candidates/cut_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/file.h"
+#include "scenarios/candidates/operator.h"
+#include "scenarios/file/parse.h"
+#include "tests/scenarios/test_teeth.h"
+
+namespace cavum {
+namespace {
+
+using testing::dentin_block;
+using testing::scenario_text;
+
+const char k_upright[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n";
+const char k_leaning[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\naxis = [0, -0.5, 0.8660254]\n";
+
+ContactTool cylinder() {
+  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/points/cylinder-flat-1.0.toml";
+  return make_contact_tool(parse_diamond_point(read_text_file(path), path));
+}
+
+struct Planned {
+  Tooth tooth = dentin_block(4, 4, 0.05);
+  ContactTool tool = cylinder();
+  Scenario scenario;
+  ZoneMap zones;
+  explicit Planned(const std::string& text) : scenario(parse_scenario(text, "s.toml")), zones(build_zones(scenario, tooth)) {}
+  [[nodiscard]] ReachMap reach(const MarginSpec& margin) const { return reach_map(zones, tooth, tool, margin); }
+  /// How far beyond the target's surface the head comes at the waypoints, where there is tissue; none where it stays inside.
+  [[nodiscard]] double furthest_mm(const std::vector<Waypoint>& way, const Mat3& held, bool bottom) const {
+    double furthest = -1e9;
+    for (const auto& w : way) {
+      if (!w.cut) continue;
+      for (double h = 0; h <= tool.point.cutting_length_mm; h += 0.1)
+        for (const Vec3 side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
+          const Vec3 p = w.tip_mm + held * (side * (0.99 * tool.point.profile.radius_mm(h)) + Vec3{0, 0, h});
+          const IVec3 leaf = tooth.octree.leaf_at(p);
+          if (tooth.octree.tissue(leaf) == k_air || (zones.wall(leaf) == Wall::floor) != bottom) continue;
+          furthest = std::max(furthest, zones.distance_mm(p));
+        }
+    }
+    return furthest;
+  }
+};
+
+TEST(CutPlan, FollowsALeaningTargetAlongItsAxisAndStaysInIt) {
+  const Planned p(scenario_text(k_leaning));
+  const ReachMap map = p.reach(k_expert_margin);
+  EXPECT_NEAR(length(map.tool * Vec3{0, 0, 1} - Vec3{0, -0.5, 0.8660254}), 0, 1e-6);
+  const auto way = plan_cut(map, p.tooth, PlanOptions{});
+  ASSERT_GT(way.size(), 20u);
+  EXPECT_LT(p.furthest_mm(way, map.tool, false), 0.1);
+  EXPECT_LT(p.furthest_mm(way, map.tool, true), 0.15);
+  EXPECT_GT(coverage(free_room(p.zones, p.tooth, k_expert_margin), map, p.tool), 0.9)
+      << "upright, the point could not get below the overhanging wall";
+}
+
+TEST(CutPlan, WithAWiderMarginGoesThatFarBeyondTheSidesOrTheFloorAndNotTheOther) {
+  const Planned p(scenario_text(k_upright));
+  const ReachMap wide = p.reach({0.6, 0.03}), deep = p.reach({0.03, 0.6});
+  EXPECT_NEAR(p.furthest_mm(plan_cut(wide, p.tooth, PlanOptions{}), wide.tool, false), 0.6, 0.11);
+  EXPECT_LT(p.furthest_mm(plan_cut(wide, p.tooth, PlanOptions{}), wide.tool, true), 0.15);
+  EXPECT_NEAR(p.furthest_mm(plan_cut(deep, p.tooth, PlanOptions{}), deep.tool, true), 0.6, 0.11);
+  EXPECT_LT(p.furthest_mm(plan_cut(deep, p.tooth, PlanOptions{}), deep.tool, false), 0.1);
+}
+
+TEST(CutPlan, ForTheMiddleKeepsThatShareOfLengthAndWidth) {
+  const Planned p(scenario_text(k_upright));
+  const ReachMap all = p.reach(k_expert_margin), half = middle_of(all, 50);
+  const auto extent = [](const ReachMap& m) {
+    int low_x = m.nx, high_x = -1, low_y = m.ny, high_y = -1;
+    for (int y = 0; y < m.ny; ++y)
+      for (int x = 0; x < m.nx; ++x)
+        if (m.lowest_mm[m.index(x, y)] < ReachMap::k_unreachable) {
+          low_x = std::min(low_x, x);
+          high_x = std::max(high_x, x);
+          low_y = std::min(low_y, y);
+          high_y = std::max(high_y, y);
+        }
+    return std::pair((high_x - low_x + 1) * m.step_mm, (high_y - low_y + 1) * m.step_mm);
+  };
+  EXPECT_NEAR(extent(half).first, 0.5 * extent(all).first, 2 * all.step_mm);
+  EXPECT_NEAR(extent(half).second, 0.5 * extent(all).second, 2 * all.step_mm);
+}
+
+TEST(CarelessCandidate, IsRefusedByAScenarioThatDoesNotNameTheMistake) {
+  const Planned p(scenario_text(k_upright));
+  EXPECT_THROW(static_cast<void>(make_candidate("careless", p.scenario, p.zones, p.tooth, {p.tool}, 1)), Error);
+  const Planned q(scenario_text(k_upright, "[careless]\nsides_mm = 0.5\nfails_by = \"sides\"\n"));
+  EXPECT_NO_THROW(static_cast<void>(make_candidate("careless", q.scenario, q.zones, q.tooth, {q.tool}, 1)));
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,241 @@
+#include "scenarios/exam/runner.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/test_teeth.h"
+
+namespace cavum {
+namespace {
+
+using testing::dentin_block;
+using testing::scenario_text;
+
+const char k_box[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n";
+
+struct Exam {
+  Tooth tooth = dentin_block(2, 3, 0.1);
+  Scenario scenario;
+  ZoneMap zones;
+  Runner runner;
+  RunnerState state;
+  explicit Exam(Scenario s)
+      : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
+
+  void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t point = 0, double rpm = 0) {
+    TickInput in;
+    in.point = point;
+    TickOutput out;
+    out.rpm = rpm;
+    runner.advance(state, in, out, removed);
+  }
+  [[nodiscard]] std::vector<ExamEvent> events(ExamEventKind kind) const {
+    std::vector<ExamEvent> list;
+    for (std::uint32_t i = 0; i < state.event_count; ++i)
+      if (state.events[i].kind == kind) list.push_back(state.events[i]);
+    return list;
+  }
+  [[nodiscard]] RemovedLeaf leaf(Vec3 mm, std::uint8_t tissue = k_dentin) const {
+    const IVec3 l = tooth.octree.leaf_at(mm);
+    return {static_cast<std::int16_t>(l.x), static_cast<std::int16_t>(l.y), static_cast<std::int16_t>(l.z), tissue, 0};
+  }
+};
+
+Scenario scenario_with(const std::string& from = "", const std::string& to = "") {
+  std::string text = scenario_text(k_box);
+  if (!from.empty()) text.replace(text.find(from), from.size(), to);
+  return parse_scenario(text, "s.toml");
+}
+
+TEST(Runner, TimeLimitIsExactToTheTick) {
+  Exam exam(scenario_with());
+  EXPECT_EQ(exam.runner.limit_ticks(), 10000);
+  for (int i = 0; i < 9999; ++i) exam.tick();
+  EXPECT_EQ(exam.state.finish, Finish::running);
+  exam.tick();
+  EXPECT_EQ(exam.state.finish, Finish::time);
+  EXPECT_EQ(exam.state.ticks, 10000);
+  EXPECT_EQ(exam.events(ExamEventKind::time_limit).at(0).tick, 9999);
+}
+
+TEST(Runner, ExtraTimeIsExactToTheTick) {
+  Scenario s = scenario_with("time_limit_s = 10", "time_limit_s = 1.001");
+  s.accommodations.extra_time_percent = 25;
+  Exam exam(std::move(s));
+  EXPECT_EQ(exam.runner.limit_ticks(), 1251);
+  while (exam.state.finish == Finish::running) exam.tick();
+  EXPECT_EQ(exam.state.ticks, 1251);
+}
+
+TEST(Runner, ExtraSecondsAddToThePercentAndReachStepsInProportion) {
+  Scenario s = scenario_with("complete_when = \"target_removed_percent >= 99\"\n", "complete_when = \"0\"\ntime_limit_s = 4\n");
+  s.accommodations.extra_time_percent = 25;
+  s.accommodations.extra_time_s = 2.003;
+  Exam exam(std::move(s));
+  EXPECT_EQ(exam.runner.limit_ticks(), 12500 + 2003);
+  while (exam.events(ExamEventKind::step_time_limit).empty()) exam.tick();
+  EXPECT_EQ(exam.state.ticks, 5000 + 801);  // 4 s are two fifths of the exam: 2.003 s * 0.4 = 801.2 ticks more
+}
+
+/// A scenario of `limit_s` with two pauses of at most 0.25 s, on button 2.
+Scenario pausing(const std::string& limit_s) {
+  return scenario_with("time_limit_s = 10", "time_limit_s = " + limit_s + "\n[pauses]\ncount = 2\nlongest_s = 0.25");
+}
+
+TEST(Runner, APauseStopsTheClockToTheTick) {
+  Exam exam(pausing("1"));
+  const auto step = [&](std::uint16_t buttons) {
+    TickInput in;
+    in.flags = buttons;
+    exam.runner.advance(exam.state, in, {}, {});
+  };
+  for (int i = 0; i < 100; ++i) step(0);
+  step(k_button_2);                               // tick 100 is the first of the pause
+  for (int i = 0; i < 29; ++i) step(k_button_2);  // holding it changes nothing
+  for (int i = 0; i < 20; ++i) step(0);
+  EXPECT_TRUE(Runner::paused(exam.state));
+  step(k_button_2);  // tick 150 counts again
+  EXPECT_FALSE(Runner::paused(exam.state));
+  EXPECT_EQ(exam.state.paused_ticks, 50);
+  EXPECT_DOUBLE_EQ(exam.runner.values()[0], 0.101);  // time_s
+  while (exam.state.finish == Finish::running) step(0);
+  EXPECT_EQ(exam.state.finish, Finish::time);
+  EXPECT_EQ(exam.state.ticks, 1050);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_started).at(0).tick, 100);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick, 150);
+}
+
+TEST(Runner, APauseEndsByItselfAndTheThirdIsRefused) {
+  Exam exam(pausing("1"));
+  const auto step = [&](std::uint16_t buttons, double rpm = 0) {
+    TickInput in;
+    in.flags = buttons;
+    TickOutput out;
+    out.rpm = rpm;
+    exam.runner.advance(exam.state, in, out, {});
+  };
+  step(k_button_2, 5000);  // the handpiece turns
+  EXPECT_EQ(exam.events(ExamEventKind::pause_refused).size(), 1u);
+  for (int pause = 0; pause < 3; ++pause) {
+    step(0);
+    step(k_button_2);
+    for (int i = 0; i < 300; ++i) step(0);
+  }
+  EXPECT_EQ(exam.events(ExamEventKind::pause_started).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_refused).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick - exam.events(ExamEventKind::pause_started).at(0).tick, 250);
+  while (exam.state.finish == Finish::running) step(0);
+  EXPECT_EQ(exam.state.ticks, 1500);
+}
+
+TEST(Runner, WithoutPausesTheButtonMeansNothing) {
+  Exam exam(scenario_with());
+  TickInput in;
+  in.flags = k_button_2;
+  exam.runner.advance(exam.state, in, {}, {});
+  EXPECT_FALSE(Runner::paused(exam.state));
+  EXPECT_TRUE(exam.events(ExamEventKind::pause_refused).empty());
+}
+
+TEST(Runner, WorkAfterTheEndDoesNotCount) {
+  Exam exam(scenario_with("time_limit_s = 10", "time_limit_s = 0.005"));
+  for (int i = 0; i < 5; ++i) exam.tick();
+  const RemovedLeaf one[] = {exam.leaf({0, 0, -0.1})};
+  exam.tick(one);
+  EXPECT_EQ(exam.state.ticks, 5);
+  EXPECT_EQ(exam.state.removed_in_zone[static_cast<std::size_t>(Zone::target)], 0u);
+}
+
+TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
+  Exam exam(scenario_with("target_removed_percent >= 99", "target_removed_percent >= 0.2 && touched_dentin > 0.0015"));
+  const RemovedLeaf one[] = {exam.leaf({0.01, 0, -0.1})}, two[] = {exam.leaf({0.01, 0.11, -0.1})};
+  exam.tick(one);
+  EXPECT_EQ(exam.state.finish, Finish::running);
+  exam.tick();
+  exam.tick(two);  // 2 of 1000 leaves of 0.001 mm3
+  EXPECT_EQ(exam.state.finish, Finish::completed);
+  EXPECT_EQ(exam.events(ExamEventKind::step_completed).at(0).tick, 2);
+  EXPECT_EQ(exam.events(ExamEventKind::finished).at(0).index, static_cast<int>(Finish::completed));
+}
+
+TEST(Runner, WhatIsProtectedCountsAsOutsideWhileTheExamRuns) {
+  const std::string guard = "[[zones.protected]]\nshape = \"box\"\nat_mm = [0.9, 0, -0.5]\nsize_mm = [0.4, 1, 1]\n";  // 0.2 mm beside the target
+  const auto finish = [&](const char* condition) {
+    std::string text = scenario_text(k_box + guard);
+    const std::string from = "target_removed_percent >= 99";
+    text.replace(text.find(from), from.size(), condition);
+    Exam exam(parse_scenario(text, "s.toml"));
+    const RemovedLeaf guarded[] = {exam.leaf({0.75, 0, -0.5})};  // the leeway would reach there
+    exam.tick(guarded);
+    return exam.state.finish;
+  };
+  EXPECT_EQ(finish("outside_mm3 > 0.0005"), Finish::completed);
+  EXPECT_EQ(finish("protected_mm3 > 0.0005"), Finish::completed);
+  EXPECT_EQ(finish("leeway_mm3 + container_mm3 > 0"), Finish::running);
+}
+
+TEST(Runner, HowTheLastStepEndedIsHowTheExamEnded) {
+  const auto ended = [](const char* step) {
+    Exam exam(scenario_with("complete_when = \"target_removed_percent >= 99\"\n", step));
+    for (int i = 0; i < 60; ++i) exam.tick();
+    return exam.state.finish;
+  };
+  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.05\n"), Finish::time);
+  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\nfail_when = \"time_s > 0.04\"\n"), Finish::failed);
+  EXPECT_EQ(ended("complete_when = \"time_s > 0.04\"\n"), Finish::completed);
+}
+
+TEST(Runner, StepLimitsAndFailuresLeadOnOrEndTheExam) {
+  const std::string next =
+      "complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.1\n[[steps]]\nid = \"second\"\ninstruction = \"More.\"\n"
+      "complete_when = \"step_time_s > 1000\"\nfail_when = \"outside_mm3 > 0\"\nfailure_ends_exam = true\n";
+  Exam exam(scenario_with("complete_when = \"target_removed_percent >= 99\"\n", next));
+  for (int i = 0; i < 100; ++i) exam.tick();
+  EXPECT_EQ(exam.events(ExamEventKind::step_time_limit).at(0).tick, 99);
+  EXPECT_EQ(exam.state.step, 1);
+  EXPECT_EQ(exam.runner.instruction(exam.state), "More.");
+  const RemovedLeaf far[] = {exam.leaf({1.9, 1.9, -2.5})};
+  exam.tick(far);
+  EXPECT_EQ(exam.state.finish, Finish::failed);
+  EXPECT_EQ(exam.events(ExamEventKind::step_failed).at(0).tick, 100);
+  EXPECT_EQ(exam.runner.instruction(exam.state), "");
+}
+
+TEST(Runner, NotesForbiddenPointsAndSpeedsOnceEach) {
+  Exam exam(scenario_with());
+  exam.tick({}, 0, 1000);
+  exam.tick({}, 1, 250000);
+  exam.tick({}, 1, 250000);
+  exam.tick({}, 0, 1000);
+  exam.tick({}, 1, 250000);
+  EXPECT_EQ(exam.events(ExamEventKind::point_not_allowed).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::over_speed).size(), 2u);
+  EXPECT_EQ(exam.events(ExamEventKind::point_not_allowed).at(0).index, 1);
+}
+
+TEST(Runner, TellsAimsFromFaultsAndWhereTheyWereFirstTouched) {
+  Scenario s = scenario_with();
+  s.perforation = {{"pulp"}, {"periodontium"}};
+  Exam exam(std::move(s));
+  const RemovedLeaf pulp[] = {exam.leaf({0, 0, -1.5}, k_pulp)}, ligament[] = {exam.leaf({0.5, 0, -2.5}, k_periodontium)};
+  exam.tick();
+  exam.tick(pulp);
+  exam.tick(pulp);
+  EXPECT_FALSE(exam.state.perforated);
+  exam.tick(ligament);
+  EXPECT_TRUE(exam.state.perforated);
+  ASSERT_EQ(exam.events(ExamEventKind::aim_reached).size(), 1u);
+  EXPECT_EQ(exam.events(ExamEventKind::aim_reached)[0].tick, 1);
+  EXPECT_EQ(exam.events(ExamEventKind::perforation).at(0).tick, 3);
+  EXPECT_EQ(exam.events(ExamEventKind::perforation).at(0).leaf[0], exam.tooth.octree.leaf_at({0.5, 0, -2.5}).x);
+}
+
+TEST(Runner, KeepsTheEndEvenWhenTheListOfEventsIsFull) {
+  Exam exam(scenario_with("time_limit_s = 10", "time_limit_s = 1"));
+  for (int i = 0; i < 1000; ++i) exam.tick({}, static_cast<std::uint8_t>(i & 1));
+  EXPECT_EQ(exam.state.finish, Finish::time);
+  EXPECT_GT(exam.state.events_dropped, 0u);
+  EXPECT_EQ(exam.state.events[exam.state.event_count - 1].kind, ExamEventKind::finished);
+}
+
+}  // namespace
+}  // namespace cavum

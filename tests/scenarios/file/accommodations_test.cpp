@@ -1,0 +1,42 @@
+#include "scenarios/file/accommodations.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+TEST(Accommodations, WhatIsGrantedReplacesWhatTheFileSaysAndNothingElse) {
+  Accommodations file;
+  file.extra_time_percent = 25;
+  file.high_contrast = true;
+  EXPECT_EQ(granted(file, {}, "test"), file);
+  Grant grant;
+  grant.extra_time_s = 0.1 + 0.2;  // no short decimal: must come back to the bit
+  grant.high_contrast = false;
+  const Accommodations a = granted(file, notes_of(grant), "test");
+  EXPECT_EQ(a.extra_time_percent, 25);
+  EXPECT_EQ(a.extra_time_s, 0.1 + 0.2);
+  EXPECT_FALSE(a.high_contrast);
+  EXPECT_FALSE(a.left_handed);
+}
+
+TEST(Accommodations, RefusesNotesAndGrantsThatAreNone) {
+  for (const char* text : {"", "-1", "nan", "401", "12 ", "1e9"})
+    EXPECT_THROW(static_cast<void>(granted({}, {{"accommodation.extra_time_percent", text}}, "test")), Error) << text;
+  EXPECT_THROW(static_cast<void>(granted({}, {{"accommodation.left_handed", "yes"}}, "test")), Error);
+  EXPECT_EQ(granted({}, {{"operator", "expert"}, {"accommodation.shoe_size", "43"}}, "test"), Accommodations{});
+  Grant grant;
+  grant.extra_time_percent = -5;
+  EXPECT_THROW(require_sound(grant, "test"), Error);
+}
+
+TEST(Accommodations, AreSaidInWords) {
+  EXPECT_EQ(accommodations_text({}), "");
+  EXPECT_EQ(accommodations_text({25, 60, true, true}), "25 % and 60 s extra time, left-handed, high-contrast colours");
+  EXPECT_EQ(accommodations_text({0, 90.5, false, false}), "90.5 s extra time");
+}
+
+}  // namespace
+}  // namespace cavum

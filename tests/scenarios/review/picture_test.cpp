@@ -1,0 +1,129 @@
+// Pictures of sections: how much of the tooth they show.
+#include "scenarios/review/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/file.h"
+#include "tests/scenarios/test_teeth.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_scale = 20;  // px per mm
+
+double height_px(const std::string& svg) {
+  const auto at = svg.find("height='");
+  return at == std::string::npos ? -1 : std::strtod(svg.c_str() + at + 8, nullptr);
+}
+
+TEST(Picture, AChannelDrilledFarBelowTheTargetIsShownToItsEnd) {
+  const Tooth block = testing::dentin_block(3, 9, 0.1);
+  const Scenario s =
+      parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"), "s.toml");
+  const ZoneMap zones = build_zones(s, block);
+  const auto drawn = [&](double deepest_mm, View view) {
+    Octree after = block.octree;
+    after.reserve_edits(60000);
+    std::vector<RemovedLeaf> removed;
+    removed.reserve(100000);
+    EXPECT_TRUE(after.carve(
+        {-1, -1, -9}, {1, 1, 1},
+        [&](Vec3 p) {
+          return std::max({std::fabs(p.x) - 0.3, std::fabs(p.y) - 0.3, deepest_mm - p.z});
+        },
+        removed));
+    return height_px(section_svg(block, &after, zones, {view, 0.01, k_scale, "", false, nullptr}));
+  };
+  for (const View view : {View::mesio_distal, View::bucco_lingual}) {
+    const double usual = drawn(-1, view);
+    EXPECT_DOUBLE_EQ(drawn(-3, view), usual) << "4 mm below the target are shown anyway";
+    EXPECT_NEAR(drawn(-7, view) - usual, (7.0 + 0.6 - 5.0) * k_scale, 0.11 * k_scale);
+    EXPECT_NEAR(drawn(-8.8, view) - usual, (9.0 - 5.0) * k_scale, 0.11 * k_scale) << "to the tooth's end";
+  }
+}
+
+TEST(Picture, TheCrownIsShownToItsTipAlsoFarAboveTheTarget) {
+  const Tooth block = testing::dentin_block(3, 6, 0.1);  // its top at z = 0
+  const auto drawn = [&](const char* at) {
+    const Scenario s = parse_scenario(
+        testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [3, 0, " + std::string(at) + "]\nsize_mm = [2, 1, 1]\n"), "s.toml");
+    return height_px(section_svg(block, nullptr, build_zones(s, block), {View::mesio_distal, 0.01, k_scale, "", false, nullptr}));
+  };
+  // the target lies in the block's side, its own top 0.5 or 1 mm below the block's; 4 mm below it are shown, and a little air above the block
+  EXPECT_NEAR(drawn("-1.5") - drawn("-1"), 0.5 * k_scale, 0.11 * k_scale);
+}
+
+/// Leaves that a section draws in a colour: its runs added up.
+std::size_t drawn_in(const std::string& svg, const std::string& colour) {
+  const auto at = svg.find("fill='" + colour + "' d='");
+  if (at == std::string::npos) return 0;
+  const auto end = svg.find("'/>", at);
+  std::size_t leaves = 0;
+  for (auto run = svg.find('h', svg.find("d='", at)); run < end; run = svg.find('h', run + 1))
+    if (svg[run + 1] != '-') leaves += std::strtoul(svg.c_str() + run + 1, nullptr, 10);
+  return leaves;
+}
+
+/// The steps and colours of the class's tooth in 3D, from its page's source: {from, {over, under}}, the highest first.
+std::vector<std::pair<double, std::pair<std::string, std::string>>> bands_of_the_page() {
+  const std::string source = read_text_file(CAVUM_SOURCE_DIR "/ui/report/page/src/deviation.ts");
+  const auto list = [&](const std::string& name) {
+    const auto at = source.find("export const " + name + " = [");
+    if (at == std::string::npos) throw std::runtime_error("deviation.ts has no " + name);
+    const auto begin = source.find('[', at) + 1;
+    return nlohmann::json::parse("[" + source.substr(begin, source.find(']', begin) - begin) + "]");
+  };
+  const auto edges = list("k_heat_edges"), over = list("k_over"), under = list("k_under");
+  std::vector<std::pair<double, std::pair<std::string, std::string>>> bands;
+  for (std::size_t i = edges.size(); i-- > 0;)
+    bands.push_back({100.0 * edges[i].get<double>(), {over.at(i).get<std::string>(), under.at(i).get<std::string>()}});
+  return bands;
+}
+
+TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
+  const Tooth block = testing::dentin_block(3, 5, 0.1);
+  const Scenario s =
+      parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"), "s.toml");
+  const ZoneMap zones = build_zones(s, block);
+  const Octree& tree = block.octree;
+  const int low_z = tree.leaf_at({0.01, 0.01, -4.9}).z;
+  // ever more of the class from one side to the other, on both sides of none
+  const auto heat = [&](IVec3 leaf) { return -95.0 + 190.0 * leaf.x / (tree.size().x - 1); };
+  PictureSpec spec{View::mesio_distal, 0.01, k_scale, ""};
+  spec.heat_percent = heat;
+  const std::string svg = section_svg(block, nullptr, zones, spec);
+  const auto bands = bands_of_the_page();
+  std::map<std::string, std::size_t> expected;
+  const int y = tree.leaf_at({0.01, 0.01, 0.01}).y;
+  for (int z = low_z; z < tree.size().z; ++z)
+    for (int x = 0; x < tree.size().x; ++x) {
+      if (tree.tissue({x, y, z}) == k_air) continue;
+      const double h = heat({x, y, z});
+      for (const auto& [from, colours] : bands)
+        if (std::fabs(h) >= from) {
+          ++expected[h > 0 ? colours.first : colours.second];
+          break;
+        }
+    }
+  ASSERT_EQ(expected.size(), 10u) << "every band is there";
+  const std::string key = heat_legend_svg();
+  for (const auto& [colour, leaves] : expected) {
+    // the section's window may begin a few rows higher than the block
+    EXPECT_GT(drawn_in(svg, colour), 0u) << colour;
+    EXPECT_LE(drawn_in(svg, colour), leaves) << colour;
+    EXPECT_EQ(drawn_in(svg, colour) * expected.begin()->second, leaves * drawn_in(svg, expected.begin()->first)) << "the same share of each column";
+    EXPECT_NE(key.find(colour), std::string::npos) << "the key names it";
+  }
+}
+
+}  // namespace
+}  // namespace cavum

@@ -1,0 +1,192 @@
+#include "ui/parts/chart_svg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_left = 58, k_right = 14, k_top = 34, k_bottom = 46;
+
+/// A round step that divides `span` into about `wanted` parts.
+double round_step(double span, int wanted) {
+  const double raw = span / wanted, unit = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double f : {1.0, 2.0, 5.0})
+    if (f * unit >= raw * 0.999) return f * unit;
+  return 10.0 * unit;
+}
+
+struct Axis {
+  double low = 0, high = 1, step = 0.2, from_px = 0, to_px = 1;
+  [[nodiscard]] double px(double v) const { return from_px + (v - low) / (high - low) * (to_px - from_px); }
+  [[nodiscard]] std::string label(double v) const {
+    const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
+    return fixed(std::fabs(v) < 1e-9 * step ? 0.0 : v, digits);
+  }
+};
+
+Axis make_axis(std::optional<std::pair<double, double>> range, double low, double high, int wanted) {
+  Axis a;
+  if (!(high > low)) {
+    low -= 0.5;
+    high += 0.5;
+  }
+  if (range) {
+    low = range->first;
+    high = range->second;
+  }
+  a.step = round_step(high - low, wanted);
+  a.low = range ? low : std::floor(low / a.step + 1e-9) * a.step;
+  a.high = range ? high : std::ceil(high / a.step - 1e-9) * a.step;
+  return a;
+}
+
+std::string num(double v) { return fixed(v, 1); }
+
+std::string line(double x1, double y1, double x2, double y2, const std::string& colour, double width, const std::string& more = "") {
+  return "<line x1='" + num(x1) + "' y1='" + num(y1) + "' x2='" + num(x2) + "' y2='" + num(y2) + "' stroke='" + colour + "' stroke-width='" +
+         num(width) + "' " + more + "/>";
+}
+
+std::string drawn(const ChartSeries& s, const Axis& x, const Axis& y) {
+  using Style = ChartSeries::Style;
+  std::string out;
+  if (s.style == Style::band) {
+    std::string path;
+    for (const auto& p : s.points) path += num(x.px(p.x)) + "," + num(y.px(p.y + p.error)) + " ";
+    for (auto p = s.points.rbegin(); p != s.points.rend(); ++p) path += num(x.px(p->x)) + "," + num(y.px(p->y - p->error)) + " ";
+    return "<polygon points='" + path + "' fill='" + s.colour + "' fill-opacity='0.22'/>";
+  }
+  if (s.style == Style::line || s.style == Style::dashed) {
+    std::string path;
+    for (const auto& p : s.points) path += num(x.px(p.x)) + "," + num(y.px(p.y)) + " ";
+    return "<polyline points='" + path + "' fill='none' stroke='" + s.colour + "' stroke-width='" + num(s.width_px) + "' stroke-linejoin='round'" +
+           (s.style == Style::dashed ? " stroke-dasharray='5 4'" : "") + "/>";
+  }
+  for (const auto& p : s.points) {
+    const double px = x.px(p.x), py = y.px(p.y);
+    if (p.error > 0) {
+      const double high = y.px(p.y + p.error), low = y.px(p.y - p.error);
+      out += line(px, high, px, low, s.colour, 1) + line(px - 3, high, px + 3, high, s.colour, 1) + line(px - 3, low, px + 3, low, s.colour, 1);
+    }
+    out += "<circle cx='" + num(px) + "' cy='" + num(py) + "' r='3.4' stroke='" + s.colour + "' stroke-width='1.4' fill='" +
+           (s.style == Style::rings ? "white" : s.colour) + "'/>";
+  }
+  return out;
+}
+
+std::string legend_sign(const ChartSeries& s, double x, double y) {
+  if (s.style == ChartSeries::Style::band)
+    return "<rect x='" + num(x) + "' y='" + num(y - 5) + "' width='22' height='10' fill='" + s.colour + "' fill-opacity='0.22'/>";
+  if (s.style == ChartSeries::Style::line || s.style == ChartSeries::Style::dashed)
+    return line(x, y, x + 22, y, s.colour, s.width_px, s.style == ChartSeries::Style::dashed ? "stroke-dasharray='5 4'" : "");
+  return "<circle cx='" + num(x + 11) + "' cy='" + num(y) + "' r='3.4' stroke='" + s.colour + "' stroke-width='1.4' fill='" +
+         (s.style == ChartSeries::Style::rings ? "white" : s.colour) + "'/>";
+}
+
+std::string legend(const Chart& chart) {
+  std::size_t longest = 0, n = 0;
+  for (const auto& s : chart.series)
+    if (!s.label.empty()) {
+      longest = std::max(longest, s.label.size());
+      ++n;
+    }
+  if (n == 0) return "";
+  const double width = 40 + 5.9 * static_cast<double>(longest), height = 8 + 16.0 * static_cast<double>(n);
+  const double x = chart.legend_at_right ? chart.width_px - k_right - width - 6 : k_left + 8, y = k_top + (chart.spans.empty() ? 6 : 22);
+  std::string out = "<rect x='" + num(x) + "' y='" + num(y) + "' width='" + num(width) + "' height='" + num(height) +
+                    "' fill='white' fill-opacity='0.85' stroke='#cccccc'/>";
+  double at = y + 12;
+  for (const auto& s : chart.series) {
+    if (s.label.empty()) continue;
+    out += legend_sign(s, x + 6, at) + svg_text(x + 34, at + 4, s.label, 11);
+    at += 16;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string svg_text(double x_px, double y_px, const std::string& text, double size_px, const std::string& anchor, const std::string& more) {
+  return "<text x='" + num(x_px) + "' y='" + num(y_px) + "' font-size='" + num(size_px) + "' text-anchor='" + anchor + "' " + more + ">" +
+         xml_text(text) + "</text>";
+}
+
+std::string chart_group(const Chart& chart, double x_px, double y_px) {
+  constexpr double k_huge = std::numeric_limits<double>::max();
+  double x_low = k_huge, x_high = -k_huge, y_low = k_huge, y_high = -k_huge;
+  for (const auto& s : chart.series)
+    for (const auto& p : s.points) {
+      x_low = std::min(x_low, p.x);
+      x_high = std::max(x_high, p.x);
+      y_low = std::min(y_low, p.y - p.error);
+      y_high = std::max(y_high, p.y + p.error);
+    }
+  if (x_low > x_high) x_low = y_low = 0, x_high = y_high = 1;
+  Axis x = make_axis(chart.x_range, x_low, x_high, 8), y = make_axis(chart.y_range, y_low, y_high, 7);
+  x.from_px = k_left;
+  x.to_px = chart.width_px - k_right;
+  y.from_px = chart.height_px - k_bottom;
+  y.to_px = k_top;
+  const std::string clip = "plot" + num(x_px) + "-" + num(y_px);
+  std::string out = "<g transform='translate(" + num(x_px) + " " + num(y_px) + ")'><clipPath id='" + clip + "'><rect x='" + num(k_left) + "' y='" +
+                    num(k_top) + "' width='" + num(x.to_px - k_left) + "' height='" + num(y.from_px - k_top) + "'/></clipPath>";
+  out += svg_text(k_left, 20, chart.title, 13, "start", "font-weight='bold'");
+  std::string names;
+  for (const auto& s : chart.spans) {
+    const double from = std::max(k_left, x.px(s.from)), to = std::min(x.to_px, x.px(s.to));
+    if (to <= from) continue;
+    out += "<rect x='" + num(from) + "' y='" + num(k_top) + "' width='" + num(to - from) + "' height='" + num(y.from_px - k_top) + "' fill='" +
+           s.colour + "'/>";
+    names += svg_text((from + to) / 2, k_top + 14, s.label, 11, "middle",
+                      "fill='#555555' paint-order='stroke' stroke-width='4' stroke='" + s.colour + "'");
+  }
+  for (double v = std::ceil(x.low / x.step - 1e-9) * x.step; v <= x.high + 1e-9 * x.step; v += x.step)
+    out += line(x.px(v), k_top, x.px(v), y.from_px, "#e4e4e4", 1) + svg_text(x.px(v), y.from_px + 16, x.label(v), 11, "middle");
+  for (double v = std::ceil(y.low / y.step - 1e-9) * y.step; v <= y.high + 1e-9 * y.step; v += y.step)
+    out += line(k_left, y.px(v), x.to_px, y.px(v), "#e4e4e4", 1) + svg_text(k_left - 6, y.px(v) + 4, y.label(v), 11, "end");
+  out += names + "<g clip-path='url(#" + clip + ")'>";
+  for (const auto& s : chart.series) out += drawn(s, x, y);
+  out += "</g>";
+  for (const auto& m : chart.marks) {
+    if (m.vertical)
+      out += line(x.px(m.at), k_top, x.px(m.at), y.from_px, "#333333", 1, "stroke-dasharray='3 3'") +
+             svg_text(x.px(m.at) + 5, y.from_px - 8, m.label, 11, "start", "fill='#333333'");
+    else
+      out += line(k_left, y.px(m.at), x.to_px, y.px(m.at), "#333333", 1, "stroke-dasharray='3 3'") +
+             svg_text(x.to_px - 4, y.px(m.at) - 5, m.label, 11, "end", "fill='#333333'");
+  }
+  out += "<rect x='" + num(k_left) + "' y='" + num(k_top) + "' width='" + num(x.to_px - k_left) + "' height='" + num(y.from_px - k_top) +
+         "' fill='none' stroke='#666666'/>";
+  const double middle = (k_top + y.from_px) / 2;
+  out += svg_text((k_left + x.to_px) / 2, chart.height_px - 10, chart.x_label, 12, "middle") +
+         svg_text(16, middle, chart.y_label, 12, "middle", "transform='rotate(-90 16 " + num(middle) + ")'");
+  return out + legend(chart) + "</g>\n";
+}
+
+std::string svg_page(double width_px, double height_px, const std::string& content) {
+  const std::string w = fixed(width_px, 0), h = fixed(height_px, 0);
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + w + "' height='" + h + "' viewBox='0 0 " + w + " " + h +
+         "' font-family='Helvetica, Arial, sans-serif' fill='#222222'>\n<rect width='100%' height='100%' fill='white'/>\n" + content + "</svg>\n";
+}
+
+std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print) {
+  double x = 8, height = 0;
+  std::string body = svg_text(16, 24, title, 15, "start", "font-weight='bold'");
+  for (const auto& c : charts) {
+    body += chart_group(c, x, 32);
+    x += c.width_px + 8;
+    height = std::max(height, c.height_px);
+  }
+  double y = 32 + height + 16;
+  for (const auto& words : small_print) {
+    body += svg_text(16, y, words, 11, "start", "fill='#555555'") + "\n";
+    y += 15;
+  }
+  return svg_page(x, y, body);
+}
+
+}  // namespace cavum

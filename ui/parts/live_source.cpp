@@ -1,0 +1,117 @@
+#include "ui/parts/live_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/device/hardware/hid_pedal.h"
+#include "engine/device/hardware/open_stylus.h"
+#include "engine/device/hardware/station_pedal.h"
+#include "engine/device/with_desk.h"
+#include "engine/device/with_pedal.h"
+#include "scenarios/candidates/candidate_device.h"
+#include "ui/parts/interrupt.h"
+
+namespace cavum {
+namespace {
+
+class SimulatedSource final : public LiveSource {
+ public:
+  explicit SimulatedSource(LiveSourceOptions options) : options_(std::move(options)) {}
+  [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + options_.operator_name; }
+  [[nodiscard]] MotionSource source() const override { return {"operator", options_.operator_name}; }
+  [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
+  [[nodiscard]] SourceNotes notes() const override {
+    return {{"operator", options_.operator_name}, {"operator_seed", std::to_string(options_.seed)}, {"in_real_time", "yes"}};
+  }
+  void begin(const ExamSetup& setup) override { candidate_ = make_candidate_device(setup, options_.operator_name, options_.seed); }
+  [[nodiscard]] ServoDevice& device() override { return *candidate_; }
+  [[nodiscard]] Vec3 first_tip_mm() const override { return candidate_->start_mm(); }
+  [[nodiscard]] bool done() const override { return candidate_->done(); }
+
+ private:
+  LiveSourceOptions options_;
+  std::unique_ptr<CandidateDevice> candidate_;
+};
+
+class StylusSource final : public LiveSource {
+ public:
+  explicit StylusSource(LiveSourceOptions options) : options_(std::move(options)) {
+    stylus_options_.station = load_station_stylus(options_.device);
+    stylus_ = open_stylus(options_.device, stylus_options_);
+    station_pedal_ = require_pedal();
+    const auto& p = station_pedal_;
+    pedal_ = std::make_unique<HidPedal>(p.vendor, p.product, p.calibration);
+    with_pedal_ = std::make_unique<WithPedal>(*stylus_, *pedal_);
+    with_desk_ = std::make_unique<WithDesk>(*with_pedal_, desk_);
+  }
+  [[nodiscard]] std::string name() const override { return stylus_->facts().name; }
+  [[nodiscard]] MotionSource source() const override { return {"device", stylus_->facts().id, stylus_->facts().serial}; }
+  [[nodiscard]] double position_quantum_mm() const override { return stylus_->facts().position_quantum_mm; }
+  [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }
+  [[nodiscard]] double continuous_n() const override { return stylus_->facts().continuous_n; }
+  [[nodiscard]] SourceNotes notes() const override {
+    return {
+        {"stylus", stylus_->facts().id}, {"stylus_calibration", to_toml(stylus_options_.station)}, {"pedal_calibration", to_toml(station_pedal_)}};
+  }
+  void begin(const ExamSetup& setup) override {
+    if (!options_.point.empty()) {
+      const auto at = std::find(setup.point_names.begin(), setup.point_names.end(), options_.point);
+      if (at == setup.point_names.end()) throw Error("--point " + options_.point, "is not on this scenario's tray", "name one of its points");
+      desk_.point = static_cast<int>(at - setup.point_names.begin());
+    }
+    using Clock = std::chrono::steady_clock;
+    constexpr auto k_patience = std::chrono::seconds(60);
+    std::string told;
+    for (const auto until = Clock::now() + k_patience; !stylus_->health().ready && Clock::now() < until;
+         std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+      if (Interrupt::asked()) throw Error("exam", "was interrupted before it began", "begin it again");
+      if (const std::string now = stylus_->health().problem; now != told) std::fprintf(stderr, "cavum: %s\n", one_line(told = now).c_str());
+    }
+    first_mm_ = first_pose(*stylus_, 1.0).tip_mm;
+  }
+  [[nodiscard]] ServoDevice& device() override { return *with_desk_; }
+  [[nodiscard]] Vec3 first_tip_mm() const override { return first_mm_; }
+  [[nodiscard]] bool done() const override { return false; }
+  [[nodiscard]] std::string problem() const override {
+    const std::string stylus = stylus_->health().problem;
+    return stylus.empty() ? pedal_->problem() : stylus;
+  }
+
+ private:
+  static StationPedal require_pedal() {
+    auto pedal = load_station_pedal(station_pedal_path());
+    if (!pedal)
+      throw Error("stylus", "this station has no foot pedal, and without one the handpiece stands still",
+                  "plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal");
+    return *pedal;
+  }
+
+  LiveSourceOptions options_;
+  StationPedal station_pedal_;
+  StylusOptions stylus_options_;
+  std::unique_ptr<Stylus> stylus_;
+  std::unique_ptr<HidPedal> pedal_;
+  std::unique_ptr<WithPedal> with_pedal_;
+  Desk desk_;
+  std::unique_ptr<WithDesk> with_desk_;
+  Vec3 first_mm_;
+};
+
+}  // namespace
+
+std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
+  if (options.device == "simulated") {
+    if (options.operator_name.empty()) throw Error("--device simulated", "needs a hand", "add --operator expert, novice, perforator or careless");
+    if (!options.point.empty()) throw Error("--point", "is for a stylus in a hand", "leave it out: the operator chooses the point that fits");
+    return std::make_unique<SimulatedSource>(options);
+  }
+  if (!options.operator_name.empty())
+    throw Error("--operator " + options.operator_name, "holds only the simulated stylus", "leave it out, or take --device simulated");
+  return std::make_unique<StylusSource>(options);
+}
+
+}  // namespace cavum

@@ -1,0 +1,127 @@
+// `cavum cohort`: a class as a whole, and a class that is simulated.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "grading/cohort/simulated_class.h"
+#include "ui/parts/number_check.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/report/class_report.h"
+#include "ui/report/report.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+  cohort::SimulatedClass wanted;
+  std::string folder, key, exam, marks, out;
+  double borderline = 3;
+  bool borderline_given = false;
+  bool as_json = false;
+};
+
+SigningKey key_of(const Options& o) { return load_school_key(o.key.empty() ? school_key_path() : o.key); }
+
+void simulate(const Options& o) {
+  Ledger ledger(o.folder, key_of(o));
+  Identities identities(ledger.places().identities());
+  const auto start = std::chrono::steady_clock::now();
+  const bool shown = !o.as_json && ::isatty(STDERR_FILENO) == 1;
+  const auto sat = cohort::simulate_class(o.wanted, ledger, identities, [&](int i) {
+    if (shown) std::fprintf(stderr, "\r%d of %d", i, o.wanted.n);
+  });
+  if (shown) std::fprintf(stderr, "\r%20s\r", "");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (o.as_json)
+    print_json(json{{"sat", sat.sat}, {"filed", sat.filed}, {"seconds", seconds}, {"bytes", sat.bytes}});
+  else
+    std::printf("%d exams sat, %d verified and filed, %.1f s, %.1f MB of sessions\n", sat.sat, sat.filed, seconds,
+                static_cast<double>(sat.bytes) * 1e-6);
+}
+
+void report(const Options& o) {
+  const LedgerPlaces places{o.folder};
+  const LedgerContent content = read_ledger(places);
+  if (!content.findings.empty())
+    throw Error(o.folder, "does not hold (" + content.findings.front() + ")", "see `cavum ledger verify " + o.folder + "`");
+  const Registry registry = read_registry(content);
+  std::vector<cohort::HumanMark> marks;
+  if (!o.marks.empty()) {
+    Identities identities(places.identities());
+    marks = cohort::parse_marks(read_text_file(o.marks), identities, o.exam, o.marks, cohort::points_of_exam(registry, o.exam));
+  }
+  if (o.borderline_given) {
+    const auto rating_is = [&](auto holds) {
+      return std::any_of(marks.begin(), marks.end(), [&](const cohort::HumanMark& m) { return m.rating && holds(*m.rating); });
+    };
+    if (!rating_is([&](double r) { return r <= o.borderline; }) || !rating_is([&](double r) { return r >= o.borderline; }))
+      throw Error("--borderline " + plain_number(o.borderline), "does not lie within the ratings that the marks give",
+                  "name a rating that judges used");
+  }
+  const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
+  if (!o.out.empty()) {
+    if (!o.out.ends_with(".pdf") && !o.out.ends_with(".html"))
+      throw Error("--out " + o.out, "is no kind of report", "use a name ending in .html or .pdf");
+    require_report_place(o.out);
+    require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
+    const auto tooth = cohort::class_tooth(registry, places, o.exam);
+    for (const auto& finding : tooth->findings) std::cerr << "cavum: notice: not in the pictures: " << one_line(finding) << "\n";
+    if (tooth->left_out > 0)
+      std::cerr << "cavum: notice: not in the pictures: " << tooth->left_out << " who sat it with another text, tooth or leaf size than most\n";
+    write_text_file(o.out, o.out.ends_with(".pdf") ? class_pdf(figures, *tooth) : class_html(figures, *tooth));
+  }
+  if (o.as_json) {
+    print_json(to_json(figures));
+  } else {
+    std::cout << cohort::to_text(figures);
+    if (!o.out.empty()) std::cout << "written: " << one_line(o.out) << "\n";
+  }
+}
+
+}  // namespace
+
+void add_cohort_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* cohort = app.add_subcommand("cohort", "A class as a whole: how hard, how reliable, how fair the exam was");
+  cohort->require_subcommand(1);
+  auto* v = cohort->add_subcommand("simulate", "A class of simulated students of differing skill sits an exam and is filed");
+  v->add_option("scenario", o->wanted.scenario, "scenario file (.toml)")->required();
+  v->add_option("--ledger", o->folder, "the ledger's folder")->required();
+  v->add_option("--sessions", o->wanted.sessions, "folder for their sessions")->required();
+  v->add_option("--n", o->wanted.n, "students")->check(CLI::Range(1, 10000))->capture_default_str();
+  v->add_option("--seed", o->wanted.seed, "the same seed gives the same class")->capture_default_str();
+  v->add_option("--at-once", o->wanted.at_once, "exams side by side")->check(CLI::Range(1, 16))->capture_default_str();
+  v->add_option("--key", o->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
+  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  v->callback([o, &exit_code] {
+    simulate(*o);
+    exit_code = 0;
+  });
+  v = cohort->add_subcommand("report", "Figures of one exam over all who sat it");
+  v->add_option("ledger", o->folder, "the ledger's folder")->required();
+  v->add_option("--exam", o->exam, "id of the scenario")->required();
+  v->add_option("--marks", o->marks, "people's marks, CSV `candidate,judge,points[,rating]`");
+  const auto* borderline =
+      v->add_option("--borderline", o->borderline, "the rating that means borderline")->check(between(-1000, 1000))->capture_default_str();
+  v->add_option("--out", o->out, "also a report (.html or .pdf)");
+  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  v->callback([o, borderline, &exit_code] {
+    o->borderline_given = borderline->count() > 0;
+    report(*o);
+    exit_code = 0;
+  });
+}
+
+}  // namespace cavum

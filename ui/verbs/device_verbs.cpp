@@ -1,0 +1,228 @@
+// `cavum devices`: the foot pedals and styluses that are plugged in, what is wrong with them, how well they speak, and their calibration.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "engine/device/hardware/hid_pedal.h"
+#include "engine/device/hardware/station_pedal.h"
+#include "ui/parts/interrupt.h"
+#include "ui/parts/number_check.h"
+#include "ui/parts/print_json.h"
+#include "ui/parts/terminal.h"
+#include "ui/verbs/stylus_devices.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct Options {
+  bool json = false, test = false, calibrate = false, live = false, place = false, no_push = false;
+  std::string id, stylus;
+  double seconds = 3.0;
+};
+
+/// The one that `id` names, or the only one there is.
+HidPedalInfo chosen(const std::vector<HidPedalInfo>& pedals, const std::string& id) {
+  std::string names;
+  for (const auto& p : pedals) {
+    if (p.id() == id) return p;
+    names += (names.empty() ? "" : ", ") + p.id();
+  }
+  if (pedals.empty()) throw Error("cavum devices", "no foot pedal is plugged in", "plug one in; a USB pedal is seen within a second");
+  if (!id.empty()) throw Error("--pedal " + id, "is not plugged in", "name one of " + names);
+  if (pedals.size() > 1) throw Error("cavum devices", "there are several pedals", "choose with --pedal one of " + names);
+  return pedals[0];
+}
+
+std::int32_t median_of(std::vector<std::int32_t> numbers) {
+  if (numbers.empty()) return 0;
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
+/// Smallest difference between two numbers that were heard; 0 when all were the same.
+std::int32_t quantum_of(std::vector<std::int32_t> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::int32_t least = 0;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    if (const std::int32_t step = numbers[i] - numbers[i - 1]; least == 0 || step < least) least = step;
+  return least;
+}
+
+nlohmann::json axis_json(const HidField& axis) {
+  return {{"page", axis.page}, {"usage", axis.usage}, {"bits", axis.bits}, {"least", axis.least}, {"most", axis.most}};
+}
+
+void list(const Options& o) {
+  if (!o.id.empty()) {
+    std::uint16_t vendor = 0, product = 0;
+    parse_usb_id(o.id, "--pedal", vendor, product);
+  }
+  const auto pedals = list_hid_pedals();
+  std::string calibration_problem;
+  std::optional<StationPedal> station;
+  try {
+    station = load_station_pedal(station_pedal_path());
+  } catch (const Error& e) {
+    calibration_problem = e.what();
+  }
+  const auto calibrated = [&station](const HidPedalInfo& p) { return station && station->vendor == p.vendor && station->product == p.product; };
+  if (o.json) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& p : pedals) {
+      nlohmann::json axes = nlohmann::json::array();
+      for (const auto& axis : p.axes) axes.push_back(axis_json(axis));
+      all.push_back({{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", p.problem}, {"calibrated", calibrated(p)}});
+    }
+    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", calibration_problem}, {"styluses", styluses_json(o.live)}});
+    return;
+  }
+  std::cout << "pedals\n";
+  for (const auto& p : pedals) {
+    std::cout << "  " << p.id() << "  " << one_line(p.name) << "  (" << one_line(p.path) << ", " << p.axes.size()
+              << (p.axes.size() == 1 ? " axis" : " axes") << (calibrated(p) ? ", calibrated" : "") << ")\n";
+    if (!p.problem.empty())
+      std::cout << "    " << one_line(p.problem) << "\n";
+    else if (!calibrated(p))
+      std::cout << "    not calibrated; run `cavum devices --calibrate-pedal --pedal " << p.id() << "`\n";
+  }
+  if (pedals.empty()) std::cout << "  none; without one the handpiece stands still\n";
+  if (station && std::none_of(pedals.begin(), pedals.end(), calibrated))
+    std::cout << "  " << usb_id(station->vendor, station->product) << "  is calibrated for this station, and not plugged in\n";
+  if (!calibration_problem.empty()) std::cout << "  " << calibration_problem << "\n";
+  std::cout << styluses_text(o.live) << std::flush;
+}
+
+int test(const Options& o) {
+  const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
+  if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be tested", pedal.problem);
+  if (!o.json) std::cout << "move the pedal " << pedal.id() << " for " << plain_number(o.seconds) << " s ...\n" << std::flush;
+  const PedalHearing heard = hear_pedal(pedal.vendor, pedal.product, o.seconds);
+  // Continuous enough: no silence as long as the one after which the servo no longer believes the pedal.
+  const bool continuous = heard.reports > 1 && heard.longest_gap_s < HidPedal::k_stale_after_s;
+  const double rate_hz = heard.mean_period_s > 0 ? 1.0 / heard.mean_period_s : 0.0;
+  if (o.json) {
+    nlohmann::json axes = nlohmann::json::array();
+    for (const auto& numbers : heard.numbers) {
+      const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
+      axes.push_back({{"least", numbers.empty() ? 0 : *low}, {"most", numbers.empty() ? 0 : *high}, {"quantum", quantum_of(numbers)}});
+    }
+    print_json(nlohmann::json{{"id", pedal.id()},
+                              {"reports", heard.reports},
+                              {"rate_hz", rate_hz},
+                              {"jitter_ms", 1e3 * heard.jitter_s},
+                              {"longest_gap_ms", 1e3 * heard.longest_gap_s},
+                              {"speaks_continuously", continuous},
+                              {"axes", axes}});
+  } else if (heard.reports == 0) {
+    std::cout << "it said nothing: the handpiece would stand still\n";
+  } else {
+    std::cout << heard.reports << " reports, " << plain_number(rate_hz) << " Hz, jitter " << fixed(1e3 * heard.jitter_s, 2) << " ms, longest gap "
+              << fixed(1e3 * heard.longest_gap_s, 1) << " ms: " << (continuous ? "speaks continuously" : "speaks when it moves") << "\n";
+    for (std::size_t i = 0; i < heard.numbers.size(); ++i) {
+      const auto& numbers = heard.numbers[i];
+      if (numbers.empty()) continue;
+      const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
+      std::cout << "  axis " << i << ": " << *low << " to " << *high << ", quantum " << quantum_of(numbers) << "\n";
+    }
+  }
+  return heard.reports > 0 ? 0 : 1;
+}
+
+void calibrate(const Options& o) {
+  const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
+  if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be calibrated", pedal.problem);
+  const std::string path = station_pedal_path();
+  make_private_folder(std::filesystem::path(path).parent_path().string());
+  require_writable(path);
+  const auto listen = [&](const char* what) {
+    std::cerr << what << " for " << plain_number(o.seconds) << " s, then press Enter\n";
+    std::string line;
+    std::getline(std::cin, line);
+    return hear_pedal(pedal.vendor, pedal.product, o.seconds);
+  };
+  const PedalHearing off = listen("take the foot off the pedal; hold"), down = listen("press the pedal down; hold it");
+  if (off.reports + down.reports == 0) throw Error("pedal " + pedal.id(), "said nothing", "press it a few times to wake it, and begin again");
+  std::vector<AxisHeard> axes(down.numbers.size());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto& silent = off.numbers[i].empty() ? down.numbers[i] : off.numbers[i];  // one that speaks on change may say nothing at rest
+    axes[i].released = off.numbers[i].empty() && !silent.empty() ? silent.front() : median_of(silent);
+    axes[i].pressed = median_of(down.numbers[i]);
+    if (!off.numbers[i].empty()) {
+      const auto [low, high] = std::minmax_element(off.numbers[i].begin(), off.numbers[i].end());
+      axes[i].jitter = *high - *low;
+    }
+    axes[i].reports = static_cast<std::int64_t>(down.numbers[i].size());
+  }
+  // Continuous only when it spoke all the time while the foot lay still.
+  const bool continuous = off.reports > 1 && down.reports > 1 && std::max(off.longest_gap_s, down.longest_gap_s) < HidPedal::k_stale_after_s;
+  const StationPedal made{.vendor = pedal.vendor, .product = pedal.product, .calibration = calibrate_pedal(axes, down.ranges, !continuous)};
+  write_private_text_file(path, to_toml(made));
+  std::cout << "axis " << made.calibration.axis << ", released " << made.calibration.released << ", pressed " << made.calibration.pressed << ", "
+            << (continuous ? "speaks continuously" : "speaks when it moves") << "\nwritten: " << path << "\n";
+}
+
+/// The list anew twice a second, until Ctrl-C.
+void watch(const Options& o) {
+  const Interrupt interrupt;
+  while (!Interrupt::asked()) {
+    if (::isatty(STDOUT_FILENO) == 1) command_terminal("\033[H\033[2J");
+    list(o);
+    if (!o.json) std::cout << "\n";
+    for (int i = 0; i < 25 && !Interrupt::asked(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+void add_device_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* devices = app.add_subcommand("devices", "What is plugged in and what is wrong with it");
+  devices->add_option("--pedal", o->id, "vendor and product, for example 068e:00f2; needed when there are several");
+  auto* stylus = devices->add_option("--stylus", o->stylus, "falcon, touch or simulated: for --test and --place");
+  auto* test_flag =
+      devices->add_flag("--test", o->test,
+                        "listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "
+                        "and friction in air");
+  devices->add_flag("--no-push", o->no_push, "with --test --stylus: leave out the friction, which needs gentle pushes")
+      ->needs(test_flag)
+      ->needs(stylus);
+  devices->add_flag("--place", o->place, "touch four marks, so that the stylus stands where the tooth is; kept for this station")
+      ->needs(stylus)
+      ->excludes(test_flag);
+  devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
+  devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
+  devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(between(0.2, 600.0))->capture_default_str();
+  devices->add_flag("--json", o->json, "one JSON object on standard output");
+  devices->callback([o, &exit_code] {
+    exit_code = 0;
+    if (o->place)
+      place_stylus(o->stylus);
+    else if (o->test && !o->stylus.empty())
+      exit_code = test_stylus(o->stylus, o->seconds, !o->no_push, o->json);
+    else if (!o->stylus.empty())
+      throw Error("--stylus " + o->stylus, "says of which, but not what", "add --test or --place");
+    else if (o->live)
+      watch(*o);
+    else if (o->calibrate)
+      calibrate(*o);
+    else if (o->test)
+      exit_code = test(*o);
+    else
+      list(*o);
+  });
+}
+
+}  // namespace cavum

@@ -1,0 +1,54 @@
+#include "ui/verbs/enrol_station.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "engine/base/file.h"
+#include "engine/device/hardware/falcon_usb.h"
+#include "engine/device/hardware/usb_serial.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/station_ticket.h"
+#include "grading/ledger/stations.h"
+
+namespace cavum {
+namespace {
+
+MotionSource stylus(const std::string& id) {
+  if (id == "falcon") return {"device", id, usb_serial(k_falcon_vendor, k_falcon_product)};
+  if (id == "touch") return {"device", id, ""};
+  throw Error("--stylus " + id, "is none", "name falcon or touch");
+}
+
+}  // namespace
+
+void enrol_station(const EnrolOptions& o) {
+  if (o.replace_key && !o.code.empty()) throw Error("--replace-key", "was asked for together with --enrol", "give one of them");
+  const std::string school = station_school_key();
+  if (school.empty())
+    throw Error(school_public_key_path(), "this station knows no school yet", "copy the school's public key there: `cavum ledger init` writes it");
+  if (std::filesystem::is_directory(o.out)) throw Error("--out " + o.out, "is a folder", "name the file to write the request to");
+  require_writable(o.out);
+  std::vector<MotionSource> devices;
+  for (const auto& id : o.styluses) devices.push_back(stylus(id));
+  const std::string path = station_key_path();
+  const SigningKey old = load_station_key(path);
+  std::string request;
+  SigningKey key = old;
+  if (o.replace_key) {
+    const std::string fresh = path + ".new", kept = path + ".old";
+    std::filesystem::remove(fresh);
+    key = load_signing_key(fresh, "station");
+    request = station_request(key, school, devices, old);
+    write_text_file(o.out, request + "\n");
+    std::filesystem::rename(path, kept);
+    std::filesystem::rename(fresh, path);
+  } else {
+    request = station_request(key, school, devices, o.code);
+    write_text_file(o.out, request + "\n");
+  }
+  remember_enrolled(path, key);
+  std::cout << "this station's key: " << to_hex(key.public_key) << "\nbring " << o.out << " to the school: `cavum ledger station LEDGER --enrol "
+            << o.out << "`\n";
+}
+
+}  // namespace cavum

@@ -1,0 +1,376 @@
+// `cavum exam`: a timed exam from a motion file or a simulated candidate, recorded, graded and sealed.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "engine/servo/real_time_json.h"
+#include "grading/close_exam.h"
+#include "grading/ledger/candidate_id.h"
+#include "grading/ledger/station_ticket.h"
+#include "grading/result/result_json.h"
+#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/exam/live_exam.h"
+#include "scenarios/exam/other_place.h"
+#include "ui/parts/interrupt.h"
+#include "ui/parts/live_source.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/parts/seed_check.h"
+#include "ui/report/report.h"
+#include "ui/verbs/full_disk.h"
+#include "ui/verbs/grant_options.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct Options {
+  std::string scenario, candidate, motion, operator_name, device, point, out, out_if_full, ticket, tooth, model = "consistent", rubric, report;
+  std::uint64_t seed = 1;
+  int delay_ticks = 1;
+  bool json = false, quiet = false, resume = false, end = false, model_given = false;
+  Grant grant;
+};
+
+/// One line on the terminal that shows time, step and removal; nothing when the output is no terminal.
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
+  ~ProgressBar() { clear(); }
+  void show(const Exam& exam, double progress) { show(exam.state().tick, progress, exam.instruction()); }
+  void show(std::int64_t tick, double progress, const std::string& what) {
+    if (!shown_) return;
+    constexpr int k_width = 24;
+    const int filled = static_cast<int>(progress * k_width);
+    std::string bar(static_cast<std::size_t>(filled), '=');
+    bar.resize(k_width, ' ');
+    std::fprintf(stderr, "\r[%s] %3lld:%02lld  %-70.70s", bar.c_str(), static_cast<long long>(tick / 60000), static_cast<long long>(tick / 1000 % 60),
+                 one_line(what).c_str());
+  }
+  void clear() {
+    if (shown_) std::fprintf(stderr, "\r%110s\r", "");
+    shown_ = false;
+  }
+
+ private:
+  bool shown_;
+};
+
+/// Line of the file that holds sample `sample` of a motion that parse_motion has accepted: header, comments and empty
+/// lines give no sample.
+std::size_t line_of_sample(std::string_view text, std::size_t sample) {
+  constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
+  if (text.starts_with(k_byte_order_mark)) text.remove_prefix(k_byte_order_mark.size());
+  std::size_t number = 0, rows = 0;
+  while (!text.empty()) {
+    ++number;
+    const auto end = std::min(text.find_first_of("\r\n"), text.size());
+    const auto first = text.substr(0, end).find_first_not_of(" \t");
+    if (first != std::string_view::npos && text[first] != '#' && ++rows == sample + 2) break;  // the header is row 1
+    text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
+  }
+  return number;
+}
+
+/// A motion file whose diamond points are all on the tray; else throws Error.
+std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
+  const std::string text = read_text_file(path, k_largest_table);
+  Motion motion = parse_motion(text, path);
+  for (std::size_t i = 0; i < motion.samples.size(); ++i)
+    if (const int point = motion.samples[i].point; point >= static_cast<int>(tray.size()))
+      throw Error(
+          path + ":" + std::to_string(line_of_sample(text, i)),
+          "point is " + std::to_string(point) + ", and the scenario has " + std::to_string(tray.size()) + (tray.size() == 1 ? " point" : " points"),
+          "write 0 for its first point" + (tray.size() > 1 ? ", at most " + std::to_string(tray.size() - 1) : std::string()));
+  return std::make_unique<PlayedMotion>(std::move(motion), tray, path);
+}
+
+std::unique_ptr<InputSource> make_source(const Options& o, const ExamSetup& setup) {
+  if (!o.motion.empty()) return read_motion(o.motion, setup.point_names);
+  OmniModel omni;
+  omni.delay_ticks = o.delay_ticks;
+  return std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, o.operator_name, o.seed, omni));
+}
+
+std::string source_name(const Options& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
+
+MotionSource motion_source(const Options& o) {
+  if (!o.motion.empty()) return {"motion_file", std::filesystem::path(o.motion).filename().string()};
+  return {"operator", o.operator_name};
+}
+
+SourceNotes source_notes(const Options& o) {
+  if (!o.motion.empty()) return {{"motion_file", std::filesystem::path(o.motion).filename().string()}};
+  return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
+}
+
+std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live = nullptr) {
+  ExamOptions options;
+  options.candidate = o.candidate;
+  options.tooth_file = o.tooth;
+  options.force_model = o.model;
+  options.rubric_file = o.rubric;
+  options.device = source_name(o);
+  options.source = motion_source(o);
+  options.notes = source_notes(o);
+  if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
+  if (live != nullptr) {
+    options.device = live->name();
+    options.source = live->source();
+    options.notes = live->notes();
+    options.position_quantum_mm = live->position_quantum_mm();
+    options.peak_n = live->peak_n();
+    options.continuous_n = live->continuous_n();
+  }
+  options.grant = o.grant;
+  if (o.ticket.empty()) return prepare_exam(o.scenario, options);
+  const HeldTicket held = read_ticket(o.ticket);
+  require_unused(held);
+  use_ticket(held, options);
+  auto setup = prepare_exam(o.scenario, options);
+  require_promised(held, setup->session);
+  return setup;
+}
+
+/// Begins to record, and uses the ticket up.
+std::unique_ptr<Exam> begin_exam(const Options& o, const ExamSetup& setup, Vec3 first_tip_mm) {
+  std::optional<HeldTicket> held;
+  if (!o.ticket.empty()) held = read_ticket(o.ticket);
+  return begin_somewhere(o.out, o.out_if_full, [&](const std::string& path) {
+    return begin_with_ticket(held ? &*held : nullptr, path, [&] { return Exam::start(setup, path, first_tip_mm); });
+  });
+}
+
+/// Grades what was recorded, seals the session with it, prints it.
+void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
+  ClosedExam closed;
+  write_somewhere(exam, o.out_if_full, [&] { closed = grade_and_close(exam); });
+  const std::string& session = exam.recorder().path();
+  remember_closed(closed.graded->notes, session);
+  const Result& result = closed.result;
+  if (o.json) {
+    auto j = to_json(result);
+    j["session"] = session;
+    if (!servo.is_null()) j["servo"] = servo;
+    print_json(j);
+  } else {
+    std::cout << to_text(result) << "recorded: " << one_line(session) << std::endl;
+  }
+  if (o.report.empty()) return;
+  try {  // the exam is sealed by now, whatever becomes of its report
+    write_closing_report(o.report, session, result, *closed.graded);
+  } catch (const Error& e) {
+    throw Error(o.report, "the exam is graded and sealed in " + session + ", its report is not written (" + e.what() + ")",
+                "write it later: `cavum report " + session + " --out FILE`");
+  }
+  if (!o.json) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
+}
+
+/// What would spoil the end of an exam is said before it begins.
+void require_places(const Options& o) {
+  const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
+  require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}, {"--out-if-full " + o.out_if_full, o.out_if_full}},
+                     {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
+  if (!o.report.empty()) require_report_place(o.report);
+}
+
+/// How punctual the servo was: kept as an event of the session, and shown.
+nlohmann::json servo_json(const LiveReport& report) {
+  nlohmann::json j = to_json(report.servo);
+  j["first_disagreement"] = report.first_disagreement;
+  return j;
+}
+
+/// An exam with a hand on it, until it is over, the operator is done, a signal comes or the device fails. Returns 0 when it is over and sealed, 1
+/// when it was only stopped: such a session can be resumed.
+int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::unique_ptr<Exam> begun) {
+  LiveExam live(setup, begun ? std::move(begun) : begin_exam(o, setup, source.first_tip_mm()), source.device());
+  live.exam().set_second_place(o.out_if_full);  // before its threads run
+  RecordingWatch recording(o.out);
+  recording.begun(live.exam().recorder().path());
+  live.start();
+  {
+    ProgressBar bar(!o.json && !o.quiet);
+    std::string told;
+    constexpr auto k_look = std::chrono::milliseconds(20);
+    for (; live.running() && !Interrupt::asked(); std::this_thread::sleep_for(k_look)) {
+      if (source.done()) live.ask_to_end();
+      const LiveView view = live.view();
+      const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
+      const auto step = std::min(static_cast<std::size_t>(std::max(0, view.step)), setup.scenario.steps.size() - 1);
+      bar.show(view.ticks, std::min(1.0, share), setup.scenario.steps[step].instruction);
+      if (view.ticks > 0) recording.look(view.recording_error, view.session);
+      if (const std::string problem = source.problem(); problem != told) {
+        if (!problem.empty()) std::fprintf(stderr, "\ncavum: %s\n", one_line(problem).c_str());
+        told = problem;
+      }
+    }
+  }
+  const LiveReport& report = live.finish();
+  const nlohmann::json servo = servo_json(report);
+  Exam& exam = live.exam();
+  exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), "servo_lateness", servo.dump());
+  if (!o.json && !o.quiet)
+    std::fprintf(stderr, "servo: %lld ticks, %lld late, worst %.1f ms%s\n", static_cast<long long>(report.servo.ticks),
+                 static_cast<long long>(report.servo.overruns), report.servo.lateness.worst_us() * 1e-3,
+                 report.servo.fifo ? "" : " (without SCHED_FIFO)");
+  if (exam.over()) {
+    finish(o, exam, servo);
+    return 0;
+  }
+  write_somewhere(exam, o.out_if_full, [&exam] { exam.recorder().flush(); });
+  const std::string& session = exam.recorder().path();
+  const std::string why = report.servo.error.empty() ? "was stopped" : "was stopped: " + report.servo.error;
+  if (o.json) print_json(nlohmann::json{{"session", session}, {"stopped", why}, {"servo", servo}});
+  std::fprintf(stderr, "cavum: %s: %s; go on with --resume --device, or close it as it stands with --resume --end\n", session.c_str(),
+               one_line(why).c_str());
+  return 1;
+}
+
+std::unique_ptr<LiveSource> open_source(const Options& o) {
+  return open_live_source({.device = o.device, .operator_name = o.operator_name, .seed = o.seed, .point = o.point});
+}
+
+int run_new_live(const Options& o) {
+  require_places(o);
+  const Interrupt interrupt;
+  const auto source = open_source(o);
+  const auto setup = make_setup(o, source.get());
+  source->begin(*setup);
+  return run_live(o, *setup, *source, nullptr);
+}
+
+int run_new(const Options& o) {
+  require_candidate_id("--candidate", o.candidate);
+  if (!o.device.empty()) return run_new_live(o);
+  if (o.motion.empty() == o.operator_name.empty())
+    throw Error("cavum exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
+  require_places(o);
+  const auto setup = make_setup(o);
+  const auto source = make_source(o, *setup);
+  const auto exam = begin_exam(o, *setup, source->start_mm());
+  {
+    RecordingWatch recording(o.out);
+    recording.begun(exam->recorder().path());
+    ProgressBar bar(!o.json && !o.quiet);
+    run_exam(*exam, *source, [&](const Exam& e, double progress) {
+      bar.show(e, progress);
+      recording.look(e.recording_problem(), e.recorder().path());
+    });
+  }
+  finish(o, *exam);
+  return 0;
+}
+
+/// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
+void require_same(const Options& o, const SessionSetup& held) {
+  const auto differs = [&o](const std::string& option, const std::string& what) {
+    throw Error(option, "is not the " + what + " that " + o.out + " was begun with", "leave it out, or name another session with --out");
+  };
+  if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, "candidate ('" + held.candidate + "')");
+  if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
+  if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, "tooth");
+  for (const auto& [key, value] : notes_of(o.grant))
+    if (std::find(held.notes.begin(), held.notes.end(), std::pair(key, value)) == held.notes.end()) differs(key + " " + value, "accommodation");
+  const std::string near_file = o.scenario.empty() ? "data/scenarios/any.toml" : o.scenario;
+  if (o.model_given && force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
+  if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml) differs("--rubric " + o.rubric, "rubric");
+}
+
+/// Takes up a killed exam with new motion, or closes it as it stands.
+int run_resumed(const Options& o) {
+  if (o.motion.empty() && o.operator_name.empty() && o.device.empty() && !o.end)
+    throw Error("cavum exam --resume", "nothing to go on with",
+                "give --motion, --operator or --device to continue, or --end to close the exam as it stands");
+  require_places(o);
+  const SessionReader reader(o.out);
+  reader.require_readable();
+  if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
+  const auto setup = prepare_exam(reader.setup());
+  SourceNotes notes;
+  if (!reader.closed()) notes = require_not_closed(setup->session.notes, o.out);
+  const auto say = [&notes](const SourceNotes& more) { notes.insert(notes.end(), more.begin(), more.end()); };
+  if (!o.device.empty()) {
+    const Interrupt interrupt;
+    const auto live = open_source(o);
+    if (live->position_quantum_mm() != parse_servo_config(setup->session.servo_toml, o.out).position_quantum_mm)
+      throw Error("--device " + o.device, "has another encoder than the one that " + o.out + " was begun with",
+                  "go on with the same device, or close the exam with --end");
+    live->begin(*setup);
+    say(to_notes(live->source()));
+    say(live->notes());
+    say({{"device", live->name()}});
+    return run_live(o, *setup, *live, Exam::resume(*setup, o.out, notes));
+  }
+  const bool moves = !o.motion.empty() || !o.operator_name.empty();
+  // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
+  const auto source = moves ? make_source(o, *setup) : nullptr;
+  if (moves) {
+    say(to_notes(motion_source(o)));
+    say(source_notes(o));
+    say({{"device", source_name(o)}});
+  }
+  const auto exam = Exam::resume(*setup, o.out, notes);
+  exam->set_second_place(o.out_if_full);
+  if (source) {
+    RecordingWatch recording(o.out);
+    run_exam(*exam, *source, [&](const Exam& e, double) { recording.look(e.recording_problem(), e.recorder().path()); });
+  } else if (!exam->over()) {
+    exam->end();
+  }
+  finish(o, *exam);
+  return 0;
+}
+
+}  // namespace
+
+void add_exam_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* exam = app.add_subcommand("exam", "Run a timed exam, record it, grade it and seal the recording");
+  exam->add_option("scenario", o->scenario, "scenario file (.toml)");
+  exam->add_option("--candidate", o->candidate, "candidate's pseudonym");
+  exam->add_option("--ticket", o->ticket,
+                   "the school's promise of this exam (see `cavum ledger ticket`): says who sits it, and is kept in the session");
+  auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
+  auto* name = exam->add_option("--operator", o->operator_name,
+                                "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
+  auto* device = exam->add_option("--device", o->device, "in real time, without a window: falcon, touch, or simulated with --operator as its hand");
+  motion->excludes(name);
+  device->excludes(motion);
+  exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);
+  exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
+  exam->add_option("--out-if-full", o->out_if_full, "session file, on another disk, to begin or go on with when --out cannot be written");
+  exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
+  const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
+  add_grant_options(exam, o->grant);
+  exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
+  exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
+  exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
+  exam->add_option("--report", o->report, "also write the instructor's report: .html or .pdf");
+  exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed or stopped: with --motion, --operator, --device or --end");
+  exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
+  exam->add_flag("--quiet", o->quiet, "no progress bar");
+  exam->callback([o, model, &exit_code] {
+    o->model_given = model->count() > 0;
+    if (o->resume) {
+      exit_code = run_resumed(*o);
+    } else {
+      if (o->scenario.empty()) throw Error("cavum exam", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+      if (o->candidate.empty() && o->ticket.empty()) throw Error("cavum exam", "no candidate given", "add --candidate with a pseudonym, or --ticket");
+      exit_code = run_new(*o);
+    }
+  });
+}
+
+}  // namespace cavum

@@ -1,0 +1,347 @@
+#include "ui/verbs/explain_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "engine/base/print.h"
+#include "engine/base/text.h"
+#include "ui/parts/chart_svg.h"
+
+namespace cavum {
+namespace {
+
+using explain::Series;
+using explain::View;
+using Style = ChartSeries::Style;
+
+constexpr int k_bins = 24;
+// Okabe and Ito's colours: told apart with any colour vision; shapes and dashes say the same again
+constexpr const char *k_measured = "#7f7f7f", *k_before = "#d55e00", *k_after = "#0072b2", *k_third = "#009e73";
+
+/// "fc_n" → {"fc", "N"}.
+std::pair<std::string, std::string> name_and_unit(const std::string& name) {
+  static const std::pair<const char*, const char*> k_units[] = {
+      {"_n_s_per_mm", "N s/mm"}, {"_n_per_mm", "N/mm"}, {"_n_per_s", "N/s"}, {"_per_mm3", "1/mm³"}, {"_per_mm", "1/mm"}, {"_per_k", "1/K"},
+      {"_mm_s", "mm/s"},         {"_mm3", "mm³"},       {"_mm", "mm"},       {"_deg", "°"},         {"_hz", "Hz"},       {"_kg", "kg"},
+      {"_turns", "turns"},       {"_rpm", "1/min"},     {"_n", "N"},         {"_s", "s"},           {"_c", "°C"}};
+  const std::string all = "_" + name;
+  for (const auto& [ending, unit] : k_units)
+    if (all.ends_with(ending)) {
+      const std::string stem = all.substr(1, std::max<std::size_t>(1, all.size() - std::string(ending).size()) - 1);
+      return {stem.empty() ? "value" : stem, unit};
+    }
+  return {name, ""};
+}
+
+std::string axis_label(const std::string& column) {
+  if (column == "x_mm") return "penetration x, mm";
+  if (column == "v_mm_s") return "speed v, mm/s";
+  if (column == "t_s") return "time t, s";
+  if (column == "spindle_rpm") return "spindle, 1000/min";
+  auto [name, unit] = name_and_unit(column);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return unit.empty() ? name : name + ", " + unit;
+}
+
+/// Means of `y` over equal parts of u (quantiles), with two standard errors.
+std::vector<ChartPoint> binned(const Series& u, const Series& y) {
+  std::vector<std::pair<double, double>> rows;
+  for (Eigen::Index i = 0; i < u.size(); ++i) rows.emplace_back(u[i], y[i]);
+  std::sort(rows.begin(), rows.end());
+  std::vector<ChartPoint> out;
+  std::size_t begin = 0;
+  for (int b = 0; b < k_bins && begin < rows.size(); ++b) {
+    std::size_t end = std::max(begin + 1, rows.size() * static_cast<std::size_t>(b + 1) / k_bins);
+    while (end < rows.size() && rows[end].first == rows[end - 1].first) ++end;  // one value is one point
+    double x = 0, sum = 0, square = 0;
+    for (std::size_t i = begin; i < end; ++i) x += rows[i].first, sum += rows[i].second, square += rows[i].second * rows[i].second;
+    const double n = static_cast<double>(end - begin), mean = sum / n;
+    if (n > 5) out.push_back({x / n, mean, 2.0 * std::sqrt(std::max(0.0, square / n - mean * mean) / n)});
+    begin = end;
+  }
+  return out;
+}
+
+std::string svg(const Chart& chart) { return svg_page(chart.width_px, chart.height_px, chart_group(chart, 0, 0)); }
+
+/// How much of the residual goes with `u`: variance of the means over it.
+double strength(const View& before, const Series& u) {
+  double sum = 0.0;
+  const auto means = binned(u, before.residual_n);
+  for (const auto& p : means) sum += p.y * p.y;
+  return means.empty() ? 0.0 : sum / static_cast<double>(means.size());
+}
+
+/// Half the height of a common scale: all residual charts are to be compared at a glance.
+double residual_scale(const View& before, const std::vector<std::pair<std::string, const Series*>>& suspects) {
+  double most = 1e-6;
+  for (const auto& s : suspects)
+    for (const auto& p : binned(*s.second, before.residual_n)) most = std::max(most, std::fabs(p.y) + p.error);
+  return 1.15 * most;
+}
+
+std::string residual_chart(const View& before, const View& after, const std::string& name, const Series& u, double scale) {
+  Chart c;
+  c.title = "over " + axis_label(name);
+  c.x_label = axis_label(name);
+  c.y_label = "measured - simulated, N";
+  c.y_range = {-scale, scale * 1.35};
+  c.height_px = 330;
+  const Series shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
+  const auto first = binned(shown, before.residual_n), last = binned(shown, after.residual_n);
+  c.series.push_back({"before", k_before, Style::dots, first, 1.8});
+  c.series.push_back({"after", k_after, Style::rings, last, 1.8});
+  if (!first.empty()) c.series.push_back({"", "#333333", Style::line, {{first.front().x, 0, 0}, {first.back().x, 0, 0}}, 0.8});
+  return svg(c);
+}
+
+constexpr double k_stretch_s = 12.0;
+
+/// Row at which the stretch begins in which the causes change most; where they change nothing, in which the force is largest.
+Eigen::Index telling_stretch(const View& before, const View& after) {
+  const auto& r = *before.scene.recording;
+  const Series change = (after.model_n - before.model_n).square() + 1e-6 * before.force_n.square();
+  double most = -1.0;
+  Eigen::Index best = 0;
+  for (const auto& s : r.sessions) {
+    double sum = 0.0;
+    Eigen::Index from = s.begin;
+    for (Eigen::Index i = s.begin; i < s.end; ++i) {
+      sum += change[i];
+      while (r.t_s[i] - r.t_s[from] > k_stretch_s) sum -= change[from++];
+      if (sum > most) most = sum, best = from;
+    }
+  }
+  return best;
+}
+
+/// Measured and simulated over the most telling 12 s, and the residual below.
+std::string force_charts(const View& before, const View& after) {
+  const auto& r = *before.scene.recording;
+  const Eigen::Index begin = telling_stretch(before, after);
+  const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const auto& s) { return begin >= s.begin && begin < s.end; });
+  Chart c, d;
+  c.title = "session " + session->name +
+            (after.causes.empty() ? ": the twelve seconds of the greatest forces" : ": the twelve seconds in which the causes change most");
+  d.title = "what is left: measured - simulated";
+  c.x_label = d.x_label = "time t, s";
+  c.y_label = d.y_label = "force, N";
+  c.width_px = d.width_px = 1050;
+  c.height_px = 340;
+  d.height_px = 230;
+  ChartSeries measured{"measured", k_measured, Style::line, {}, 2.6}, first{"simulated, before", k_before, Style::dashed, {}, 1.6},
+      last{"simulated, with the causes", k_after, Style::line, {}, 1.4}, left{"before", k_before, Style::dashed, {}, 1.2},
+      rest{"with the causes", k_after, Style::line, {}, 1.2};
+  const double from = r.t_s[begin], to = std::min(from + k_stretch_s, r.t_s[session->end - 1]);
+  c.x_range = d.x_range = {from, to};
+  Eigen::Index shown = 0;
+  for (Eigen::Index i = session->begin; i < session->end; ++i) shown += r.t_s[i] >= from && r.t_s[i] <= to;
+  const Eigen::Index stride = std::max<Eigen::Index>(1, shown / 1500);
+  double highest = 1e-9, lowest = 0.0;
+  for (Eigen::Index i = session->begin; i < session->end; i += stride) {
+    if (r.t_s[i] < from || r.t_s[i] > to) continue;
+    measured.points.push_back({r.t_s[i], before.force_n[i]});
+    first.points.push_back({r.t_s[i], before.model_n[i]});
+    last.points.push_back({r.t_s[i], after.model_n[i]});
+    left.points.push_back({r.t_s[i], before.residual_n[i]});
+    rest.points.push_back({r.t_s[i], after.residual_n[i]});
+    highest = std::max({highest, before.force_n[i], before.model_n[i], after.model_n[i]});
+    lowest = std::min({lowest, before.force_n[i], before.model_n[i], after.model_n[i]});
+  }
+  if (after.causes.empty()) {
+    first.label = "simulated";
+    last = rest = {};
+  }
+  c.series = {measured, last, first};
+  c.y_range = {lowest - 0.04 * (highest - lowest), lowest + 1.45 * (highest - lowest)};  // room for the legend
+  d.series = {left, rest};
+  return svg(c) + svg(d);
+}
+
+std::string gain_chart(const explain::Gain& g) {
+  const double most = std::max({g.base_rmse_n, g.extended_rmse_n, g.noise_floor_n, 1e-9});
+  std::string out = "<table class=\"bars\">";
+  for (const auto& [name, value, colour] : {std::tuple{"simulation as it is", g.base_rmse_n, k_before},
+                                            {"with the causes", g.extended_rmse_n, k_after},
+                                            {"noise of the measurement", g.noise_floor_n, k_measured}})
+    out += printed("<tr><td>%s</td><td><span class=\"bar\" style=\"width:%.0fpx;background:%s\"></span></td><td>%.4f N</td></tr>\n", name,
+                   1.0 + 360.0 * value / most, colour, value);
+  return out + "</table>\n";
+}
+
+std::string head(const std::string& title) {
+  return "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
+         xml_text(title) +
+         "</title><style>body{font:16px/1.5 sans-serif;color:#222;max-width:68em;margin:2em auto;padding:0 "
+         "1em}h1{font-size:1.5em;word-break:break-all}"
+         "h2{font-size:1.2em;margin-top:2em}.verdict{border-left:.5em solid #0072b2;background:#eef4f9;padding:.6em 1em}"
+         ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(26em,1fr));gap:.5em}td,th{text-align:left;vertical-align:top;padding:.2em "
+         "1em .2em 0;border-bottom:1px solid #ddd}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}table{border-collapse:collapse}"
+         ".bars td{border:0}.bar{display:inline-block;height:1em}svg{max-width:100%;height:auto}code{background:#f2f2f2}"
+         ".next{border-left:.5em solid #009e73;background:#edf7f3;padding:.6em 1em}</style></head><body>\n<h1>" +
+         xml_text(title) + "</h1>\n";
+}
+
+std::string list(const std::vector<std::string>& items) {
+  std::string out = "<ul>\n";
+  for (const auto& i : items) out += "<li>" + xml_text(i) + "</li>\n";
+  return out + "</ul>\n";
+}
+
+std::string verdict_box(const explain::Explanation& e, const std::string& words) {
+  return "<p class=\"verdict\"><b>" + xml_text(e.verdict) + "</b><br>" + xml_text(words) + "</p>\n";
+}
+
+std::string next_box(const std::string& words) { return "<h2>The next experiment</h2>\n<p class=\"next\">" + xml_text(words) + "</p>\n"; }
+
+std::string causes_html(const explain::Explanation& e) {
+  std::string out;
+  for (const auto& c : e.causes) {
+    const auto& m = explain::mechanism_at(c.term.mechanism);
+    out += "<h3>" + xml_text(m.words) + " <small><code>" + m.name + "</code></small></h3>\n<p>It adds <code>" + xml_text(m.equation) +
+           printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %s. ", c.effect_n,
+                   c.p_value < 1e-4 ? "below 0.0001" : printed("%.2g", c.p_value).c_str()) +
+           (m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
+    out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
+    for (const auto& [parameter, i] : c.parameters) {
+      const auto [name, unit] = name_and_unit(parameter);
+      out += "<tr><td>" + xml_text(name) + "</td>" +
+             printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>", i.value, i.low, i.high) + "<td>" +
+             xml_text(unit) + "</td></tr>\n";
+    }
+    out += "</table>\n";
+    if (!c.aliases.empty()) {
+      out += "<p><b>These fit as well:</b> ";
+      for (std::size_t i = 0; i < c.aliases.size(); ++i) {
+        const auto& other = explain::mechanism_at(explain::find_mechanism(c.aliases[i]));
+        out += (i > 0 ? "; " : "") + xml_text(other.words) + " (<code>" + other.name + "</code>)";
+      }
+      out += ". The data cannot tell which it is.</p>\n";
+    }
+  }
+  if (e.unexplained)
+    out += "<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>" + xml_text(axis_label(e.unexplained->variable)) +
+           "</b> (" + xml_text(e.unexplained->form) + printed("), %.4f N root mean square.</p>\n", e.unexplained->effect_n);
+  if (const std::string left = left_over_words(e); !left.empty()) out += "<p>" + xml_text(left) + "</p>\n";
+  return out.empty() ? "<p>No cause was found.</p>\n" : out;
+}
+
+std::string cannot_tell(const explain::Explanation& e) {
+  std::string out = "<h2>What these data cannot tell</h2>\n";
+  if (e.not_testable.empty()) return out + "<p>Every mechanism could have shown itself.</p>\n";
+  std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
+  for (const auto& n : e.not_testable) by_reason[n.reason].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
+  for (const auto& [reason, group] : by_reason) {
+    out += "<p><b>" + xml_text(reason) + ":</b></p>\n<details" + (group.size() > 8 ? "" : " open") +
+           printed("><summary>%zu mechanisms, and what would show them</summary>\n<table>\n", group.size());
+    for (const auto* m : group)
+      out += "<tr><td>" + xml_text(m->words) + " (<code>" + m->name + "</code>)</td><td>" + xml_text(m->separate) + "</td></tr>\n";
+    out += "</table></details>\n";
+  }
+  return out;
+}
+
+std::string verdict_words(const explain::Explanation& e) {
+  if (e.verdict == "clean") return "Nothing that these data can show is missing from the simulation.";
+  if (e.verdict == "not_testable") return "These data cannot show anything either way.";
+  if (e.verdict == "data_fault") return "The recording cannot be trusted, so nothing was explained.";
+  if (e.verdict == "unexplained") return "The force depends on something that no mechanism here describes.";
+  if (e.verdict == "alias") return "Something is missing, but these data cannot tell which of several mechanisms it is.";
+  return "The simulation lacks what is named below.";
+}
+
+}  // namespace
+
+std::string explanation_html(const explain::Explanation& e, const std::string& title) {
+  std::string out = head(title) + verdict_box(e, verdict_words(e));
+  if (e.verdict == "data_fault") return out + list(e.data_faults) + next_box(e.next_experiment) + "</body></html>\n";
+  out += "<h2>What the simulation gets wrong</h2>\n" + causes_html(e);
+  out += "<h2>What fixing it gains</h2>\n<p>Root mean square error on sessions that the fit had not seen.</p>\n" + gain_chart(e.gain) +
+         printed(
+             "<p>Gain %.1f %% (95 %%: %.1f to %.1f), %.0f %% of what could be explained. k = %.4g N/mm (%.4g to %.4g), c = %.4g N s/mm (%.4g to "
+             "%.4g).</p>\n",
+             e.gain.percent.value, e.gain.percent.low, e.gain.percent.high, e.gain.share_percent, e.base.k_n_per_mm, e.k.low, e.k.high,
+             e.base.c_n_s_per_mm, e.c.low, e.c.high);
+  out += next_box(e.next_experiment);
+  if (e.before && e.after) {
+    const auto& scene = e.before->scene;
+    out += "<h2>Measured against simulated</h2>\n" + force_charts(*e.before, *e.after);
+    out +=
+        "<h2>The residual against each suspect</h2>\n<p>What moves the residual most comes first. Means over equal shares of the rows with two "
+        "standard errors; all charts on one "
+        "scale.</p>\n<div "
+        "class=\"pair\">\n";
+    std::vector<std::pair<std::string, const Series*>> suspects{
+        {"x_mm", &scene.motion.x_mm}, {"v_mm_s", &scene.motion.v_mm_s}, {"t_s", &scene.recording->t_s}};
+    for (const auto& [name, u] : scene.recording->columns)
+      if (u.maxCoeff() > u.minCoeff()) suspects.emplace_back(name, &u);
+    std::stable_sort(suspects.begin(), suspects.end(),
+                     [&](const auto& a, const auto& b) { return strength(*e.before, *a.second) > strength(*e.before, *b.second); });
+    const double scale = residual_scale(*e.before, suspects);
+    for (const auto& [name, u] : suspects) out += residual_chart(*e.before, *e.after, name, *u, scale);
+    out += "</div>\n" + cannot_tell(e);
+    out += "<h2>What each mechanism would gain alone</h2>\n<table><tr><th>mechanism</th><th class=\"n\">fall of chi²</th><th></th></tr>\n";
+    auto candidates = e.candidates;
+    std::sort(candidates.begin(), candidates.end(),
+              [](const auto& a, const auto& b) { return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain); });
+    for (const auto& c : candidates) {
+      const auto& m = explain::mechanism_at(c.hypothesis.term.mechanism);
+      out += printed("<tr><td><code>%s</code></td><td class=\"n\">%s</td><td>%s</td></tr>\n", m.name,
+                     c.testable ? printed("%.0f", std::max(0.0, c.gain)).c_str() : "not testable here", m.words);
+    }
+    out += "</table>\n";
+  }
+  if (!e.notes.empty()) out += "<h2>Notes</h2>\n" + list(e.notes);
+  return out + "</body></html>\n";
+}
+
+std::string table_html(const explain::TableExplanation& e, const std::string& title) {
+  std::string out = head(title);
+  if (e.said.verdict == "data_fault")
+    return out + verdict_box(e.said, verdict_words(e.said)) + list(e.said.data_faults) + next_box(e.said.next_experiment) + "</body></html>\n";
+  out += verdict_box(
+      e.said, e.said.verdict == "alias"
+                  ? printed("A force of %.3f N is missing that does not depend on k. Friction, a bias of the load cell, an edge force: the table "
+                            "cannot tell which.",
+                            e.line.intercept_n)
+                  : verdict_words(e.said));
+  const double most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
+  Chart c;
+  c.title = "force over stiffness";
+  c.x_label = "stiffness k, N/mm";
+  c.y_label = "force, N";
+  c.height_px = 440;
+  c.width_px = 700;
+  ChartSeries points{"the table", "#222222", Style::dots, {}, 1.8}, line{"k X and an intercept", k_after, Style::line, {}, 1.8},
+      voigt{"Voigt law alone, best fit: k X + c V, c ~ √k", k_before, Style::dashed, {}, 1.8},
+      published{"published: k X at the line's slope, + c V with c = 2 √k", k_third, Style::dashed, {}, 1.2};
+  double top = 0.0;
+  for (std::size_t i = 0; i < e.table.f_n.size(); ++i)
+    points.points.push_back({e.table.k_n_per_mm[i], e.table.f_n[i]}), top = std::max(top, e.table.f_n[i]);
+  for (int i = 0; i <= 120; ++i) {
+    const double k = most * i / 120.0;
+    line.points.push_back({k, e.line.at(k)});
+    voigt.points.push_back({k, e.voigt.at(k)});
+    published.points.push_back({k, e.line.slope_mm * k + e.predicted_root * std::sqrt(k)});
+    top = std::max(top, published.points.back().y);
+  }
+  c.series = {line, voigt, published, points};
+  c.y_range = {0.0, 1.35 * top};
+  c.x_range = {-0.03 * most, 1.03 * most};
+  out += "<h2>Measured against simulated</h2>\n" + svg(c);
+  out +=
+      "<table><tr><th>law</th><th class=\"n\">F = … k</th><th class=\"n\">… √k</th><th class=\"n\">… at k = 0, N</th><th class=\"n\">rms, N</th><th "
+      "class=\"n\">row left out, N</th></tr>\n";
+  for (const auto& [name, f] : {std::pair{"Voigt law alone", &e.voigt}, {"k X and an intercept", &e.line}, {"all three", &e.all}})
+    out += printed(
+        "<tr><td>%s</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.4f</td><td "
+        "class=\"n\">%.4f</td></tr>\n",
+        name, f->slope_mm, f->root, f->intercept_n, f->rms_n, f->left_out_rms_n);
+  out += "</table>\n<h2>What it says, and what it cannot say</h2>\n" + list(e.said.notes) + next_box(e.said.next_experiment) + cannot_tell(e.said);
+  return out + "</body></html>\n";
+}
+
+}  // namespace cavum

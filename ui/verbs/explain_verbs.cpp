@@ -1,0 +1,186 @@
+// `cavum explain`: measured data against the simulation.
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <mutex>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/explain/inference/explain.h"
+#include "engine/explain/inference/stiffness_table.h"
+#include "engine/explain/recording/session_recording.h"
+#include "engine/explain/report/laws_page.h"
+#include "engine/explain/report/model_file.h"
+#include "engine/explain/report/protocol.h"
+#include "scenarios/exam/exam.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/parts/seed_check.h"
+#include "ui/verbs/explain_page.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct ExplainArgs {
+  std::string data, rig, force, model, material, model_out, out, protocol;
+  std::vector<std::string> columns;
+  std::uint64_t seed = 1;
+  std::size_t twins = explain::ExplainOptions{}.twins;
+  bool json = false, laws = false;
+};
+
+/// "x_mm=displacement" → {x_mm, displacement}.
+explain::ColumnNames column_names(const std::vector<std::string>& given) {
+  explain::ColumnNames names;
+  for (const auto& pair : given) {
+    const std::size_t at = pair.find('=');
+    if (at == std::string::npos || at == 0 || at + 1 == pair.size())
+      throw Error("--column " + pair, "is not of the form NAME=COLUMN", "write for example --column x_mm=displacement");
+    names[pair.substr(0, at)] = pair.substr(at + 1);
+  }
+  return names;
+}
+
+/// On terminals only.
+std::function<void(double)> progress_bar() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  auto mutex = std::make_shared<std::mutex>();
+  auto shown = std::make_shared<int>(-1);
+  return [mutex, shown](double part) {
+    const std::lock_guard lock(*mutex);
+    const int percent = static_cast<int>(100.0 * part);
+    if (percent <= *shown) return;
+    *shown = percent;
+    constexpr int k_width = 40;
+    const int full = k_width * percent / 100;
+    std::fprintf(stderr, "\rexplaining [%s%s] %3d %%%s", std::string(static_cast<std::size_t>(full), '#').c_str(),
+                 std::string(static_cast<std::size_t>(k_width - full), '.').c_str(), percent, percent == 100 ? "\n" : "");
+  };
+}
+
+ForceModel load_model(const std::string& wanted) {
+  const std::string path = wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", "");
+  return parse_force_model(read_text_file(path), path);
+}
+
+void write_protocol(const std::string& path) {
+  if (path.starts_with("-")) throw Error("--protocol " + path, "is no name of a file", "write --protocol protocol.html, or --help alone");
+  const std::string csv = std::filesystem::path(path).replace_extension(".csv").string();
+  if (csv == path) throw Error("--protocol " + path, "is the name of the motion beside the page", "use a name ending in .html");
+  require_own_places({{path, path}, {csv, csv}}, {});
+  write_text_file(csv, explain::protocol_motion_csv());
+  write_text_file(path, explain::protocol_page());
+  std::cout << "written: " << path << " and " << csv << "\n";
+}
+
+explain::Recording read_data(const ExplainArgs& a) {
+  const bool session = a.data.ends_with(".cavum");
+  if (!session && !a.force.empty()) throw Error("--force", "goes with a session only", "put the force into column f_n of the recording");
+  if (session && (!a.rig.empty() || !a.columns.empty())) throw Error(a.data, "is a session, which needs no --rig and no --column", "leave them out");
+  return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, column_names(a.columns));
+}
+
+/// A table of force over stiffness. False: the data are none.
+bool ran_table(const ExplainArgs& a) {
+  if (a.data.ends_with(".cavum")) return false;
+  const std::string text = read_text_file(a.data, k_largest_table);
+  if (!explain::is_stiffness_table(text)) return false;
+  if (!a.model.empty() || !a.model_out.empty())
+    throw Error(a.data, "is a table of means, without motion", "leave out --model and --model-out; no force model follows from it");
+  const explain::TableExplanation result = explain::explain_table(explain::parse_stiffness_table(text, a.data));
+  if (!a.out.empty()) write_text_file(a.out, table_html(result, a.data));
+  if (a.json)
+    print_json(to_json(result));
+  else
+    std::cout << to_text(result) << (a.out.empty() ? "" : "written: " + a.out + "\n");
+  return true;
+}
+
+void run_explain(const ExplainArgs& a) {
+  if (a.laws) {
+    std::cout << explain::laws_page();
+    return;
+  }
+  if (!a.protocol.empty()) {
+    if (!a.data.empty()) throw Error("--protocol " + a.protocol, "goes without a recording", "leave out " + a.data + ", or --protocol");
+    return write_protocol(a.protocol);
+  }
+  if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
+  if (a.out.ends_with(".pdf")) throw Error("--out " + a.out, "reports are HTML", "use a name ending in .html, and print it from a browser");
+  const std::string rig = a.rig.empty() ? (std::filesystem::path(a.data).parent_path() / "rig.toml").string() : a.rig;
+  require_own_places({{"--out " + a.out, a.out}, {"--model-out " + a.model_out, a.model_out}},
+                     {{"", a.data}, {"", rig}, {"", a.force}, {"", a.model.ends_with(".toml") ? a.model : ""}});
+  if (!a.material.empty() && a.model.empty()) throw Error("--material " + a.material, "goes with --model only", "name the force model, too");
+  if (ran_table(a)) return;
+  explain::Recording recording = read_data(a);
+  explain::ExplainOptions options;
+  options.seed = a.seed;
+  options.twins = a.twins;
+  options.progress = progress_bar();
+  const ForceModel start = load_model(a.model.empty() ? "paper" : a.model);
+  explain::Series added;
+  if (!a.model.empty()) {
+    const std::string material = a.material.empty() ? explain::material_of(start) : a.material;
+    const auto owner = start.materials.find(material);
+    if (owner == start.materials.end() || !(owner->second.voigt.stiffness_n_per_mm > 0.0))
+      throw Error("--material " + material, "is no material of " + a.model + " that resists", "name one of its materials with k_n_per_mm above 0");
+    added = explain::added_force_n(start, material, recording, a.model);
+    const auto& tissue = start.materials.find(material)->second.voigt;
+    recording.rig.k_n_per_mm = tissue.stiffness_n_per_mm;
+    recording.rig.c_n_s_per_mm = tissue.damping_n_s_per_mm;
+    options.fixed_n = &added;
+  }
+  const explain::Explanation result = explain::explain(recording, options);
+  const bool faulty = result.verdict == "data_fault", models = !a.model_out.empty() && !faulty;
+  if (models) write_text_file(a.model_out, explain::extended_model_toml(result, start));
+  if (!a.out.empty()) write_text_file(a.out, explanation_html(result, a.data));
+  if (a.json) {
+    print_json(to_json(result));
+  } else {
+    std::cout << to_text(result);
+    for (const auto& path : {a.out, models ? a.model_out : ""})
+      if (!path.empty()) std::cout << "written: " << path << "\n";
+  }
+  if (faulty && !a.model_out.empty()) throw Error("--model-out " + a.model_out, "was not written", "no model can be made of a recording with faults");
+}
+
+}  // namespace
+
+void add_explain_verbs(CLI::App& app, int& exit_code) {
+  auto args = std::make_shared<ExplainArgs>();
+  CLI::App* verb = app.add_subcommand("explain", "what the simulation gets wrong, why, and what fixing it gains");
+  verb->add_option("data", args->data,
+                   "recording (.csv) with rig.toml beside it, a session (.cavum), or a table of f_n over k_n_per_mm at v_mm_s (.csv)");
+  verb->add_option("--force", args->force, "for a session: force measured beside it (.csv: t_s since the start of the exam, f_n)");
+  verb->add_option("--rig", args->rig, "another rig.toml");
+  verb->add_option("--column", args->columns, "NAME=COLUMN: the file calls NAME something else; may be repeated");
+  verb->add_option("--model", args->model, "force model to explain on top of: a name of data/materials, or a TOML file");
+  verb->add_option("--material", args->material, "its material whose k and c hold for the recording (dentin)");
+  verb->add_option("--model-out", args->model_out, "write the extended force model (.toml), for exam, rig and explain");
+  verb->add_option("--out,--html", args->out, "write a report (.html)");
+  verb->add_option("--protocol", args->protocol,
+                   "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)")
+      ->expected(0, 1)
+      ->default_str("protocol.html");
+  verb->add_flag("--laws", args->laws, "print the table of laws that are looked for: equation, parameters, ranges, what shows each best");
+  verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->check(seed_check())->capture_default_str();
+  verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search; 0: none, a plain rule for comparison")
+      ->capture_default_str()
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            int n = -1;
+            return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 8 && n <= 1000)) ? std::string()
+                                                                                           : "'" + text + "' is neither 0 nor 8 to 1000";
+          },
+          "0, or 8 to 1000"));
+  verb->add_flag("--json", args->json, "one JSON object on standard output");
+  verb->callback([args, &exit_code] {
+    run_explain(*args);
+    exit_code = 0;
+  });
+}
+
+}  // namespace cavum

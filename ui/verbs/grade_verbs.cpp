@@ -1,0 +1,156 @@
+// `cavum grade`: recorded exams, marked.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "grading/result/compare.h"
+#include "grading/result/result_json.h"
+#include "grading/words/why.h"
+#include "scenarios/review/advice.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/marked_session.h"
+#include "ui/verbs/session_files.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::string> sessions;
+  std::string why, out;
+  MarkingOptions marking;
+  bool json = false;
+};
+
+/// The result with its contract names, and beside it the old one where another rubric or scenario was asked for.
+Json json_of(const MarkedSession& g) {
+  Json j = to_json(g.result);
+  if (g.regrade) j["regrade"] = to_json(*g.comparison);
+  return j;
+}
+
+void write_new(const std::string& path, const Json& json) {
+  write_text_file(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
+}
+
+void run_grade_one(const std::string& path, const Options& o) {
+  const MarkedSession g = marked_session(path, o.marking);
+  if (!o.marking.rubric.empty())
+    for (const auto& p : advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
+      std::cerr << "cavum: " << one_line(p.text()) << "\n";
+  if (!o.why.empty()) {
+    const Why w = why(g.session->input(), g.result, g.rubric, o.why);
+    if (o.json) {
+      Json j = to_json(w);
+      j["session"] = path;
+      return print_json(j);
+    }
+    if (g.regrade) std::cout << "REGRADE: " << regrade_text(*g.comparison) << "\n\n";
+    std::cout << to_text(w);
+    return;
+  }
+  if (!o.out.empty()) write_new(o.out, json_of(g));
+  if (o.json) return print_json(json_of(g));
+  if (g.regrade) std::cout << "REGRADE: " << regrade_text(*g.comparison) << "\n\n";
+  std::cout << to_text(g.result);
+  if (g.regrade) std::cout << "\nbeside the sealed result\n" << to_text(*g.comparison);
+}
+
+/// Several sessions as one table; a session that cannot be graded is a row of its own. Returns how many could not.
+int run_grade_many(const std::vector<std::string>& files, const Options& o) {
+  Json list = Json::array();
+  std::string table = "  old               new               change  session\n";
+  int failed = 0, compared = 0;
+  std::map<std::string, int> verdicts;  // "fail -> pass"
+  const auto cell = [](const std::string& verdict, double points, double max) {
+    std::string s = verdict + " " + fixed(points, 1) + "/" + plain_number(max);
+    s.resize(std::max<std::size_t>(18, s.size() + 1), ' ');
+    return s;
+  };
+  for (const auto& file : files) {
+    try {
+      const MarkedSession g = marked_session(file, o.marking);
+      const std::string now = verdict_name(g.result.verdict);
+      Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
+      if (g.comparison) {
+        const Comparison& c = *g.comparison;
+        std::string change = signed_points(c.points - c.before.points);
+        change.resize(std::max<std::size_t>(8, change.size() + 1), ' ');
+        table += "  " + cell(c.before.verdict, c.before.points, c.before.max) + cell(now, c.points, c.max) + change + one_line(file) + "\n";
+        for (const auto& d : c.criteria)
+          if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
+            std::string line = "      " + d.id + " " + signed_points(d.difference());
+            for (std::size_t i = 0; i < d.why.size(); ++i) line += (i > 0 ? "; " : ": ") + d.why[i];
+            table += line + "\n";
+          }
+        ++compared;
+        ++verdicts[c.before.verdict == now ? "stay " + now : c.before.verdict + " -> " + now];
+        const Json json = to_json(c);
+        for (const auto& [key, value] : json.items()) one[key] = value;
+      } else {
+        table += "  " + cell("none", 0, 0) + cell(now, g.result.points, g.result.max_points) + "        " + one_line(file) + "\n";
+        one["old"] = nullptr;
+        one["new"] = {{"verdict", now}, {"points", g.result.points}, {"max", g.result.max_points}};
+      }
+      list.push_back(std::move(one));
+    } catch (const Error& e) {
+      ++failed;
+      list.push_back({{"file", file}, {"error", e.what()}});
+      table += "  cannot be graded: " + one_line(e.what()) + "\n";
+    }
+  }
+  const Json all = {{"sessions", list}, {"graded", files.size() - static_cast<std::size_t>(failed)}, {"failed", failed}, {"verdicts", verdicts}};
+  if (!o.out.empty()) write_new(o.out, all);
+  if (o.json) {
+    print_json(all);
+  } else {
+    std::cout << table << files.size() << (files.size() == 1 ? " session" : " sessions");
+    for (const auto& [what, count] : verdicts) std::cout << ", " << count << " " << what;
+    if (const int new_ones = static_cast<int>(files.size()) - failed - compared; new_ones > 0)
+      std::cout << ", " << new_ones << " without a sealed result";
+    if (failed > 0) std::cout << ", " << failed << " not graded";
+    std::cout << "\n";
+  }
+  return failed;
+}
+
+int run_grade(const Options& o) {
+  if (!o.out.empty()) {
+    if (std::filesystem::exists(o.out)) throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
+    require_writable(o.out);
+  }
+  const auto files = session_files(o.sessions);
+  const bool many = files.size() > 1 || std::filesystem::is_directory(o.sessions.front());
+  if (many || o.marking.rubric.empty()) require_sound_marking(o.marking);  // of one session more can be said, when it is there
+  if (many && !o.why.empty()) throw Error("--why", "explains one session", "name one session file");
+  if (many) return run_grade_many(files, o) > 0 ? 1 : 0;
+  run_grade_one(files.front(), o);
+  return 0;
+}
+
+}  // namespace
+
+void add_grade_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* grades = app.add_subcommand("grade", "Mark recorded exams, by their own rubric or another, or by a corrected scenario");
+  grades->add_option("session", o->sessions, "session files (.cavum), or folders of them")->required();
+  grades->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");
+  grades->add_option("--scenario", o->marking.scenario,
+                     "mark by this corrected scenario (TOML): its zones, and its rubric unless --rubric names one");
+  grades->add_flag("--another-task", o->marking.another_task, "let --scenario be that of another task than the session's");
+  grades->add_option("--why", o->why, "ticks, places and numbers behind each point that this criterion lost");
+  grades->add_option("--out", o->out, "write the JSON to this file too, which must not exist yet");
+  grades->add_flag("--json", o->json, "one JSON object on standard output");
+  grades->callback([o, &exit_code] { exit_code = run_grade(*o); });
+}
+
+}  // namespace cavum

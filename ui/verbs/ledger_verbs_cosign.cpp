@@ -1,0 +1,89 @@
+// `cavum ledger checkpoint | cosign | add-cosignature`: other parties sign what the school signs of its ledger.
+#include <filesystem>
+#include <iostream>
+
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/session/session.h"
+#include "grading/ledger/cosign.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/ledger_verbs_parts.h"
+
+namespace cavum {
+
+using nlohmann::json;
+
+std::vector<NoteKey> cosigners_of(const LedgerOptions& o) {
+  if (!o.cosigners.empty() && !std::filesystem::exists(o.cosigners))
+    throw Error("--cosigners " + o.cosigners, "is not there", "name a file with a cosigner's key on each line");
+  return read_cosigners(o.cosigners.empty() ? known_cosigners_path() : o.cosigners);
+}
+
+void ledger_checkpoint(const LedgerOptions& o) {
+  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
+  if (o.since < -1) throw Error("--since " + std::to_string(o.since), "is no number of entries", "give 0 for a cosigner who has signed nothing yet");
+  const std::uint64_t since = o.since < 0 ? last_cosigned(ledger.content()) : static_cast<std::uint64_t>(o.since);
+  const std::string request = cosign_request(ledger.content(), since);
+  require_new(o, o.out);
+  write_text_file(o.out, request);
+  std::cout << "written: " << o.out << ", " << ledger.content().entries.size() << " entries, proved since " << since
+            << "\nfor `cavum ledger cosign`; the school's public key: " << ledger.content().public_key << "\n";
+}
+
+int ledger_cosign(const LedgerOptions& o) {
+  Cosigner cosigner;
+  cosigner.memory = o.state.empty() ? cosigner_memory_path() : o.state;
+  cosigner.school_key = o.school_key.empty() ? "" : parse_public_key(o.school_key, "--school-key");
+  for (const auto& path : o.receipts) {
+    const json receipt = parse_json_or_null(read_text_file(path));
+    cosigner.key_entries.push_back(text_in(receipt, "entry"));
+    if (cosigner.key_entries.back().empty()) throw Error(path, "is no receipt", "name the receipt of the entry by which the school replaced its key");
+  }
+  const std::string request = read_text_file(o.folder);
+  require_own_places({{"--out " + o.out, o.out}}, {{"", o.folder}, {"", o.key}});
+  if (!o.overwrite && std::filesystem::exists(o.out)) throw Error("--out " + o.out, "is there already", "name another file, or add --overwrite");
+  cosigner.key = load_signing_key(o.key.empty() ? station_path("cosigner.key") : o.key, "cosigner");
+  cosigner.name = o.name_of_cosigner.empty() ? "cavum.cosigner/" + to_hex(cosigner.key.public_key).substr(0, 16) : o.name_of_cosigner;
+  constexpr std::int64_t k_ns = 1'000'000'000;
+  const Cosigned cosigned = cosign(cosigner, request, o.folder, static_cast<std::uint64_t>(read_clocks().utc_ns / k_ns));
+  const std::string key = key_line({cosigner.name, NoteKind::cosignature, cosigner.key.public_key});
+  if (cosigned.findings.empty()) write_text_file(o.out, cosigned.note);
+  if (o.as_json) {
+    print_json(json{{"cosigned", cosigned.findings.empty()},
+                    {"ledger", cosigned.ledger_id},
+                    {"entries", cosigned.size},
+                    {"cosigner", key},
+                    {"findings", cosigned.findings}});
+  } else if (cosigned.findings.empty()) {
+    std::cout << "cosigned: " << cosigned.size << " entries of ledger " << cosigned.ledger_id << "\nwritten: " << o.out
+              << "\nthis cosigner's key line, for $CAVUM_HOME/cosigners at the school: " << key << "\n";
+  } else {
+    std::cout << o.folder << ": NOT COSIGNED\n";
+    for (const auto& f : cosigned.findings) std::cout << "  - " << f << "\n";
+  }
+  return cosigned.findings.empty() ? 0 : 1;
+}
+
+int ledger_add_cosignature(const LedgerOptions& o) {
+  Ledger ledger(o.folder, key_of(o));
+  const auto cosigners = cosigners_of(o);
+  bool all = true;
+  for (const auto& path : o.cosigned) {
+    auto note = check_cosigned(read_text_file(path), cosigners, ledger.content());
+    if (note.findings.empty() && note.cosignatures.empty())
+      throw Error(path, "bears no cosignature of a cosigner that is known here",
+                  "put the key line that `cavum ledger cosign` shows into " + (o.cosigners.empty() ? known_cosigners_path() : o.cosigners));
+    std::cout << path << ": " << (note.findings.empty() ? "kept: " : "NOT KEPT\n");
+    for (const auto& f : note.findings) std::cout << "  - " << f << "\n";
+    all = all && note.findings.empty();
+    if (!note.findings.empty()) continue;
+    ledger.keep_cosignatures(note.checkpoint->size, note.cosignatures);
+    std::cout << note.cosignatures.size() << (note.cosignatures.size() == 1 ? " cosignature" : " cosignatures") << " under " << note.checkpoint->size
+              << " entries\n";
+  }
+  return all ? 0 : 1;
+}
+
+}  // namespace cavum

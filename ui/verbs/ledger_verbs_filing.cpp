@@ -1,0 +1,114 @@
+// `cavum ledger init | add | receipt`: a ledger, and the exams that were sat.
+#include <filesystem>
+#include <iostream>
+
+#include "engine/base/file.h"
+#include "engine/base/memory_reserve.h"
+#include "engine/base/text.h"
+#include "grading/ledger/filing.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/ledger_verbs_parts.h"
+#include "ui/verbs/session_files.h"
+
+namespace cavum {
+
+using nlohmann::json;
+
+SigningKey key_of(const LedgerOptions& o) { return load_school_key(o.key.empty() ? school_key_path() : o.key); }
+
+void require_new(const LedgerOptions& o, const std::string& path) {
+  require_writable(path);
+  const LedgerPlaces places{o.folder};
+  std::error_code none;
+  for (const std::string& kept : {places.database(), places.identities(), school_key_path(), school_public_key_path(), o.key,
+                                  station_path("station.key"), station_path("used_tickets")})
+    if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
+      throw Error("--out " + path, "holds a key, identities or entries", "name another file: it is never written over");
+  if (!o.overwrite && std::filesystem::exists(path)) throw Error("--out " + path, "is there already", "name another file, or add --overwrite");
+}
+
+void write_school_file(const LedgerOptions& o, const std::string& path, const std::string& text) {
+  write_text_file(path, text, {.is_private = true, .may_replace = o.overwrite});
+}
+
+Identities sound_identities(const Ledger& ledger) {
+  Identities identities(ledger.places().identities());
+  if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
+    throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
+  return identities;
+}
+
+void ledger_init(const LedgerOptions& o) {
+  constexpr std::size_t k_longest_school = 254;
+  if (o.school.empty() || o.school.size() > k_longest_school || !is_plain_text(o.school))
+    throw Error("--school",
+                o.school.empty()                     ? "names no school"
+                : o.school.size() > k_longest_school ? "is longer than " + std::to_string(k_longest_school) + " bytes"
+                                                     : "holds a control character or bytes that are no UTF-8",
+                "give the school's name in one line of UTF-8");
+  const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
+  Ledger::create(o.folder, o.school, key);
+  static_cast<void>(Identities(LedgerPlaces{o.folder}.identities(), true));
+  const std::string known = school_public_key_path();
+  if (!std::filesystem::exists(known)) write_text_file(known, to_hex(key.public_key) + "\n");
+  const LedgerContent content = read_ledger({o.folder});
+  if (o.as_json) {
+    print_json(json{{"ledger", content.id}, {"public_key", content.public_key}, {"folder", o.folder}});
+    return;
+  }
+  std::cout << "ledger " << content.id << " in " << o.folder << "\nthe school's public key: " << content.public_key
+            << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? school_key_path() : o.key) << " (signs), " << witness_path(content.id)
+            << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known << "\n";
+}
+
+int ledger_add(const LedgerOptions& o) {
+  Ledger ledger(o.folder, key_of(o));
+  if (!o.out.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
+    make_private_folder(o.out);
+    require_writable(o.out + "/receipt.json");
+  }
+  json printed = json::array();
+  bool all = true;
+  ExamGrounds grounds;  // of the class
+  for (const auto& path : session_files(o.sessions)) {
+    Filing filing;
+    keep_memory_reserve();
+    try {
+      filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings}, grounds);
+    } catch (const DatabaseError&) {
+      throw;  // the disk: what was acknowledged stands, and nothing more can be
+    } catch (const Error& e) {
+      if (o.sessions.size() == 1 && !std::filesystem::is_directory(o.sessions[0])) throw;
+      filing.findings.emplace_back(e.what());
+    }
+    all = all && filing.seq && filing.findings.empty();
+    json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};
+    if (filing.seq) {
+      one["receipt"] = ledger.receipt(*filing.seq);
+      if (!o.out.empty()) write_private_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
+    }
+    if (!o.as_json) {
+      std::cout << one_line(path) << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
+      for (const auto& f : filing.findings) std::cout << "  - " << one_line(f) << "\n";
+      for (const auto& r : filing.remarks) std::cout << "  (" << one_line(r) << ")\n";
+    }
+    printed.push_back(std::move(one));
+  }
+  if (o.as_json) print_json(json{{"sessions", printed}});
+  return all ? 0 : 1;
+}
+
+void ledger_receipt(const LedgerOptions& o) {
+  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
+  if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
+    throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
+  if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
+    throw Error("--from-size " + std::to_string(o.from_size), "is no number of entries that this ledger has had",
+                "give 1 to " + std::to_string(ledger.content().entries.size()));
+  require_new(o, o.out);
+  const json receipt = make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
+  write_school_file(o, o.out, receipt.dump(2) + "\n");
+  std::cout << "written: " << one_line(o.out) << "\n";
+}
+
+}  // namespace cavum

@@ -1,0 +1,102 @@
+// `cavum ledger forget | erase | key`: what the school keeps about people and for how long, and the key that it signs with.
+#include <filesystem>
+#include <iostream>
+
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "grading/ledger/candidate_id.h"
+#include "grading/ledger/erasure.h"
+#include "grading/ledger/school_keys.h"
+#include "grading/ledger/ticket.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/ledger_verbs_parts.h"
+
+namespace cavum {
+
+using nlohmann::json;
+
+namespace {
+
+/// Tickets of before format 5 bear accommodations in texts that nothing can take out.
+std::size_t old_tickets_with_grants(const LedgerContent& c, const std::string& pseudonym) {
+  std::size_t n = 0;
+  for (const auto& e : c.entries) {
+    const json& ticket = member_of(e.body, "ticket");
+    if (e.kind == "ticket" && text_in(ticket, "candidate") == pseudonym && !member_of(ticket, "grant").empty()) ++n;
+  }
+  return n;
+}
+
+}  // namespace
+
+void ledger_forget(const LedgerOptions& o) {
+  require_candidate_id("--candidate", o.candidate);
+  Ledger ledger(o.folder, key_of(o));
+  Identities identities(ledger.places().identities());
+  std::vector<std::string> pseudonyms;
+  for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
+  if (pseudonyms.empty())
+    throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
+  forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
+  std::size_t bound = 0;
+  for (const auto& p : pseudonyms) {
+    identities.forget(p);
+    bound += old_tickets_with_grants(ledger.content(), p);
+    std::cout << one_line(p) << ": the identity is removed\n";
+  }
+  const auto said = [](bool kept) { return kept ? "kept, with what they tell of accommodations, under pseudonyms that lead to nobody" : "erased"; };
+  std::cout << "recordings are " << said(o.keep_motion) << "; results are " << said(o.keep_results) << "; all proofs stay valid\n";
+  if (bound > 0)
+    std::cout << bound << " tickets were entered before format 5: their accommodations stand in signed entries and stay there, under the pseudonym\n";
+  std::cout << "not reached from here: backups, exports, receipts and tickets that were given out, and recordings left on stations\n";
+}
+
+void ledger_erase(const LedgerOptions& o) {
+  Ledger ledger(o.folder, key_of(o));
+  const bool names_some = !o.chosen_sessions.empty() || !o.before.empty();
+  if (!names_some) {
+    if (o.erase_motion || o.erase_results)
+      throw Error("cavum ledger erase", "needs to know of which sessions", "give --session for each, or --before");
+    ledger.wipe();
+    const auto removed = remove_erased_recordings(ledger.content(), ledger.places());
+    std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
+    return;
+  }
+  if (!o.erase_motion && !o.erase_results) throw Error("cavum ledger erase", "needs to know what", "give --motion, --results or both");
+  ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
+  if (!o.before.empty()) wish.received_before = parse_utc(o.before, "--before");
+  const json erased = erase(ledger, wish, o.reason);
+  if (o.as_json) return print_json(json{{"erased", erased}});
+  if (erased.empty()) {
+    std::cout << "nothing is left to erase of these sessions\n";
+    return;
+  }
+  std::cout << "entry " << ledger.content().entries.back().seq << ": erased\n";
+  for (const auto& one : erased) std::cout << "  entry " << one.at("entry").dump() << ": " << text_in(one, "what") << "\n";
+}
+
+void ledger_key(const LedgerOptions& o) {
+  const std::string path = o.key.empty() ? school_key_path() : o.key;
+  const std::int64_t until = o.until.empty() ? 0 : parse_utc(o.until, "--until");
+  if (!o.replace && o.until.empty()) {
+    for (const auto& k : read_ledger({o.folder}).keys)
+      std::cout << k.public_key << "  signs from " << k.first_size << " entries on"
+                << (k.until_utc_ns > 0 ? ", good until " + utc_text(k.until_utc_ns) : "") << "\n";
+    return;
+  }
+  if (!o.replace) {
+    Ledger ledger(o.folder, key_of(o));
+    limit_school_key(ledger, until, o.reason);
+    std::cout << "entry " << ledger.content().entries.back().seq << ": the school's key is good until " << utc_text(until) << "\n";
+    return;
+  }
+  const std::string before = to_hex(load_school_key(path).public_key), now = replace_school_key(o.folder, path, until, o.reason);
+  write_text_file(school_public_key_path(), now + "\n");
+  std::cout << "the school's key is now " << now << "\nthe one before it is kept as " << old_key_path(path, before)
+            << ": other ledgers of the school still need it\ncopy " << school_public_key_path()
+            << " to each station; give cosigners the receipt of entry " << read_ledger({o.folder}).keys.back().first_size - 1
+            << " (`cavum ledger cosign --key-receipt`); back up the new key\n";
+}
+
+}  // namespace cavum

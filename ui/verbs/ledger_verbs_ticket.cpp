@@ -1,0 +1,108 @@
+// `cavum ledger ticket | tickets | cancel | begin`: exams that the school promised.
+#include <cstdio>
+#include <iostream>
+
+#include "engine/base/file.h"
+#include "engine/base/file_name.h"
+#include "engine/base/text.h"
+#include "grading/ledger/begin.h"
+#include "grading/ledger/candidate_id.h"
+#include "grading/ledger/issue.h"
+#include "grading/ledger/registry.h"
+#include "scenarios/exam/exam.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/ledger_verbs_parts.h"
+
+namespace cavum {
+
+using nlohmann::json;
+
+int ledger_ticket(const LedgerOptions& o) {
+  if (o.candidate.empty() == o.candidates.empty())
+    throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
+  require_candidate_id("--candidate", o.candidate);
+  require_candidate_id("--name", o.name);
+  const std::vector<Person> people =
+      o.candidates.empty() ? std::vector<Person>{{o.candidate, o.name}} : parse_people(read_text_file(o.candidates), o.candidates);
+  const std::int64_t from = parse_utc(o.from, "--from"), until = parse_utc(o.until, "--until");
+  if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
+  ExamOptions exam;
+  exam.tooth_file = o.tooth;
+  exam.rubric_file = o.rubric;
+  exam.force_model = o.model;
+  exam.grant = o.grant;
+  const auto setup = prepare_exam(o.scenario, exam);
+  Ledger ledger(o.folder, key_of(o));
+  Identities identities = sound_identities(ledger);
+  Ticket ticket = promise(*setup, ledger.content(), from, until);
+  ticket.begun_at_ledger = o.begin_at_ledger;
+  const bool folder = !o.candidates.empty();
+  if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
+  if (folder) make_private_folder(o.out);
+  json printed = json::array();
+  int refused = 0;
+  for (const auto& p : people) {
+    const std::string candidate = identities.enrol(p.id, p.name, ticket.exam, ledger.key()),
+                      file = folder ? o.out + "/" + file_name_of(candidate) + ".ticket" : o.out;
+    require_new(o, file);
+    try {
+      write_school_file(o, file, issue(ledger, ticket, candidate, o.another ? Another::allow : Another::refuse) + "\n");
+    } catch (const TicketIsLive& live) {  // of a class the others get theirs
+      if (!folder) throw;
+      std::fprintf(stderr, "cavum: %s: %s\n", one_line(p.id).c_str(), one_line(live.what()).c_str());
+      ++refused;
+      continue;
+    }
+    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
+    if (!o.as_json) std::cout << one_line(candidate + "  " + file + "  " + p.id + (p.name.empty() ? "" : ", " + p.name)) << "\n";
+  }
+  if (o.as_json) print_json(json{{"tickets", printed}, {"refused", refused}});
+  return refused == 0 ? 0 : 1;
+}
+
+void ledger_tickets(const LedgerOptions& o) {
+  const LedgerContent content = read_ledger({o.folder});
+  const Registry registry = read_registry(content);
+  const std::int64_t now = read_clocks().utc_ns;
+  json printed = json::array();
+  for (const auto& t : registry.tickets) {
+    const std::string state = t.used_by                         ? "used by entry " + std::to_string(*t.used_by)
+                              : t.cancelled_by                  ? "cancelled by entry " + std::to_string(*t.cancelled_by)
+                              : now > t.ticket.not_after_utc_ns ? "run out"
+                              : !t.begins.empty()               ? "let begin by entry " + std::to_string(t.begins.back().seq)
+                                                                : "live";
+    printed.push_back({{"entry", t.seq},
+                       {"candidate", t.ticket.candidate},
+                       {"exam", t.ticket.exam},
+                       {"not_before", utc_text(t.ticket.not_before_utc_ns)},
+                       {"not_after", utc_text(t.ticket.not_after_utc_ns)},
+                       {"state", state}});
+    if (!o.as_json)
+      std::printf("%6llu  %-16s %-28s %s to %s  %s\n", static_cast<unsigned long long>(t.seq), one_line(t.ticket.candidate).c_str(),
+                  one_line(t.ticket.exam).c_str(), utc_text(t.ticket.not_before_utc_ns).c_str(), utc_text(t.ticket.not_after_utc_ns).c_str(),
+                  state.c_str());
+  }
+  if (o.as_json) print_json(json{{"tickets", printed}});
+}
+
+void ledger_cancel(const LedgerOptions& o) {
+  if (o.session_seq < 0) throw Error("--ticket", "is no entry's number", "see `cavum ledger tickets " + o.folder + "`");
+  Ledger ledger(o.folder, key_of(o));
+  const auto& entry = cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
+  std::cout << "entry " << entry.seq << ": the ticket of entry " << o.session_seq
+            << " does not count any more; an exam that is begun with it is filed with findings only\n";
+}
+
+void ledger_begin(const LedgerOptions& o) {
+  Ledger ledger(o.folder, key_of(o));
+  const std::string out = o.out.empty() ? begin_path(o.scenario) : o.out;
+  const Ticket ticket = parse_ticket(read_text_file(o.scenario), "", o.scenario);
+  LedgerOptions writing = o;
+  writing.overwrite = o.overwrite || !o.again.empty();  // the word before does not count any more
+  require_new(writing, out);
+  write_school_file(writing, out, let_begin(ledger, ticket.nonce, o.again) + "\n");
+  std::cout << "written: " << one_line(out) << "\nkeep it beside the ticket on the station; the exam of " << one_line(ticket.candidate)
+            << " may begin now\n";
+}
+
+}  // namespace cavum

@@ -1,0 +1,151 @@
+// `cavum report` and `cavum ledger report`: reports of recorded exams, for instructors and for students.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/file_name.h"
+#include "engine/base/text.h"
+#include "grading/ledger/regrade.h"
+#include "ui/parts/own_places.h"
+#include "ui/report/figures/section_pictures.h"
+#include "ui/report/integrity.h"
+#include "ui/report/ledger_facts.h"
+#include "ui/report/report.h"
+#include "ui/verbs/marked_session.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct Options {
+  std::string session, out, reader = "instructor", ledger;
+  MarkingOptions marking;
+  bool overwrite = false, with_name = false, no_replay = false, pdf = false;
+  [[nodiscard]] ReportReader for_whom() const { return reader == "student" ? ReportReader::student : ReportReader::instructor; }
+};
+
+/// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
+ReportIntegrity integrity_of(const std::string& path, const Options& o, const FiledSession* filed) {
+  const bool replayed_then = filed != nullptr && filed->findings.empty();
+  ReportIntegrity i = read_integrity(path, !o.no_replay && !replayed_then);
+  if (replayed_then && i.findings.empty()) {
+    i.replay = ReportIntegrity::Replay::agrees;
+    i.at_filing = true;
+    i.remarks = {"the motion was simulated again when the ledger took the session in, and the file is the same since then"};
+  }
+  return i;
+}
+
+/// What the ledger kept of a regrade, to mark by. Throws Error when it kept nothing: such a regrade is older than that.
+Marking marking_of(const ReportLedger& ledger, const FiledSession& session, const Regrade& regrade) {
+  const std::string entry = "entry " + std::to_string(regrade.seq);
+  const auto basis = kept_basis(ledger.content, regrade);
+  if (!basis)
+    throw Error(entry, "is a regrade of entry " + std::to_string(session.seq) + " by a rubric that the ledger did not keep then",
+                "name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on");
+  Marking m;
+  m.scenario = scenario_of(*basis, entry + ": scenario.toml");
+  m.rubric = rubric_of(*basis, entry + ": rubric.toml");
+  m.another_task = true;  // was allowed when it was entered
+  m.by = std::string(m.rubric ? "the rubric" : "") + (m.rubric && m.scenario ? " and " : "") + (m.scenario ? "the scenario" : "") +
+         " that the ledger keeps with " + entry;
+  return m;
+}
+
+/// Writes the report of one session; `filed` and `ledger` are null without a ledger.
+void write_report(const std::string& session, const std::string& out, const Options& o, const ReportLedger* ledger, const FiledSession* filed) {
+  const Regrade* regrade = filed != nullptr && !o.marking.anew() ? regrade_for(*filed, o.for_whom()) : nullptr;
+  const MarkedSession m = regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade)) : marked_session(session, o.marking);
+  const GradeInput input = m.session->input();
+  if (out.ends_with(".svg")) return write_text_file(out, sections_svg(m.result, input));
+  if (filed != nullptr && o.for_whom() == ReportReader::student) require_released_result(*filed, m.result);
+  ReportSource source = report_source(m.result, input, m.session->facts, m.rubric);
+  if (m.regrade) source.regrade = &*m.comparison;
+  source.reader = o.for_whom();
+  if (filed != nullptr) {
+    source.filing = filing_of(*ledger, *filed, source.reader, o.with_name);
+    source.filing->not_filed = not_the_filed_result(*filed, m.result, source.reader);
+    if (!source.filing->not_filed.empty()) source.filing->regrade.reset();  // this report is of something else
+  }
+  source.integrity = integrity_of(session, o, filed);
+  write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));
+  const bool holds = source.integrity.findings.empty();
+  if (!holds) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(source.integrity.findings.front()) << "\n";
+  std::cout << "written: " << one_line(out) << " (" << verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold") << ")\n";
+}
+
+void run_report(const Options& o) {
+  const bool picture = o.out.ends_with(".svg");
+  if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
+    throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
+  if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
+  require_report_place(o.out, o.overwrite);
+  require_sound_marking(o.marking);
+  if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr);
+  const ReportLedger ledger(o.ledger);
+  const FiledSession& filed = ledger.session(to_hex(sha256(read_file(o.session))), o.session);
+  if (!picture) static_cast<void>(filing_of(ledger, filed, o.for_whom(), o.with_name));  // refused before the work begins
+  write_report(o.session, o.out, o, &ledger, &filed);
+}
+
+/// A student's report for each released session.
+int run_all(const Options& o) {
+  const ReportLedger ledger(o.ledger);
+  std::error_code failed_to_make;
+  std::filesystem::create_directories(o.out, failed_to_make);
+  if (failed_to_make) throw Error("--out " + o.out, "cannot be made (" + failed_to_make.message() + ")", "name a folder that you may write to");
+  Options each = o;
+  each.reader = "student";
+  int written = 0, failed = 0;
+  for (const auto& s : ledger.registry.sessions) {
+    if (s.shown.is_null()) continue;
+    each.out = o.out + "/" + file_name_of(s.candidate) + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
+    try {
+      require_report_place(each.out, each.overwrite);
+      write_report(recording_of(ledger.places, s), each.out, each, &ledger, &s);
+      ++written;
+    } catch (const Error& e) {
+      ++failed;
+      std::cerr << "cavum: " << one_line(e.what()) << "\n";
+    }
+  }
+  std::cout << written << (written == 1 ? " report" : " reports") << " written" << (failed > 0 ? ", " + std::to_string(failed) + " not" : "") << "\n";
+  return failed > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_report_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* one = app.add_subcommand("report", "Write the report of a recorded exam, or its sections as a picture");
+  one->add_option("session", o->session, "session file (.cavum)")->required();
+  one->add_option("--out", o->out, "file to write: .html or .pdf for the report, .svg for three sections alone")->required();
+  one->add_option("--for", o->reader, "instructor: every figure; student: the verdict, the criteria, and where each point went")
+      ->check(CLI::IsMember({"student", "instructor"}))
+      ->capture_default_str();
+  one->add_option("--ledger", o->ledger, "the ledger that holds the session: other attempts, release, receipt");
+  one->add_flag("--with-name", o->with_name, "with --ledger: also the candidate's name, once the result is released");
+  one->add_flag("--no-replay", o->no_replay, "do not simulate the exam again to prove it");
+  one->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");
+  one->add_option("--scenario", o->marking.scenario, "mark by this corrected scenario (TOML)");
+  one->add_flag("--another-task", o->marking.another_task, "let --scenario be that of another task than the session's");
+  one->add_flag("--overwrite", o->overwrite, "write over a file that is no report");
+  one->callback([o, &exit_code] {
+    run_report(*o);
+    exit_code = 0;
+  });
+
+  const auto a = std::make_shared<Options>();
+  auto* all = app.get_subcommand("ledger")->add_subcommand("report", "A student's report for each released result, named by pseudonym and entry");
+  all->add_option("folder", a->ledger, "the ledger's folder")->required();
+  all->add_option("--out", a->out, "folder for the reports")->required();
+  all->add_flag("--pdf", a->pdf, "as PDF instead of HTML");
+  all->add_flag("--with-name", a->with_name, "also the candidates' names");
+  all->add_flag("--overwrite", a->overwrite, "write over files that are no reports");
+  all->callback([a, &exit_code] { exit_code = run_all(*a); });
+}
+
+}  // namespace cavum

@@ -1,0 +1,251 @@
+#include "ui/verbs/rig_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "engine/base/text.h"
+#include "ui/parts/chart_svg.h"
+
+namespace cavum {
+namespace {
+
+std::string runs_text(int n) { return std::to_string(n) + (n == 1 ? " run" : " runs"); }
+
+using Style = ChartSeries::Style;
+
+constexpr std::array k_colours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad"};
+const std::string k_paper_colour = "#222222";
+
+std::string equation(const Fit& f) {
+  return "F = " + fixed(f.value[0], 3) + " k " + (f.value[1] < 0 ? "- " : "+ ") + fixed(std::fabs(f.value[1]), 3);
+}
+
+/// y = value at 0 … largest k, in steps fine enough for a root.
+std::vector<ChartPoint> curve(double largest_k, const std::function<double(double)>& force) {
+  std::vector<ChartPoint> points;
+  for (int i = 0; i <= 60; ++i) {
+    const double k = largest_k * i / 60.0;
+    points.push_back({k, force(k), 0});
+  }
+  return points;
+}
+
+std::string span_colour(const std::string& tissue) {
+  return tissue == "enamel" ? "#eef3f8" : tissue == "dentin" ? "#faf3e3" : tissue == "pulp" ? "#fbe9ea" : "#f1f1f1";
+}
+
+/// Green within the limit, from yellow to red with each factor of ten above it.
+std::string heat_colour(double value, double limit) {
+  if (value <= limit) return value <= 0.25 * limit ? "#bfe3c5" : "#dcefd5";
+  const double hot = std::clamp(std::log10(value / limit) / 2.0, 0.0, 1.0);
+  const auto channel = [&](double from, double to) { return static_cast<int>(from + (to - from) * hot); };
+  return "rgb(" + std::to_string(channel(255, 200)) + "," + std::to_string(channel(226, 50)) + "," + std::to_string(channel(130, 45)) + ")";
+}
+
+std::string field(double x, double y, double w, double h, const std::string& colour, const std::string& words, bool bold) {
+  return "<rect x='" + fixed(x, 1) + "' y='" + fixed(y, 1) + "' width='" + fixed(w - 1, 1) + "' height='" + fixed(h - 1, 1) + "' fill='" + colour +
+         "'/>" + svg_text(x + w / 2, y + h / 2 + 3.5, words, 10, "middle", bold ? "font-weight='bold'" : "");
+}
+
+}  // namespace
+
+std::string cube_svg(const CubeResult& r) {
+  Chart force;
+  force.title = "Steady cutting force";
+  force.x_label = "spring coefficient k, N/mm";
+  force.y_label = "force, N";
+  Chart rest;
+  rest.title = "What a straight line leaves over (with friction)";
+  rest.x_label = force.x_label;
+  rest.y_label = "mean force - fitted line, mN";
+  rest.width_px = 420;
+  double largest = 0.1;
+  for (const double k : r.options.k_n_per_mm) largest = std::max(largest, k);
+  force.series.push_back({"paper, eq. 6: F = " + fixed(k_paper_slope_mm, 3) + " k + " + fixed(k_paper_intercept_n, 3), k_paper_colour, Style::line,
+                          curve(largest, paper_force_n), 2.4});
+  for (std::size_t i = 0; i < r.sets.size(); ++i) {
+    const CubeSet& set = r.sets[i];
+    const std::string colour = k_colours[i % k_colours.size()];
+    ChartSeries with{set.name + ", with friction", colour, Style::dots, {}, 1.8},
+        without{set.name + ", without friction", colour, Style::rings, {}, 1.8}, left{set.name, colour, Style::dots, {}, 1.8};
+    for (const auto& row : set.rows) {
+      with.points.push_back({row.k_n_per_mm, row.with.mean, row.with.sd});
+      without.points.push_back({row.k_n_per_mm, row.without.mean, row.without.sd});
+      if (set.with.line.solved)
+        left.points.push_back(
+            {row.k_n_per_mm, 1000 * (row.with.mean - set.with.line.value[0] * row.k_n_per_mm - set.with.line.value[1]), 1000 * row.with.sd});
+    }
+    if (set.with.line.solved) {
+      const Fit line = set.with.line, other = set.without.line;
+      force.series.push_back(
+          {set.name + ": " + equation(line), colour, Style::line, curve(largest, [=](double k) { return line.value[0] * k + line.value[1]; }), 1.4});
+      force.series.push_back({"", colour, Style::line, curve(largest, [=](double k) { return other.value[0] * k + other.value[1]; }), 0.7});
+    }
+    if (set.with.with_root.solved && set.with.line.solved) {
+      const Fit line = set.with.line, root = set.with.with_root;
+      rest.series.push_back({set.name + ", fit with a root of k", colour, Style::dashed,
+                             curve(largest,
+                                   [=](double k) {
+                                     return 1000 *
+                                            ((root.value[0] - line.value[0]) * k + root.value[1] - line.value[1] + root.value[2] * std::sqrt(k));
+                                   }),
+                             1.4});
+    }
+    force.series.push_back(with);
+    force.series.push_back(without);
+    rest.series.push_back(left);
+  }
+  double top = 0;
+  for (const auto& s : force.series)
+    for (const auto& p : s.points) top = std::max(top, p.y);
+  force.y_range = {{-0.05, 1.55 * top}};
+  double low = -1, high = 1;
+  for (const auto& s : rest.series)
+    for (const auto& p : s.points) {
+      low = std::min(low, p.y - p.error);
+      high = std::max(high, p.y + p.error);
+    }
+  rest.y_range = {{1.1 * low, high + 0.4 * (high - low)}};  // room for the legend
+  force.x_range = rest.x_range = {{-0.03 * largest, 1.03 * largest}};
+  const auto& m = r.options.machine;
+  return charts_page(
+      "Virtual cubes on the testing machine, " + plain_number(m.speed_mm_s) + " mm/s, " + runs_text(r.options.runs) + " each", {force, rest},
+      {"Bars: sd over the runs. Joint friction of the simulated Omni " + plain_number(m.omni.coulomb_n) + " N; load cell noise " +
+       plain_number(m.noise_n) + " N and zero error " + plain_number(m.zero_n) + " N a run (assumed). Mean of the last 2 s of a steady cut."});
+}
+
+std::string tooth_svg(const ToothRigResult& r) {
+  Chart whole;
+  whole.title = "From the first contact";
+  whole.x_label = "time since contact, s";
+  whole.y_label = "force on the load cell, N";
+  whole.width_px = 560;
+  Chart fall;
+  fall.title = "Around the pulp's roof";
+  fall.x_label = "time since the pulp was reached, s";
+  fall.y_label = whole.y_label;
+  fall.width_px = 440;
+  double top = 0.1, last_s = 0;
+  const auto add = [&](Chart& chart, const std::vector<BandPoint>& band) {
+    ChartSeries shade{"mean ± sd of " + runs_text(r.counted), k_colours[1], Style::band, {}, 1}, mean{"mean", k_colours[1], Style::line, {}, 2.2};
+    for (const auto& p : band) {
+      shade.points.push_back({p.t_s, p.force_n.mean, p.force_n.sd});
+      mean.points.push_back({p.t_s, p.force_n.mean, 0});
+      top = std::max(top, p.force_n.mean + p.force_n.sd);
+    }
+    chart.series.push_back(shade);
+    chart.series.push_back(mean);
+  };
+  const auto first = std::find_if(r.runs.begin(), r.runs.end(), [](const ToothRun& run) { return run.reached_pulp && !run.held; });
+  if (first != r.runs.end()) {
+    ChartSeries one{"a single run", "#9a9a9a", Style::line, {}, 0.7};
+    for (const auto& s : first->samples) {
+      one.points.push_back({s.t_s, s.f_n, 0});
+      top = std::max(top, s.f_n);
+    }
+    whole.series.push_back(one);
+  }
+  add(whole, r.from_contact);
+  add(fall, r.around_pulp);
+  if (!r.from_contact.empty()) last_s = r.from_contact.back().t_s;
+  for (std::size_t i = 0; i < r.layers.size(); ++i) {
+    const double to = i + 1 < r.layers.size() ? r.layers[i + 1].from_s.mean : last_s;
+    whole.spans.push_back({r.layers[i].from_s.mean, to, r.layers[i].tissue, span_colour(r.layers[i].tissue)});
+  }
+  whole.x_range = {{0.0, std::max(1.0, last_s)}};
+  if (r.counted > 0) {
+    whole.marks.push_back({r.pulp_s.mean, true, ""});
+    fall.marks.push_back({0.0, true, ""});
+    fall.spans.push_back({-1e9, 0, r.layers.size() > 1 ? r.layers[r.layers.size() - 2].tissue : "", span_colour("dentin")});
+    fall.spans.push_back({0, 1e9, "pulp", span_colour("pulp")});
+    fall.marks.push_back({r.before_n.mean, false, "before " + fixed(r.before_n.mean, 2) + " N"});
+    fall.marks.push_back({r.after_n.mean, false, "after " + fixed(r.after_n.mean, 2) + " N"});
+  }
+  whole.y_range = fall.y_range = {{0.0, 1.3 * top}};
+  std::vector<std::string> words{"Joint friction " + plain_number(r.options.machine.omni.coulomb_n) +
+                                 " N included. Shaded spans: mean times at which a tissue lies before the tip."};
+  if (r.counted > 0)
+    words.push_back("Pulp reached " + fixed(r.pulp_s.mean, 1) + " ± " + fixed(r.pulp_s.sd, 1) + " s after contact (dashed); fall from " +
+                    fixed(r.before_n.mean, 3) + " to " + fixed(r.after_n.mean, 3) + " N, 90 to 10 % within " + fixed(r.fall_s.mean, 2) + " s.");
+  return charts_page(r.tooth + ", model '" + r.model + "', " + r.point + ", " + plain_number(r.options.machine.speed_mm_s) + " mm/s", {whole, fall},
+                     words);
+}
+
+std::string press_svg(const PressResult& r) {
+  const auto& o = r.options;
+  constexpr double k_label_w = 186, k_w = 42, k_h = 19, k_gap = 18, k_top = 104, k_bounce_w = 32;
+  const auto columns = static_cast<double>(o.hand_n_per_mm.size() * o.press_n.size()), speeds = static_cast<double>(o.contact_mm_s.size());
+  const std::array block_x{k_label_w, k_label_w + columns * k_w + k_gap};
+  const std::array bounce_x{block_x[1] + columns * k_w + k_gap, block_x[1] + columns * k_w + 2 * k_gap + speeds * k_bounce_w};
+  const double width = bounce_x[1] + speeds * k_bounce_w + 16;
+  std::string body =
+      svg_text(16, 24, "Closed-loop press on the simulated Omni: sd of the force in the last half second, N", 15, "start", "font-weight='bold'");
+  const std::array titles{"ours", "explicit k X + c V"};
+  for (std::size_t b = 0; b < 2; ++b) {
+    body += svg_text(block_x[b], 52, titles[b], 13, "start", "font-weight='bold'");
+    for (std::size_t h = 0; h < o.hand_n_per_mm.size(); ++h) {
+      const double x = block_x[b] + static_cast<double>(h * o.press_n.size()) * k_w;
+      body +=
+          svg_text(x + static_cast<double>(o.press_n.size()) * k_w / 2, 74, "hand " + plain_number(1000 * o.hand_n_per_mm[h]) + " N/m", 11, "middle");
+      for (std::size_t p = 0; p < o.press_n.size(); ++p)
+        body += svg_text(x + (static_cast<double>(p) + 0.5) * k_w, 92, plain_number(o.press_n[p]) + " N", 10, "middle", "fill='#555555'");
+    }
+    if (o.contact_mm_s.empty()) continue;
+    body += svg_text(bounce_x[b], 52, "bounces", 13, "start", "font-weight='bold'") +
+            svg_text(bounce_x[b], 68, b == 0 ? "ours, at mm/s" : "explicit, at mm/s", 11, "start");
+    for (std::size_t v = 0; v < o.contact_mm_s.size(); ++v)
+      body +=
+          svg_text(bounce_x[b] + (static_cast<double>(v) + 0.5) * k_bounce_w, 92, plain_number(o.contact_mm_s[v]), 10, "middle", "fill='#555555'");
+  }
+  double y = k_top;
+  double last_k = -1;
+  for (const double k : o.k_n_per_mm)
+    for (const DampingRule damping : o.damping)
+      for (const int delay : o.delay_ticks) {
+        if (last_k >= 0 && k != last_k) y += 6;
+        last_k = k;
+        body += svg_text(16, y + 13, "k " + plain_number(k) + ",  c " + damping_name(damping) + ",  delay " + std::to_string(delay), 11);
+        std::size_t column = 0;
+        for (const auto& row : r.presses) {
+          if (row.cell.k_n_per_mm != k || row.cell.damping != damping || row.cell.delay_ticks != delay) continue;
+          for (std::size_t b = 0; b < 2; ++b) {
+            const PressOutcome& out = b == 0 ? row.ours : row.explicit_voigt;
+            const double x = block_x[b] + static_cast<double>(column) * k_w;
+            body += field(x, y, k_w, k_h, heat_colour(out.sd_n, o.limit_sd_n), fixed(out.sd_n, 3) + (out.passive ? "" : "*"), !out.steady);
+          }
+          ++column;
+        }
+        for (std::size_t v = 0; v < o.contact_mm_s.size(); ++v) {
+          std::array<int, 2> worst{};
+          for (const auto& c : r.contacts)
+            if (c.cell.k_n_per_mm == k && c.cell.damping == damping && c.cell.delay_ticks == delay && c.speed_mm_s == o.contact_mm_s[v]) {
+              worst[0] = std::max(worst[0], c.ours.bounces);
+              worst[1] = std::max(worst[1], c.explicit_voigt.bounces);
+            }
+          for (std::size_t b = 0; b < 2; ++b)
+            body += field(bounce_x[b] + static_cast<double>(v) * k_bounce_w, y, k_bounce_w, k_h,
+                          worst[b] == 0 ? "#bfe3c5" : heat_colour(worst[b], 0.5), std::to_string(worst[b]), worst[b] > 0);
+        }
+        body += "\n";
+        y += k_h;
+      }
+  y += 22;
+  const std::array<std::pair<double, const char*>, 5> scale{
+      {{0.1, "under a quarter of the limit"}, {0.9, "within the limit"}, {1.5, "over it"}, {10, "ten times"}, {100, "a hundred times"}}};
+  double x = 16;
+  for (const auto& [times, words] : scale) {
+    body += "<rect x='" + fixed(x, 1) + "' y='" + fixed(y - 10, 1) + "' width='16' height='12' fill='" + heat_colour(times, 1.0) + "'/>" +
+            svg_text(x + 21, y, words, 11);
+    x += 40 + 6.2 * static_cast<double>(std::string(words).size());
+  }
+  body += svg_text(16, y + 18,
+                   "Limit " + plain_number(o.limit_sd_n) + " N; * = the wall gave out energy (passivity observer, limit " +
+                       plain_number(o.limit_energy_mj) + " mJ). Hand " + plain_number(1000 * o.hand_mass_kg) + " g, damping ratio " +
+                       plain_number(o.hand_damping_ratio) + " (assumed). Bounces: most of all hands at " + plain_number(o.contact_press_n) + " N.",
+                   11, "start", "fill='#555555'");
+  return svg_page(std::max(width, 700.0), y + 32, body);
+}
+
+}  // namespace cavum

@@ -1,0 +1,362 @@
+// `cavum scenario check | show | solve | new`: authoring help.
+#include <stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "engine/tooth/tooth.h"
+#include "grading/result/result_json.h"
+#include "grading/session_input.h"
+#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/file/parse.h"
+#include "scenarios/file/template.h"
+#include "scenarios/review/check.h"
+#include "scenarios/review/picture.h"
+#include "scenarios/zones/zone_map.h"
+#include "ui/parts/print_json.h"
+#include "ui/parts/seed_check.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+struct Options {
+  std::string scenario, tooth, tooth_kind = "molar", task, out, model = "consistent";
+  std::uint64_t seed = 1;
+  bool json = false, force = false, careless = false;
+};
+
+int check(const Options& o) {
+  const CheckedScenario checked = check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
+  if (o.json) {
+    nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
+    for (const auto& p : checked.problems)
+      j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
+                               {"where", p.where},
+                               {"line", p.line},
+                               {"column", p.column},
+                               {"what", p.what},
+                               {"what_to_do", p.what_to_do}});
+    j["expert_s"] = checked.expert_s ? nlohmann::ordered_json(std::round(*checked.expert_s)) : nlohmann::ordered_json(nullptr);
+    print_json(j);
+  } else {
+    for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
+    if (checked.sound()) {
+      const auto n = checked.problems.size();
+      std::cout << o.scenario << ": " << (n == 0 ? "sound" : "no mistakes, " + std::to_string(n) + (n == 1 ? " warning" : " warnings"));
+      if (checked.expert_s) std::cout << "; the built-in expert needs about " << fixed(*checked.expert_s, 0) << " s";
+      std::cout << (n == 0 ? "" : "; whether it can be passed: cavum scenario solve " + o.scenario) << "\n";
+    }
+  }
+  return checked.sound() ? 0 : 1;
+}
+
+/// Volumes of the zones in the tooth, each with half a leaf over its border; the target's by parts of leaves, as it is graded.
+std::array<Volume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zones) {
+  std::array<Volume, k_zones> volumes{};
+  const double leaf_mm3 = zones.leaf_volume_mm3();
+  const IVec3 size = tooth.octree.size();
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const IVec3 leaf{x, y, z};
+        const Zone own = zones.zone(leaf);
+        if (own == Zone::none) continue;
+        Volume& v = volumes[static_cast<std::size_t>(own)];
+        v.mm3 += leaf_mm3;
+        for (const IVec3 step : k_six_neighbours)
+          if (zones.zone(leaf + step) != own) {
+            v.bound_mm3 += 0.5 * leaf_mm3;
+            break;
+          }
+      }
+  volumes[static_cast<std::size_t>(Zone::target)] = {
+      static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * leaf_mm3,
+      0.5 * static_cast<double>(zones.target_border_leaves()) * leaf_mm3};
+  return volumes;
+}
+
+int show(const Options& o) {
+  if (!o.out.ends_with(".svg")) throw Error(o.out, "the zones are drawn as SVG only", "use a name ending in .svg");
+  require_writable(o.out);
+  const Scenario s = load_scenario(o.scenario);
+  const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
+  const ZoneMap zones = build_zones(s, tooth);
+  const std::string svg = scenario_sheet_svg(s, tooth, zones);
+  write_text_file(o.out, svg);
+  const auto volumes = zone_volumes(tooth, zones);
+  if (o.json) {
+    nlohmann::ordered_json j{{"out", o.out},
+                             {"tooth", tooth.name},
+                             {"opening_z_mm", zones.opening_z_mm()},
+                             {"zones_mm3", nlohmann::ordered_json::object()},
+                             {"bounds_mm3", nlohmann::ordered_json::object()}};
+    for (std::size_t z = 1; z < k_zones; ++z) {
+      j["zones_mm3"][zone_name(static_cast<Zone>(z))] = rounded(volumes[z].mm3);
+      j["bounds_mm3"][zone_name(static_cast<Zone>(z))] = rounded(volumes[z].bound_mm3);
+    }
+    print_json(j);
+    return 0;
+  }
+  for (std::size_t z = 1; z < k_zones; ++z)
+    std::cout << zone_name(static_cast<Zone>(z)) << ": " << fixed(volumes[z].mm3, 2) << " ± " << fixed(volumes[z].bound_mm3, 2) << " mm3\n";
+  std::cout << "drawn: " << o.out << "\n";
+  return 0;
+}
+
+/// Where a session is kept that nobody asked to keep; gone at the end.
+class ScratchSession {
+ public:
+  ScratchSession() {
+    std::string name = (std::filesystem::temp_directory_path() / "cavum-solve-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "set TMPDIR to a folder that is writable and has room");
+    folder_ = name;
+  }
+  ~ScratchSession() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  ScratchSession(const ScratchSession&) = delete;
+  ScratchSession& operator=(const ScratchSession&) = delete;
+  [[nodiscard]] std::string file(const std::string& who) const { return (folder_ / (who + ".cavum")).string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// A simulated candidate takes the exam; the session is sealed with the result.
+Result taken(const ExamSetup& setup, SimulatedCandidate& candidate, const std::string& session) {
+  const auto exam = Exam::start(setup, session, candidate.start_mm());
+  run_exam(*exam, candidate);
+  exam->recorder().flush();
+  const auto graded = load_for_grading(SessionReader(session), exam->tooth_now());
+  Result r = grade(graded->input(), graded->rubric);
+  exam->close(to_json(r).dump());
+  return r;
+}
+
+/// What `solve` found out; `result` is missing when the expert could not even begin.
+struct Solved {
+  std::optional<Result> result;
+  std::string point;
+  std::vector<std::string> reasons;  ///< why it was not passed
+  std::string advice;                ///< what to change then
+};
+
+/// What an instructor can do when the expert did not pass.
+std::string advice_for_expert(const Result& r) {
+  if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
+  for (const auto& c : r.criteria)
+    if (!c.value) return "take '" + c.id + "' out: this cavity has nothing that it measures";
+  for (const auto& c : r.criteria)
+    if (c.critical_failed)
+      return "move the critical limit of '" + c.id + "' beyond what the expert reaches, or change the zones so that it can be kept";
+  if (r.verdict == Verdict::review)
+    return r.perforation.agree() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
+                                 : "look at the recording (--out): force and tissue disagree about a perforation";
+  const CriterionResult* worst = nullptr;
+  for (const auto& c : r.criteria)
+    if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;
+  return worst == nullptr
+             ? "give the rubric criteria"
+             : "begin with '" + worst->id + "', which cost most: set its full and zero within what the expert reaches, or allow a point that " +
+                   "fits the target";
+}
+
+/// The built-in expert takes the exam.
+Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& session) {
+  Solved solved;
+  std::unique_ptr<SimulatedCandidate> expert;
+  try {
+    expert = std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, "expert", o.seed, OmniModel{}));
+  } catch (const Error& e) {
+    solved.reasons.emplace_back(e.what());
+    solved.advice = "see what `cavum scenario check` warns of";
+    return solved;
+  }
+  solved.point = setup.point_names[expert->point()];
+  const Result& r = solved.result.emplace(taken(setup, *expert, session));
+  if (r.verdict == Verdict::pass) return solved;
+  solved.reasons = r.verdict_reasons;
+  if (r.progress.finish == "time") solved.reasons.push_back("time was up after " + fixed(r.motion.time_s, 1) + " s: the expert was not finished");
+  for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
+    solved.reasons.push_back("step " + setup.scenario.steps[i].id + " was not completed (" + setup.scenario.steps[i].complete_when + ")");
+  for (const auto& c : r.criteria)
+    if (c.points < c.max && !c.critical_failed) solved.reasons.push_back("criterion " + c.id + ": " + c.reason);  // a critical one is named already
+  solved.advice = advice_for_expert(r);
+  return solved;
+}
+
+/// The careless candidate's exam: whether it was failed, and by the criterion that the scenario names.
+struct Caught {
+  Result result;
+  CriterionResult criterion;
+  bool as_named = false;
+  std::string advice;  ///< what to change when it is not caught
+};
+
+/// Why the careless candidate got away, and what to do about it.
+std::string advice_for(const Caught& c) {
+  const CriterionResult& named = c.criterion;
+  const bool lost_all = named.critical_failed || named.points <= 0;
+  if (c.result.progress.finish == "time")
+    return "time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see";
+  if (lost_all && c.result.verdict == Verdict::review)
+    return "a person would have to decide: make '" + named.id + "' critical, or raise the pass mark by more than the borderline band";
+  if (lost_all)
+    return "'" + named.id +
+           "' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory";
+  const std::string value = named.value ? fixed(*named.value, 2) + (named.unit.empty() ? "" : " " + named.unit) : "no value";
+  return "'" + named.id + "' still gives " + fixed(named.points, 1) + " of " + fixed(named.max, 1) + " points for " + value +
+         ": make the mistake in [careless] larger, or the criterion stricter so that it gives none for that, or let fails_by name another";
+}
+
+Caught catch_careless(const Options& o, const ExamSetup& setup, const std::string& session) {
+  SimulatedCandidate candidate = make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
+  Caught c{taken(setup, candidate, session), {}, false, {}};
+  for (const auto& one : c.result.criteria)
+    if (one.id == setup.scenario.careless.fails_by) c.criterion = one;
+  // running out of time is another reason than the one the task is there for
+  c.as_named = c.result.verdict == Verdict::fail && c.result.progress.finish != "time" && (c.criterion.critical_failed || c.criterion.points <= 0);
+  if (!c.as_named) c.advice = advice_for(c);
+  return c;
+}
+
+nlohmann::ordered_json to_json(const Caught& c) {
+  const auto result = to_json(c.result);
+  nlohmann::ordered_json j{{"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", c.criterion.reason}, {"what_to_do", c.advice}};
+  for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
+  return j;
+}
+
+std::string to_text(const Caught& c) {
+  std::string s = "careless: " + std::string(c.as_named ? "failed by " : "NOT failed by ") + c.criterion.id + " (" + c.criterion.reason + "); " +
+                  fixed(c.result.points, 1) + " of " + fixed(c.result.max_points, 1) + " points, " + verdict_name(c.result.verdict) + "\n";
+  if (c.as_named) return s;
+  for (const auto& reason : c.result.verdict_reasons) s += "because: " + reason + "\n";
+  s += "what to do: " + c.advice + "\n";
+  return s;
+}
+
+int solve(const Options& o) {
+  if (!o.out.empty()) require_writable(o.out);
+  ExamOptions options;
+  options.candidate = "built-in expert";
+  options.tooth_file = o.tooth;
+  options.force_model = o.model;
+  options.device = "simulated Omni, operator expert";
+  options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
+  const auto setup = prepare_exam(o.scenario, options);
+  if (o.careless && setup->scenario.careless.fails_by.empty())
+    throw Error(o.scenario, "the scenario says nothing of a careless candidate",
+                "add [careless] with the mistake it is to catch, or leave out --careless");
+  const ScratchSession scratch;
+  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file("expert") : o.out);
+  const bool passed = solved.result && solved.result->verdict == Verdict::pass;
+  std::optional<Caught> careless;
+  if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless"));
+  const int answer = passed && (!o.careless || (careless && careless->as_named)) ? 0 : 1;
+  const double limit_s = static_cast<double>(exam_limit_ticks(setup->scenario)) * k_tick_s;
+  if (o.json) {
+    nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
+    if (solved.result) {
+      j["point"] = solved.point;
+      auto result = to_json(*solved.result);
+      for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
+    }
+    j["reasons"] = solved.reasons;
+    j["what_to_do"] = solved.advice;
+    if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
+    j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
+    print_json(j);
+    return answer;
+  }
+  std::cout << one_line(setup->scenario.id + " on " + setup->tooth.name) << ": "
+            << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
+  if (solved.result) {
+    const Result& r = *solved.result;
+    std::cout << "score  " << fixed(r.points, 1) << " ± " << fixed(r.points_bound, 1) << " of " << fixed(r.max_points, 1) << " points, "
+              << verdict_name(r.verdict) << "; pass mark " << fixed(r.pass_percent, 0) << " %" << (r.compensatory ? "" : " of each criterion")
+              << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s (" << fixed(100 * r.motion.time_s / limit_s, 0)
+              << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of " << r.progress.steps
+              << " completed, ended: " << r.progress.finish << "\n";
+    for (const auto& c : r.criteria)
+      std::cout << "  " << one_line(c.id) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
+  }
+  for (const auto& reason : solved.reasons) std::cout << "because: " << one_line(reason) << "\n";
+  if (!passed) std::cout << "what to do: " << one_line(solved.advice) << "\n";
+  if (careless) std::cout << to_text(*careless);
+  if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
+  return answer;
+}
+
+/// The task that is written when none is named: a class I where the tooth has one.
+std::string first_task(const std::string& tooth) {
+  std::string first = "class_1";  // of an unknown tooth, which is refused with all choices
+  bool any = false;
+  for (const auto& c : template_choices()) {
+    if (c.tooth != tooth || (any && c.task != "class_1")) continue;
+    first = c.task;
+    any = true;
+  }
+  return first;
+}
+
+int make_new(const Options& o) {
+  require_writable(o.out);
+  if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
+  write_text_file(o.out, scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task), {.may_replace = o.force});
+  std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_scenario_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("scenario", "Write and check exam scenarios");
+  verb->require_subcommand(1);
+
+  auto* checks = verb->add_subcommand("check", "Name every mistake of a scenario file, and warn of what is unwise");
+  checks->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
+  checks->add_option("--tooth", o->tooth, "check the zones against this tooth instead");
+  checks->add_flag("--json", o->json, "one JSON object on standard output");
+  checks->callback([o, &exit_code] { exit_code = check(*o); });
+
+  auto* shows = verb->add_subcommand("show", "Draw the zones on three sections and from above (SVG)");
+  shows->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
+  shows->add_option("--out", o->out, "SVG file")->required();
+  shows->add_option("--tooth", o->tooth, "draw them in this tooth instead");
+  shows->add_flag("--json", o->json, "one JSON object on standard output");
+  shows->callback([o, &exit_code] { exit_code = show(*o); });
+
+  auto* solves = verb->add_subcommand("solve", "Prove that the task can be passed: the built-in expert takes it");
+  solves->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
+  solves->add_option("--tooth", o->tooth, "solve it on this tooth instead");
+  solves->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  solves->add_option("--seed", o->seed, "of the expert's tremor")->check(seed_check())->capture_default_str();
+  solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
+  solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");
+  solves->add_flag("--json", o->json, "one JSON object on standard output");
+  solves->callback([o, &exit_code] { exit_code = solve(*o); });
+
+  auto* news = verb->add_subcommand("new", "Write a commented scenario to start from");
+  std::string known;
+  for (const auto& c : template_choices()) known += (known.empty() ? "" : ", ") + c.tooth + " " + c.task;
+  news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
+  news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
+  news->add_option("--out", o->out, "file to write")->required();
+  news->add_flag("--force", o->force, "overwrite");
+  news->callback([o, &exit_code] { exit_code = make_new(*o); });
+}
+
+}  // namespace cavum

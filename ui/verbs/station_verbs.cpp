@@ -1,0 +1,143 @@
+// `station`: the exam window.
+#include <filesystem>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/session/session_reader.h"
+#include "ui/parts/number_check.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/seed_check.h"
+#include "ui/station/author.h"
+#include "ui/station/station.h"
+#include "ui/verbs/enrol_station.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::size_t k_longest_code = 47;
+
+struct Options {
+  StationOptions station;
+  std::string author;
+  EnrolOptions enrol;
+  int frame_times = 0;
+};
+
+void require_second_place(const SittingOptions& o) {
+  if (o.out_if_full.empty()) return;
+  const std::string named = "--out-if-full " + o.out_if_full;
+  std::error_code none;
+  if (o.resume.empty() && std::filesystem::weakly_canonical(o.out, none) == std::filesystem::weakly_canonical(o.out_if_full, none))
+    throw Error(named, "is the same place as --out", "name another, on another disk");
+  if (o.out_if_full.ends_with(".cavum") && std::filesystem::exists(o.out_if_full)) throw Error(named, "is there already", "name another file");
+  if (!o.out_if_full.ends_with(".cavum") && !std::filesystem::is_directory(o.out_if_full))
+    throw Error(named, "is no folder", "make it, or name a file ending in .cavum");
+  require_writable(o.out_if_full.ends_with(".cavum") ? o.out_if_full : o.out_if_full + "/session.cavum");
+}
+
+void require_sound(const StationOptions& o, const std::string& author) {
+  if (!author.empty()) {
+    if (!o.replay.empty() || !o.sitting.scenario.empty())
+      throw Error("--author " + author, "was asked for together with an exam or a replay", "name the scenario after --author alone");
+    return;
+  }
+  if (!o.replay.empty() && !o.sitting.scenario.empty())
+    throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
+  if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, "has no script that takes any", "add --script");
+  if (!o.replay.empty()) return;
+  if (!o.sitting.resume.empty()) {
+    if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
+      throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");
+    SessionReader(o.sitting.resume).require_readable();
+    require_second_place(o.sitting);
+    return;
+  }
+  if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+  // a name that is none is refused now; what is plugged in is opened for each candidate
+  if (const std::string& device = o.sitting.device.name; device != "falcon" && device != "touch")
+    static_cast<void>(make_station_device(o.sitting.device));
+  if (o.sitting.out.ends_with(".cavum")) {
+    require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
+    if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
+  } else if (!std::filesystem::is_directory(o.sitting.out)) {
+    throw Error("--out " + o.sitting.out, "is no folder", "make it, or name a file ending in .cavum");
+  } else {
+    require_writable(o.sitting.out + "/session.cavum");
+  }
+  require_second_place(o.sitting);
+  if (o.candidate.size() > k_longest_code)
+    throw Error("--candidate", "is longer than a code", "use " + std::to_string(k_longest_code) + " characters at most");
+  // what would spoil the exam is said before a candidate sits down
+  ExamOptions trial;
+  trial.candidate = "trial";
+  trial.tooth_file = o.sitting.tooth;
+  trial.force_model = o.sitting.model;
+  trial.rubric_file = o.sitting.rubric;
+  trial.grant = o.sitting.grant;
+  static_cast<void>(prepare_exam(o.sitting.scenario, trial));
+}
+
+}  // namespace
+
+void add_station_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  StationOptions& s = o->station;
+  s.sitting.out = ".";
+  auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
+  station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
+  station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
+  station->add_option("--out-if-full", s.sitting.out_if_full, "the same on another disk: begins or goes on there when --out cannot be written");
+  station->add_option("--replay", s.replay, "look at a recorded exam instead");
+  station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
+  station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");
+  station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse, falcon, touch")->capture_default_str();
+  station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
+      ->capture_default_str();
+  station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
+  auto* practice = station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
+  station->add_option("--tickets", s.sitting.tickets, "folder of tickets: only who has one sits, and as it promises (see `cavum ledger ticket`)")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(practice);
+  station->add_option("--candidate", s.candidate, "code that stands in the field already");
+  station->add_option("--tooth", s.sitting.tooth, "another tooth than the scenario's");
+  station->add_option("--model", s.sitting.model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  station->add_option("--rubric", s.sitting.rubric, "mark by this rubric (TOML) instead of the scenario's own");
+  station->add_option("--extra-time-percent", s.sitting.grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
+  station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
+  station->add_flag("--left-handed", s.left_handed, "layout for the left hand; can be chosen at sign-in, too");
+  station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
+  station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(between(0.8, 1.8))->capture_default_str();
+  station->add_option("--width", s.width, "of the window, pixels")->check(CLI::Range(640, 7680))->capture_default_str();
+  station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
+  station->add_option("--script", s.script, "press the keys that this file lists (for demonstrations and tests)");
+  station->add_option("--pictures", s.pictures, "folder for the pictures that the script takes");
+  station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")
+      ->check(CLI::Range(1, 100000));
+  station->add_option("--enrol", o->enrol.code,
+                      "ask the school to enrol this station, with the one-time code that it gave; --out is the request to write");
+  station->add_flag("--replace-key", o->enrol.replace_key,
+                    "make a new key for this enrolled station, and ask for it to take the old one's place; --out as above");
+  station->add_option("--stylus", o->enrol.styluses,
+                      "with --enrol or --replace-key: falcon or touch; only recordings of it count then; may be repeated");
+  station->callback([o, &exit_code] {
+    if (!o->enrol.code.empty() || o->enrol.replace_key) {
+      o->enrol.out = o->station.sitting.out;
+      enrol_station(o->enrol);
+      exit_code = 0;
+      return;
+    }
+    require_sound(o->station, o->author);
+    if (!o->author.empty()) {
+      exit_code = run_author(o->station, o->author);
+    } else if (o->frame_times > 0) {
+      print_frame_times(o->station, o->frame_times);
+      exit_code = 0;
+    } else {
+      exit_code = run_station(o->station);
+    }
+  });
+}
+
+}  // namespace cavum

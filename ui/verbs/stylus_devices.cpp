@@ -1,0 +1,130 @@
+#include "ui/verbs/stylus_devices.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "engine/device/hardware/open_stylus.h"
+#include "engine/device/hardware/stylus_probe.h"
+#include "ui/parts/print_json.h"
+
+namespace cavum {
+namespace {
+
+bool placed(const std::string& id) { return ::access(station_stylus_path(id).c_str(), F_OK) == 0; }
+
+constexpr double k_patience_s = 10.0;
+
+/// Where the tip is, in the mean of a fifth of a second: hands tremble.
+Vec3 held_at(Stylus& stylus) {
+  constexpr int k_looks = 100;
+  Vec3 sum;
+  for (int i = 0; i < k_looks; ++i) {
+    sum += first_pose(stylus, k_patience_s).tip_mm;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return sum / k_looks;
+}
+
+}  // namespace
+
+nlohmann::json styluses_json(bool again) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const auto& s : list_styluses(!again))
+    all.push_back({{"id", s.id}, {"name", s.name}, {"there", s.there}, {"problem", s.problem}, {"placed", placed(s.id)}});
+  return all;
+}
+
+std::string styluses_text(bool again) {
+  std::string text = "styluses\n";
+  for (const auto& s : list_styluses(!again)) {
+    std::string id = s.id;
+    id.resize(10, ' ');
+    text += "  " + id + " " + one_line(s.name) + (s.there ? "" : "  (not there)") + (placed(s.id) ? "  (placed)" : "") + "\n";
+    if (!s.problem.empty()) text += "    " + one_line(s.problem) + "\n";
+  }
+  return text;
+}
+
+int test_stylus(const std::string& id, double seconds, bool friction, bool json) {
+  const auto stylus = open_stylus(id);
+  static_cast<void>(first_pose(*stylus, k_patience_s));
+  if (!json && friction) std::cout << "let go of the stylus and let it stand free: it is pushed slowly, by 1 N at most ...\n" << std::flush;
+  const StylusProbe p = probe_stylus(*stylus, {.listen_s = seconds, .friction = friction, .real_time = id != "simulated"});
+  if (json) {
+    nlohmann::json axes = nlohmann::json::object();
+    const std::array<const char*, 3> names{"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) axes[names[i]] = {{"friction_n", p.axes[i].friction_n()}, {"bias_n", p.axes[i].bias_n()}};
+    print_json(nlohmann::json{{"id", id},
+                              {"name", stylus->facts().name},
+                              {"readings", p.readings},
+                              {"rate_hz", p.rate_hz},
+                              {"jitter_ms", 1e3 * p.jitter_s},
+                              {"longest_gap_ms", 1e3 * p.longest_gap_s},
+                              {"quantum_mm", p.quantum_mm},
+                              {"quantum_expected_mm", stylus->facts().position_quantum_mm},
+                              {"friction_n", p.friction_n},
+                              {"friction_problem", p.friction_problem},
+                              {"axes", axes}});
+  } else {
+    std::cout << stylus->facts().name << ": " << plain_number(p.rate_hz) << " Hz, jitter " << fixed(1e3 * p.jitter_s, 2) << " ms, longest gap "
+              << fixed(1e3 * p.longest_gap_s, 1) << " ms\n";
+    if (p.quantum_mm > 0)
+      std::cout << "  smallest step " << fixed(p.quantum_mm, 4) << " mm (" << plain_number(stylus->facts().position_quantum_mm)
+                << " mm are reckoned with)\n";
+    else
+      std::cout << "  it did not move: the step of its positions is not known\n";
+    if (p.friction_n > 0) {
+      std::cout << "  friction in air " << fixed(p.friction_n, 2) << " N; x " << fixed(p.axes[0].friction_n(), 2) << ", y "
+                << fixed(p.axes[1].friction_n(), 2) << ", z " << fixed(p.axes[2].friction_n(), 2) << " N; pulled by itself "
+                << fixed(p.axes[2].bias_n(), 2) << " N along z\n";
+    }
+    if (!p.friction_problem.empty()) std::cout << "  friction in air not found: " << p.friction_problem << "\n";
+  }
+  return p.readings > 0 && p.friction_problem.empty() ? 0 : 1;
+}
+
+void place_stylus(const std::string& id) {
+  if (id == "simulated") throw Error("--place", "the simulated stylus stands where its hand holds it", "place falcon or touch");
+  const std::string path = station_stylus_path(id);
+  make_private_folder(std::filesystem::path(path).parent_path().string());
+  require_writable(path);
+  StylusOptions options;
+  options.station = load_station_stylus(id);
+  const Quat tool = options.station.placement.tool;
+  options.station.placement = {};  // its own frame
+  const auto stylus = open_stylus(id, options);
+  static_cast<void>(first_pose(*stylus, k_patience_s));
+  const std::array<std::pair<const char*, Vec3>, 4> marks{{{"where the middle of the crown shall be", {0, 0, 0}},
+                                                           {"20 mm to mesial (to the right) of it", {20, 0, 0}},
+                                                           {"20 mm to buccal (away from you) of it", {0, 20, 0}},
+                                                           {"20 mm above it", {0, 0, 20}}}};
+  std::vector<Vec3> device, tooth;
+  for (const auto& [where, at] : marks) {
+    std::cerr << "hold the tip " << where << ", then press Enter\n";
+    std::string line;
+    if (!std::getline(std::cin, line)) throw Error("--place", "was interrupted", "begin it again");
+    device.push_back(held_at(*stylus));
+    tooth.push_back(at);
+  }
+  const PlacementFit fit = fit_placement(device, tooth);
+  constexpr double k_most_mm = 3.0;
+  if (fit.worst_mm > k_most_mm)
+    throw Error("--place", "the marks do not fit together: one is off by " + fixed(fit.worst_mm, 1) + " mm",
+                "measure them with a ruler, and begin again");
+  options.station.placement = fit.placement;
+  options.station.placement.tool = tool;
+  write_private_text_file(path, to_toml(options.station));
+  std::cout << "marks fit within " << fixed(fit.worst_mm, 2) << " mm\nwritten: " << path << "\n";
+}
+
+}  // namespace cavum

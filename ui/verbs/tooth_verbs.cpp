@@ -1,0 +1,368 @@
+// `cavum tooth`: make a tooth, import one, look at it, export its surface.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/force/force_model.h"
+#include "engine/tooth/make/make_block.h"
+#include "engine/tooth/make/make_incisor.h"
+#include "engine/tooth/make/make_molar.h"
+#include "engine/tooth/make/make_premolar.h"
+#include "engine/tooth/make/plant_lesion.h"
+#include "engine/tooth/surface_mesh.h"
+#include "engine/tooth/tooth.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/file/checked_toml.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/tooth_facts.h"
+#include "ui/verbs/verbs.h"
+#ifdef CAVUM_WITH_IMPORT
+#include "engine/tooth/import/import_meshes.h"
+#include "engine/tooth/import/import_volume.h"
+#include "engine/tooth/import/segment.h"
+#include "engine/tooth/mesh/read_mesh.h"
+#endif
+
+namespace cavum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<double> parse_numbers(const std::string& text, const std::string& option) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    double v = 0.0;
+    const auto read = std::from_chars(part.data(), part.data() + part.size(), v);
+    if (read.ec != std::errc{} || read.ptr != part.data() + part.size() || !std::isfinite(v))
+      throw Error(option, "cannot read '" + part + "' as a number", "write numbers with commas between, such as 10,10,6");
+    numbers.push_back(v);
+  }
+  return numbers;
+}
+
+Vec3 parse_vec(const std::string& text, const std::string& option) {
+  const auto n = parse_numbers(text, option);
+  if (n.size() != 3) throw Error(option, "needs three numbers, '" + text + "' has " + std::to_string(n.size()), "write them as x,y,z");
+  return {n[0], n[1], n[2]};
+}
+
+/// Saves the tooth and says what it is; `more` adds fields to the JSON.
+void finish(const Tooth& tooth, const std::string& path, bool json, const Json& more = Json::object()) {
+  save_tooth_file(tooth, path);
+  Json d = describe(tooth, std::filesystem::file_size(path));
+  if (json) {
+    d["out"] = path;
+    d.update(more);
+    print_json(d);
+  } else {
+    print_tooth(d);
+    std::printf("  wrote   %s\n", path.c_str());
+  }
+}
+
+/// Tissues that any of the shipped material sets knows; empty when the data folder is not there.
+std::vector<std::string> known_tissues() {
+  std::set<std::string> names;
+  try {
+    const auto folder = std::filesystem::path(find_data_file("materials", "consistent.toml", "")).parent_path();
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".toml")
+        for (const auto& [name, material] : parse_force_model(read_text_file(entry.path().string()), entry.path().string()).materials)
+          names.insert(name);
+  } catch (const std::exception&) {
+    return {};
+  }
+  return {names.begin(), names.end()};
+}
+
+/// A tissue of one's own is welcome, a slip of the pen is not: both are named on standard error.
+void notice_unknown_tissues(const Tooth& tooth) {
+  const auto known = known_tissues();
+  for (const auto& t : tooth.tissues) {
+    if (known.empty() || std::find(known.begin(), known.end(), t.name) != known.end()) continue;
+    const std::string hint = suggestion(t.name, known);
+    std::fprintf(stderr,
+                 "cavum: notice: no shipped material set has the tissue '%s'; %s%s a tissue of your own needs [materials.%s] in the exam's --model\n",
+                 t.name.c_str(), hint.c_str(), hint.ends_with('?') ? "" : ";", t.name.c_str());
+  }
+}
+
+/// The surface is kept exactly, but leaves are whole: what counts them counts another size. That is said.
+void notice_part_leaves(const std::vector<double>& sizes_mm, double leaf_mm, const char* what) {
+  for (const double mm : sizes_mm) {
+    const double leaves = mm / leaf_mm, low = std::floor(leaves) * leaf_mm, high = std::ceil(leaves) * leaf_mm;
+    if (std::fabs(leaves - std::round(leaves)) < 1e-6) continue;
+    std::fprintf(stderr,
+                 "cavum: notice: %s of %g mm is no whole number of leaves of %g mm: its surface is exact, but bounds and volumes count whole leaves; "
+                 "%g or %g mm would be both\n",
+                 what, mm, leaf_mm, low, high);
+  }
+}
+
+/// The tooth with the lesion that --lesion asks for; as it is without.
+Tooth with_lesion(Tooth tooth, const std::string& text) {
+  if (text.empty()) return tooth;
+  const auto n = parse_numbers(text, "--lesion");
+  if (n.size() != 6) throw Error("--lesion", "needs six numbers, '" + text + "' has " + std::to_string(n.size()), "write them as x,y,z,rx,ry,rz");
+  return plant_lesion(std::move(tooth), {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+}
+
+void add_make(CLI::App& tooth) {
+  auto* make = tooth.add_subcommand("make", "Build a tooth from formulae");
+  make->require_subcommand(1);
+
+  struct Common {
+    std::string out, lesion;
+    bool json = false;
+  };
+  const auto common = [](CLI::App* app) {
+    auto c = std::make_shared<Common>();
+    app->add_option("--out", c->out, "Tooth file to write (.cvt)")->required();
+    app->add_option("--lesion", c->lesion, "x,y,z,rx,ry,rz, mm: softened dentin in an ellipsoid, hidden under a sound surface");
+    app->add_flag("--json", c->json, "One JSON object on stdout");
+    return c;
+  };
+
+  // Without a place for it nothing is made.
+  const auto made = [](const Common& c, const auto& maker) {
+    require_own_places({{"--out " + c.out, c.out}}, {});
+    finish(with_lesion(maker(), c.lesion), c.out, c.json);
+  };
+
+  auto* molar = make->add_subcommand("molar", "A parametric lower first molar");
+  auto shape = std::make_shared<MolarShape>();
+  auto mc = common(molar);
+  molar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str();
+  molar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
+  molar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the central fossa, mm")->capture_default_str();
+  molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
+  molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
+  molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
+  molar->callback([=] { made(*mc, [&] { return make_molar(*shape); }); });
+
+  auto* premolar = make->add_subcommand("premolar", "A parametric upper second premolar");
+  auto premolar_shape = std::make_shared<PremolarShape>();
+  auto pc = common(premolar);
+  premolar->add_option("--leaf-mm", premolar_shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  premolar->add_option("--periodontium-mm", premolar_shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")
+      ->capture_default_str();
+  premolar->add_option("--occlusal-enamel-mm", premolar_shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
+  premolar->add_option("--lateral-enamel-mm", premolar_shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
+  premolar->add_option("--chamber-roof-mm", premolar_shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
+  premolar->callback([=] { made(*pc, [&] { return make_premolar(*premolar_shape); }); });
+
+  auto* incisor = make->add_subcommand("incisor", "A parametric upper central incisor");
+  auto incisor_shape = std::make_shared<IncisorShape>();
+  auto ic = common(incisor);
+  incisor->add_option("--leaf-mm", incisor_shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  incisor->add_option("--periodontium-mm", incisor_shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
+  incisor->add_option("--incisal-enamel-mm", incisor_shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
+  incisor->add_option("--lateral-enamel-mm", incisor_shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
+  incisor->add_option("--chamber-top-mm", incisor_shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
+  incisor->callback([=] { made(*ic, [&] { return make_incisor(*incisor_shape); }); });
+
+  auto* block = make->add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
+  struct BlockArgs {
+    std::string size = "10,10,6", layers = "enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3";
+    double leaf_mm = 0.05;
+  };
+  auto ba = std::make_shared<BlockArgs>();
+  auto bc = common(block);
+  block->add_option("--size-mm", ba->size, "x,y,z, mm")->capture_default_str();
+  block->add_option("--layers", ba->layers, "name:thickness_mm from top to bottom")->capture_default_str();
+  block->add_option("--leaf-mm", ba->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  block->callback([=] {
+    made(*bc, [&] {
+      const Vec3 size = parse_vec(ba->size, "--size-mm");
+      const std::vector<Layer> layers = parse_layers(ba->layers);
+      Tooth layered = make_block(size, layers, ba->leaf_mm);
+      notice_unknown_tissues(layered);
+      notice_part_leaves({size.x, size.y, size.z}, ba->leaf_mm, "a side");
+      for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, ba->leaf_mm, ("layer '" + layer.tissue + "'").c_str());
+      return layered;
+    });
+  });
+
+  auto* cube = make->add_subcommand("cube", "A cube of one tissue; origin at the centre of its top face");
+  struct CubeArgs {
+    double edge_mm = 10, leaf_mm = 0.05;
+    std::string tissue = "dentin";
+  };
+  auto ca = std::make_shared<CubeArgs>();
+  auto cc = common(cube);
+  cube->add_option("--edge-mm", ca->edge_mm, "Edge, mm")->capture_default_str();
+  cube->add_option("--tissue", ca->tissue, "Tissue")->capture_default_str();
+  cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  cube->callback([=] {
+    made(*cc, [&] {
+      Tooth plain = make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm);
+      notice_unknown_tissues(plain);
+      notice_part_leaves({ca->edge_mm}, ca->leaf_mm, "an edge");
+      return plain;
+    });
+  });
+}
+
+struct ImportArgs {
+  std::string volume, enamel, dentin, pulp, map, spacing, occlusal, mesial, out;
+  std::optional<double> enamel_threshold, dentin_threshold;
+  double leaf_mm = 0.05, periodontium_mm = 1.0, rotate_deg = 0.0;
+  bool json = false;
+};
+
+#ifdef CAVUM_WITH_IMPORT
+/// Every mesh that was named is there, and every layer was named.
+void require_meshes(const ImportArgs& a) {
+  const std::pair<const char*, const std::string*> layers[] = {{"--enamel", &a.enamel}, {"--dentin", &a.dentin}, {"--pulp", &a.pulp}};
+  std::string missing;
+  for (const auto& [option, path] : layers) {
+    if (!path->empty())
+      require_mesh_file(*path);
+    else
+      missing += (missing.empty() ? "" : " and ") + std::string(option);
+  }
+  if (!missing.empty())
+    throw Error("tooth import", missing + (missing.find(' ') == missing.npos ? " is" : " are") + " missing",
+                "give one closed surface for each of the three layers");
+}
+
+void run_import(const ImportArgs& a) {
+  require_own_places({{"--out " + a.out, a.out}}, {{"", a.volume}, {"", a.enamel}, {"", a.dentin}, {"", a.pulp}});
+  FrameOptions frame;
+  if (!a.occlusal.empty()) frame.occlusal_axis = parse_vec(a.occlusal, "--occlusal-axis");
+  if (!a.mesial.empty()) frame.mesial_axis = parse_vec(a.mesial, "--mesial-axis");
+  frame.rotate_deg = a.rotate_deg;
+  const bool meshes = !a.enamel.empty() || !a.dentin.empty() || !a.pulp.empty();
+  if (meshes == !a.volume.empty()) throw Error("tooth import", "needs either a VOLUME or the meshes --enamel --dentin --pulp", "give one of the two");
+  if (meshes) {
+    require_meshes(a);
+    if (!a.spacing.empty() || !a.map.empty() || a.enamel_threshold || a.dentin_threshold)
+      throw Error("tooth import", "spacing, map and thresholds belong to volumes", "leave them out for meshes (unit mm)");
+    const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame});
+    finish(done.tooth, a.out, a.json,
+           {{"mesh_volume_mm3", {{"enamel", done.mesh_enamel_mm3}, {"dentin", done.mesh_dentin_mm3}, {"pulp", done.mesh_pulp_mm3}}},
+            {"overlap_leaves", done.overlap_leaves},
+            {"gap_leaves", done.gap_leaves}});
+    return;
+  }
+  VolumeImportOptions options;
+  if (!a.spacing.empty()) {
+    auto n = parse_numbers(a.spacing, "--spacing-mm");
+    if (n.size() == 1) n = {n[0], n[0], n[0]};
+    if (n.size() != 3) throw Error("--spacing-mm", "needs one number or three", "write 0.125 or 0.1,0.1,0.2");
+    options.spacing_mm = Vec3{n[0], n[1], n[2]};
+  }
+  options.thresholds = {a.enamel_threshold, a.dentin_threshold};
+  if (!a.map.empty()) options.labels = parse_label_map(a.map);
+  options.leaf_mm = a.leaf_mm;
+  options.periodontium_mm = a.periodontium_mm;
+  options.frame = frame;
+  const VolumeImport done = import_volume(a.volume, options);
+  finish(done.tooth, a.out, a.json,
+         {{"spacing", done.spacing_note},
+          {"spacing_assumed", done.spacing_assumed},
+          {"native_voxels", {{"enamel", done.native_enamel}, {"dentin", done.native_dentin}, {"pulp", done.native_pulp}}},
+          {"pulp_bodies", done.pulp_bodies},
+          {"rim_percent", done.rim_percent}});
+  if (!a.json) {
+    std::printf("  voxels  enamel %llu, dentin %llu, pulp %llu (bodies: %llu); rim %.2f %%\n", static_cast<unsigned long long>(done.native_enamel),
+                static_cast<unsigned long long>(done.native_dentin), static_cast<unsigned long long>(done.native_pulp),
+                static_cast<unsigned long long>(done.pulp_bodies), done.rim_percent);
+    std::printf("  %s\n", done.spacing_note.c_str());
+  }
+}
+#else
+void run_import(const ImportArgs&) {
+  throw Error("tooth import", "this build has no import", "configure with -DCAVUM_IMPORT=ON (needs OpenVDB, OpenMesh and ITK)");
+}
+#endif
+
+void add_import(CLI::App& tooth) {
+  auto* verb = tooth.add_subcommand("import", "Build a tooth from layer meshes, a CT volume or a label map");
+  auto a = std::make_shared<ImportArgs>();
+  verb->add_option("VOLUME", a->volume, "MetaImage, NRRD, NIfTI, TIFF, or a folder with a DICOM series or TIFF stack");
+  verb->add_option("--enamel", a->enamel, "Closed enamel surface (STL, PLY, OBJ, OFF; mm)");
+  verb->add_option("--dentin", a->dentin, "Closed dentin surface");
+  verb->add_option("--pulp", a->pulp, "Closed pulp surface");
+  verb->add_option("--map", a->map, "VOLUME is a label map: 1=enamel,2=dentin,3=pulp");
+  verb->add_option("--spacing-mm", a->spacing, "Voxel edge, one number or x,y,z; overrides the file's");
+  verb->add_option("--dentin-threshold", a->dentin_threshold, "Gray above which tissue is hard (default: automatic)");
+  verb->add_option("--enamel-threshold", a->enamel_threshold, "Gray above which hard tissue is enamel (default: automatic)");
+  verb->add_option("--occlusal-axis", a->occlusal, "x,y,z in the file's frame (default: dentin centroid to enamel centroid)");
+  verb->add_option("--mesial-axis", a->mesial, "x,y,z in the file's frame (default: the file's x axis)");
+  verb->add_option("--rotate-deg", a->rotate_deg, "Turn about the occlusal axis, degrees")->capture_default_str();
+  verb->add_option("--leaf-mm", a->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  verb->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
+  verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
+  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->callback([=] { run_import(*a); });
+}
+
+void add_info(CLI::App& tooth) {
+  auto* info = tooth.add_subcommand("info", "What a tooth file holds");
+  auto path = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  info->add_option("FILE", *path, "Tooth file (.cvt)")->required();
+  info->add_flag("--json", *json, "One JSON object on stdout");
+  info->callback([=] {
+    const Tooth t = load_tooth_file(*path);
+    const Json d = describe(t, std::filesystem::file_size(*path));
+    if (*json)
+      print_json(d);
+    else
+      print_tooth(d);
+  });
+}
+
+void add_mesh(CLI::App& tooth) {
+  auto* mesh = tooth.add_subcommand("mesh", "Export the closed surface of a tissue, or of all solid tissues together");
+  struct MeshArgs {
+    std::string file, tissue = "solid", out;
+    bool json = false;
+  };
+  auto a = std::make_shared<MeshArgs>();
+  mesh->add_option("FILE", a->file, "Tooth file (.cvt)")->required();
+  mesh->add_option("--tissue", a->tissue, "Tissue by name, or solid")->capture_default_str();
+  mesh->add_option("--out", a->out, "Mesh to write (.stl or .ply), mm")->required();
+  mesh->add_flag("--json", a->json, "One JSON object on stdout");
+  mesh->callback([=] {
+    require_own_places({{"--out " + a->out, a->out}}, {{"", a->file}});
+    const TriangleMesh m = surface_mesh(load_tooth_file(a->file), a->tissue);
+    write_mesh_file(m, a->out);
+    const double volume = rounded(signed_volume_mm3(m), 1e-6);
+    if (a->json) {
+      const Json d{
+          {"out", a->out}, {"tissue", a->tissue}, {"triangles", m.triangles.size()}, {"vertices", m.vertices_mm.size()}, {"volume_mm3", volume}};
+      print_json(d);
+    } else {
+      std::printf("%s: %zu triangles around %.3f mm3 of %s\n", a->out.c_str(), m.triangles.size(), volume, a->tissue.c_str());
+    }
+  });
+}
+
+}  // namespace
+
+void add_tooth_verbs(CLI::App& app, int& exit_code) {
+  auto* tooth = app.add_subcommand("tooth", "Make, import, inspect and export teeth");
+  tooth->require_subcommand(1);
+  add_make(*tooth);
+  add_import(*tooth);
+  add_info(*tooth);
+  add_mesh(*tooth);
+  tooth->callback([&exit_code] { exit_code = 0; });
+}
+
+}  // namespace cavum
