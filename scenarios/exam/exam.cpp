@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/shipped.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "scenarios/file/rubric_check.h"
@@ -31,10 +32,7 @@ void fill(ExamSetup& setup, const std::string& scenario_path, const std::string&
 
 std::vector<fs::path> data_folders(const std::string& folder, const std::string& near_file) {
   std::vector<fs::path> places;
-  if (const char* data = std::getenv("CAVUM_DATA")) places.emplace_back(fs::path(data) / folder);
-  places.push_back(fs::path(near_file).parent_path() / ".." / folder);
-  places.push_back(fs::path("data") / folder);
-  places.push_back(fs::path(CAVUM_DATA_DIR) / folder);
+  for (const auto& data : shipped_folders(near_file)) places.push_back(data / folder);
   return places;
 }
 

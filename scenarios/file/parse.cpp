@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "engine/base/shipped.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/toml_limits.h"
@@ -262,9 +263,8 @@ std::string find_tooth_file(const Scenario& scenario) {
   namespace fs = std::filesystem;
   const fs::path written(scenario.tooth_file), folder = fs::path(scenario.path).parent_path();
   if (written.is_absolute() && fs::exists(written)) return written.string();
-  std::vector<fs::path> places{folder / written, folder / ".." / "teeth" / written, fs::path("data/teeth") / written};
-  if (const char* data = std::getenv("CAVUM_DATA")) places.push_back(fs::path(data) / "teeth" / written);
-  places.push_back(fs::path(CAVUM_DATA_DIR) / "teeth" / written);
+  std::vector<fs::path> places{folder / written, folder / ".." / "teeth" / written};
+  for (const auto& data : shipped_folders()) places.push_back(data / "teeth" / written);
   for (const fs::path& candidate : places)
     if (fs::exists(candidate)) return candidate.lexically_normal().string();
   throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",

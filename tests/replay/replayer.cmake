@@ -18,5 +18,4 @@ function(add_replayer name)
   target_link_libraries(${name} PRIVATE cavum_flags PkgConfig::SODIUM PkgConfig::ZSTD PkgConfig::XXHASH PkgConfig::TOMLPP SQLite::SQLite3
                                         nlohmann_json::nlohmann_json muparser::muparser OpenMeshCore)
   target_include_directories(${name} SYSTEM PRIVATE ${OPENMESH_INCLUDE_DIRS})
-  target_compile_definitions(${name} PRIVATE CAVUM_DATA_DIR="${CMAKE_SOURCE_DIR}/data")
 endfunction()

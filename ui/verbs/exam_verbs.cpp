@@ -272,6 +272,26 @@ int run_new(const Options& o) {
   return 0;
 }
 
+/// What `cavum exam` runs when nothing at all is named: the simulated expert opens the shipped molar, in a session with a report, here.
+Options demonstration(Options o) {
+  char name[64];
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  std::strftime(name, sizeof name, "cavum-demonstration-%Y%m%d-%H%M%S", ::localtime_r(&now, &local));
+  o.scenario = find_data_file("scenarios", "molar_access.toml", "");
+  o.candidate = "demonstration";
+  o.operator_name = "expert";
+  o.out = std::string(name) + ".cavum";
+  if (o.report.empty()) o.report = std::string(name) + ".html";
+  return o;
+}
+
+bool names_nothing(const Options& o) {
+  for (const auto& given : {o.scenario, o.candidate, o.ticket, o.motion, o.operator_name, o.device, o.out, o.tooth, o.rubric})
+    if (!given.empty()) return false;
+  return true;
+}
+
 /// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
 void require_same(const Options& o, const SessionSetup& held) {
   const auto differs = [&o](const std::string& option, const std::string& what) {
@@ -336,7 +356,7 @@ int run_resumed(const Options& o) {
 
 void add_exam_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
-  auto* exam = app.add_subcommand("exam", "Run a timed exam, record it, grade it and seal the recording");
+  auto* exam = app.add_subcommand("exam", "Run a timed exam, record it, grade it and seal the recording; without anything named, a demonstration");
   exam->add_option("scenario", o->scenario, "scenario file (.toml)");
   exam->add_option("--candidate", o->candidate, "candidate's pseudonym");
   exam->add_option("--ticket", o->ticket,
@@ -348,7 +368,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   motion->excludes(name);
   device->excludes(motion);
   exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);
-  exam->add_option("--out", o->out, "session file to write (.cavum)")->required();
+  exam->add_option("--out", o->out, "session file to write (.cavum)");
   exam->add_option("--out-if-full", o->out_if_full, "session file, on another disk, to begin or go on with when --out cannot be written");
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
   const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
@@ -363,6 +383,11 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_flag("--quiet", o->quiet, "no progress bar");
   exam->callback([o, model, &exit_code] {
     o->model_given = model->count() > 0;
+    if (!o->resume && names_nothing(*o)) {
+      exit_code = run_new(demonstration(*o));
+      return;
+    }
+    if (o->out.empty()) throw Error("cavum exam", "no session file to write is named", "add --out with a name such as exam.cavum");
     if (o->resume) {
       exit_code = run_resumed(*o);
     } else {

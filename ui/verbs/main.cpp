@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   cavum::add_verify_verbs(app, exit_code);
   cavum::add_device_verbs(app, exit_code);
   cavum::add_station_verbs(app, exit_code);
+  cavum::add_manual_verbs(app, exit_code);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (argc > 1 && argv[1][0] != '-' && std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == argv[1]; })) {
     std::fprintf(stderr, "cavum: command line: there is no verb '%s'; see `cavum --help`\n", cavum::one_line(argv[1]).c_str());

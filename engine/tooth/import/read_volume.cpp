@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/shipped.h"
 #include "engine/tooth/volume/volume_limits.h"
 #include "engine/tooth/volume/volume_wire.h"
 
@@ -101,8 +102,7 @@ std::string read_volume_program() {
   if (const char* told = std::getenv("CAVUM_READ_VOLUME"); told != nullptr && *told != 0) {
     program = told;
   } else {
-    std::error_code none;
-    program = (fs::read_symlink("/proc/self/exe", none).parent_path() / "cavum-read-volume").string();
+    program = (program_folder() / "cavum-read-volume").string();
   }
   if (::access(program.c_str(), X_OK) != 0) throw Error(program, "is not there, and volumes are read by it", "install it beside cavum");
   return program;
