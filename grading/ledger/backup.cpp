@@ -135,18 +135,20 @@ void compare(RestorePlan& plan, const History& history, const std::string& id, c
   if (!plan.last_seen || seen.size > plan.last_seen->checkpoint.size) plan.last_seen = Seen{what, seen};
 }
 
-/// What the backup itself says that it held: entries may have been cut off since.
-void check_own_checkpoint(RestorePlan& plan, const std::string& path) {
+/// What the backup itself says that it held: entries may have been cut off since. It may hold more: the next backup into the same folder was cut
+/// short before it said so.
+void check_own_checkpoint(RestorePlan& plan, const History& history, const std::string& path) {
   const LedgerContent& c = plan.content;
   if (!fs::exists(path)) return;
   try {
     const std::string text = read_text_file(path);
     const json told = text.starts_with("{") ? parse_json(text, path) : json(text);
     const Checkpoint& own = c.checkpoints.back();
-    const Checkpoint p = checkpoint_in(told, c.id, c.key_of(own.size), path);
-    if (!is_signed_by_school(c.id, c.key_of(own.size), p))
+    const std::string key_then = c.key_of(checkpoint_in(told, c.id, c.public_key, path).size);
+    const Checkpoint p = checkpoint_in(told, c.id, key_then, path);
+    if (!is_signed_by_school(c.id, key_then, p))
       plan.findings.push_back(path + ": the school's signature on the backup's checkpoint does not hold");
-    else if (p.size != own.size || p.root != own.root)
+    else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
       plan.findings.push_back("the backup was taken of " + std::to_string(p.size) + " entries, and holds " + std::to_string(own.size) +
                               ": it was changed since");
   } catch (const Error& e) {
@@ -201,7 +203,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   for (const auto& hash : filed_sessions(c))
     if (!has_session(places, hash)) plan.missing_sessions.push_back(hash);
   plan.identities = fs::exists(places.identities());
-  check_own_checkpoint(plan, checkpoint_path(backup));
+  check_own_checkpoint(plan, history, checkpoint_path(backup));
   std::vector<std::string> changed;
   for (const auto& w : read_witness(c.id, changed)) {
     if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w))

@@ -283,6 +283,19 @@ TEST_F(BackedUp, OneWhoseLastEntriesWereCutOffIsNotTheOneThatWasTaken) {
   expect_finding(plan_restore(backup(), {}, {}).findings, {"it was changed since"});
 }
 
+TEST_F(BackedUp, ASecondOneCutOffBeforeItSaysWhatItHoldsIsStillABackup) {
+  back_up();
+  const std::string said = read_text_file(backup() + "/checkpoint");
+  add(2);
+  const Backup second = back_up();
+  write_text_file(backup() + "/checkpoint", said);
+  const RestorePlan plan = plan_restore(backup(), {}, {});
+  EXPECT_TRUE(plan.findings.empty()) << plan.findings[0];
+  EXPECT_EQ(plan.content.entries.size(), second.checkpoint.size);
+  restore(backup(), restored().folder, plan, "", School::key());
+  EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
+}
+
 TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
   const std::string candidate = read_registry(read_ledger(school_.places())).sessions.at(0).candidate;
   const Bytes names = read_file(school_.places().identities());
