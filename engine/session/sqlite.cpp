@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <thread>
 
@@ -131,6 +132,13 @@ Database Database::open(const std::string& path, bool make, std::chrono::millise
   } catch (const Error& refusal) {
     throw DatabaseError(refusal, SQLITE_CANTOPEN);
   }
+  if (path != ":memory:")
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) {  // a pipe would be waited for
+      std::error_code none;
+      const auto type = std::filesystem::status(path + end, none).type();
+      if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::none)
+        throw DatabaseError(path + end, "is no regular file", "remove it, or name another place", SQLITE_CANTOPEN);
+    }
   database.connect(path, SQLITE_OPEN_READWRITE);
   sqlite3_busy_timeout(database.db_.get(), static_cast<int>(wait.count()));
   return database;

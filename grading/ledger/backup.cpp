@@ -96,8 +96,7 @@ bool copy_identities(const LedgerContent& c, const LedgerPlaces& from, const Led
   if (!fs::exists(from.identities())) return false;
   copy_database(from.identities(), to.identities());
   Identities identities(to.identities());
-  for (const auto& e : c.entries)
-    if (e.kind == "forget") identities.forget(text_in(e.body, "candidate"));
+  remove_forgotten(c, identities);
   return true;
 }
 
@@ -186,6 +185,11 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   remove_erased_recordings(copy, to);
   out.sessions = filed_sessions(copy).size() - out.missing.size();
   if (with_identities) out.identities = copy_identities(copy, from, to);
+  out.older_identities = !out.identities && fs::exists(to.identities(), none);
+  if (out.older_identities) {
+    Identities older(to.identities());
+    remove_forgotten(copy, older);
+  }
   const json told = checkpoint_json(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint, cosignatures_of(copy, out.checkpoint.size));
   write_text_file(checkpoint_path(folder), told.is_string() ? told.get<std::string>() : told.dump() + "\n");
   sync_folder_of(folder);

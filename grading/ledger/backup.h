@@ -13,7 +13,8 @@ struct Backup {
   Checkpoint checkpoint;                 ///< of the copy
   std::size_t sessions = 0, copied = 0;  ///< in the copy; of these copied now, the others were there
   std::vector<std::string> missing;      ///< filed sessions, by SHA-256, that could not be copied: gone or changed
-  bool identities = false;
+  bool identities = false;               ///< copied now
+  bool older_identities = false;         ///< not copied now, and those of an earlier backup stay, without who was forgotten meanwhile
 };
 /// Copies the ledger into `folder`: the database as it is at one moment, its checkpoint, and the sessions' files, each compared with its hash; the
 /// identities only when asked for. A backup of the same ledger that is there is brought up to date. Files are the user's alone. Throws Error when the

@@ -11,6 +11,9 @@ namespace cavum {
 /// The most bytes: no mail address is longer.
 inline constexpr std::size_t k_longest_candidate = 254;
 
+/// True for what looks like a pseudonym of ours: C-XXXX-XXXX-XXXX.
+inline bool is_pseudonym(const std::string& name) { return name.size() == 16 && name.starts_with("C-") && name[6] == '-' && name[11] == '-'; }
+
 /// Throws Error(`where`, ...) unless `id` is one line of UTF-8 of at most k_longest_candidate bytes.
 inline void require_candidate_id(const std::string& where, const std::string& id) {
   if (id.size() > k_longest_candidate)

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "grading/grade.h"
 #include "grading/ledger/erasure.h"
@@ -12,6 +14,7 @@
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/registry.h"
+#include "grading/ledger/school_keys.h"
 #include "grading/school_mark.h"
 
 namespace cavum {
@@ -113,6 +116,9 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
                  const std::string& public_key_path) {
   const bool unread = content.public_key.empty();
   bool known = false;
+  if (std::filesystem::exists(next_key_path(key_path)))
+    check.findings.push_back("replacing the school's key was cut off: " + next_key_path(key_path) +
+                             " is still there; `cavum ledger key LEDGER --replace` goes on with it");
   const auto must_be_ours = [&](const std::string& key, const std::string& path) {
     if (!unread && key != content.public_key)
       check.findings.push_back("the ledger is of another school than " + path + " names: signed by " + content.public_key + ", expected " + key);
@@ -151,7 +157,12 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
     check.not_checked.push_back(of_identities + "the key that made the pseudonyms is not here");
   } else {
     try {
-      for (auto& f : Identities(places.identities()).check(*key)) check.findings.push_back(std::move(f));
+      Identities identities(places.identities());
+      for (auto& f : identities.check(*key)) check.findings.push_back(std::move(f));
+      for (const auto& e : content.entries)
+        if (const std::string who = text_in(e.body, "candidate"); e.kind == "forget" && identities.of_pseudonym(who))
+          check.findings.push_back("identities: " + one_line(who) + " was forgotten by entry " + std::to_string(e.seq) +
+                                   ", and is still named; `cavum ledger erase` without more removes it");
     } catch (const Error& e) {
       check.findings.emplace_back(e.what());
     }

@@ -10,6 +10,7 @@
 #include "engine/session/motion_source.h"
 #include "engine/session/station_check.h"
 #include "grading/ledger/begin.h"
+#include "grading/ledger/candidate_id.h"
 
 namespace cavum {
 namespace {
@@ -105,9 +106,6 @@ std::vector<std::string> check_hand(const Registry& registry, const SessionReade
   return findings;
 }
 
-/// True for what looks like a pseudonym of ours.
-bool is_pseudonym(const std::string& name) { return name.size() == 16 && name.starts_with("C-") && name[6] == '-' && name[11] == '-'; }
-
 /// Where a recording was taken up again at or after this tick: "taken up again at tick N", or nothing.
 std::string resumed_from(const SessionReader& session, std::int64_t tick) {
   for (const auto& e : session.events())
@@ -135,6 +133,14 @@ std::string other_ending(const SessionReader& session, std::uint64_t seq, const 
   }
 }
 
+/// What of the beginning is entered in the ledger.
+std::vector<std::pair<std::string, std::string>> texts_of(const SessionSetup& setup) {
+  return {{"candidate's name", setup.candidate},
+          {"kind of the source of motion", setup.source.kind},
+          {"name of the source of motion", setup.source.name},
+          {"serial number of the source of motion", setup.source.serial}};
+}
+
 }  // namespace
 
 std::string ticket_nonce_in(const SessionSetup& setup) {
@@ -146,11 +152,11 @@ std::string ticket_nonce_in(const SessionSetup& setup) {
 
 std::string simulated_by(const SessionReader& session, const SessionSetup& setup) {
   for (const auto& [tick, source] : sources_of(session)) {
-    if (source.kind == "operator") return source.name;
+    if (source.kind == "operator") return source.name.empty() ? source.kind : source.name;
     if (!source.is_hand()) return source.in_words();
   }
   for (const auto& [key, value] : setup.notes)  // beside a source that says otherwise
-    if (key == "operator" || key == "practice" || key == "motion_file") return key == "operator" ? value : key + " " + value;
+    if (key == "operator" || key == "practice" || key == "motion_file") return key == "operator" && !value.empty() ? value : key + " " + value;
   return {};
 }
 
@@ -160,6 +166,8 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   std::vector<std::string> findings;
+  for (const auto& [what, text] : texts_of(setup))
+    if (!is_plain_text(text)) findings.push_back("the " + what + " holds a control character or bytes that are no UTF-8: '" + one_line(text) + "'");
   for (auto& f : check_stations(session)) findings.push_back(std::move(f));
   for (const auto& s : registry.sessions)
     if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));

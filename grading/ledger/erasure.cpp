@@ -119,6 +119,13 @@ void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const Er
   remove_erased_recordings(ledger.content(), ledger.places());
 }
 
+std::size_t remove_forgotten(const LedgerContent& c, Identities& identities) {
+  std::size_t removed = 0;
+  for (const auto& e : c.entries)
+    if (e.kind == "forget" && identities.forget(text_in(e.body, "candidate"))) ++removed;
+  return removed;
+}
+
 std::set<std::string> erased_recordings(const LedgerContent& c) {
   std::set<std::string> gone, kept;  // the same file can be filed twice, the second time with findings
   for (const auto& e : c.entries)

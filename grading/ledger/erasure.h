@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
 
@@ -33,6 +34,8 @@ nlohmann::json erase(Ledger& ledger, const ErasureWish& wish, const std::string&
 /// Enters that these pseudonyms' identities are removed, one entry for each, and erases of their sessions what `wish` says; its own list of sessions
 /// is not asked.
 void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish);
+/// Removes identities that an entry says are forgotten, after a crash, or in a file of before. Returns how many.
+std::size_t remove_forgotten(const LedgerContent& content, Identities& identities);
 /// SHA-256 of recordings that an entry says are erased.
 [[nodiscard]] std::set<std::string> erased_recordings(const LedgerContent& content);
 /// Removes those that are still there, after a crash, or in a backup of before. Returns how many. Throws Error when one cannot be removed.

@@ -1,5 +1,8 @@
 #include "grading/ledger/explain_session.h"
 
+#include <filesystem>
+
+#include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
@@ -7,6 +10,7 @@
 #include "engine/session/station_check.h"
 #include "engine/session/verify.h"
 #include "grading/ledger/ticket.h"
+#include "grading/school_mark.h"
 #include "grading/session_input.h"
 #include "scenarios/exam/exam.h"
 
@@ -15,15 +19,22 @@ namespace cavum {
 SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed) {
   SessionExplanation e;
   e.file = path;
-  const VerifyReport report = verify_session(path);
   const SessionReader session(path);
-  e.findings = report.findings;
+  ExamGrounds grounds;
+  const SchoolMark mark = session.closed() ? mark_again(session, grounds) : SchoolMark{verify_session(path), {}, {}, {}, {}};
+  const VerifyReport& report = mark.replay;
+  e.findings = session.closed() ? mark.findings : report.findings;
   if (report.intact) {
-    e.proved.push_back("nothing in the file was changed since it was recorded: " + std::to_string(session.chunks().size()) +
-                       " seconds linked by SHA-256, each with its motion, forces, events and clocks");
+    e.proved.push_back("nothing in the file was changed since " +
+                       (report.closed ? "station " + report.station_key + " signed it" : "it was recorded") + ": " +
+                       std::to_string(session.chunks().size()) + " seconds linked by SHA-256, each with its motion, forces, events and clocks");
     e.proved.push_back("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: " + std::to_string(report.ticks_replayed) +
                        " ticks simulated");
   }
+  if (report.intact && session.closed() && mark.findings.empty() && mark.result.is_object())
+    e.proved.emplace_back(mark.sealed_otherwise.is_null() ? "the motion gives the recorded events and the sealed result again"
+                                                          : "the motion gives the recorded events again");
+  for (const auto& r : mark.remarks) e.remarks.push_back(r);
   try {
     for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
   } catch (const Error& damage) {
@@ -70,6 +81,12 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
                           " s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam");
   for (const auto& r : check_clocks(session))
     e.remarks.push_back("from tick " + std::to_string(r.first_tick) + " (" + fixed(static_cast<double>(r.first_tick) * 1e-3, 1) + " s): " + r.what);
+  if (std::error_code none; std::filesystem::exists(path + "-wal", none) && std::filesystem::file_size(path + "-wal", none) > 0)
+    e.remarks.push_back("a log lies beside the file (" + path +
+                        "-wal) and was read with it: when something does not hold, look at the file without it");
+  if (session.closed())
+    e.remarks.push_back("whether station " + report.station_key.substr(0, 16) +
+                        "… is one of the school's is known to its ledger only: anybody can sign a recording with a key of their own");
   e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");
   e.remarks.emplace_back(
       "not shown by any file: that it was not ended before, where the station's memory was put back as it was, or its key was used by another "

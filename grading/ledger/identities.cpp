@@ -63,15 +63,18 @@ void bring_up_to_date(Database& db) {
 
 Identities::Identities(const std::string& path, bool may_make)
     : database_([&] {
-        const bool make = !std::filesystem::exists(path);
+        std::error_code none;
+        const bool there = std::filesystem::exists(path), make = !there || (may_make && std::filesystem::file_size(path, none) == 0);
         if (make && !may_make)
           throw Error(path, "the identities are not there", "restore them from their backup: without them nobody knows whose marks these are");
-        Database db = Database::open(path, make, k_long_wait);
+        Database db = Database::open(path, !there, k_long_wait);
         db.run("PRAGMA synchronous = EXTRA");  // the journal's name is gone from the disk, too: a power cut brings nobody back, and takes nobody away
         if (make) {
+          Transaction all(db);  // whole or empty, and who finds it empty makes it again
           db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
           db.run(k_table);
           db.run(("PRAGMA user_version = " + std::to_string(k_format)).c_str());
+          all.commit();
           sync_folder_of(path);
         }
         return db;
@@ -90,6 +93,8 @@ Identities::Identities(const std::string& path, bool may_make)
 std::string Identities::enrol(const std::string& id, const std::string& name, const std::string& exam, const SigningKey& school) {
   require_candidate_id("candidate", id);
   require_candidate_id("name", name);
+  if (is_pseudonym(id))
+    throw Error("candidate '" + id + "'", "is what a pseudonym looks like, and would be taken for one", "give the school's own number or address");
   if (id.empty() || !is_plain_text(id) || !is_plain_text(name))
     throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
   for (const auto& known : of_id(id))

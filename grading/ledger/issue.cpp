@@ -49,7 +49,9 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
     const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.seq == seq; });
     const std::string where = "--ticket " + std::to_string(seq);
     if (t == registry.tickets.end()) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");
-    if (t->used_by) throw Error(where, "was used: its exam is filed as entry " + std::to_string(*t->used_by), "its result is released or not");
+    if (t->used_by)
+      throw Error(where, "was used: its exam is filed as entry " + std::to_string(*t->used_by),
+                  "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
     if (t->cancelled_by) throw Error(where, "was cancelled before, by entry " + std::to_string(*t->cancelled_by), "nothing is left to do");
     return {{"ticket", seq}, {"reason", reason}};
   });

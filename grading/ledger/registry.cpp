@@ -95,7 +95,7 @@ class RegistryReader {
         {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},   {"cancel", &RegistryReader::cancel},
         {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
         {"release", &RegistryReader::release_}, {"station", &RegistryReader::station}, {"key", &RegistryReader::nothing},
-        {"forget", &RegistryReader::nothing},   {"erase", &RegistryReader::nothing},   {"restore", &RegistryReader::nothing}};
+        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing}};
     const auto kind = k_kinds.find(e.kind);
     try {
       if (kind == k_kinds.end()) return say(e, "is of a kind that this version does not know: '" + e.kind + "'");
@@ -125,6 +125,23 @@ class RegistryReader {
     IssuedTicket& t = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "ticket", "cancel")));
     if (t.used_by || t.cancelled_by) say(e, "cancels a ticket that was used or cancelled before");
     if (!t.cancelled_by) t.cancelled_by = e.seq;
+  }
+
+  /// Whoever is forgotten sits no more exams under that pseudonym.
+  void forget(const LedgerEntry& e) {
+    const std::string candidate = text_in(e.body, "candidate");
+    for (auto& t : r_.tickets)
+      if (t.ticket.candidate == candidate && !t.used_by && !t.cancelled_by) t.cancelled_by = e.seq;
+    erase(e);
+  }
+
+  /// Sessions that were entered before, where the registry grows with the ledger.
+  void erase(const LedgerEntry&) {
+    for (auto& s : r_.sessions) {
+      s.motion_erased_by = erased_by(content_->erased, s.seq, k_motion);
+      s.result_erased_by = erased_by(content_->erased, s.result_seq, k_result);
+      if (s.result_erased_by) s.result = json();
+    }
   }
 
   void begin(const LedgerEntry& e) {

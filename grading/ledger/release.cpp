@@ -28,6 +28,8 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
   if (const FiledSession* other = registry.chosen_instead_of(s))
     throw Error(where, "entry " + std::to_string(other->seq) + ", another ending of the same exam, was chosen before and alone counts",
                 "it stays unreleased");
+  if (s.result_erased_by)
+    throw Error(where, "its result was erased (entry " + std::to_string(*s.result_erased_by) + ")", "there is nothing left to release");
   if (s.questioned() && !wish.with_findings)
     throw Error(where,
                 s.contested_by.empty() ? "was filed with findings" : "is one of several endings of the same exam (entries " + entries_of(s) + ")",
@@ -54,7 +56,7 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
       throw Error("--candidate " + s.candidate, "several endings of one exam are filed, entries " + entries_of(s) + ", and one counts",
                   "choose it with --session and --with-findings");
     // what was released before somebody contested it is not chosen yet
-    if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful()))) continue;
+    if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful())) || s.result_erased_by) continue;
     const bool by_name = (by_entry || by_candidate) && wish.with_findings;
     if ((s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr)
       ++out.kept_back;

@@ -82,7 +82,8 @@ std::string next_key_path(const std::string& path) { return path + ".next"; }
 
 std::string old_key_path(const std::string& path, const std::string& public_key) { return path + "." + public_key.substr(0, 8); }
 
-std::string replace_school_key(const std::string& folder, const std::string& path, std::int64_t until_utc_ns, const std::string& reason) {
+std::string replace_school_key(const std::string& folder, const std::string& path, std::int64_t until_utc_ns, const std::string& reason,
+                               const std::string& public_path) {
   const LedgerPlaces places{folder};
   const SigningKey present = load_school_key(path);
   const std::string waiting = next_key_path(path), before = to_hex(present.public_key);
@@ -95,6 +96,7 @@ std::string replace_school_key(const std::string& folder, const std::string& pat
   if (fs::exists(places.identities())) Identities(places.identities()).seal_again(present, next);
   const std::string kept = old_key_path(path, before);
   if (!fs::exists(kept)) fs::create_hard_link(path, kept);
+  if (!public_path.empty()) write_text_file(public_path, now + "\n");  // before the key takes its place: until then running it again goes on
   fs::rename(waiting, path);
   sync_folder_of(path);
   return now;

@@ -28,8 +28,10 @@ void require_key_in_time(const LedgerContent& content, std::int64_t now_utc_ns);
 /// Where a key lies that was replaced: PATH and the first digits of its public half.
 [[nodiscard]] std::string old_key_path(const std::string& path, const std::string& public_key);
 /// Replaces the school's key at `key_path` by a new one, drawn now: enters it, seals the identities with it, and puts it in the place of the old one,
-/// which is kept beside it. Run again after it was cut off, it goes on from there. Returns the new public key. Throws Error.
-std::string replace_school_key(const std::string& folder, const std::string& key_path, std::int64_t until_utc_ns, const std::string& reason);
+/// which is kept beside it. Run again after it was cut off, it goes on from there. Returns the new public key, which it
+/// writes to `public_path`, too, unless that is empty. Throws Error.
+std::string replace_school_key(const std::string& folder, const std::string& key_path, std::int64_t until_utc_ns, const std::string& reason,
+                               const std::string& public_path = {});
 /// Enters until when the present key is good (0 = without end). Throws Error.
 void limit_school_key(Ledger& ledger, std::int64_t until_utc_ns, const std::string& reason);
 

@@ -46,6 +46,9 @@ std::optional<OldResult> read_old_result(const std::string& json_text) {
   };
   if (!j.is_object() || !j.contains("verdict") || !j["verdict"].is_string() || !j.contains("score") || !j["score"].is_object()) return {};
   OldResult r;
+  constexpr double k_most_versions = 1e6;
+  if (const double version = number_of(j, "grading_version"); version >= 0 && version < k_most_versions)
+    r.grading_version = static_cast<int>(version);
   r.verdict = one_line(j["verdict"].get<std::string>());
   r.points = number_of(j["score"], "points");
   r.max = number_of(j["score"], "max");
@@ -79,6 +82,8 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
   rule("pass mark, %", plain_number(old_rubric.pass_percent), plain_number(new_rubric.pass_percent));
   rule("borderline band, %", plain_number(old_rubric.borderline_percent), plain_number(new_rubric.borderline_percent));
   rule("rule", old_rubric.compensatory ? "compensatory" : "non-compensatory", new_rubric.compensatory ? "compensatory" : "non-compensatory");
+  const bool same_version = sealed.grading_version == k_grading_version;
+  c.tampered = same_version && (sealed.verdict != verdict_name(again.verdict) || !same(sealed.points, again.points));
   for (const auto& n : now.criteria) {
     CriterionChange d;
     d.id = n.id;
@@ -98,10 +103,12 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
       const CriterionSpec* is = find(new_rubric.criteria, n.id);
       if (was != nullptr && is != nullptr) changes_of_spec(*was, *is, d.why);
       if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.emplace_back("measured against the new scenario");
-      if (a != nullptr && !same(a->value, o->value))
-        d.why.emplace_back("this version of the program measures otherwise");
-      else if (a != nullptr && !same(a->points, o->points))
-        d.why.emplace_back("this version of the program marks otherwise");
+      if (a != nullptr && (!same(a->value, o->value) || !same(a->points, o->points))) {
+        c.tampered = c.tampered || same_version;
+        d.why.emplace_back(same_version                ? "the sealed figure is not what this version of grading, which it names, gives: tampered with"
+                           : !same(a->value, o->value) ? "this version of the program measures otherwise"
+                                                       : "this version of the program marks otherwise");
+      }
       if (a != nullptr && !same(a->work_share, n.work_share)) d.why.emplace_back("another share of the work counts as done");
     }
     c.criteria.push_back(std::move(d));
@@ -124,7 +131,8 @@ bool Comparison::differs() const { return verdict != before.verdict || !same(poi
 std::string regrade_text(const Comparison& c) {
   const auto score = [](double points, double max) { return fixed(points, 1) + " of " + fixed(max, 1) + " points"; };
   return "marked anew by " + c.by + ": " + c.verdict + ", " + score(c.points, c.max) + "; the exam was sealed as " + c.before.verdict + ", " +
-         score(c.before.points, c.before.max);
+         score(c.before.points, c.before.max) +
+         (c.tampered ? ", which is not what its version of grading gives: the result was tampered with, or its station's program was" : "");
 }
 
 Json to_json(const Comparison& c) {
@@ -145,7 +153,8 @@ Json to_json(const Comparison& c) {
           {"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
           {"new", {{"verdict", c.verdict}, {"points", rounded(c.points)}, {"max", rounded(c.max)}}},
           {"criteria", list},
-          {"rules", c.rules}};
+          {"rules", c.rules},
+          {"tampered", c.tampered}};
 }
 
 std::string to_text(const Comparison& c) {

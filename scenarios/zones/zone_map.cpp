@@ -13,15 +13,15 @@ namespace {
 
 constexpr double k_cos_45 = 0.70710678118654752440;
 
-struct LeafBox {
+struct TargetBox {
   IVec3 low, high;  // inclusive, exclusive
 };
 
 /// Leaves around the part of the target that lies in the tooth.
-LeafBox find_target(const Shape& target, const Tooth& tooth, const std::string& where, ZoneWork& work) {
+TargetBox find_target(const Shape& target, const Tooth& tooth, const std::string& where, ZoneWork& work) {
   const Octree& tree = tooth.octree;
   const IVec3 n = tree.size();
-  LeafBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
+  TargetBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
   const auto see = [&](IVec3 leaf) {
     const bool seen =
         leaf.x >= box.low.x && leaf.y >= box.low.y && leaf.z >= box.low.z && leaf.x < box.high.x && leaf.y < box.high.y && leaf.z < box.high.z;
@@ -124,7 +124,7 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
   ShapeMaker maker(tooth, scenario.path);
   const auto target = maker.make(spec.target);
   const std::string where = spec.target.empty() ? scenario.path : place_text(scenario.path, spec.target[0]);
-  const LeafBox box = find_target(*target, tooth, where, maker.work());
+  const TargetBox box = find_target(*target, tooth, where, maker.work());
   const double leaf = tree.leaf_mm();
 
   ZoneMap map;

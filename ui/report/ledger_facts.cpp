@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/identities.h"
 
 namespace cavum {
@@ -59,6 +60,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
     }
   if (with_name) {
     Identities identities(ledger.places.identities());
+    remove_forgotten(ledger.content, identities);
     const auto who = identities.of_pseudonym(session.candidate);
     if (!who) throw Error("--with-name", "nobody is known behind " + session.candidate, "the identity was forgotten; leave --with-name out");
     f.name = who->name.empty() ? who->id : who->name;

@@ -12,6 +12,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "grading/cohort/simulated_class.h"
+#include "grading/ledger/erasure.h"
 #include "ui/parts/number_check.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
@@ -60,6 +61,7 @@ void report(const Options& o) {
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {
     Identities identities(places.identities());
+    remove_forgotten(content, identities);
     marks = cohort::parse_marks(read_text_file(o.marks), identities, o.exam, o.marks, cohort::points_of_exam(registry, o.exam));
   }
   if (o.borderline_given) {

@@ -23,7 +23,11 @@ int ledger_backup(const LedgerOptions& o) {
                     {"identities", b.identities}});
   } else {
     std::cout << o.out << ": " << b.checkpoint.size << " entries up to " << utc_text(b.checkpoint.utc_ns) << ", " << b.sessions << " sessions ("
-              << b.copied << " copied now), " << (b.identities ? "identities" : "no identities") << "\n";
+              << b.copied << " copied now), "
+              << (b.identities         ? "identities"
+                  : b.older_identities ? "no identities now; those of an earlier backup stay in it, without who was forgotten"
+                                       : "no identities")
+              << "\n";
     for (const auto& m : b.missing) std::cout << "  - session " << m << ": its file is gone or was changed, and is not in the backup\n";
   }
   return b.missing.empty() ? 0 : 1;

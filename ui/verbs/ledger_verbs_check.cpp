@@ -94,13 +94,13 @@ int ledger_show(const LedgerOptions& o) {
               content.id.empty() ? "whose id could not be read" : one_line(content.id).c_str(), content.entries.size(), registry.tickets.size(), open,
               registry.sessions.size());
   for (const auto& s : registry.sessions)
-    std::printf("%6llu  %-16s %-28s %-7s %6.1f  %s%s%s\n", static_cast<unsigned long long>(s.seq), one_line(s.candidate).c_str(),
+    std::printf("%6llu  %-16s %-28s %-7s %6s  %s%s%s\n", static_cast<unsigned long long>(s.seq), one_line(s.candidate).c_str(),
                 one_line(s.scenario_id).c_str(),
                 one_line(s.result.is_object() ? s.result.value("verdict", "")
                          : s.result_erased_by ? "erased"
                                               : "?")
                     .c_str(),
-                s.result.is_object() ? s.result["score"]["points"].get<double>() : 0.0, s.released ? "released" : "pending",
+                s.result.is_object() ? fixed(s.result["score"]["points"].get<double>(), 1).c_str() : "-", s.released ? "released" : "pending",
                 (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
                 ((s.findings.empty() ? std::string() : ", with findings") +
                  (s.contested_by.empty() ? "" : ", contested by entry " + std::to_string(s.contested_by.back())) + (s.chosen ? ", chosen" : ""))

@@ -5,6 +5,7 @@
 #include "engine/base/file.h"
 #include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/filing.h"
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
@@ -35,7 +36,22 @@ Identities sound_identities(const Ledger& ledger) {
   Identities identities(ledger.places().identities());
   if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
     throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
+  remove_forgotten(ledger.content(), identities);
   return identities;
+}
+
+bool has_content(const std::string& path) {
+  std::error_code missing;
+  const auto size = std::filesystem::file_size(path, missing);
+  return !missing && size > 0;
+}
+
+/// A ledger that was made with this key and name, and whose identities were not.
+bool was_cut_off(const LedgerPlaces& places, const std::string& school, const SigningKey& key) {
+  std::error_code none;
+  if (!std::filesystem::exists(places.database(), none) || has_content(places.identities())) return false;
+  const LedgerContent c = read_ledger(places);
+  return c.findings.empty() && c.entries.size() == 1 && c.school == school && c.public_key == to_hex(key.public_key);
 }
 
 void ledger_init(const LedgerOptions& o) {
@@ -47,7 +63,7 @@ void ledger_init(const LedgerOptions& o) {
                                                      : "holds a control character or bytes that are no UTF-8",
                 "give the school's name in one line of UTF-8");
   const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
-  Ledger::create(o.folder, o.school, key);
+  if (!was_cut_off({o.folder}, o.school, key)) Ledger::create(o.folder, o.school, key);
   static_cast<void>(Identities(LedgerPlaces{o.folder}.identities(), true));
   const std::string known = school_public_key_path();
   if (!std::filesystem::exists(known)) write_text_file(known, to_hex(key.public_key) + "\n");
@@ -80,6 +96,10 @@ int ledger_add(const LedgerOptions& o) {
     } catch (const Error& e) {
       if (o.sessions.size() == 1 && !std::filesystem::is_directory(o.sessions[0])) throw;
       filing.findings.emplace_back(e.what());
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
+      filing.findings.push_back(path + ": cannot be filed (" + e.what() + "); use an intact copy");
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};

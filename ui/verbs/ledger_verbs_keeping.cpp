@@ -34,7 +34,12 @@ void ledger_forget(const LedgerOptions& o) {
   require_candidate_id("--candidate", o.candidate);
   Ledger ledger(o.folder, key_of(o));
   Identities identities(ledger.places().identities());
-  std::vector<std::string> pseudonyms;
+  if (const auto late = remove_forgotten(ledger.content(), identities); late > 0)
+    std::cout << late << (late == 1 ? " identity" : " identities")
+              << " removed that entries said were forgotten
+                 ";
+        std::vector<std::string>
+            pseudonyms;
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())
     throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
@@ -61,6 +66,11 @@ void ledger_erase(const LedgerOptions& o) {
     ledger.wipe();
     const auto removed = remove_erased_recordings(ledger.content(), ledger.places());
     std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
+    if (std::filesystem::exists(ledger.places().identities())) {
+      Identities identities(ledger.places().identities());
+      const auto late = remove_forgotten(ledger.content(), identities);
+      std::cout << late << (late == 1 ? " identity" : " identities") << " removed that entries said were forgotten\n";
+    }
     return;
   }
   if (!o.erase_motion && !o.erase_results) throw Error("cavum ledger erase", "needs to know what", "give --motion, --results or both");
@@ -91,8 +101,8 @@ void ledger_key(const LedgerOptions& o) {
     std::cout << "entry " << ledger.content().entries.back().seq << ": the school's key is good until " << utc_text(until) << "\n";
     return;
   }
-  const std::string before = to_hex(load_school_key(path).public_key), now = replace_school_key(o.folder, path, until, o.reason);
-  write_text_file(school_public_key_path(), now + "\n");
+  const std::string before = to_hex(load_school_key(path).public_key);
+  const std::string now = replace_school_key(o.folder, path, until, o.reason, school_public_key_path());
   std::cout << "the school's key is now " << now << "\nthe one before it is kept as " << old_key_path(path, before)
             << ": other ledgers of the school still need it\ncopy " << school_public_key_path()
             << " to each station; give cosigners the receipt of entry " << read_ledger({o.folder}).keys.back().first_size - 1

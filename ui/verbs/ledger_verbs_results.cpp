@@ -103,9 +103,10 @@ void ledger_export(const LedgerOptions& o) {
   if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const FiledSession& s) { return s.shown.is_object(); }))
     std::cout << "no result is released; " << registry.sessions.size() << (registry.sessions.size() == 1 ? " is" : " are") << " pending\n";
   if (const auto simulated = released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
-    std::cout << simulated << " released results of simulated operators are "
+    std::cout << simulated << (simulated == 1 ? " released result of a simulated operator is " : " released results of simulated operators are ")
               << (o.with_simulated ? "in it, marked SIMULATED, under no student's number\n" : "left out (--with-simulated writes them, marked)\n");
-  if (left_out > 0) std::cout << left_out << " released results have no candidate that is known by name and are left out\n";
+  if (left_out > 0)
+    std::cout << "left out, for nobody is known by name behind them: " << left_out << (left_out == 1 ? " released result\n" : " released results\n");
 }
 
 void ledger_candidates(const LedgerOptions& o) {

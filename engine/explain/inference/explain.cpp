@@ -9,13 +9,13 @@
 #include "engine/base/text.h"
 #include "engine/explain/inference/heldout.h"
 #include "engine/explain/inference/intervals.h"
+#include "engine/explain/inference/search.h"
 #include "engine/explain/recording/faults.h"
 #include "engine/explain/recording/specimens.h"
 
 namespace cavum::explain {
 namespace {
 
-constexpr double k_alpha = 0.01;           // chance of a false cause in a clean recording, for each step of the search
 constexpr std::size_t k_first_twins = 10;  // enough when the answer is plain
 constexpr double k_plain = 6.0;            // z this many times what the twins reach needs no more twins
 constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
@@ -99,12 +99,6 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
     if (!best.causes.empty()) out.push_back(best);
   }
   std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
-  return out;
-}
-
-std::vector<const Hypothesis*> known_of(const View& v) {
-  std::vector<const Hypothesis*> out;
-  for (const auto& h : v.known) out.push_back(&h);
   return out;
 }
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "engine/base/random.h"
+#include "engine/explain/inference/search.h"
 #include "engine/statistics/independent_runs.h"
 
 namespace cavum::explain {
 namespace {
 
-constexpr double k_alpha = 0.01;
 constexpr std::size_t k_rivals = 3;  // refined in each fold
 
 /// Causes found without one fold: `view` gives that fold no weight.

@@ -20,12 +20,6 @@ constexpr double k_blur_gain = 12.0;
 constexpr double k_plain_trials = 200.0;  // hypotheses of the grids and curves, about
 constexpr double k_noise_gain = 3.0;      // what the best of a mechanism's grid gains in noise alone, about
 
-std::vector<const Hypothesis*> known_of(const View& v) {
-  std::vector<const Hypothesis*> out;
-  for (const auto& h : v.known) out.push_back(&h);
-  return out;
-}
-
 /// Share of the norm of `h`'s force that k and c cannot take over.
 double share_left(const View& v, const Hypothesis& h) {
   const Eigen::MatrixXd& g = v.products.all;

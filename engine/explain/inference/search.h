@@ -10,6 +10,9 @@
 
 namespace cavum::explain {
 
+/// Chance of a false cause in a clean recording, for each step of the search.
+inline constexpr double k_alpha = 0.01;
+
 /// Best of one mechanism: fall of chi² beside base and causes, less the penalty for parameters beyond the first.
 struct Candidate {
   Hypothesis hypothesis;

@@ -12,9 +12,6 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-/// Largest penetration, mm.
-double deepest_mm(const Scene& s) { return std::max(1e-6, s.spring_mm.maxCoeff()); }
-
 /// Play of radius b (variants 0: of the penetration; 1: of the position, in air too; 3: the same, with contact where the encoder shows it and not
 /// the tip), or of width b behind the motion (2).
 Series played(const Scene& s, int variant, double b) {

@@ -2,6 +2,8 @@
 // contact, and the other columns. One scene is one recording (or one twin of it) seen with one pair of k and c.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/explain/recording/motion.h"
 #include "engine/explain/recording/recording.h"
 
@@ -39,5 +41,8 @@ struct Scene {
                                const Series* pressed_n = nullptr);
 /// Contact is lost where `pressed_n` would pull: sets `active` and the columns of k and c, and nothing else. nullptr = nowhere.
 void never_pull(Scene& scene, const Series* pressed_n);
+
+/// Largest penetration, mm, > 0.
+[[nodiscard]] inline double deepest_mm(const Scene& scene) { return std::max(1e-6, scene.spring_mm.maxCoeff()); }
 
 }  // namespace cavum::explain

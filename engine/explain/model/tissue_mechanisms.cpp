@@ -14,10 +14,8 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-constexpr double k_radians = k_pi / 180.0;
+constexpr double k_radian = k_pi / 180.0;
 constexpr double k_rest_mm_s = 1e-4;  // speeds below are taken for rest: |V|^n is infinitely steep there when n < 1
-
-double deepest_mm(const Scene& s) { return std::max(1e-6, s.spring_mm.maxCoeff()); }
 
 Grid points(std::initializer_list<double> values, double unit = 1.0) {
   Grid g;
@@ -208,7 +206,7 @@ std::vector<Mechanism> tissue_mechanisms() {
       .parameters =
           [](const Shape& p, const Shape& own, Base) {
             return std::vector<NamedValue>{{p[0] < 0.5 ? "epsilon" : "amplitude_n", std::hypot(own[0], own[1])},
-                                           {"phi0_deg", 0.5 * std::atan2(own[1], own[0]) / k_radians}};
+                                           {"phi0_deg", 0.5 * std::atan2(own[1], own[0]) / k_radian}};
           },
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
         if (value("epsilon") != 0.0 && value("amplitude_n") != 0.0) return std::nullopt;

@@ -46,4 +46,11 @@ struct ViewOptions {
 /// Fit of the base and `causes` alone, with columns computed anew: for refining shapes. Same whitening as the view's.
 [[nodiscard]] FitResult fit_terms(const View& view, const std::vector<Term>& causes, bool covariance = false);
 
+/// Pointers to the causes of a view, as `fit` takes them; good as long as the view.
+[[nodiscard]] inline std::vector<const Hypothesis*> known_of(const View& v) {
+  std::vector<const Hypothesis*> out;
+  for (const auto& h : v.known) out.push_back(&h);
+  return out;
+}
+
 }  // namespace cavum::explain
