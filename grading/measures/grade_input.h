@@ -5,6 +5,7 @@
 
 #include "engine/session/session.h"
 #include "engine/session/session_reader.h"
+#include "grading/result/result.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 

@@ -11,6 +11,7 @@
 #include "grading/measures/removed_map.h"
 #include "grading/measures/volumes.h"
 #include "grading/result/loss.h"
+#include "grading/result/mark.h"
 #include "grading/words/moments.h"
 
 namespace cavum {
