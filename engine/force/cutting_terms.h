@@ -1,5 +1,5 @@
 // What cutting adds to the tissue's force: a point that wears, water, warmth, and a vibration at a rate of its own.
-// Source: PHYSICS.md section 4. All are parts of the tissue's force: none in air, and the sum never pulls.
+// Sources: docs/physics.md section 6. All are parts of the tissue's force: none in air, and the sum never pulls.
 #pragma once
 
 #include "engine/force/term_kinds.h"

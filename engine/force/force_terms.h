@@ -39,7 +39,7 @@ struct TermsForce {
 };
 
 /// One tick, after the tip moved by `moved_mm`. Drag such as Fc·tanh(V/v0) is far too steep for a device that samples
-/// (Fc/v0 = 260 N·s/m at 0.26 N and 1 mm/s; engine/README.md). So it is rendered through a spring Ks in series, as the
+/// (Fc/v0 = 260 N·s/m at 0.26 N and 1 mm/s; docs/physics.md section 7). So it is rendered through a spring Ks in series, as the
 /// damper of the tissue is: z' = Ks·(V − u), drag(u) = z, integrated implicitly. At constant speed this is the law
 /// itself; it holds like stiction, slides at the law's force, and gives back no more than it took.
 [[nodiscard]] TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering, TermInput in, Vec3 moved_mm,

@@ -1,5 +1,5 @@
 // Resistance of joints and guides beyond dry friction: in proportion to speed, and friction that falls with speed.
-// Both act against the motion, in air too. Source: PHYSICS.md section 4.
+// Both act against the motion, in air too. Sources: docs/physics.md section 6.
 #pragma once
 
 #include "engine/force/term_kinds.h"

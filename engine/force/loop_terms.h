@@ -1,5 +1,5 @@
 // Forces that depend on the way that was gone and not on its speed: a loop between loading and unloading, and play
-// between the drive and the tip. Source: PHYSICS.md section 4; Bouc 1967, Wen 1976, Dahl 1968.
+// between the drive and the tip. Sources: docs/physics.md section 6; Bouc 1967, Wen 1976, Dahl 1968.
 #pragma once
 
 #include "engine/force/term_kinds.h"

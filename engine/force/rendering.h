@@ -1,5 +1,5 @@
 // From the model force to one that a sampled device can render. Explicit c·V at 1 kHz is unstable for
-// the paper's c (engine/README.md); so k·X stands in parallel to a Maxwell branch, which equals the
+// the paper's c (docs/physics.md section 7); so k·X stands in parallel to a Maxwell branch, which equals the
 // Voigt law at rest and at constant speed, and stays passive in between.
 #pragma once
 

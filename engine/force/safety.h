@@ -8,7 +8,7 @@
 
 namespace cavum {
 
-/// Limits of the haptic device; defaults are those of the PHANTOM Omni (engine/README.md).
+/// Limits of the haptic device; defaults are those of the PHANTOM Omni (docs/physics.md section 10).
 struct SafetyLimits {
   double peak_n = 3.3;
   double continuous_n = 0.88;          ///< may be rendered without end

@@ -1,5 +1,5 @@
 // The formulae of the force terms, one function each. The terms that an exam feels and the columns that `explain` fits call
-// these same functions, so that what is found is what is switched on. Source: PHYSICS.md section 4.
+// these same functions, so that what is found is what is switched on. Sources: docs/physics.md section 6.
 // Arithmetic and det_math.h only: the same bits everywhere.
 #pragma once
 

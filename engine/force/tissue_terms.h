@@ -1,5 +1,5 @@
 // What tissue does beyond k·X + c·V. Each is part of the tissue's force: none in air, and the sum never pulls.
-// Formulae: PHYSICS.md section 4; `cavum explain` finds them in measured data and writes them into a force model.
+// Formulae: docs/physics.md section 6; `cavum explain` finds them in measured data and writes them into a force model.
 #pragma once
 
 #include "engine/force/term_kinds.h"

@@ -7,7 +7,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_least_n = 0.05;         // of a force that shows direction, stiffness or contact
-constexpr double k_saturates_n = 2.5;      // beyond it a device may not give what the tissue does (3.3 N at most, PHYSICS.md §3)
+constexpr double k_saturates_n = 2.5;      // beyond it a device may not give what the tissue does (3.3 N at most, docs/physics.md section 10)
 constexpr double k_direction_share = 0.1;  // of each frame's force in the direction of the push
 constexpr double k_holds = 0.6;            // of the level: a force that has it still shows the direction
 constexpr double k_learns_from = 0.7;      // F / G: below it something else than a spring is at work

@@ -3,9 +3,9 @@
 //
 //     dG/dt = k · advance - G / τ,   G >= F,   G <= the level
 //
-// (PHYSICS.md §2). The level bounds G where k is only guessed at; once the force falls, a tip that goes on would press in further, and the bound no
-// longer holds (`pressed_n`). Whatever the hand does - eases off, lifts, stops, is drawn back by its own friction - moves F and G alike; what is left
-// of F / G is the work of the tissue. It is a cumulative sum of the unexplained losses of force, which cutting itself makes forget.
+// (docs/physics.md section 12). The level bounds G where k is only guessed at; once the force falls, a tip that goes on would press in further, and
+// the bound no longer holds (`pressed_n`). Whatever the hand does - eases off, lifts, stops, is drawn back by its own friction - moves F and G alike;
+// what is left of F / G is the work of the tissue. It is a cumulative sum of the unexplained losses of force, which cutting itself makes forget.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@
 namespace cavum {
 
 struct ExpectedForceSettings {
-  double stiffness_n_per_mm = 0.8;        ///< k before anything was measured (PHYSICS.md §1)
+  double stiffness_n_per_mm = 0.8;        ///< k before anything was measured (docs/physics.md section 2)
   double worth_mm2 = 0.012;               ///< weight of that, as a sum of squared steps of the tip: three seconds of drilling
   double least_stiffness_n_per_mm = 0.6;  ///< what was measured below it was half cavity, or no contact
   double most_stiffness_n_per_mm = 1.2;   ///< what was measured above it was damping
   double learns_s = 4.0;                  ///< the measured k forgets its past so fast
   double back_share = 1.3;                ///< a retreat explains so many times k x its length: k is uncertain
   double forth_share = 1.0;               ///< an advance raises G by k x its length
-  double tau_s = 2.02;                    ///< τ of hard tissue (PHYSICS.md §2)
+  double tau_s = 2.02;                    ///< τ of hard tissue (docs/physics.md section 2)
   double level_s = 0.5;                   ///< the level: median of the force over so long ...
   double level_gap_s = 0.04;              ///< ... ending so long before now ...
   double level_memory_s = 3.0;            ///< ... the highest within this time: a fall that takes longer is none

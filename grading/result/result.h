@@ -1,4 +1,4 @@
-// The result of an exam: every figure that grading/README.md defines, each with what it is uncertain by and, where points
+// The result of an exam: every figure that docs/grading.md defines, each with what it is uncertain by and, where points
 // were lost, when and where. Plain data; grade.h makes it, result_json.h writes it.
 #pragma once
 

@@ -1,4 +1,4 @@
-"""The ledger's files, written from the page ledger_format.md: entries, tree, notes, witness, receipts, requests, tickets, cosignatures."""
+"""The ledger's files, written from the page docs/formats/ledger.md: entries, tree, notes, witness, receipts, requests, tickets, cosignatures."""
 import base64
 import hashlib
 import hmac

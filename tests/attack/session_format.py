@@ -1,4 +1,4 @@
-"""Recordings (.cavum), written from the page session.md: reading, packing, hashing, signing and writing.
+"""Recordings (.cavum), written from the page docs/formats/session.md: reading, packing, hashing, signing and writing.
 
 The tables' texts are taken from a recording that the program made (see `Session.read`)."""
 import copy

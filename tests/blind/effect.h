@@ -1,4 +1,4 @@
-// What can be hidden in a recording: each mechanism of PHYSICS.md §4 and what no mechanism explains, as force added to the base force
+// What can be hidden in a recording: each mechanism of docs/laws.md and what no mechanism explains, as force added to the base force
 // F = max(0, k·X + c·V) in contact, 0 in air. Written from the formulae alone; shares no code with engine/explain.
 #pragma once
 
@@ -30,7 +30,7 @@ struct Effect {
   std::function<std::vector<Parameter>(double amount)> truth;  ///< what the report should say
 };
 
-/// All 27 names of DESIGN.md §7.
+/// All 27 names of docs/laws.md.
 [[nodiscard]] const std::vector<std::string>& mechanisms();
 /// `ripple`, `rezeroed`, `unnamed_column`, `lateral_square`.
 [[nodiscard]] const std::vector<std::string>& outsiders();

@@ -1,4 +1,4 @@
-// Writes one blind recording: a CSV and its rig.toml as DESIGN.md §7 has them, and, for the test only, what was hidden in it.
+// Writes one blind recording: a CSV and its rig.toml as docs/contracts.md has them, and, for the test only, what was hidden in it.
 #pragma once
 
 #include <cstdint>

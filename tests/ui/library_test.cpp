@@ -82,7 +82,7 @@ TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
 TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   const auto setup = prepared();
   Result expert = taken_by("expert", *setup);
-  // In one of a hundred sessions the force alone looks like a perforation, and a person decides (grading/README.md): then by another draw, twice at
+  // In one of a hundred sessions the force alone looks like a perforation, and a person decides (docs/grading.md): then by another draw, twice at
   // most.
   for (std::uint64_t more = 1; more <= 2 && expert.verdict == Verdict::review; ++more) {
     if (text_of(expert).find("the force shows a faulty breakthrough, the tissue does not") == std::string::npos) break;

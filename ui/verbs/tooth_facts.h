@@ -10,7 +10,7 @@ namespace cavum {
 
 /// To whole multiples of `unit`, so that JSON shows no digits that mean nothing.
 [[nodiscard]] double rounded(double v, double unit);
-/// The contract of DESIGN.md section 8 for `tooth info --json`.
+/// The names of docs/contracts.md (JSON) for `tooth info --json`.
 [[nodiscard]] nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes);
 /// The same in words, on standard output.
 void print_tooth(const nlohmann::ordered_json& described);

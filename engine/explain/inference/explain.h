@@ -1,4 +1,4 @@
-// Measured data against the simulation: what it gets wrong, why, and what fixing it gains. Definitions: DESIGN.md section 7.
+// Measured data against the simulation: what it gets wrong, why, and what fixing it gains. How: docs/explain.md.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +68,7 @@ struct ExplainOptions {
 
 [[nodiscard]] Explanation explain(const Recording& recording, const ExplainOptions& options = {});
 
-/// The contract of DESIGN.md section 7, and `base.k_n_per_mm`, `base.c_n_s_per_mm`, `notes[]` beside it.
+/// The names of docs/contracts.md (JSON).
 [[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
 [[nodiscard]] std::string to_text(const Explanation& explanation);
 /// A sentence about what is left when nothing was named and the simulation still misses by half as much again as the noise; else empty.

@@ -11,7 +11,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_testable = 0.05;  // of a column's norm left beside k and c, DESIGN.md section 7
+constexpr double k_testable = 0.05;  // of a column's norm left beside k and c, docs/physics.md section 13
 constexpr double k_scales[] = {0.04, 0.12, 0.3, 0.55, 0.8, 1.0, 1.3};
 constexpr double k_twin_doubt = 2.0;
 constexpr double k_expected_gain = 12.0;  // of the best of a grid, or of a curve of five parameters, in noise alone

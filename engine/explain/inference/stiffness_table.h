@@ -45,7 +45,7 @@ struct TableExplanation {
 [[nodiscard]] TableExplanation explain_table(const StiffnessTable& table);
 
 [[nodiscard]] std::string to_text(const TableExplanation& explanation);
-/// The contract of DESIGN.md section 7, and `table` beside it: the fits.
+/// The names of docs/contracts.md (JSON), and `table` beside it: the fits.
 [[nodiscard]] nlohmann::json to_json(const TableExplanation& explanation);
 
 }  // namespace cavum::explain
