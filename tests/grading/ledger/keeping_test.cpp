@@ -69,6 +69,65 @@ TEST_F(Kept, AccommodationsStandInTheRecordingAloneAndNeverInTheLedger) {
   EXPECT_THROW(static_cast<void>(parse_ticket(changed.dump(), "", "changed")), Error);
 }
 
+TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
+  const std::string names = school_.places().identities(), candidate = text_in(content().entries.at(session_).body, "candidate");
+  const Bytes old = read_file(names);
+  Ledger ledger = school_.ledger();
+  forget(ledger, {candidate}, {});
+  Identities(names).forget(candidate);
+  write_file(names, old);
+  LedgerCheck check = check_ledger(school_.places(), false);
+  check_owner(check, school_.places(), content(), school_key_path(), school_public_key_path());
+  expect_finding(check.findings, {candidate, "was forgotten by entry", "is still named"});
+  Identities back(names);
+  EXPECT_EQ(remove_forgotten(content(), back), 1u);
+  EXPECT_FALSE(back.of_pseudonym(candidate));
+  LedgerCheck again = check_ledger(school_.places(), false);
+  check_owner(again, school_.places(), content(), school_key_path(), school_public_key_path());
+  EXPECT_TRUE(again.findings.empty()) << again.findings[0];
+}
+
+TEST_F(Kept, ABackupThatIsBroughtUpToDateWithoutIdentitiesForgetsInThoseThatItHas) {
+  const std::string candidate = text_in(content().entries.at(session_).body, "candidate"), backup = school_.file("backup");
+  static_cast<void>(back_up(school_.places(), backup, true));
+  Ledger ledger = school_.ledger();
+  forget(ledger, {candidate}, {});
+  const Backup second = back_up(school_.places(), backup, false);
+  EXPECT_FALSE(second.identities);
+  EXPECT_TRUE(second.older_identities);
+  EXPECT_EQ(where_it_stands(backup, "4711"), "");
+}
+
+TEST_F(Kept, ForgettingCancelsTicketsThatWereNotUsed) {
+  const std::string ticket = school_.ticket("4711"), candidate = parse_ticket(ticket, "", "ticket").candidate;
+  const std::string sat = school_.sit(ticket);
+  Ledger ledger = school_.ledger();
+  forget(ledger, {candidate}, {});
+  const auto& tickets = ledger.registry().tickets;
+  EXPECT_TRUE(tickets.back().cancelled_by);
+  const Filing filing = file_session(ledger, sat);
+  EXPECT_FALSE(filing.seq);
+  expect_finding(filing.findings, {"its ticket was cancelled"});
+}
+
+TEST_F(Kept, AnErasedResultIsNotReleased) {
+  Ledger ledger = school_.ledger();
+  erase(ledger, {.sessions = {session_}, .results = true}, "asked for");
+  EXPECT_TRUE(release_results(ledger, {.all = true}).results.empty());
+  try {
+    static_cast<void>(release_results(ledger, {.sessions = {session_}}));
+    ADD_FAILURE() << "released";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("its result was erased (entry"), std::string::npos) << e.what();
+  }
+  // a ledger that stays open has learnt of it, too
+  EXPECT_TRUE(ledger.registry().sessions.at(0).result_erased_by);
+}
+
+TEST_F(Kept, NobodysNumberMayLookLikeAPseudonym) {
+  EXPECT_THROW(Identities(school_.places().identities()).enrol("C-5QVG-0G6P-B89Z", "", "exam", School::key()), Error);
+}
+
 TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
   Ledger ledger = school_.ledger();
   const json receipt = ledger.receipt(session_);

@@ -164,6 +164,21 @@ TEST_F(SchoolMarks, ANoteOfAnOperatorBesideADevice) {
   expect_finding(refused(forged(school_, session_, {.setup = [](SessionSetup& s) { s.notes.emplace_back("operator", "expert"); }})),
                  {"no candidate's hand moved"});
 }
+TEST_F(SchoolMarks, ANoteOfAnOperatorThatSaysNothing) {
+  expect_finding(refused(forged(school_, session_, {.setup = [](SessionSetup& s) { s.notes.emplace_back("operator", ""); }})),
+                 {"no candidate's hand moved"});
+}
+TEST_F(SchoolMarks, ANameThatIsNoTextIsAFindingAndTheExamIsNotLost) {
+  const std::string path = forged(school_, session_, {.setup = [](SessionSetup& s) {
+                                    s.source.name =
+                                        "\xff"
+                                        "A";
+                                  }});
+  expect_finding(refused(path), {"name of the source of motion", "no UTF-8"});
+  const Filing filed = file(path, {.with_findings = true});
+  ASSERT_TRUE(filed.seq);
+  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
+}
 TEST_F(SchoolMarks, AServoThatRunsOtherwiseThanTheExams) {
   const auto with = [&](const std::string& was, const std::string& is) {
     return forged(school_, session_, {.setup = [&](SessionSetup& setup) {

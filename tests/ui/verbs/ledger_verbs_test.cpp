@@ -1,4 +1,6 @@
 // A class sits an exam by the commands of the README: tickets, exams, filing, release, exports, an appeal, and somebody who is forgotten.
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -151,13 +153,45 @@ TEST_F(LedgerVerbs, SayWhatIsWrongAndWhatToDo) {
   expect_refused("ledger export " + path("L") + " --format moodle --out " + path("L/ledger.db"), {"also what is read"});
 }
 
+TEST_F(LedgerVerbs, ALedgerWhoseMakingWasCutOffIsMadeByRunningItAgain) {
+  write_text_file(path("L/identities.db"), "");
+  EXPECT_EQ(run("ledger verify " + path("L")).exit_code, 1);
+  const auto again = run("ledger init " + path("L") + " --school Dentistry");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(run("ledger verify " + path("L")).exit_code, 0);
+  EXPECT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 2) << "what is whole is not made again";
+  EXPECT_EQ(tickets().size(), 2u);
+}
+
+TEST_F(LedgerVerbs, APipeBesideTheLedgerIsNotWaitedFor) {
+  ASSERT_EQ(::mkfifo(path("L/ledger.db-journal").c_str(), 0600), 0);
+  const auto r = run("ledger verify " + path("L"));
+  EXPECT_NE(r.exit_code, 0);
+  EXPECT_NE((r.out + r.err).find("ledger.db-journal: is no regular file"), std::string::npos) << r.out << r.err;
+}
+
+TEST_F(LedgerVerbs, OneRecordingThatCannotBeFiledKeepsNoOtherFromIt) {
+  const auto all = tickets();
+  fs::create_directory(path("in"));
+  ASSERT_EQ(sit(all[0]["file"], "in/b.cavum").exit_code, 0);
+  write_text_file(path("in/a.cavum"), "no recording");
+  const auto r = run("ledger add " + path("L") + " " + path("in") + " --simulated --json");
+  EXPECT_EQ(r.exit_code, 1);
+  const auto files = json::parse(r.out)["sessions"];
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0]["filed"], false);
+  EXPECT_EQ(files[1]["filed"], true) << r.out;
+}
+
 TEST_F(LedgerVerbs, VerifySaysWhatIsProvedAndWhatIsNot) {
   ASSERT_EQ(sit(tickets()[0]["file"], "e.cavum").exit_code, 0);
   const auto r = run("verify " + path("e.cavum") + " --json");
   ASSERT_EQ(r.exit_code, 0) << r.out;
   const auto j = json::parse(r.out);
   EXPECT_EQ(j["verified"], true);
-  EXPECT_EQ(j["proved"].size(), 4u);
+  EXPECT_EQ(j["proved"].size(), 5u);
+  EXPECT_NE(r.out.find("gives the recorded events and the sealed result again"), std::string::npos);
+  EXPECT_NE(r.out.find("is known to its ledger only: anybody can sign a recording"), std::string::npos);
   EXPECT_TRUE(j["findings"].empty());
   const auto other = run("verify " + path("e.cavum") + " --school-key " + std::string(64, 'a'));
   EXPECT_EQ(other.exit_code, 1);
