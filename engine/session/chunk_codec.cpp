@@ -12,7 +12,7 @@ namespace cavum {
 namespace {
 
 constexpr int k_level = 3;
-constexpr std::uint64_t k_largest_removed = 1u << 26;  // bytes unpacked, at least 4 per leaf
+constexpr std::uint64_t k_largest_removed = 1u << 24;  // bytes unpacked, 4 to 11 per leaf
 
 using InputWords = std::array<std::uint32_t, 10>;
 using RecordWords = std::array<std::uint32_t, 11>;

@@ -236,6 +236,9 @@ std::vector<RemovedAt> SessionReader::removed() const {
   for (const auto& c : chunks_) {
     const auto part = unpack_removed(c.removed, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", removed");
     std::size_t at = 0;
+    if (all.size() + part.leaves.size() > k_most_removed_leaves)
+      throw Error(path_, "says that more than " + std::to_string(k_most_removed_leaves) + " leaves were removed",
+                  "use an intact copy: no tooth has as many");
     for (std::size_t i = 0; i < part.counts.size(); ++i)
       for (std::uint32_t k = 0; k < part.counts[i]; ++k) all.push_back({c.first_tick + static_cast<std::int64_t>(i), part.leaves[at++]});
   }

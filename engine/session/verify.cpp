@@ -56,6 +56,7 @@ void note(VerifyReport& report, const std::optional<Divergence>& divergence) {
 
 /// Simulates every chunk that unpacks; ends early only when one does not, for then the state is unknown.
 void replay(const SessionReader& session, Simulation& simulation, const TickVisitor& visit, VerifyReport& report) {
+  std::size_t leaves = 0;
   for (std::size_t i = 0; i < session.chunks().size(); ++i) {
     const ChunkRow& c = session.chunks()[i];
     ChunkMotion motion;
@@ -63,6 +64,11 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
       motion = session.motion(i);
     } catch (const Error& e) {
       report.findings.push_back(std::string(e.what()) + " (replay stops here)");
+      return;
+    }
+    if ((leaves += motion.removed.leaves.size()) > k_most_removed_leaves) {
+      report.findings.push_back("more than " + std::to_string(k_most_removed_leaves) +
+                                " leaves are said to be removed, and no tooth has as many (replay stops here)");
       return;
     }
     std::span<const RemovedLeaf> listed = motion.removed.leaves;

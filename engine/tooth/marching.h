@@ -33,6 +33,7 @@ inline int inside_first(std::array<int, 4>& corner, const std::array<bool, 8>& i
 
 template <class Fraction>
 TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside, const Fraction& fraction) {
+  constexpr std::size_t k_most_triangles = 8'000'000;  // a molar at a leaf of 0.025 mm has 4 million; some 100 bytes each
   TriangleMesh mesh;
   const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
   const std::array<std::size_t, 8> corner_step{0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1};
@@ -52,6 +53,8 @@ TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::sp
           filled += in[c];
         }
         if (filled == 0 || filled == 8) continue;
+        if (mesh.triangles.size() > k_most_triangles)
+          throw Error("surface", "has more than " + std::to_string(k_most_triangles) + " triangles", "use a tooth with larger leaves");
         const auto at = [&](int c) { return IVec3{x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)}; };
         const auto crossing = [&](int p, int q) {  // p inside, q outside
           const int low = std::min(p, q), direction = p ^ q;

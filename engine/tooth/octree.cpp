@@ -280,16 +280,22 @@ void Octree::write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue,
   }
 }
 
+// As many as a packed tooth file may have: six molars at a leaf of 0.05 mm.
+constexpr std::size_t k_most_bricks_read = 1u << 18;
+
 Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   Octree tree;
   tree.leaf_mm_ = in.get<double>();
   tree.leaves_per_mm_ = 1.0 / tree.leaf_mm_;
   tree.origin_mm_ = {in.get<double>(), in.get<double>(), in.get<double>()};
   tree.size_ = {in.get<std::int32_t>(), in.get<std::int32_t>(), in.get<std::int32_t>()};
-  const auto usable = [](int n) { return n >= 1 && n <= k_max_edge_leaves; };
-  if (!(tree.leaf_mm_ > 1e-6 && tree.leaf_mm_ < 1e3) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) || !usable(tree.size_.y) ||
-      !usable(tree.size_.z))
-    in.fail("impossible leaf or size");
+  constexpr double k_largest_box_mm = 60.0;  // no tooth is half as long
+  const auto usable = [&](int n) { return n >= 1 && n <= k_max_edge_leaves && n * tree.leaf_mm_ <= k_largest_box_mm; };
+  constexpr double k_least_leaf_mm = 0.005, k_largest_leaf_mm = 2.0;
+  if (!(tree.leaf_mm_ >= k_least_leaf_mm && tree.leaf_mm_ <= k_largest_leaf_mm) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) ||
+      !usable(tree.size_.y) || !usable(tree.size_.z))
+    in.fail("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and " + std::to_string(k_max_edge_leaves) +
+            " leaves a side");
   for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
   while ((k_brick_edge << tree.levels_) < std::max({tree.size_.x, tree.size_.y, tree.size_.z})) ++tree.levels_;
   const auto part = [&in] { return ByteReader(in.get_bytes(in.get<std::uint64_t>()), "tooth"); };
@@ -309,6 +315,8 @@ std::uint32_t Octree::read_ref(ByteReader& shape, ByteReader& tissue, ByteReader
     return k_node | nodes_.add(node);
   }
   if (level != 0) shape.fail("a brick in the wrong place");
+  if (labels_.items.size() + bricks_.items.size() >= k_most_bricks_read)
+    shape.fail("has more bricks than the limit of " + std::to_string(k_most_bricks_read));
   FullBrick brick;
   const auto labels = tissue.get_bytes(k_brick_leaves);
   std::copy(labels.begin(), labels.end(), brick.tissue.begin());

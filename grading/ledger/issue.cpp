@@ -27,8 +27,8 @@ std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, A
   ticket.candidate = candidate;
   ticket.nonce = random_hex(16);
   std::string text = sign_ticket(ticket, ledger.key());
-  ledger.append("ticket", [&](const LedgerContent& now) {
-    const Registry registry = read_registry(now);
+  ledger.append("ticket", [&](const LedgerContent&) {
+    const Registry& registry = ledger.registry();  // as it is under the lock
     const IssuedTicket* live = registry.live_ticket(candidate, ticket.exam, read_clocks().utc_ns);
     if (live != nullptr && another == Another::refuse)
       throw TicketIsLive("candidate " + candidate,

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/shipped.h"
 #include "engine/base/file.h"
+#include "engine/base/shipped.h"
 #include "engine/base/text.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"

@@ -122,6 +122,9 @@ std::string CheckedTable::text(std::string_view key, const std::string& fallback
     return fallback;
   }
   std::string s = node->value<std::string>().value_or(fallback);
+  constexpr std::size_t k_longest_title = 300, k_longest_text = 20'000;  // a page is laid out with each of them
+  if (const std::size_t most = key == "title" || key == "name" ? k_longest_title : k_longest_text; s.size() > most)
+    problem(key, "'" + std::string(key) + "' has " + std::to_string(s.size()) + " bytes, the limit is " + std::to_string(most), "shorten it");
   if (s.find('\0') != std::string::npos) problem(key, "'" + std::string(key) + "' holds a zero byte", "leave it out");
   if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, "'" + std::string(key) + "' is empty", "write a text");
   return s;

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "engine/base/shipped.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/shipped.h"
 #include "engine/base/toml_limits.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/names.h"

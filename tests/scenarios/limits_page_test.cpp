@@ -7,6 +7,7 @@
 #include "engine/base/file.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/toml_limits.h"
+#include "engine/session/session_reader.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/mesh/read_mesh.h"
 #include "engine/tooth/volume/volume_limits.h"
@@ -51,6 +52,7 @@ TEST(LimitsPage, SaysTheNumbersOfTheCode) {
                                                    {"k_most_zone_leaves", k_most_zone_leaves},
                                                    {"k_most_body_leaves", k_most_body_leaves},
                                                    {"k_most_zone_steps", k_most_zone_steps},
+                                                   {"k_most_removed_leaves", k_most_removed_leaves},
                                                    {"k_most_lattice_leaves", k_most_lattice_leaves},
                                                    {"k_most_near_triangles", k_most_near_triangles},
                                                    {"most_voxels", most_voxels(0)},

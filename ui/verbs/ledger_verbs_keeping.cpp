@@ -36,10 +36,8 @@ void ledger_forget(const LedgerOptions& o) {
   Identities identities(ledger.places().identities());
   if (const auto late = remove_forgotten(ledger.content(), identities); late > 0)
     std::cout << late << (late == 1 ? " identity" : " identities")
-              << " removed that entries said were forgotten
-                 ";
-        std::vector<std::string>
-            pseudonyms;
+              << " removed that entries said were forgotten\n";
+  std::vector<std::string> pseudonyms;
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())
     throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");

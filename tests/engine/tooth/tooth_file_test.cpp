@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <functional>
+
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
@@ -66,6 +68,64 @@ Bytes saved_as_version_1(const Tooth& tooth) {
   out.put_bytes(packed);
   out.put_bytes(sha256(out.bytes()));
   return out.take();
+}
+
+std::string refusal_of(const Bytes& file) {
+  try {
+    static_cast<void>(load_tooth(file, "t.cvt"));
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// A tooth of version 1 that nobody made: `octree` as Octree::write would have written it.
+Bytes version_1_of(double leaf_mm, int edge, const Bytes& shape, std::size_t bricks) {
+  ByteWriter body;
+  body.put_string("made up");
+  body.put_string("");
+  body.put(std::uint8_t{0});
+  body.put(leaf_mm);
+  for (int i = 0; i < 3; ++i) body.put(0.0);
+  for (int i = 0; i < 3; ++i) body.put(static_cast<std::int32_t>(edge));
+  for (const Bytes& part : {shape, Bytes(bricks * 512), Bytes()}) {
+    body.put(static_cast<std::uint64_t>(part.size()));
+    body.put_bytes(part);
+  }
+  Bytes packed(ZSTD_compressBound(body.bytes().size()));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), body.bytes().data(), body.bytes().size(), 1));
+  ByteWriter out;
+  for (const char c : {'C', 'V', 'T', 'O', 'O', 'T', 'H', '1'}) out.put(c);
+  out.put(static_cast<std::uint64_t>(body.bytes().size()));
+  out.put(static_cast<std::uint64_t>(packed.size()));
+  out.put_bytes(packed);
+  out.put_bytes(sha256(out.bytes()));
+  return out.take();
+}
+
+TEST(ToothFile, LeavesAndBoxesOfNoToothAreRefusedWithTheLimitNamed) {
+  const Bytes uniform{0, 0};  // one uniform cube of air
+  EXPECT_EQ(refusal_of(version_1_of(0.05, 512, uniform, 0)), "");
+  for (const double leaf : {0.001, 10.0, -1.0})
+    EXPECT_NE(refusal_of(version_1_of(leaf, 8, uniform, 0)).find("leaves have 0.005 to 2 mm"), std::string::npos) << leaf;
+  EXPECT_NE(refusal_of(version_1_of(0.1, 1024, uniform, 0)).find("at most 60 mm"), std::string::npos);
+}
+
+TEST(ToothFile, Version1HasNoMoreBricksThanVersion2) {
+  // a full tree of six levels over bricks of label: 64³ of them, one more than may be
+  Bytes shape;
+  const std::function<void(int)> node = [&](int level) {
+    shape.push_back(level > 0 ? 1 : 2);
+    for (int i = 0; level > 0 && i < 8; ++i) node(level - 1);
+  };
+  node(6);
+  const std::size_t bricks = 64UL * 64 * 64;
+  EXPECT_EQ(refusal_of(version_1_of(0.05, 512, shape, bricks)), "") << "2^18 are the most";
+  node(6);  // and the root of a larger one
+  Bytes larger{1};
+  larger.insert(larger.end(), shape.begin(), shape.end());
+  for (int i = 0; i < 6; ++i) larger.push_back(0), larger.push_back(0);
+  EXPECT_NE(refusal_of(version_1_of(0.05, 1024, larger, 2 * bricks)).find("more bricks than the limit of 262144"), std::string::npos);
 }
 
 TEST(ToothFile, ReadsVersion1) {

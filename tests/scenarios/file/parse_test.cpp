@@ -70,6 +70,12 @@ TEST(ScenarioLimits, LongListsAreRefusedWithTheLimitNamed) {
   EXPECT_EQ(first_problem(k_ball, stroke(100)), "");
 }
 
+TEST(ScenarioLimits, LongTextsAreRefusedWithTheLimitNamed) {
+  EXPECT_EQ(first_problem("title = \"Test\"", "title = \"" + std::string(300, 't') + "\""), "");
+  EXPECT_NE(first_problem("title = \"Test\"", "title = \"" + std::string(301, 't') + "\"").find("has 301 bytes, the limit is 300"),
+            std::string::npos);
+}
+
 TEST(ScenarioLimits, BodiesAndPointsOfAllZonesAreCountedTogether) {
   EXPECT_EQ(first_problem(k_ball, list_of(11, k_ball)), "");
   const std::string bodies = first_problem(k_ball, list_of(13, k_ball)), points = first_problem(k_ball, stroke(60) + stroke(41));

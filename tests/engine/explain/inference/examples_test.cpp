@@ -79,6 +79,17 @@ TEST(StiffnessTable, ALineThroughZeroIsNoReasonToName) {
   EXPECT_NEAR(e.voigt.root, 0.5, 0.05);
 }
 
+TEST(StiffnessTable, RowsAreLimited) {
+  std::string csv = "k_n_per_mm,f_n,v_mm_s\n";
+  for (int i = 0; i < 5001; ++i) csv += std::to_string(0.001 * i) + ",1,0.25\n";
+  try {
+    static_cast<void>(parse_stiffness_table(csv, "t.csv"));
+    ADD_FAILURE() << "read";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("t.csv:5002: is beyond the limit of 5000 rows"), std::string::npos) << e.what();
+  }
+}
+
 TEST(StiffnessTable, MistakesAreNamedWithTheirLine) {
   const auto error = [](const std::string& csv) {
     try {

@@ -63,6 +63,13 @@ TEST(ReadVolume, EveryFormatGivesItsVoxelsThroughTheOtherProcess) {
   expect_ramp(read_volume(write_nifti(folder / "l.nii", ramp()), {}));
 }
 
+TEST(ReadVolume, APackedNiftiBesideOneThatIsNotIsRefusedForItkWouldReadTheOther) {
+  const auto folder = fresh_folder();
+  write_file((folder / "v.nii.gz").string(), Bytes(100));
+  write_file((folder / "v.nii").string(), Bytes(100));
+  EXPECT_NE(refused(folder / "v.nii.gz").find("v.nii, and ITK would read that instead"), std::string::npos);
+}
+
 TEST(ReadVolume, ASliceThatWasCutIsRefusedAndNamedWhereverTheCutIs) {
   const auto folder = series(ramp());
   for (const int z : {0, 5, k_edge - 1}) {
