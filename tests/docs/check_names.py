@@ -23,8 +23,6 @@ EXCEPTIONS = {
     "s/*": "the folder for sessions that the tour makes",
     "receipts/*": "written by the ledger's verbs, in examples",
     "tickets/*": "written by the ledger's verbs, in examples",
-    "docs/laws.md": "written by `cavum explain --laws`, kept when the program is built next",
-    "laws.md": "the same, named from a page beside it",
     "data/*/NAME.toml": "stands for any of that folder",
     "data/scenarios/mine.toml": "written by the reader of the tour",
     "data/scenarios/x.toml": "an example of a path",
