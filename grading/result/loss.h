@@ -7,11 +7,35 @@
 
 namespace cavum {
 
+struct Asked;
+
 struct Loss {
   std::string text;
   Trace first;  ///< where the loss began
 };
-[[nodiscard]] Loss loss_of(const Result& measured, const std::string& metric);
+
+/// What the rows of grading/result/measure_marking.h choose from. Each says it of the measure that was asked for.
+namespace reason {
+[[nodiscard]] Loss figure_alone(const Result& measured, const Asked& asked);      ///< nothing: the figure says all there is
+[[nodiscard]] Loss missed_target(const Result& measured, const Asked& asked);     ///< what of the target was left, and where most of it
+[[nodiscard]] Loss removed_in_zones(const Result& measured, const Asked& asked);  ///< of the row's zones the worst, and its wall
+[[nodiscard]] Loss missed_and_beyond(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss at_walls(const Result& measured, const Asked& asked);  ///< the wall of them that has the largest of the figure
+[[nodiscard]] Loss length_error(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss width_error(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss depth_error(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss taper_error(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss overhang(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss canals_covered(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss floor_cut(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss time_over(const Result& measured, const Asked& asked);  ///< when the time with full marks was over
+[[nodiscard]] Loss force_peak(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss force_over_limit(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss fault_opened(const Result& measured, const Asked& asked);  ///< by the tissue
+[[nodiscard]] Loss fault_felt(const Result& measured, const Asked& asked);    ///< by the force
+[[nodiscard]] Loss tissue_touched(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss first_violation(const Result& measured, const Asked& asked);
+}  // namespace reason
 
 /// "0.30 ± 0.04 mm3"; a figure that is known exactly has no bound.
 [[nodiscard]] std::string amount_text(double value, double bound, int digits, const std::string& unit);

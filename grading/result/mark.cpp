@@ -5,19 +5,10 @@
 
 #include "engine/base/text.h"
 #include "grading/result/loss.h"
-#include "scenarios/file/names.h"
+#include "grading/result/measure_marking.h"
 
 namespace cavum {
 namespace {
-
-/// Metrics that an untouched tooth does badly in of itself: they measure the work, not the care taken with it.
-bool measures_work(const std::string& metric) {
-  for (const char* name :
-       {"target_removed_percent", "missed_mm3", "dice", "steps_completed", "outline_width_mm", "outline_length_mm", "outline_width_error_mm",
-        "outline_length_error_mm", "depth_mm", "depth_error_mm", "overhang_mm3", "canals_covered_percent"})
-    if (metric == name) return true;
-  return false;
-}
 
 struct Work {
   double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
@@ -27,7 +18,7 @@ struct Work {
 };
 
 /// How much of the work was done that a criterion judges the care of.
-Work work_done(const Result& r, const std::string& metric) {
+Work work_done(const Result& r, const Measure& measure) {
   const auto towards = [&](std::size_t first, std::size_t end, const std::string& where) -> Work {
     double all = 0, missed = 0, bound = 0;
     for (std::size_t w = first; w < end; ++w) {
@@ -39,20 +30,12 @@ Work work_done(const Result& r, const std::string& metric) {
     if (!(r.volumes.target.mm3 > 0)) return {};
     return {r.volumes.target_removed_percent, "", r.volumes.target_removed_bound_percent};
   };
-  if (measures_work(metric)) return {};
-  const bool of_walls = metric.ends_with("_mm");  // a distance; volumes, also of what lies below the floor, ask for all of the work
-  if (of_walls && metric.rfind("side_walls_", 0) == 0) return towards(0, 4, " towards the side walls");
-  for (std::size_t w = 0; w < k_walls; ++w)
-    if (of_walls && metric.rfind(std::string(wall_name(static_cast<Wall>(w))) + "_", 0) == 0) return towards(w, w + 1, " towards " + wall_text(w));
+  if (measure.judges == Judges::work) return {};
+  // a distance at some of the walls; volumes, also of what lies below the floor, ask for all of the work
+  if (measure.walls > 0 && measure.walls < k_walls)
+    return towards(measure.first_wall, measure.first_wall + measure.walls,
+                   " towards " + (measure.walls == 1 ? wall_text(measure.first_wall) : "the side walls"));
   return towards(0, k_walls + 1, "");
-}
-
-/// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never did.
-Trace clock_at(const Result& r, double seconds) {
-  auto tick = static_cast<std::int64_t>(std::floor(seconds * k_ticks_per_second));
-  for (const auto& p : r.pauses)
-    if (p.begin <= tick) tick += p.end - p.begin;
-  return tick >= 0 && tick <= r.end.tick ? Trace{tick, {}} : Trace{};
 }
 
 /// Digits that it takes to tell a value from another one and from nothing.
@@ -66,21 +49,21 @@ int digits_for(double value, double other) {
 }
 
 /// The question whether something was broken into that must not be: what force and tissue may disagree on.
-bool asks_for_perforation(const Result& r, const std::string& metric) {
-  return metric == "perforated" || metric == "perforation_volume_mm3" || metric == "perforation_events" ||
-         (r.perforation.fault.perforated && metric == "touched_" + r.perforation.fault.tissue + "_mm3");
+bool asks_for_perforation(const Result& r, const Measure& measure) {
+  if (measure.tissue.empty()) return measure.counts_faults;
+  return r.perforation.fault.perforated && measure.tissue == r.perforation.fault.tissue;
 }
 
 CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
+  const Asked a = asked(c.metric, c.full);
   CriterionResult out;
   out.id = c.id;
   out.title = c.title;
   out.metric = c.metric;
-  out.unit = std::string(metric_unit(c.metric));
-  if (out.unit.empty() && c.metric.ends_with("_mm3")) out.unit = "mm3";
+  out.unit = a.measure.unit;
   out.max = c.points;
-  out.doubtful = !r.perforation.agree() && asks_for_perforation(r, c.metric);
-  const MetricValue v = metric_value(r, c.metric);
+  out.doubtful = !r.perforation.agree() && asks_for_perforation(r, a.measure);
+  const MetricValue v = a.marking->value(r, a);
   out.value = v.value;
   out.bound = v.bound;
   if (!v.value) {
@@ -89,7 +72,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
     out.first = r.end;
     return out;
   }
-  const Work work = work_done(r, c.metric);
+  const Work work = work_done(r, a.measure);
   const auto share_at = [&c](double value) { return std::clamp((value - c.zero) / (c.full - c.zero), 0.0, 1.0); };
   const double share = share_at(*v.value), low = share_at(*v.value - v.bound), high = share_at(*v.value + v.bound);
   out.work_share = work.share();
@@ -100,11 +83,7 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
   if (share >= 1.0 && !out.critical_failed) {
     out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
   } else {
-    Loss loss = loss_of(r, c.metric);
-    if (c.metric == "time_s") {
-      loss.first = clock_at(r, c.full);
-      if (loss.first.tick >= 0) loss.text = "that time was over at " + when(loss.first);
-    }
+    Loss loss = a.marking->reason(r, a);
     if (loss.first.tick < 0 && r.end.tick >= 0) {
       loss.first = r.end;
       loss.text += std::string(loss.text.empty() ? "" : ", ") + "as it stood at the end, " + when(r.end);
@@ -205,7 +184,7 @@ void mark(Result& r, const RubricSpec& rubric) {
     r.verdict_reasons.push_back(what + (open ? ": a person decides" : "; the exam is failed either way"));
   }
   if (r.perforation.fault.perforated &&
-      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, c.metric); }))
+      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, known_measure(c.metric)); }))
     r.verdict_reasons.push_back(r.perforation.fault.tissue + " was opened, which is a fault, and no criterion of this rubric asks for it");
   for (const auto& note : r.notes)
     if (note.find("a person must") != std::string::npos) {

@@ -9,7 +9,7 @@
 
 namespace cavum {
 
-/// Value of a measure by its name in scenarios/file/names.h (`touched_NAME_mm3` for any tissue); none when it cannot be
+/// Value of a measure by its name in scenarios/file/measures.h (`touched_NAME_mm3` for any tissue); none when it cannot be
 /// measured. Throws Error when there is no such measure.
 struct MetricValue {
   std::optional<double> value;

@@ -7,6 +7,7 @@
 #include "engine/base/text.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
+#include "grading/result/measure_marking.h"
 
 namespace cavum {
 
@@ -32,22 +33,37 @@ Json truth_json(const PerforationTruth& t) {
           {"bound_mm3", rounded(t.bound_mm3)}};
 }
 
-Json wall_json(const WallMeasures& w, double bound_mm) {
-  const auto figure = [&](double v) { return w.samples == 0 ? Json(nullptr) : Json(rounded(v)); };
-  return {{"mean_mm", figure(w.mean_mm)},
-          {"p95_mm", figure(w.p95_mm)},
-          {"max_over_mm", figure(w.max_over_mm)},
-          {"max_under_mm", figure(w.max_under_mm)},
-          {"bounds",
-           {{"mean_mm", figure(w.mean_bound_mm)},
-            {"p95_mm", figure(w.p95_bound_mm)},
-            {"max_over_mm", figure(bound_mm)},
-            {"max_under_mm", figure(bound_mm)}}},
-          {"samples", w.samples},
-          {"max_over_site_mm", place_of(w.worst_over)},
-          {"max_over_tick", tick_of(w.worst_over)},
-          {"max_under_site_mm", place_of(w.worst_under)},
-          {"max_under_tick", tick_of(w.worst_under)}};
+Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
+  Json figures = Json::object(), bounds = Json::object();
+  for (const WallFigure f : k_wall_figures) {
+    figures[wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_figure(w, f)));
+    bounds[wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_bound_mm(shape, w, f)));
+  }
+  figures["bounds"] = bounds;
+  figures["samples"] = w.samples;
+  figures["max_over_site_mm"] = place_of(w.worst_over);
+  figures["max_over_tick"] = tick_of(w.worst_over);
+  figures["max_under_site_mm"] = place_of(w.worst_under);
+  figures["max_under_tick"] = tick_of(w.worst_under);
+  return figures;
+}
+
+/// Puts the measures whose place is directly in one of these objects there, in the order of the table. Counts are not among them.
+void put_values(Json& j, const Result& r, std::initializer_list<const char*> objects) {
+  for (const auto& m : measures()) {
+    if (m.family != nullptr || marking_of(m).whole) continue;
+    const std::string at = json_place(m);
+    for (const std::string object : objects)
+      if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object) j[Json::json_pointer(at)] = optional(metric_value(r, m.name).value);
+  }
+}
+/// The same of bounds.
+void put_bounds(Json& j, const Result& r, const std::string& object) {
+  for (const auto& m : measures()) {
+    if (m.family != nullptr) continue;
+    const std::string at = bound_json_place(m);
+    if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object) j[Json::json_pointer(at)] = rounded(metric_value(r, m.name).bound);
+  }
 }
 
 std::string padded(std::string s, std::size_t width) {
@@ -58,7 +74,6 @@ std::string padded(std::string s, std::size_t width) {
 }  // namespace
 
 Json to_json(const Result& r) {
-  const auto zone = [&](Zone z) -> const ZoneVolume& { return r.volumes.zone[static_cast<std::size_t>(z)]; };
   Json j;
   j["scenario"] = {{"id", r.scenario_id}, {"title", r.scenario_title}};
   j["tooth"] = r.tooth_name;
@@ -91,55 +106,26 @@ Json to_json(const Result& r) {
     tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
     tissue_bounds[t.name] = rounded(r.volumes.tissue[t.id].bound_mm3);
   }
-  const auto mm3 = [&](Zone z) { return rounded(zone(z).removed.mm3); };
-  const auto bound = [&](Zone z) { return rounded(zone(z).removed.bound_mm3); };
-  j["volumes"] = {{"target_mm3", rounded(r.volumes.target.mm3)},
-                  {"target_removed_percent", rounded(r.volumes.target_removed_percent)},
-                  {"missed_mm3", rounded(r.volumes.missed.mm3)},
-                  {"removed_mm3", rounded(r.volumes.removed.mm3)},
-                  {"outside_mm3", rounded(r.volumes.outside().mm3)},
-                  {"protected_mm3", mm3(Zone::protected_)},
-                  {"dice", rounded(r.volumes.dice)},
-                  {"overcut",
-                   {{"leeway_sides_mm3", mm3(Zone::leeway_sides)},
-                    {"leeway_bottom_mm3", mm3(Zone::leeway_bottom)},
-                    {"container_sides_mm3", mm3(Zone::container_sides)},
-                    {"container_bottom_mm3", mm3(Zone::container_bottom)}}},
-                  {"tissue_mm3", tissues},
-                  {"bounds",
-                   {{"target_mm3", rounded(r.volumes.target.bound_mm3)},
-                    {"target_removed_percent", rounded(r.volumes.target_removed_bound_percent)},
-                    {"missed_mm3", rounded(r.volumes.missed.bound_mm3)},
-                    {"removed_mm3", rounded(r.volumes.removed.bound_mm3)},
-                    {"outside_mm3", rounded(r.volumes.outside().bound_mm3)},
-                    {"protected_mm3", bound(Zone::protected_)},
-                    {"leeway_sides_mm3", bound(Zone::leeway_sides)},
-                    {"leeway_bottom_mm3", bound(Zone::leeway_bottom)},
-                    {"container_sides_mm3", bound(Zone::container_sides)},
-                    {"container_bottom_mm3", bound(Zone::container_bottom)},
-                    {"dice", rounded(r.volumes.dice_bound)},
-                    {"tissue_mm3", tissue_bounds}}}};
+  j["volumes"] = {{"target_mm3", rounded(r.volumes.target.mm3)}};
+  put_values(j, r, {"/volumes/"});
+  put_values(j, r, {"/volumes/overcut/"});
+  j["volumes"]["tissue_mm3"] = tissues;
+  j["volumes"]["bounds"] = {{"target_mm3", rounded(r.volumes.target.bound_mm3)}};
+  put_bounds(j, r, "/volumes/bounds/");
+  j["volumes"]["bounds"]["tissue_mm3"] = tissue_bounds;
   j["walls"] = Json::object();
-  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape.bound_mm);
-  j["shape"] = {{"outline_length_mm", optional(r.shape.length_mm)},
-                {"outline_width_mm", optional(r.shape.width_mm)},
-                {"depth_mm", optional(r.shape.depth_mm)},
-                {"taper_deg", optional(r.shape.taper_deg)},
-                {"target_length_mm", rounded(r.shape.target_length_mm)},
-                {"target_width_mm", rounded(r.shape.target_width_mm)},
-                {"target_depth_mm", rounded(r.shape.target_depth_mm)},
-                {"bound_mm", rounded(r.shape.bound_mm)},
-                {"taper_bound_deg", rounded(r.shape.taper_bound_deg)}};
+  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape);
+  put_values(j, r, {"/shape/"});
+  j["shape"].update({{"target_length_mm", rounded(r.shape.target_length_mm)},
+                     {"target_width_mm", rounded(r.shape.target_width_mm)},
+                     {"target_depth_mm", rounded(r.shape.target_depth_mm)},
+                     {"bound_mm", rounded(r.shape.bound_mm)},
+                     {"taper_bound_deg", rounded(r.shape.taper_bound_deg)}});
   if (r.access.overhang) {  // only where the task opens something
-    j["access"] = {{"overhang_mm3", rounded(r.access.overhang->mm3)},
-                   {"canals_covered_percent", optional(r.access.canals_covered_percent)},
-                   {"floor_cut_mm3", rounded(r.access.floor_cut.mm3)},
-                   {"target_taper_deg", optional(r.access.target_taper_deg)},
-                   {"bounds",
-                    {{"overhang_mm3", rounded(r.access.overhang->bound_mm3)},
-                     {"canals_covered_percent", rounded(r.access.canals_bound_percent)},
-                     {"floor_cut_mm3", rounded(r.access.floor_cut.bound_mm3)},
-                     {"target_taper_deg", rounded(r.access.target_taper_bound_deg)}}}};
+    put_values(j, r, {"/access/"});
+    j["access"]["target_taper_deg"] = optional(r.access.target_taper_deg);
+    put_bounds(j, r, "/access/bounds/");
+    j["access"]["bounds"]["target_taper_deg"] = rounded(r.access.target_taper_bound_deg);
   }
   Json events = Json::array();
   for (const auto& e : r.perforation.events)
@@ -158,21 +144,15 @@ Json to_json(const Result& r) {
                       {"truth", truth_json(r.perforation.fault)},
                       {"aim", truth_json(r.perforation.aim)},
                       {"agree", r.perforation.agree()}};
-  j["time_s"] = rounded(r.motion.time_s);
-  j["handpiece_time_s"] = rounded(r.motion.handpiece_time_s);
-  j["idle_s"] = rounded(r.motion.idle_s);
-  j["force"] = {
-      {"mean_n", rounded(r.motion.force_mean_n)}, {"peak_n", rounded(r.motion.force_peak_n)}, {"over_limit_s", rounded(r.motion.force_over_limit_s)}};
-  j["path_mm"] = rounded(r.motion.path_mm);
+  put_values(j, r, {"/", "/force/"});
   j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
   j["violations"] = r.progress.violations;
   j["finish"] = r.progress.finish;
   j["extra_time_percent"] = r.accommodations.extra_time_percent;
   j["late_ticks"] = r.motion.late_ticks + r.late_work.ticks;
   j["grading_version"] = k_grading_version;
-  j["bounds"] = {{"time_s", rounded(r.motion.time_bound_s)},   {"handpiece_time_s", rounded(r.motion.handpiece_bound_s)},
-                 {"idle_s", rounded(r.motion.idle_bound_s)},   {"over_limit_s", rounded(r.motion.over_limit_bound_s)},
-                 {"path_mm", rounded(r.motion.path_bound_mm)}, {"force_n", rounded(r.motion.force_bound_n)}};
+  put_bounds(j, r, "/bounds/");
+  j["bounds"]["force_n"] = rounded(r.motion.force_bound_n);  // of the mean and of the largest
   // Only where there is something to say: a session graded before these were known grades to the same text.
   const auto& a = r.accommodations;
   if (a != Accommodations{}) {

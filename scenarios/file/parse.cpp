@@ -9,7 +9,7 @@
 #include "engine/base/shipped.h"
 #include "engine/base/toml_limits.h"
 #include "scenarios/file/checked_toml.h"
-#include "scenarios/file/names.h"
+#include "scenarios/file/measures.h"
 #include "scenarios/file/parse_steps.h"
 #include "scenarios/file/parse_zones.h"
 #include "scenarios/file/surface_files.h"
@@ -17,16 +17,25 @@
 namespace cavum {
 namespace {
 
+void check_measure(CheckedTable& t, const std::string& metric, const ProblemList& problems) {
+  if (metric.empty() || find_measure(metric)) return;
+  const std::string what = "there is no measure '" + metric + "'", of_tissue = metric + "_mm3";
+  if (find_measure(of_tissue) && metric != "touched_") {  // an exam that ran with it says so when it is marked
+    if (problems.strict()) t.problem("metric", what, "did you mean '" + of_tissue + "'?");
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto& m : measures()) names.push_back(m.name);
+  t.problem("metric", what, suggestion(metric, names));
+}
+
 CriterionSpec read_criterion(const toml::table& table, const std::string& at, Places& places, ProblemList& problems) {
   CheckedTable t(table, "[[rubric.criteria]]", problems);
   CriterionSpec c;
   c.id = read_id(t, "");
   c.title = t.text("title", c.id);
   c.metric = t.text("metric", "", true);
-  std::vector<std::string> names;
-  for (const auto& m : k_metrics) names.emplace_back(m.name);
-  if (!c.metric.empty() && std::find(names.begin(), names.end(), c.metric) == names.end() && c.metric.rfind("touched_", 0) != 0)
-    t.problem("metric", "there is no measure '" + c.metric + "'", suggestion(c.metric, names));
+  check_measure(t, c.metric, problems);
   for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, at + "/" + key);
   const auto place_of = [&](const char* key) {
     const auto found = places.find(at + "/" + key);
@@ -292,9 +301,8 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
         need(shape.bottom.tissue, place + "/bottom");
     }
   for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
-    const std::string& metric = s.rubric.criteria[i].metric;
-    if (metric.starts_with("touched_") && metric.ends_with("_mm3") && metric.size() > 12)
-      need(metric.substr(8, metric.size() - 12), "rubric/criteria/" + std::to_string(i) + "/metric");
+    const auto measure = find_measure(s.rubric.criteria[i].metric);
+    if (measure && !measure->tissue.empty()) need(measure->tissue, "rubric/criteria/" + std::to_string(i) + "/metric");
   }
   return problems;
 }

@@ -15,7 +15,7 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
   if (text.empty()) return;
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
-  for (const char* tissue : {"touched_enamel", "touched_dentin", "touched_pulp", "touched_periodontium"}) names.emplace_back(tissue);
+  for (const auto tissue : k_usual_tissues) names.push_back("touched_" + std::string(tissue));
   constexpr std::size_t k_longest = 2000;
   if (text.size() > k_longest) {
     t.problem(key, "'" + std::string(key) + "' has " + std::to_string(text.size()) + " characters", "write at most 2000");

@@ -1,10 +1,11 @@
 #include "scenarios/file/rubric_check.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "engine/base/text.h"
 #include "scenarios/file/checked_toml.h"
-#include "scenarios/file/names.h"
+#include "scenarios/file/measures.h"
 
 namespace cavum {
 namespace {
@@ -14,32 +15,45 @@ Problem problem_of(const RubricSpec& rubric, Place at, const std::string& what, 
 }
 
 /// What a measure needs and this exam lacks; empty when nothing.
-std::string lacking(const std::string& metric, const Scenario& s) {
-  const auto is = [&](std::initializer_list<const char*> names) { return std::find(names.begin(), names.end(), metric) != names.end(); };
+std::string lacking(Needs needs, const Scenario& s) {
   const MarginSpec &leeway = s.zones.leeway, &container = s.zones.container;
-  if (is({"protected_mm3"}) && s.zones.protected_shapes.empty()) return "nothing is protected";
-  if (is({"leeway_sides_mm3"}) && !(leeway.sides_mm > 0)) return "there is no leeway at the sides";
-  if (is({"leeway_bottom_mm3"}) && !(leeway.bottom_mm > 0)) return "there is no leeway below";
   const bool sides = container.sides_mm > leeway.sides_mm, bottom = container.bottom_mm > leeway.bottom_mm;
-  if (is({"container_sides_mm3"}) && !sides) return "there is no container at the sides";
-  if (is({"container_bottom_mm3"}) && !bottom) return "there is no container below";
-  if (is({"container_mm3"}) && !sides && !bottom) return "there is no container";
-  if (is({"overhang_mm3", "canals_covered_percent"}) && s.perforation.aims.empty()) return "no tissue is an aim";
-  if (is({"perforated", "perforation_volume_mm3"}) && s.perforation.faults.empty()) return "no tissue is a fault";
-  if (is({"force_over_limit_s"}) && !(s.force_limit_n > 0)) return "there is no force limit";
-  return "";
+  switch (needs) {
+    case Needs::nothing:
+      return "";
+    case Needs::protection:
+      return s.zones.protected_shapes.empty() ? "nothing is protected" : "";
+    case Needs::leeway_sides:
+      return leeway.sides_mm > 0 ? "" : "there is no leeway at the sides";
+    case Needs::leeway_bottom:
+      return leeway.bottom_mm > 0 ? "" : "there is no leeway below";
+    case Needs::container_sides:
+      return sides ? "" : "there is no container at the sides";
+    case Needs::container_bottom:
+      return bottom ? "" : "there is no container below";
+    case Needs::container:
+      return sides || bottom ? "" : "there is no container";
+    case Needs::aim:
+      return s.perforation.aims.empty() ? "no tissue is an aim" : "";
+    case Needs::fault:
+      return s.perforation.faults.empty() ? "no tissue is a fault" : "";
+    case Needs::force_limit:
+      return s.force_limit_n > 0 ? "" : "there is no force limit";
+  }
+  throw std::logic_error("rubric_check: a need that nothing is said of");
 }
 
 }  // namespace
 
 std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& scenario, const Tooth& tooth) {
   std::vector<std::string> known;
-  for (const auto& t : tooth.tissues) known.push_back("touched_" + t.name + "_mm3");
+  for (const auto& t : tooth.tissues) known.push_back(tissue_measure(t.name).name);
   std::vector<Problem> problems;
   for (const auto& c : rubric.criteria) {
-    if (c.metric.starts_with("touched_") && std::find(known.begin(), known.end(), c.metric) == known.end())
+    const Measure measure = known_measure(c.metric);
+    if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
       problems.push_back(problem_of(rubric, c.metric_at, "'" + c.metric + "' measures no tissue of this tooth", suggestion(c.metric, known)));
-    if (const std::string what = lacking(c.metric, scenario); !what.empty())
+    if (const std::string what = lacking(measure.needs, scenario); !what.empty())
       problems.push_back(problem_of(rubric, c.metric_at, "'" + c.metric + "' measures nothing in this exam: " + what,
                                     "take the criterion out, or choose a measure of what there is"));
   }
@@ -49,11 +63,11 @@ std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& 
 std::vector<Problem> turned_round(const RubricSpec& rubric) {
   std::vector<Problem> problems;
   for (const auto& c : rubric.criteria) {
-    const int better = better_direction(c.metric);
-    if (better == 0 || c.full == c.zero || (c.full > c.zero) == (better > 0)) continue;
+    const Better better = known_measure(c.metric).better;
+    if (better == Better::by_task || c.full == c.zero || (c.full > c.zero) == (better == Better::more)) continue;
     problems.push_back(problem_of(rubric, c.zero_at,
                                   "the criterion gives full marks at " + plain_number(c.full) + " and none at " + plain_number(c.zero) + ", but " +
-                                      (better > 0 ? "more" : "less") + " of '" + c.metric + "' is better",
+                                      (better == Better::more ? "more" : "less") + " of '" + c.metric + "' is better",
                                   "exchange 'full' and 'zero'"));
     problems.back().warning = true;
   }

@@ -12,6 +12,7 @@
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/condition.h"
 #include "scenarios/file/expression.h"
+#include "scenarios/file/measures.h"
 #include "scenarios/file/names.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/zones/relief.h"
@@ -19,12 +20,22 @@
 namespace cavum {
 namespace {
 
-constexpr double k_no_end = 1e300;
 constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
 constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a point's reach
 constexpr double k_coarse_leaf_mm = 0.1;
 constexpr double k_least_wall_mm2 = 0.05;  // less hard tissue beside the target is no wall
 using Ranges = std::map<std::string, ValueRange>;
+
+/// "a, b or c": first what measures nothing else.
+std::string measures_of_protection() {
+  std::vector<std::string> names;
+  for (const bool alone : {true, false})
+    for (const auto& m : measures())
+      if (m.counts_protected && (m.needs == Needs::protection) == alone) names.push_back(m.name);
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
+  return list;
+}
 
 class Adviser {
  public:
@@ -53,10 +64,10 @@ class Adviser {
     for (const Zone z : list) sum += static_cast<double>(zones_.count(z)) * zones_.leaf_volume_mm3();
     return sum;
   }
-  [[nodiscard]] Ranges common_ranges() const;
+  [[nodiscard]] ExamExtent extent() const;
   void step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges);
-  void criterion(std::size_t i, const CriterionSpec& c, const ValueRange& range);
-  void wall_criterion(std::size_t i, const CriterionSpec& c, const std::array<double, k_walls>& mm2);
+  void criterion(std::size_t i, const CriterionSpec& c, const Measure& measure, const ValueRange& range);
+  void wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2);
   [[nodiscard]] std::array<double, k_walls> wall_mm2() const;
 
   const Scenario& s_;
@@ -185,39 +196,39 @@ void Adviser::time(std::optional<double>& expert_s) {
          "allow more time, or see what `cavum scenario solve` reaches");
 }
 
-/// What can happen in this tooth, for quantities and measures that share a name.
-Ranges Adviser::common_ranges() const {
-  double all = 0;
+/// What can happen in this tooth.
+ExamExtent Adviser::extent() const {
+  ExamExtent e;
   const auto leaves = tooth_.octree.count_leaves();
-  Ranges r;
   for (const auto& t : tooth_.tissues) {
     const double mm3_of = static_cast<double>(leaves[t.id]) * zones_.leaf_volume_mm3();
-    if (t.id != k_air) all += mm3_of;
-    r["touched_" + t.name] = r["touched_" + t.name + "_mm3"] = {0, mm3_of};
+    if (t.id != k_air) e.tooth_mm3 += mm3_of;
+    e.tissue_mm3[t.name] = mm3_of;
   }
-  r["time_s"] = r["handpiece_time_s"] = r["idle_s"] = {0, limit_s_};
-  r["target_removed_percent"] = {0, 100};
-  r["missed_mm3"] = {0, zones_.target_mm3()};
-  r["removed_mm3"] = r["floor_cut_mm3"] = {0, all};
-  r["overhang_mm3"] = {0, zones_.target_mm3()};
-  r["canals_covered_percent"] = {0, 100};
-  r["dice"] = {0, 1};
-  r["protected_mm3"] = {0, volume({Zone::protected_})};
-  r["leeway_sides_mm3"] = {0, volume({Zone::leeway_sides})};
-  r["leeway_bottom_mm3"] = {0, volume({Zone::leeway_bottom})};
-  r["leeway_mm3"] = {0, volume({Zone::leeway_sides, Zone::leeway_bottom})};
-  r["container_sides_mm3"] = {0, volume({Zone::container_sides})};
-  r["container_bottom_mm3"] = {0, volume({Zone::container_bottom})};
-  r["container_mm3"] = {0, volume({Zone::container_sides, Zone::container_bottom})};
-  r["outside_mm3"] = r["overcut_mm3"] = {0, all};
-  r["steps_completed"] = r["steps_failed"] = {0, static_cast<double>(s_.steps.size())};
-  r["force_over_limit_s"] = {0, s_.force_limit_n > 0 ? limit_s_ : 0.0};
-  r["perforated"] = {0, s_.perforation.faults.empty() ? 0.0 : 1.0};
-  for (const char* grows : {"force_mean_n", "force_peak_n", "force_n", "peak_force_n", "path_mm", "violations", "perforation_events"})
-    r[grows] = {0, k_no_end};
-  for (const char* yes_no : {"pedal", "contact", "cutting", "button_1", "button_2"}) r[yes_no] = {0, 1};
-  r["rpm"] = {0, s_.max_rpm};
-  r["point"] = {0, static_cast<double>(s_.points.size()) - 1};
+  e.limit_s = limit_s_;
+  e.over_limit_s = s_.force_limit_n > 0 ? limit_s_ : 0.0;
+  e.target_mm3 = zones_.target_mm3();
+  e.protected_mm3 = volume({Zone::protected_});
+  e.leeway_sides_mm3 = volume({Zone::leeway_sides});
+  e.leeway_bottom_mm3 = volume({Zone::leeway_bottom});
+  e.leeway_mm3 = volume({Zone::leeway_sides, Zone::leeway_bottom});
+  e.container_sides_mm3 = volume({Zone::container_sides});
+  e.container_bottom_mm3 = volume({Zone::container_bottom});
+  e.container_mm3 = volume({Zone::container_sides, Zone::container_bottom});
+  e.steps = static_cast<double>(s_.steps.size());
+  e.fault = s_.perforation.faults.empty() ? 0.0 : 1.0;
+  e.rpm = s_.max_rpm;
+  e.last_point = static_cast<double>(s_.points.size()) - 1;
+  return e;
+}
+
+/// Of the live quantities, in a step that may take `step_s`.
+Ranges live_ranges(ExamExtent exam, double step_s) {
+  exam.step_s = step_s;
+  Ranges r;
+  for (const auto& q : k_live_quantities)
+    if (q.most != nullptr) r[std::string(q.name)] = {0, exam.*q.most->value};
+  for (const auto& [tissue, mm3] : exam.tissue_mm3) r["touched_" + tissue] = {0, mm3};
   return r;
 }
 
@@ -243,10 +254,11 @@ void Adviser::step_condition(std::size_t step, const char* key, const std::strin
 }
 
 void Adviser::steps() {
-  Ranges ranges = common_ranges();
+  const ExamExtent exam = extent();
   for (std::size_t i = 0; i < s_.steps.size(); ++i) {
     const StepSpec& step = s_.steps[i];
-    ranges["step_time_s"] = {0, std::min(limit_s_, step.time_limit_s.value_or(limit_s_) * (1 + s_.accommodations.extra_time_percent / 100))};
+    const Ranges ranges =
+        live_ranges(exam, std::min(limit_s_, step.time_limit_s.value_or(limit_s_) * (1 + s_.accommodations.extra_time_percent / 100)));
     step_condition(i, "complete_when", step.complete_when, ranges);
     step_condition(i, "fail_when", step.fail_when, ranges);
     if (step.time_limit_s && *step.time_limit_s > s_.time_limit_s)
@@ -254,7 +266,7 @@ void Adviser::steps() {
   }
 }
 
-void Adviser::criterion(std::size_t i, const CriterionSpec& c, const ValueRange& range) {
+void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& measure, const ValueRange& range) {
   const std::string place = "rubric/criteria/" + std::to_string(i);
   const auto share = [&](double v) { return std::clamp((v - c.zero) / (c.full - c.zero), 0.0, 1.0); };
   const double best = std::max(share(range.low), share(range.high)), worst = std::min(share(range.low), share(range.high));
@@ -275,7 +287,7 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const ValueRange&
   else if ((c.critical_below && c.full < *c.critical_below) || (c.critical_above && c.full > *c.critical_above))
     warn(place + (c.critical_below && c.full < *c.critical_below ? "/critical_below" : "/critical_above"),
          "who has full marks at " + plain_number(c.full) + " fails by it all the same", "let the critical limit lie beyond 'full'");
-  if (among({"overhang_mm3", "canals_covered_percent"}, c.metric) && s_.perforation.aims.empty())
+  if (measure.needs == Needs::aim && s_.perforation.aims.empty())
     warn(place + "/metric",
          "'" + c.metric + "' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points",
          "name the aim in [perforation], or take the criterion out");
@@ -301,41 +313,36 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
 }
 
 /// A figure of a wall that the cavity does not have.
-void Adviser::wall_criterion(std::size_t i, const CriterionSpec& c, const std::array<double, k_walls>& mm2) {
-  for (std::size_t w = 0; w < k_walls; ++w) {
-    const std::string name = wall_name(static_cast<Wall>(w));
-    if (!c.metric.starts_with(name + "_") || !c.metric.ends_with("_mm") || mm2[w] >= k_least_wall_mm2) continue;
-    warn("rubric/criteria/" + std::to_string(i) + "/metric",
-         "the cavity has no " + name + (w == static_cast<std::size_t>(Wall::floor) ? "" : " wall") +
-             " in this tooth: " + (c.metric.ends_with("max_over_mm") ? "nobody can lose these points" : "nobody can win these points"),
-         "take the criterion out, or measure a wall that stays");
-  }
+void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2) {
+  if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
+  const auto wall = static_cast<Wall>(measure.first_wall);
+  warn("rubric/criteria/" + std::to_string(i) + "/metric",
+       "the cavity has no " + std::string(wall_name(wall)) + (wall == Wall::floor ? "" : " wall") +
+           " in this tooth: " + (measure.figure == WallFigure::max_over ? "nobody can lose these points" : "nobody can win these points"),
+       "take the criterion out, or measure a wall that stays");
 }
 
 void Adviser::criteria() {
-  const Ranges ranges = common_ranges();
+  const ExamExtent exam = extent();
   const auto walls_mm2 = wall_mm2();
   for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
     const CriterionSpec& c = s_.rubric.criteria[i];
     const std::string place = "rubric/criteria/" + std::to_string(i);
     if (!(c.points > 0) && !c.critical_above && !c.critical_below)
       warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
-    if (const auto range = ranges.find(c.metric); range != ranges.end())
-      criterion(i, c, range->second);
-    else if (c.metric.ends_with("max_over_mm") || c.metric.ends_with("max_under_mm") || c.metric.ends_with("_error_mm") ||
-             c.metric.ends_with("_error_deg"))
-      criterion(i, c, {0, k_no_end});
-    wall_criterion(i, c, walls_mm2);
+    const Measure measure = known_measure(c.metric);
+    if (const auto high = most_of(measure, exam)) criterion(i, c, measure, {0, *high});
+    wall_criterion(i, measure, walls_mm2);
   }
   for (auto& p : turned_round(s_.rubric)) problems_.push_back(std::move(p));
   const bool guard_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) {
-    return among({"protected_mm3", "outside_mm3", "overcut_mm3"}, c.metric) && (c.points > 0 || c.critical_above);
+    return known_measure(c.metric).counts_protected && (c.points > 0 || c.critical_above);
   });
   if (!guard_judged && !s_.zones.protected_shapes.empty())
     warn("zones/protected/0", "what is protected can be removed for nothing: no criterion measures it",
-         "add one on protected_mm3, outside_mm3 or overcut_mm3, or take [[zones.protected]] out");
-  const bool fault_judged = std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(),
-                                        [&](const CriterionSpec& c) { return c.metric.starts_with("perforat") || c.metric.starts_with("touched_"); });
+         "add one on " + measures_of_protection() + ", or take [[zones.protected]] out");
+  const bool fault_judged =
+      std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) { return known_measure(c.metric).counts_faults; });
   if (!fault_judged && !s_.perforation.faults.empty())
     warn("rubric/criteria/0/metric", "who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it",
          "add one on perforated, with critical_above = 0.5");

@@ -63,11 +63,6 @@ const char* zone_name(Zone zone) noexcept {
   return k_names[static_cast<std::size_t>(zone)];
 }
 
-const char* wall_name(Wall wall) noexcept {
-  constexpr const char* k_names[] = {"mesial", "distal", "buccal", "lingual", "floor", "opening"};
-  return k_names[static_cast<std::size_t>(wall)];
-}
-
 Wall wall_of(Vec3 d) noexcept {
   const double vertical = d.z, n = length(d);
   if (-vertical >= k_cos_45 * n) return Wall::floor;

@@ -14,16 +14,13 @@
 
 #include "engine/tooth/tooth.h"
 #include "scenarios/file/scenario.h"
+#include "scenarios/file/wall.h"
 
 namespace cavum {
 
 enum class Zone : std::uint8_t { none, target, leeway_sides, leeway_bottom, container_sides, container_bottom, protected_ };
 inline constexpr std::size_t k_zones = 7;
-/// Towards where the target's nearest surface faces. The opening (occlusal) is no wall.
-enum class Wall : std::uint8_t { mesial, distal, buccal, lingual, floor, opening };
-inline constexpr std::size_t k_walls = 5;
 [[nodiscard]] const char* zone_name(Zone zone) noexcept;
-[[nodiscard]] const char* wall_name(Wall wall) noexcept;
 
 /// Wall that a surface facing out of the target along `direction` belongs to.
 [[nodiscard]] Wall wall_of(Vec3 direction) noexcept;

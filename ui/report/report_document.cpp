@@ -5,6 +5,7 @@
 
 #include "engine/base/text.h"
 #include "grading/grade.h"
+#include "scenarios/file/measures.h"
 #include "scenarios/review/picture.h"
 #include "ui/report/figures/from_above.h"
 #include "ui/report/figures/section_pictures.h"
@@ -60,7 +61,7 @@ std::vector<std::string> how_to_read(const Result& r) {
     words.push_back("Care counts for as much as was done: where less than " + plain_number(k_care_counts_percent) +
                     " % of the target at the place in question was removed, points are given in proportion, and their ± holds that share at either "
                     "end of its own ±, too.");
-  if (any([](const CriterionResult& c) { return c.metric.starts_with("floor_"); })) words.emplace_back(k_floor_words);
+  if (any([](const CriterionResult& c) { return known_measure(c.metric).of_floor; })) words.emplace_back(k_floor_words);
   return words;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/base/text.h"
 #include "grading/result/compare.h"
 #include "grading/result/result_json.h"
+#include "grading/words/measures_page.h"
 #include "grading/words/why.h"
 #include "scenarios/review/advice.h"
 #include "ui/parts/print_json.h"
@@ -28,7 +29,7 @@ struct Options {
   std::vector<std::string> sessions;
   std::string why, out;
   MarkingOptions marking;
-  bool json = false;
+  bool json = false, measures = false;
 };
 
 /// The result with its contract names, and beside it the old one where another rubric or scenario was asked for.
@@ -124,6 +125,10 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
 }
 
 int run_grade(const Options& o) {
+  if (o.measures) {
+    std::cout << measures_page();
+    return 0;
+  }
   if (!o.out.empty()) {
     if (std::filesystem::exists(o.out)) throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
     require_writable(o.out);
@@ -142,13 +147,22 @@ int run_grade(const Options& o) {
 void add_grade_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
   auto* grades = app.add_subcommand("grade", "Mark recorded exams, by their own rubric or another, or by a corrected scenario");
-  grades->add_option("session", o->sessions, "session files (.cavum), or folders of them")->required();
+  auto* sessions = grades->add_option("session", o->sessions, "session files (.cavum), or folders of them")->required();
   grades->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");
   grades->add_option("--scenario", o->marking.scenario,
                      "mark by this corrected scenario (TOML): its zones, and its rubric unless --rubric names one");
   grades->add_flag("--another-task", o->marking.another_task, "let --scenario be that of another task than the session's");
   grades->add_option("--why", o->why, "ticks, places and numbers behind each point that this criterion lost");
   grades->add_option("--out", o->out, "write the JSON to this file too, which must not exist yet");
+  grades
+      ->add_flag_callback(
+          "--measures",
+          [o, sessions] {
+            o->measures = true;
+            sessions->required(false);
+          },
+          "print the table of measures that a rubric may ask for: unit, direction, range, place in the JSON")
+      ->excludes(sessions);
   grades->add_flag("--json", o->json, "one JSON object on standard output");
   grades->callback([o, &exit_code] { exit_code = run_grade(*o); });
 }

@@ -7,7 +7,7 @@
 
 #include "engine/base/random.h"
 #include "grading/result/result_json.h"
-#include "scenarios/file/names.h"
+#include "scenarios/file/measures.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
@@ -48,9 +48,9 @@ TEST(Why, PointsAddUpToWhatWasLostForEveryMeasureAndBothDirections) {
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
   c.carve(box_hole(0.2, 0.9, -3.4, -2, -1), 2000);
   const Result measured = c.graded();
-  for (const auto& m : k_metrics)
+  for (const auto& m : measures())
     for (const double sign : {1.0, -1.0}) {
-      const RubricSpec rubric = half_lost(measured, std::string(m.name), sign);
+      const RubricSpec rubric = half_lost(measured, m.name, sign);
       Result r = measured;
       mark(r, rubric);
       const Why w = why(c.input(), r, rubric, "c");
@@ -151,9 +151,9 @@ TEST(Why, EveryLineThatCostsPointsHasItsTick) {
   c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
   const Result measured = c.graded();
-  for (const auto& m : k_metrics)
+  for (const auto& m : measures())
     for (const double sign : {1.0, -1.0}) {
-      const RubricSpec rubric = half_lost(measured, std::string(m.name), sign);
+      const RubricSpec rubric = half_lost(measured, m.name, sign);
       Result r = measured;
       mark(r, rubric);
       EXPECT_GE(r.criteria[0].first.tick, 0) << m.name << ": " << r.criteria[0].reason;

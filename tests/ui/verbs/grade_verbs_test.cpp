@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "engine/base/file.h"
 #include "tests/ui/program.h"
 
 namespace cavum {
@@ -52,6 +53,13 @@ std::string bound_pointer(const std::string& pointer) {
   if (in("/criteria/")) return pointer + "_bound";
   if (in("/score/")) return "/score/bound";
   return "/bounds/" + (in("/force/") ? "force_n" : name);
+}
+
+TEST_F(GradeVerb, PrintsTheTableOfMeasuresWithoutASession) {
+  const Ran r = run("grade --measures");
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_EQ(r.out, read_text_file(k_source + "/docs/measures.md"));
+  EXPECT_EQ(run("grade").exit_code, 2);
 }
 
 TEST_F(GradeVerb, PrintsTheFiguresOfTheWorkedPage) {

@@ -1,0 +1,368 @@
+#include "grading/result/measure_marking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace cavum {
+namespace {
+
+MetricValue of_volume(const Volume& v) { return {v.mm3, v.bound_mm3}; }
+MetricValue exactly(double v) { return {v, 0.0}; }
+
+/// All that was removed in the row's zones.
+MetricValue in_zones(const Result& r, const Asked& a) {
+  MetricValue sum{0.0, 0.0};
+  for (const Zone z : a.marking->zones) {
+    const Volume& v = r.volumes.zone[static_cast<std::size_t>(z)].removed;
+    *sum.value += v.mm3;
+    sum.bound += v.bound_mm3;
+  }
+  return sum;
+}
+
+/// The largest figure of the measure's walls. The true one lies between the largest of the lower ends of all walls and the largest of the upper ends.
+MetricValue worst_wall(const Result& r, const Asked& a) {
+  const WallFigure figure = a.measure.figure;
+  std::optional<double> worst;
+  double low = 0, high = 0;
+  for (std::size_t w = a.measure.first_wall; w < a.measure.first_wall + a.measure.walls; ++w) {
+    const WallMeasures& wall = r.shape.wall[w];
+    if (wall.samples == 0 && figure != WallFigure::max_over) continue;  // no overcut where nothing was cut
+    const double v = wall_figure(wall, figure), bound = wall_bound_mm(r.shape, wall, figure);
+    if (a.measure.walls == 1) return {v, bound};
+    low = worst ? std::max(low, v - bound) : v - bound;
+    high = worst ? std::max(high, v + bound) : v + bound;
+    worst = worst ? std::max(*worst, v) : v;
+  }
+  return worst ? MetricValue{worst, std::max(high - *worst, *worst - low)} : MetricValue{std::nullopt, r.shape.bound_mm};
+}
+
+MetricValue of_tissue(const Result& r, const Asked& a) {
+  for (const auto& t : r.tissues)
+    if (t.name == a.measure.tissue) return of_volume(r.volumes.tissue[t.id]);
+  return exactly(0.0);  // this tooth has none of it
+}
+
+MetricValue taper_error(const Result& r, const Asked&) {
+  const double bound = r.shape.taper_bound_deg + r.access.target_taper_bound_deg;
+  if (!r.shape.taper_deg || !r.access.target_taper_deg) return {std::nullopt, bound};
+  return {std::fabs(*r.shape.taper_deg - *r.access.target_taper_deg), bound};
+}
+
+MetricValue fault_events(const Result& r, const Asked&) {
+  return exactly(static_cast<double>(std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault; })));
+}
+
+/// Every zone; without the target, what lies beyond it.
+std::vector<Zone> all_zones(bool with_target) {
+  std::vector<Zone> zones{Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none};
+  if (with_target) zones.insert(zones.begin(), Zone::target);
+  return zones;
+}
+
+using R = const Result&;
+using A = const Asked&;
+
+std::vector<MeasureMarking> volume_markings() {
+  return {
+      {.measure = "target_removed_percent",
+       .value = [](R r, A) -> MetricValue {
+         return {r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent};
+       },
+       .reason = reason::missed_target,
+       .json = "/volumes/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "missed_mm3",
+       .value = [](R r, A) { return of_volume(r.volumes.missed); },
+       .reason = reason::missed_target,
+       .json = "/volumes/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "removed_mm3",
+       .value = [](R r, A) { return of_volume(r.volumes.removed); },
+       .reason = reason::removed_in_zones,
+       .zones = all_zones(true),
+       .json = "/volumes/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "outside_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::none, Zone::protected_},
+       .json = "/volumes/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "protected_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::protected_},
+       .json = "/volumes/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "leeway_sides_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::leeway_sides},
+       .json = "/volumes/overcut/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "leeway_bottom_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::leeway_bottom},
+       .json = "/volumes/overcut/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "container_sides_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::container_sides},
+       .json = "/volumes/overcut/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "container_bottom_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::container_bottom},
+       .json = "/volumes/overcut/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = "container_mm3", .value = in_zones, .reason = reason::removed_in_zones, .zones = {Zone::container_sides, Zone::container_bottom}},
+      {.measure = "overcut_mm3",
+       .value = in_zones,
+       .reason = reason::removed_in_zones,
+       .zones = {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}},
+      {.measure = "dice",
+       .value = [](R r, A) -> MetricValue {
+         return {r.volumes.dice, r.volumes.dice_bound};
+       },
+       .reason = reason::missed_and_beyond,
+       .zones = all_zones(false),
+       .json = "/volumes/",
+       .bound_json = "/volumes/bounds/"},
+      {.measure = k_wall_family, .value = worst_wall, .reason = reason::at_walls},
+  };
+}
+
+std::vector<MeasureMarking> shape_markings() {
+  return {
+      {.measure = "outline_length_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.length_mm, r.shape.bound_mm};
+       },
+       .reason = reason::figure_alone,
+       .json = "/shape/",
+       .bound_json = "/shape/bound_mm"},
+      {.measure = "outline_width_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.width_mm, r.shape.bound_mm};
+       },
+       .reason = reason::figure_alone,
+       .json = "/shape/",
+       .bound_json = "/shape/bound_mm"},
+      {.measure = "outline_length_error_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.length_error_mm, 2 * r.shape.bound_mm};
+       },
+       .reason = reason::length_error},
+      {.measure = "outline_width_error_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.width_error_mm, 2 * r.shape.bound_mm};
+       },
+       .reason = reason::width_error},
+      {.measure = "depth_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.depth_mm, r.shape.bound_mm};
+       },
+       .reason = reason::figure_alone,
+       .json = "/shape/",
+       .bound_json = "/shape/bound_mm"},
+      {.measure = "depth_error_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.depth_error_mm, 2 * r.shape.bound_mm};
+       },
+       .reason = reason::depth_error},
+      {.measure = "taper_deg",
+       .value = [](R r, A) -> MetricValue {
+         return {r.shape.taper_deg, r.shape.taper_bound_deg};
+       },
+       .reason = reason::figure_alone,
+       .json = "/shape/",
+       .bound_json = "/shape/taper_bound_deg"},
+      {.measure = "taper_error_deg", .value = taper_error, .reason = reason::taper_error},
+      {.measure = "overhang_mm3",
+       .value = [](R r, A) { return r.access.overhang ? of_volume(*r.access.overhang) : MetricValue{}; },
+       .reason = reason::overhang,
+       .json = "/access/",
+       .bound_json = "/access/bounds/"},
+      {.measure = "canals_covered_percent",
+       .value = [](R r, A) -> MetricValue {
+         return {r.access.canals_covered_percent, r.access.canals_bound_percent};
+       },
+       .reason = reason::canals_covered,
+       .json = "/access/",
+       .bound_json = "/access/bounds/"},
+      {.measure = "floor_cut_mm3",
+       .value = [](R r, A) { return of_volume(r.access.floor_cut); },
+       .reason = reason::floor_cut,
+       .json = "/access/",
+       .bound_json = "/access/bounds/"},
+  };
+}
+
+std::vector<MeasureMarking> motion_markings() {
+  return {
+      {.measure = "time_s",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.time_s, r.motion.time_bound_s};
+       },
+       .reason = reason::time_over,
+       .json = "/",
+       .bound_json = "/bounds/"},
+      {.measure = "handpiece_time_s",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.handpiece_time_s, r.motion.handpiece_bound_s};
+       },
+       .reason = reason::figure_alone,
+       .json = "/",
+       .bound_json = "/bounds/"},
+      {.measure = "idle_s",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.idle_s, r.motion.idle_bound_s};
+       },
+       .reason = reason::figure_alone,
+       .json = "/",
+       .bound_json = "/bounds/"},
+      {.measure = "force_mean_n",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.force_mean_n, r.motion.force_bound_n};
+       },
+       .reason = reason::figure_alone,
+       .json = "/force/mean_n"},
+      {.measure = "force_peak_n",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.force_peak_n, r.motion.force_bound_n};
+       },
+       .reason = reason::force_peak,
+       .json = "/force/peak_n"},
+      {.measure = "force_over_limit_s",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.force_over_limit_s, r.motion.over_limit_bound_s};
+       },
+       .reason = reason::force_over_limit,
+       .json = "/force/over_limit_s",
+       .bound_json = "/bounds/over_limit_s"},
+      {.measure = "path_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.motion.path_mm, r.motion.path_bound_mm};
+       },
+       .reason = reason::figure_alone,
+       .json = "/",
+       .bound_json = "/bounds/"},
+  };
+}
+
+std::vector<MeasureMarking> conduct_markings() {
+  return {
+      {.measure = "perforated",
+       .value = [](R r, A) { return exactly(r.perforation.fault.perforated ? 1.0 : 0.0); },
+       .reason = reason::fault_opened,
+       .json = "/perforation/truth/",
+       .whole = true},
+      {.measure = "perforation_volume_mm3",
+       .value = [](R r, A) -> MetricValue {
+         return {r.perforation.fault.volume_mm3, r.perforation.fault.bound_mm3};
+       },
+       .reason = reason::fault_opened,
+       .json = "/perforation/truth/volume_mm3",
+       .bound_json = "/perforation/truth/bound_mm3"},
+      {.measure = "perforation_events", .value = fault_events, .reason = reason::fault_felt},
+      {.measure = k_tissue_family, .value = of_tissue, .reason = reason::tissue_touched},
+      {.measure = "steps_completed",
+       .value = [](R r, A) { return exactly(r.progress.steps_completed); },
+       .reason = reason::figure_alone,
+       .json = "/steps/completed",
+       .whole = true},
+      {.measure = "steps_failed",
+       .value = [](R r, A) { return exactly(r.progress.steps_failed); },
+       .reason = reason::figure_alone,
+       .json = "/steps/failed",
+       .whole = true},
+      {.measure = "violations",
+       .value = [](R r, A) { return exactly(r.progress.violations); },
+       .reason = reason::first_violation,
+       .json = "/",
+       .whole = true},
+  };
+}
+
+std::string place_in(const char* pointer, const Measure& m) {
+  if (pointer == nullptr) return "";
+  const std::string place = pointer;
+  return place.ends_with('/') ? place + m.name : place;
+}
+
+/// The families' places: the wall's or the tissue's object, in it the figure's or the tissue's name.
+std::string family_place(const Measure& m, bool bound) {
+  if (!m.tissue.empty()) return std::string(bound ? "/volumes/bounds" : "/volumes") + "/tissue_mm3/" + m.tissue;
+  if (m.walls != 1) return "";
+  return "/walls/" + std::string(wall_name(static_cast<Wall>(m.first_wall))) + (bound ? "/bounds/" : "/") + wall_figure_name(m.figure);
+}
+
+}  // namespace
+
+std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows) {
+  std::vector<std::string> keys;
+  for (const auto& row : rows) {
+    if (row.measure == nullptr || row.value == nullptr || row.reason == nullptr)
+      throw std::logic_error("measure_marking: " + std::string(row.measure != nullptr ? row.measure : "a row") + " lacks name, value or reason");
+    keys.emplace_back(row.measure);
+  }
+  require_row_for_each(keys, "measure_marking");
+  return rows;
+}
+
+const std::vector<MeasureMarking>& measure_markings() {
+  static const std::vector<MeasureMarking> k_rows = [] {
+    std::vector<MeasureMarking> all;
+    for (auto* some : {volume_markings, shape_markings, motion_markings, conduct_markings})
+      for (auto& row : some()) all.push_back(std::move(row));
+    return checked_markings(std::move(all));
+  }();
+  return k_rows;
+}
+
+const MeasureMarking& marking_of(const Measure& measure) {
+  const std::string key = measure.key();
+  for (const auto& row : measure_markings())
+    if (row.measure == key) return row;
+  throw std::logic_error("measure_marking: no row for the measure " + key);
+}
+
+Asked asked(const std::string& metric, double full) {
+  Asked a{known_measure(metric), nullptr, full};
+  a.marking = &marking_of(a.measure);
+  return a;
+}
+
+std::string json_place(const Measure& m) { return m.family != nullptr ? family_place(m, false) : place_in(marking_of(m).json, m); }
+std::string bound_json_place(const Measure& m) { return m.family != nullptr ? family_place(m, true) : place_in(marking_of(m).bound_json, m); }
+
+double wall_figure(const WallMeasures& w, WallFigure figure) noexcept {
+  switch (figure) {
+    case WallFigure::mean:
+      return w.mean_mm;
+    case WallFigure::p95:
+      return w.p95_mm;
+    case WallFigure::max_over:
+      return w.max_over_mm;
+    case WallFigure::max_under:
+      break;
+  }
+  return w.max_under_mm;
+}
+
+double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w, WallFigure figure) noexcept {
+  if (w.samples == 0) return shape.bound_mm;
+  return figure == WallFigure::mean ? w.mean_bound_mm : figure == WallFigure::p95 ? w.p95_bound_mm : shape.bound_mm;
+}
+
+MetricValue metric_value(const Result& r, const std::string& metric) {
+  const Asked a = asked(metric, 0);
+  return a.marking->value(r, a);
+}
+
+}  // namespace cavum

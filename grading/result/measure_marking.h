@@ -1,0 +1,55 @@
+// What marking adds to each measure of scenarios/file/measures.h: value with its bound, the reason why points were lost, its place in the result's
+// JSON. One record each, found by the measure's key.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/result/loss.h"
+#include "grading/result/mark.h"
+#include "grading/result/result.h"
+#include "scenarios/file/measures.h"
+
+namespace cavum {
+
+struct MeasureMarking;
+
+/// A measure as a criterion asks for it.
+struct Asked {
+  Measure measure;
+  const MeasureMarking* marking = nullptr;
+  double full = 0.0;  ///< value with full marks
+};
+
+struct MeasureMarking {
+  const char* measure = nullptr;  ///< its key
+  /// With its bound; no value where it cannot be measured.
+  MetricValue (*value)(const Result& result, const Asked& asked) = nullptr;
+  /// In one line, and where it began; an empty one where the figure says all there is. Called when there is a value.
+  Loss (*reason)(const Result& result, const Asked& asked) = nullptr;
+  /// It is of what was removed in these zones.
+  std::vector<Zone> zones{};
+  /// JSON pointers into the result; one that ends in / goes on with the measure's name. Null: it has no place of its own.
+  const char* json = nullptr;
+  const char* bound_json = nullptr;
+  bool whole = false;  ///< a count or yes and no, written as such
+};
+
+/// In the order of `measures()`. Throws std::logic_error when a measure has no row, a row no measure, or a row lacks value or reason.
+[[nodiscard]] const std::vector<MeasureMarking>& measure_markings();
+/// `rows`, held against the measures in that way.
+[[nodiscard]] std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows);
+[[nodiscard]] const MeasureMarking& marking_of(const Measure& measure);
+
+/// Throws Error when there is no measure of that name.
+[[nodiscard]] Asked asked(const std::string& metric, double full);
+/// Its pointer in the JSON, and its bound's; empty without one.
+[[nodiscard]] std::string json_place(const Measure& measure);
+[[nodiscard]] std::string bound_json_place(const Measure& measure);
+
+/// A figure of a wall, and its bound, mm.
+[[nodiscard]] double wall_figure(const WallMeasures& wall, WallFigure figure) noexcept;
+[[nodiscard]] double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& wall, WallFigure figure) noexcept;
+
+}  // namespace cavum

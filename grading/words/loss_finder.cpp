@@ -1,0 +1,346 @@
+#include "grading/words/loss_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/text.h"
+#include "grading/measures/motion.h"
+#include "grading/measures/removed_map.h"
+#include "grading/result/loss.h"
+#include "grading/result/mark.h"
+#include "grading/words/moments.h"
+#include "grading/words/moments_of_measure.h"
+
+namespace cavum {
+
+LossFinder::LossFinder(const GradeInput& input, const Result& result, const CriterionSpec& spec, Why& why)
+    : in_(input), r_(result), spec_(spec), why_(why), asked_(asked(spec.metric, spec.full)) {
+  end_ = static_cast<std::int64_t>(std::min(input.inputs.size(), input.records.size()));
+  for (const auto& e : input.events)
+    if (e.kind == "finished") end_ = std::min(end_, e.tick + 1);
+  if (input.inputs.empty()) end_ = std::int64_t{1} << 31;
+}
+
+void LossFinder::find() {
+  (this->*moments_of(asked_.measure).list)();
+  value_and_work();
+}
+
+void LossFinder::fact(const std::string& what, std::optional<double> amount, const std::string& unit, const Trace& t, double bound) {
+  WhyItem item;
+  item.what = what;
+  item.amount = amount;
+  if (bound > 0) item.bound = bound;
+  item.unit = unit;
+  if (t.tick >= 0) {
+    item.tick = item.end_tick = t.tick;
+    item.site_mm = t.site_mm;
+  }
+  why_.items.push_back(std::move(item));
+}
+
+double LossFinder::points_at(double value) const {
+  return why_.criterion.work_share * spec_.points * std::clamp((value - spec_.zero) / (spec_.full - spec_.zero), 0.0, 1.0);
+}
+
+std::vector<WhyItem> LossFinder::whole_leaves(const std::function<bool(const RemovedAt&)>& counts) const {
+  return removal_moments(in_, end_, counts);
+}
+
+void LossFinder::leave_out(const WhyItem& i) {
+  ++why_.left_out;
+  why_.left_out_amount += *i.amount;
+  why_.left_out_points += i.points_lost.value_or(0);
+}
+
+void LossFinder::list_largest(std::vector<WhyItem> items) {
+  std::erase_if(items, [this](const WhyItem& i) {
+    const bool nothing = i.unit == "mm3" && *i.amount < k_least_moment_mm3;
+    if (nothing) leave_out(i);
+    return nothing;
+  });
+  for (const auto& i : keep_largest(items)) leave_out(i);
+  for (auto& i : items) why_.items.push_back(std::move(i));
+}
+
+/// Moments of what was removed, whose volumes add up to the criterion's value: what each cost is said where less is better.
+void LossFinder::removed_moments(std::vector<WhyItem> items) {
+  if (spec_.full < spec_.zero) {
+    double before = 0;
+    const auto said = [&](double mm3) { return fixed(mm3, 2) + " mm3"; };
+    for (auto& i : items) {
+      const double now = before + *i.amount;
+      i.points_lost = points_at(before) - points_at(now);
+      if (now <= spec_.full)
+        i.what += ", within the " + said(spec_.full) + " that cost nothing";
+      else if (before < spec_.full)
+        i.what += ", of it " + fixed(now - spec_.full, 3) + " mm3 beyond the " + said(spec_.full) + " that cost nothing";
+      else if (before >= spec_.zero)
+        i.what += ", beyond the " + said(spec_.zero) + " at which no points are left";
+      before = now;
+    }
+  }
+  list_largest(std::move(items));
+}
+
+std::vector<WhyItem> LossFinder::in_zones(const std::vector<Zone>& zones) const {
+  std::vector<RemovedShare> shares;
+  for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
+    if (std::find(zones.begin(), zones.end(), s.zone) != zones.end()) shares.push_back(s);
+  });
+  return removal_moments(in_.zones, std::move(shares));
+}
+
+void LossFinder::missed(double points) {
+  struct Part {
+    double sum = 0;
+    Vec3 middle;
+  };
+  std::array<Part, k_walls + 1> parts;
+  const RemovedMap removed(in_.removed, end_ - 1);
+  in_.zones.for_each_target_leaf([&](IVec3 leaf) {
+    if (removed.has(leaf)) return;
+    Part& p = parts[static_cast<std::size_t>(in_.zones.wall(leaf))];
+    p.sum += 1;
+    p.middle += in_.zones.centre_mm(leaf);
+  });
+  for (std::size_t w = 0; w <= k_walls; ++w) {
+    const double mm3 = r_.volumes.missed_by_wall_mm3[w];
+    if (!(mm3 > 0)) continue;
+    const Part& p = parts[w];
+    const Trace& last = r_.volumes.target_last[w];
+    std::string what = "of the target left towards " + wall_text(w);
+    if (p.sum > 0) what += ", its middle at " + place(p.middle / p.sum);
+    what += last.tick >= 0 ? "; the target was last cut there at " + when(last) : "; nothing of the target was cut there";
+    fact(what, mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
+    if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
+    if (mm3 >= k_least_moment_mm3) continue;
+    leave_out(why_.items.back());
+    why_.items.pop_back();
+  }
+}
+
+void LossFinder::walls(std::size_t first, std::size_t end, std::optional<WallFigure> figure) {
+  const bool under = figure == WallFigure::max_under, over = figure == WallFigure::max_over || figure == WallFigure::p95;
+  const double full = std::max(0.0, spec_.full);
+  for (std::size_t w = first; w < end; ++w) {
+    const WallMeasures& m = r_.shape.wall[w];
+    if (m.samples == 0 && !(m.max_over_mm > 0)) {
+      fact(wall_text(w) + ": nothing was cut there");
+      continue;
+    }
+    fact(wall_text(w) + ": mean " + amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm") + ", 95th percentile " +
+         amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm") + ", of " + std::to_string(m.samples) + " places (+ = overcut)");
+    if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
+      fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
+    if (m.worst_under.tick >= 0 && !over && m.max_under_mm > full)
+      fact(wall_text(w) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
+  }
+  if (under) return;
+  // by parts of leaves, as zones are counted: a wall's part is never more than the zone's whole
+  std::vector<RemovedShare> shares;
+  for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
+    const auto w = static_cast<std::size_t>(in_.zones.wall(s.leaf));
+    if (s.zone != Zone::target && w >= first && w < end && in_.before.octree.is_solid(s.tissue) && in_.zones.distance_mm(s.leaf) > full)
+      shares.push_back(s);
+  });
+  list_largest(removal_moments(in_.zones, std::move(shares)));
+}
+
+void LossFinder::dice() {
+  std::vector<WhyItem> beyond = in_zones(asked_.marking->zones);
+  double too_much = 0;
+  for (const auto& i : beyond) too_much += *i.amount;
+  const double both = too_much + r_.volumes.missed.mm3, lost = both > 0 ? (spec_.points - why_.criterion.points) / both : 0.0;
+  for (auto& i : beyond) i.points_lost = lost * *i.amount;
+  missed(lost * r_.volumes.missed.mm3);
+  list_largest(std::move(beyond));
+}
+
+void LossFinder::overhang() {
+  const AccessMeasures& a = r_.access;
+  if (!a.overhang) return fact("this target opens nothing that could be overhung");
+  const double lost = a.overhang->mm3 > 0 ? (spec_.points - why_.criterion.points) / a.overhang->mm3 : 0.0;
+  std::vector<WhyItem> items = overhang_moments(in_, end_, a);
+  for (auto& i : items) i.points_lost = lost * *i.amount;
+  list_largest(std::move(items));
+}
+
+void LossFinder::canals() {
+  double covered = 0;
+  for (const auto& p : r_.access.canal_mouths) covered += p.part;
+  if (!(covered > 0)) return fact("no canal's mouth has hard tissue on the straight line out");
+  for (const auto& p : r_.access.canal_mouths) {
+    if (!(p.part > 0)) continue;
+    const Trace last = last_cut_near(in_, end_, p.middle_mm);
+    fact("of a canal's mouth, its middle at " + place(p.middle_mm) + ", has hard tissue on the straight line out" + last_cut_text(last),
+         100 * p.part / p.whole, "%", last);
+    if (last.tick < 0) why_.items.back().site_mm = p.middle_mm;
+    why_.items.back().points_lost = (spec_.points - why_.criterion.points) * p.part / covered;
+  }
+}
+
+/// Points that no moment accounts for: what the value as a whole costs, and what does not count because too little of the work was done.
+void LossFinder::value_and_work() {
+  const CriterionResult& c = why_.criterion;
+  if (!c.value) {
+    fact("cannot be measured on this cavity", {}, "", r_.end);
+    why_.items.back().points_lost = spec_.points;
+    return;
+  }
+  double accounted = why_.left_out_points;
+  for (const auto& i : why_.items) accounted += i.points_lost.value_or(0);
+  const double by_work = points_at(spec_.full) < spec_.points ? spec_.points - points_at(spec_.full) : 0.0;
+  const double by_value = spec_.points - c.points - by_work - accounted;
+  if (by_value > 1e-9) {
+    fact((*c.value < spec_.full ? "short of " : "beyond ") + amount_text(spec_.full, 0, 2, c.unit) + ", which gives full marks",
+         std::fabs(*c.value - spec_.full), c.unit, c.first, c.bound);
+    why_.items.back().points_lost = by_value;
+  }
+  if (by_work > 1e-9) {
+    fact(fixed(100 * c.work_share, 1) + " % of the points count, for care counts in full only from " + fixed(k_care_counts_percent, 0) +
+             " % of the work on: " + c.work_text,
+         {}, "", r_.end);
+    why_.items.back().points_lost = by_work;
+  }
+}
+
+void LossFinder::steps() {
+  std::int64_t last = 0;
+  for (const auto& e : in_.events) {
+    const auto detail = nlohmann::ordered_json::parse(e.detail_json, nullptr, false);
+    std::string what = e.kind;
+    std::replace(what.begin(), what.end(), '_', ' ');
+    if (detail.is_object())
+      for (const char* key : {"step", "how", "tissue"})
+        if (detail.contains(key) && detail[key].is_string()) what += " (" + detail[key].get<std::string>() + ")";
+    WhyItem item;
+    item.tick = item.end_tick = e.tick;
+    item.what = what + ", after";
+    item.amount = static_cast<double>(e.tick - last) * k_tick_s;
+    item.unit = "s since the event before";
+    if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = in_.inputs[static_cast<std::size_t>(e.tick)].tip_mm();
+    why_.items.push_back(std::move(item));
+    last = e.tick;
+  }
+}
+
+void LossFinder::perforation() {
+  const PerforationMeasures& p = r_.perforation;
+  const auto truth = [&](const char* kind, const PerforationTruth& t) {
+    if (!t.perforated) return fact(std::string("tissue: no ") + kind);
+    fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first, t.bound_mm3);
+  };
+  truth("fault", p.fault);
+  if (p.has_aims) truth("aim", p.aim);
+  if (p.events.empty()) fact("force: no breakthrough seen");
+  if (p.aim_unseen()) fact("force: the breakthrough into the aim was not seen, which costs nothing");
+  for (const auto& e : p.events) {
+    fact(std::string("force: ") + (e.fault ? "fault" : "aim") + ", a fall from " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) +
+             " N while the tip went on by " + fixed(e.advance_mm, 2) + " mm; " + (e.confirmed ? "confirmed" : "not confirmed") + " by the tissue",
+         e.force_before_n - e.force_after_n, "N", {e.tick, e.site_mm});
+    why_.items.back().end_tick = e.seen_tick;
+  }
+  fact(p.agree() ? "force and tissue agree about faults" : "force and tissue disagree about faults");
+}
+
+void LossFinder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
+  fact(name + " of the cavity", found, "mm", {}, r_.shape.bound_mm);
+  fact(name + " of the target", wanted, "mm");
+  // the leaves at the ends tell when that was cut
+  struct End {
+    const char* what;
+    Vec3 direction;
+  };
+  const bool deep = name == "depth", along_x = name == "length";
+  const std::vector<End> ends = deep      ? std::vector<End>{{"deepest", {0, 0, -1}}}
+                                : along_x ? std::vector<End>{{"furthest mesial", {1, 0, 0}}, {"furthest distal", {-1, 0, 0}}}
+                                          : std::vector<End>{{"furthest buccal", {0, 1, 0}}, {"furthest lingual", {0, -1, 0}}};
+  for (const End& end : ends) {
+    Trace t;
+    double most = -1e9;
+    for (const auto& r : in_.removed) {
+      if (r.tick >= end_) continue;
+      const Vec3 at = in_.zones.centre_mm(r.leaf.leaf());
+      if (dot(at, end.direction) <= most) continue;
+      most = dot(at, end.direction);
+      t = {r.tick, at};
+    }
+    if (t.tick >= 0) fact(std::string(end.what) + " place removed", most, "mm from the tooth's origin", t);
+    if (deep || !error) continue;
+    const auto& e = r_.shape.end_error[static_cast<std::size_t>(&end - ends.data()) + (along_x ? 0 : 2)];
+    fact("missing or too much at the " + std::string(end.what).substr(9) + " end, " + fixed(std::fabs(e.beyond_mm), 2) +
+             (e.beyond_mm >= 0 ? " mm too far" : " mm short"),
+         e.part_mm, "mm", t, r_.shape.bound_mm);
+    if (*error > 0) why_.items.back().points_lost = (points_at(spec_.full) - why_.criterion.points) * e.part_mm / *error;
+  }
+  if (deep) fact("missing and too much together", error, "mm", {}, 2 * r_.shape.bound_mm);
+}
+
+void LossFinder::missed_target() { missed(spec_.points - why_.criterion.points); }
+
+void LossFinder::removed_in_zones() { removed_moments(in_zones(asked_.marking->zones)); }
+
+void LossFinder::at_walls() {
+  const Measure& m = asked_.measure;
+  walls(m.first_wall, m.first_wall + m.walls, m.figure);
+}
+
+void LossFinder::length() { shape("length", r_.shape.length_mm, r_.shape.target_length_mm, r_.shape.length_error_mm); }
+void LossFinder::width() { shape("width", r_.shape.width_mm, r_.shape.target_width_mm, r_.shape.width_error_mm); }
+void LossFinder::depth() { shape("depth", r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm); }
+
+void LossFinder::taper() {
+  fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
+  walls(0, k_side_walls, {});
+}
+
+void LossFinder::taper_error() {
+  fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
+  fact("mean slope of the target's side walls", r_.access.target_taper_deg, "degrees", {}, r_.access.target_taper_bound_deg);
+  walls(0, k_side_walls, {});
+}
+
+void LossFinder::floor_cut() {
+  removed_moments(whole_leaves([&](const RemovedAt& r) {
+    const IVec3 leaf = r.leaf.leaf();
+    return in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.zone(leaf) != Zone::target && in_.zones.wall(leaf) == Wall::floor;
+  }));
+}
+
+void LossFinder::tissue() {
+  std::uint8_t id = k_air;
+  for (const auto& t : r_.tissues)
+    if (t.name == asked_.measure.tissue) id = t.id;
+  removed_moments(whole_leaves([&](const RemovedAt& r) { return r.leaf.tissue == id; }));
+}
+
+void LossFinder::time() {
+  fact("time that counts, pauses taken off", r_.motion.time_s, "s");
+  fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
+  steps();
+  list_largest(idle_moments(in_, end_, r_.pauses));
+}
+
+void LossFinder::handpiece_time() {
+  list_largest(tick_stretches(
+      in_, end_, [&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, "the handpiece turned for", Stretch::duration));
+}
+
+void LossFinder::idle() {
+  fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
+  list_largest(idle_moments(in_, end_, r_.pauses));
+}
+
+void LossFinder::force() { pressed_above(spec_.full); }
+void LossFinder::force_over_limit() { pressed_above(in_.scenario.force_limit_n); }
+
+void LossFinder::pressed_above(double force) {
+  if (r_.motion.force_peak.tick >= 0) fact("pressed hardest", r_.motion.force_peak_n, "N", r_.motion.force_peak);
+  list_largest(tick_stretches(
+      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks, "pressed with more than " + fixed(force, 2) + " N",
+      Stretch::peak_force));
+}
+
+}  // namespace cavum

@@ -1,0 +1,76 @@
+#include "grading/words/measures_page.h"
+
+#include <sstream>
+
+#include "grading/result/measure_marking.h"
+#include "grading/words/moments_of_measure.h"
+
+namespace cavum {
+namespace {
+
+const char* better_words(Better better) {
+  switch (better) {
+    case Better::less:
+      return "less";
+    case Better::more:
+      return "more";
+    case Better::by_task:
+      break;
+  }
+  return "as the task says";
+}
+
+const char* needs_words(Needs needs) {
+  switch (needs) {
+    case Needs::nothing:
+      return "";
+    case Needs::protection:
+      return "something protected";
+    case Needs::leeway_sides:
+      return "a leeway at the sides";
+    case Needs::leeway_bottom:
+      return "a leeway below";
+    case Needs::container_sides:
+      return "a container at the sides";
+    case Needs::container_bottom:
+      return "a container below";
+    case Needs::container:
+      return "a container";
+    case Needs::aim:
+      return "an aim";
+    case Needs::fault:
+      return "a fault";
+    case Needs::force_limit:
+      break;
+  }
+  return "a force limit";
+}
+
+std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
+
+}  // namespace
+
+std::string measures_page() {
+  std::ostringstream out;
+  out << "# The measures\n\n"
+         "What a criterion of a rubric may measure. `cavum grade --measures` writes this page, from the one table that the reader of rubrics, their\n"
+         "check, marking, `grade --why` and the result's JSON go by. How each is measured, and how far it may be off: [grading.md](grading.md).\n\n"
+         "*Better*: which value is; where the task says it, `full` and `zero` do. *Judges*: work, that something was done, which an untouched tooth\n"
+         "fails in; or care, which counts only for as much as was done. *Ends at*: values run from 0 to there; without one, `check` says nothing of\n"
+         "the range. *Needs*: an exam without it has nothing to measure, and `--rubric` refuses the measure. *JSON*: where the result has it.\n\n"
+         "| measure | unit | better | judges | ends at | what it is | needs | JSON | `--why` lists |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  bool tissues = false;
+  for (const auto& listed : measures()) {
+    if (!listed.tissue.empty() && tissues) continue;
+    tissues = tissues || !listed.tissue.empty();
+    const Measure m = listed.tissue.empty() ? listed : tissue_measure("TISSUE");
+    const char* ends = m.most != nullptr ? m.most->words : m.tissue.empty() ? "" : "the tissue";
+    out << "| " << code(m.name) << " | " << m.unit << " | " << better_words(m.better) << " | " << (m.judges == Judges::work ? "work" : "care")
+        << " | " << ends << " | " << m.words << " | " << needs_words(m.needs) << " | " << code(json_place(m)) << " | " << moments_of(m).words
+        << " |\n";
+  }
+  return out.str();
+}
+
+}  // namespace cavum

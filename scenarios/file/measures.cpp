@@ -1,0 +1,257 @@
+#include "scenarios/file/measures.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/base/error.h"
+#include "scenarios/file/names.h"
+
+namespace cavum {
+namespace {
+
+/// A figure of walls: of one, of the floor, of the four side walls together, of all together; null: not asked of those.
+struct FigureWords {
+  WallFigure figure;
+  const char* wall;
+  const char* floor;
+  const char* side_walls = nullptr;
+  const char* all = nullptr;
+  Better better = Better::less;
+  const Most* most = nullptr;
+};
+constexpr FigureWords k_figures[] = {{.figure = WallFigure::mean,
+                                      .wall = "mean deviation of the wall, + = overcut",
+                                      .floor = "mean deviation of the floor, + = too deep",
+                                      .better = Better::by_task},
+                                     {.figure = WallFigure::p95,
+                                      .wall = "95th percentile of the wall's deviation",
+                                      .floor = "95th percentile of the floor's deviation",
+                                      .side_walls = "largest 95th percentile of the four side walls",
+                                      .better = Better::by_task},
+                                     {.figure = WallFigure::max_over,
+                                      .wall = "largest overcut of the wall",
+                                      .floor = "largest excess depth",
+                                      .side_walls = "largest overcut of the four side walls",
+                                      .all = "largest overcut of all walls and the floor",
+                                      .most = &most::no_end},
+                                     {.figure = WallFigure::max_under,
+                                      .wall = "largest thickness left standing",
+                                      .floor = "largest thickness left standing",
+                                      .side_walls = "largest thickness left standing at the four side walls",
+                                      .all = "largest thickness left standing at all walls and the floor",
+                                      .most = &most::no_end}};
+
+Measure wall_measure(const std::string& walls_name, const FigureWords& f, const char* words, std::size_t first, std::size_t walls) {
+  return {.name = walls_name + "_" + wall_figure_name(f.figure),
+          .unit = "mm",
+          .words = words,
+          .better = f.better,
+          .most = f.most,
+          .of_floor = walls == 1 && first == static_cast<std::size_t>(Wall::floor),
+          .family = k_wall_family,
+          .first_wall = first,
+          .walls = walls,
+          .figure = f.figure};
+}
+
+std::vector<Measure> wall_measures() {
+  std::vector<Measure> out;
+  for (std::size_t w = 0; w < k_walls; ++w)
+    for (const auto& f : k_figures)
+      out.push_back(wall_measure(wall_name(static_cast<Wall>(w)), f, w == static_cast<std::size_t>(Wall::floor) ? f.floor : f.wall, w, 1));
+  for (const auto& f : k_figures)
+    if (f.side_walls != nullptr) out.push_back(wall_measure("side_walls", f, f.side_walls, 0, k_side_walls));
+  for (const auto& f : k_figures)
+    if (f.all != nullptr) out.push_back(wall_measure("walls", f, f.all, 0, k_walls));
+  return out;
+}
+
+std::vector<Measure> tissue_measures() {
+  std::vector<Measure> out;
+  for (const auto tissue : k_usual_tissues) out.push_back(tissue_measure(std::string(tissue)));
+  return out;
+}
+
+/// In the order of the result's JSON.
+std::vector<Measure> volume_measures() {
+  return {
+      {.name = "target_removed_percent",
+       .unit = "%",
+       .words = "of the target's volume",
+       .better = Better::more,
+       .judges = Judges::work,
+       .most = &most::percent},
+      {.name = "missed_mm3", .unit = "mm3", .words = "target left standing", .judges = Judges::work, .most = &most::target},
+      {.name = "removed_mm3", .unit = "mm3", .words = "all tissue removed", .better = Better::by_task, .most = &most::tooth},
+      {.name = "outside_mm3",
+       .unit = "mm3",
+       .words = "removed outside target, leeway and container, what is protected included",
+       .most = &most::tooth,
+       .counts_protected = true},
+      {.name = "protected_mm3",
+       .unit = "mm3",
+       .words = "removed of what is protected, wherever it lies",
+       .most = &most::guarded,
+       .needs = Needs::protection,
+       .counts_protected = true},
+      {.name = "leeway_sides_mm3",
+       .unit = "mm3",
+       .words = "removed in the leeway beside the target",
+       .most = &most::leeway_sides,
+       .needs = Needs::leeway_sides},
+      {.name = "leeway_bottom_mm3",
+       .unit = "mm3",
+       .words = "removed in the leeway below the target",
+       .most = &most::leeway_bottom,
+       .needs = Needs::leeway_bottom},
+      {.name = "container_sides_mm3",
+       .unit = "mm3",
+       .words = "damage beside the target",
+       .most = &most::container_sides,
+       .needs = Needs::container_sides},
+      {.name = "container_bottom_mm3",
+       .unit = "mm3",
+       .words = "damage below the target",
+       .most = &most::container_bottom,
+       .needs = Needs::container_bottom},
+      {.name = "container_mm3", .unit = "mm3", .words = "damage beside and below the target", .most = &most::container, .needs = Needs::container},
+      {.name = "overcut_mm3", .unit = "mm3", .words = "everything removed beyond target and leeway", .most = &most::tooth, .counts_protected = true},
+      {.name = "dice", .words = "agreement of removed and target, 1 = equal", .better = Better::more, .judges = Judges::work, .most = &most::one},
+  };
+}
+
+std::vector<Measure> shape_measures() {
+  return {
+      {.name = "outline_length_mm", .unit = "mm", .words = "mesial to distal, at the surface", .better = Better::by_task, .judges = Judges::work},
+      {.name = "outline_width_mm", .unit = "mm", .words = "buccal to lingual, at the surface", .better = Better::by_task, .judges = Judges::work},
+      {.name = "outline_length_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end},
+      {.name = "outline_width_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end},
+      {.name = "depth_mm", .unit = "mm", .words = "deepest point below the occlusal opening", .better = Better::by_task, .judges = Judges::work},
+      {.name = "depth_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end},
+      {.name = "taper_deg", .unit = "deg", .words = "opening of the side walls towards the occlusal side", .better = Better::by_task},
+      {.name = "taper_error_deg", .unit = "deg", .words = "difference from the target's", .most = &most::no_end},
+  };
+}
+
+std::vector<Measure> access_measures() {
+  return {
+      {.name = "overhang_mm3",
+       .unit = "mm3",
+       .words = "roof of the target left above what the task opens (perforation.aims)",
+       .judges = Judges::work,
+       .most = &most::target,
+       .needs = Needs::aim},
+      {.name = "canals_covered_percent",
+       .unit = "%",
+       .words = "of the canals' mouths, under hard tissue left on the straight line out",
+       .judges = Judges::work,
+       .most = &most::percent,
+       .needs = Needs::aim},
+      {.name = "floor_cut_mm3", .unit = "mm3", .words = "hard tissue removed below the target", .most = &most::tooth, .of_floor = true},
+  };
+}
+
+std::vector<Measure> motion_measures() {
+  return {
+      {.name = "time_s", .unit = "s", .words = "until the exam ended", .most = &most::limit},
+      {.name = "handpiece_time_s", .unit = "s", .words = "with the handpiece turning", .most = &most::limit},
+      {.name = "idle_s", .unit = "s", .words = "neither moving nor cutting", .most = &most::limit},
+      {.name = "force_mean_n", .unit = "N", .words = "while cutting", .better = Better::by_task, .most = &most::no_end},
+      {.name = "force_peak_n", .unit = "N", .words = "largest on the hand", .most = &most::no_end},
+      {.name = "force_over_limit_s", .unit = "s", .words = "above force_limit_n", .most = &most::over_limit, .needs = Needs::force_limit},
+      {.name = "path_mm", .unit = "mm", .words = "way of the tip", .most = &most::no_end},
+  };
+}
+
+std::vector<Measure> perforation_measures() {
+  return {
+      {.name = "perforated",
+       .words = "1 when a tissue under perforation.faults was touched",
+       .most = &most::fault,
+       .needs = Needs::fault,
+       .counts_faults = true},
+      {.name = "perforation_volume_mm3",
+       .unit = "mm3",
+       .words = "removed of the tissues under perforation.faults",
+       .needs = Needs::fault,
+       .counts_faults = true},
+      {.name = "perforation_events", .words = "faulty breakthroughs seen in the force", .most = &most::no_end, .counts_faults = true},
+  };
+}
+
+std::vector<Measure> progress_measures() {
+  return {
+      {.name = "steps_completed", .words = "steps done", .better = Better::more, .judges = Judges::work, .most = &most::steps},
+      {.name = "steps_failed", .words = "steps failed", .most = &most::steps},
+      {.name = "violations", .words = "a point that is not allowed, or a speed above max_rpm", .most = &most::no_end},
+  };
+}
+
+std::vector<Measure> all_measures() {
+  std::vector<Measure> all;
+  for (auto* family :
+       {volume_measures, wall_measures, shape_measures, access_measures, motion_measures, perforation_measures, tissue_measures, progress_measures})
+    for (auto& m : family()) {
+      if (std::any_of(all.begin(), all.end(), [&](const Measure& other) { return other.name == m.name; }))
+        throw std::logic_error("measures: two are called " + m.name);
+      all.push_back(std::move(m));
+    }
+  return all;
+}
+
+constexpr std::string_view k_before_tissue = "touched_", k_after_tissue = "_mm3";
+
+}  // namespace
+
+const char* wall_figure_name(WallFigure figure) noexcept {
+  constexpr const char* k_names[] = {"mean_mm", "p95_mm", "max_over_mm", "max_under_mm"};
+  return k_names[static_cast<std::size_t>(figure)];
+}
+
+Measure tissue_measure(const std::string& tissue) {
+  return {.name = std::string(k_before_tissue) + tissue + std::string(k_after_tissue),
+          .unit = "mm3",
+          .words = tissue + " removed",
+          .better = Better::by_task,
+          .counts_faults = true,
+          .family = k_tissue_family,
+          .tissue = tissue};
+}
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> k_all = all_measures();
+  return k_all;
+}
+
+std::optional<Measure> find_measure(const std::string& name) {
+  for (const auto& m : measures())
+    if (m.name == name) return m;
+  const std::size_t around = k_before_tissue.size() + k_after_tissue.size();
+  if (name.size() > around && name.starts_with(k_before_tissue) && name.ends_with(k_after_tissue))
+    return tissue_measure(name.substr(k_before_tissue.size(), name.size() - around));
+  return {};
+}
+
+Measure known_measure(const std::string& name) {
+  if (auto m = find_measure(name)) return *m;
+  throw Error("rubric", "there is no measure '" + name + "'", "use one that `cavum scenario check` knows");
+}
+
+std::optional<double> most_of(const Measure& measure, const ExamExtent& exam) {
+  if (measure.most != nullptr) return exam.*measure.most->value;
+  const auto tissue = exam.tissue_mm3.find(measure.tissue);
+  return tissue != exam.tissue_mm3.end() ? std::optional(tissue->second) : std::nullopt;
+}
+
+void require_row_for_each(const std::vector<std::string>& keys, const std::string& table) {
+  std::vector<std::string> wanted;
+  for (const auto& m : measures())
+    if (std::find(wanted.begin(), wanted.end(), m.key()) == wanted.end()) wanted.push_back(m.key());
+  for (const auto& key : wanted)
+    if (const auto rows = std::count(keys.begin(), keys.end(), key); rows != 1)
+      throw std::logic_error(table + ": " + (rows == 0 ? "no row" : "several rows") + " for the measure " + key);
+  for (const auto& key : keys)
+    if (std::find(wanted.begin(), wanted.end(), key) == wanted.end()) throw std::logic_error(table + ": a row for " + key + ", which is no measure");
+}
+
+}  // namespace cavum

@@ -1,0 +1,70 @@
+// The measures that a criterion of a rubric may use: one record each. Parser, checks, advice, marking, `grade --why`, the JSON of a result and
+// docs/measures.md are made of them. A room above adds what it knows of a measure by the record's key: grading/result/measure_marking.h value, bound
+// and reason, grading/words/moments_of_measure.h moments. `require_row_for_each` holds both tables against this one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/file/extent.h"
+#include "scenarios/file/wall.h"
+
+namespace cavum {
+
+/// Which of two values is better.
+enum class Better { less, more, by_task };
+/// Work: an untouched tooth does badly in it of itself. Care: it does best in it, so care counts only for as much as was done.
+enum class Judges { care, work };
+/// What an exam must have for a measure to say anything.
+enum class Needs { nothing, protection, leeway_sides, leeway_bottom, container_sides, container_bottom, container, aim, fault, force_limit };
+
+/// What is said of a wall.
+enum class WallFigure { mean, p95, max_over, max_under };
+inline constexpr WallFigure k_wall_figures[] = {WallFigure::mean, WallFigure::p95, WallFigure::max_over, WallFigure::max_under};
+/// "mean_mm": how it ends a measure's name, and its name in the JSON.
+[[nodiscard]] const char* wall_figure_name(WallFigure figure) noexcept;
+
+/// Keys of the two families: a figure of a wall or of several, and what was removed of a tissue.
+inline constexpr char k_wall_family[] = "WALL_FIGURE";
+inline constexpr char k_tissue_family[] = "touched_TISSUE_mm3";
+
+/// What is left out does not apply.
+struct Measure {
+  std::string name;
+  const char* unit = "";
+  std::string words;
+  Better better = Better::less;
+  Judges judges = Judges::care;
+  const Most* most = nullptr;  ///< where its values end, from 0 on; null: nothing is known of that
+  Needs needs = Needs::nothing;
+  bool counts_faults = false;     ///< it answers whether something was opened that must not be
+  bool counts_protected = false;  ///< it counts what is removed of what is protected
+  bool of_floor = false;          ///< it speaks of the cavity's floor alone
+
+  // Members of a family
+  const char* family = nullptr;           ///< its key; null: a measure by itself
+  std::size_t first_wall = 0, walls = 0;  ///< of WALL_FIGURE: how many walls from which on
+  WallFigure figure = WallFigure::mean;
+  std::string tissue{};  ///< of touched_TISSUE_mm3
+
+  /// By which rooms above add to it.
+  [[nodiscard]] std::string key() const { return family != nullptr ? family : name; }
+};
+
+/// All of them, of tissues those of `k_usual_tissues`. Throws std::logic_error when two have one name.
+[[nodiscard]] const std::vector<Measure>& measures();
+/// A measure by its name, touched_NAME_mm3 of any tissue; none when there is none of that name.
+[[nodiscard]] std::optional<Measure> find_measure(const std::string& name);
+/// One that must be there. Throws Error when it is not.
+[[nodiscard]] Measure known_measure(const std::string& name);
+/// The measure of a tissue.
+[[nodiscard]] Measure tissue_measure(const std::string& tissue);
+
+/// Where its values end in an exam, from 0 on; none when nothing is known of that.
+[[nodiscard]] std::optional<double> most_of(const Measure& measure, const ExamExtent& exam);
+
+/// Throws std::logic_error unless `keys`, those of the rows of a table, are the keys of all measures, each once. `table` names it.
+void require_row_for_each(const std::vector<std::string>& keys, const std::string& table);
+
+}  // namespace cavum
