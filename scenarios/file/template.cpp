@@ -323,7 +323,7 @@ std::string line(const std::string& text, const std::string& comment) {
   if (!comment.empty()) s += std::string(s.size() < 36 ? 37 - s.size() : 1, ' ') + "# " + comment;
   return s + "\n";
 }
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::string all_choices() {
   std::string text;
@@ -358,11 +358,11 @@ std::string scenario_template(const std::string& tooth_word, const std::string& 
   if (task == nullptr) throw Error("--task " + task_word, "there is no such task for the " + tooth_word, "choose " + all_choices());
   const bool access = task->kind == Kind::access;
   std::string s(k_head);
-  s += line("id = " + quoted(std::string(tooth_word) + "_" + task_word), "small letters, digits, _ and -");
-  s += line("title = " + quoted(task->title), "what the candidate reads first");
-  s += line("description = " + quoted(task->what), "");
+  s += line("id = " + in_quotes(std::string(tooth_word) + "_" + task_word), "small letters, digits, _ and -");
+  s += line("title = " + in_quotes(task->title), "what the candidate reads first");
+  s += line("description = " + in_quotes(task->what), "");
   s += "# " + std::string(tooth->how) + "\n";
-  s += line("tooth = " + quoted(tooth->file), "beside this file, or in data/teeth");
+  s += line("tooth = " + in_quotes(tooth->file), "beside this file, or in data/teeth");
   s += "# allowed diamond points (data/points); the first is mounted\n" + line("points = " + std::string(task->points), "");
   s += line("max_rpm = 200000", "a faster handpiece is a violation");
   s += line("time_limit_s = " + std::to_string(static_cast<int>(task->time_limit_s)), "to the tick of 1 ms; what is done later does not count");

@@ -15,7 +15,7 @@ inline constexpr std::uint64_t k_most_zone_leaves = 6'000'000;
 /// Leaves of the boxes of all bodies that are a tissue or a surface; a molar's periodontium has 16 million.
 inline constexpr std::uint64_t k_most_body_leaves = 20'000'000;
 /// Distances to single pieces (sides of an outline, walls of a cone, triangles) that are taken in all, some 6 ns each.
-inline constexpr std::uint64_t k_most_zone_steps = 400'000'000;
+inline constexpr std::uint64_t k_most_zone_steps = 250'000'000;
 
 /// Counts for one scenario and throws Error(`where`, ...) with the limit named.
 class ZoneWork {

@@ -223,7 +223,7 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
     v.known.push_back(h);
   }
   for (std::size_t m = 0; m < mechanisms().size(); ++m)
-    for (auto& shape : mechanisms()[m].grid(v.scene)) v.grid.push_back(add_term({static_cast<int>(m), std::move(shape)}));
+    for (auto& shape : starts(mechanisms()[m], v.scene)) v.grid.push_back(add_term({static_cast<int>(m), std::move(shape)}));
 
   set_prior(v.products, recording.rig);
   v.products.rows = (white.root_weight() * v.noise.step_sd_n).square().sum();

@@ -275,13 +275,15 @@ void check_volume_bytes(const std::string& path) {
   if (name.ends_with(".mhd") || name.ends_with(".mha")) check_meta(path);
   if (name.ends_with(".nhdr") || name.ends_with(".nrrd")) check_nrrd(path);
   if (name.ends_with(".nii")) check_nifti(path);
-  if (name.ends_with(".nii.gz")) {
-    const std::string beside = path.substr(0, path.size() - 3);
-    if (std::error_code none; std::filesystem::exists(beside, none))
-      throw Error(path, "lies beside " + beside + ", and ITK would read that instead", "move one of the two into another folder");
-    check_packed_nifti(path);
-  }
+  if (name.ends_with(".nii.gz")) check_packed_nifti(path);
   if (name.ends_with(".tif") || name.ends_with(".tiff")) check_tiff_bytes(read_file(path), path);
+}
+
+void require_no_neighbour(const std::string& path) {
+  if (!lower_path(path).ends_with(".nii.gz")) return;
+  const std::string beside = path.substr(0, path.size() - 3);
+  if (std::error_code none; std::filesystem::exists(beside, none))
+    throw Error(path, "lies beside " + beside + ", and ITK would read that instead", "move one of the two into another folder");
 }
 
 }  // namespace cavum

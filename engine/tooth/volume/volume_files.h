@@ -13,5 +13,7 @@ namespace cavum {
 /// Throws Error naming the data file when it is too short, packed ones included. DICOM has check_dicom_bytes; PNG and
 /// NRRD in text or packed by bzip2 pass, for their own readers notice.
 void check_volume_bytes(const std::string& path);
+/// Throws Error when ITK would read another file than the one that is named: of X.nii.gz and X.nii it takes the latter, whichever is asked for.
+void require_no_neighbour(const std::string& path);
 
 }  // namespace cavum

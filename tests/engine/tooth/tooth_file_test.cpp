@@ -88,7 +88,7 @@ Bytes version_1_of(double leaf_mm, int edge, const Bytes& shape, std::size_t bri
   body.put(leaf_mm);
   for (int i = 0; i < 3; ++i) body.put(0.0);
   for (int i = 0; i < 3; ++i) body.put(static_cast<std::int32_t>(edge));
-  for (const Bytes& part : {shape, Bytes(bricks * 512), Bytes()}) {
+  for (const Bytes& part : {shape, Bytes(bricks * 64), Bytes()}) {
     body.put(static_cast<std::uint64_t>(part.size()));
     body.put_bytes(part);
   }
@@ -120,12 +120,12 @@ TEST(ToothFile, Version1HasNoMoreBricksThanVersion2) {
   };
   node(6);
   const std::size_t bricks = 64UL * 64 * 64;
-  EXPECT_EQ(refusal_of(version_1_of(0.05, 512, shape, bricks)), "") << "2^18 are the most";
+  EXPECT_EQ(refusal_of(version_1_of(0.05, 256, shape, bricks)), "") << "2^18 are the most";
   node(6);  // and the root of a larger one
   Bytes larger{1};
   larger.insert(larger.end(), shape.begin(), shape.end());
   for (int i = 0; i < 6; ++i) larger.push_back(0), larger.push_back(0);
-  EXPECT_NE(refusal_of(version_1_of(0.05, 1024, larger, 2 * bricks)).find("more bricks than the limit of 262144"), std::string::npos);
+  EXPECT_NE(refusal_of(version_1_of(0.05, 512, larger, 2 * bricks)).find("more bricks than the limit of 262144"), std::string::npos);
 }
 
 TEST(ToothFile, ReadsVersion1) {

@@ -69,8 +69,8 @@ TEST(ZoneWork, ManyTissuesGrownAreRefused) {
 }
 
 TEST(ZoneWork, ManyPiecesAtEachLeafAreRefused) {
-  expect_refused(times(12, "[[zones.target]]\nshape = \"canal_cone\"\n"), "150000000");
-  expect_refused("[[zones.target]]\nshape = \"prism\"\nat_mm = [0, 0, 0]\nheight_mm = 4\n" + zigzag(100, "4"), "150000000");
+  expect_refused(times(12, "[[zones.target]]\nshape = \"canal_cone\"\n"), "250000000");
+  expect_refused("[[zones.target]]\nshape = \"prism\"\nat_mm = [0, 0, 0]\nheight_mm = 4\n" + zigzag(100, "4"), "250000000");
 }
 
 TEST(ZoneWork, ASurfaceOfManyLargeTrianglesIsRefused) {
@@ -85,7 +85,7 @@ TEST(ZoneWork, ASurfaceOfManyLargeTrianglesIsRefused) {
     count_mesh_body(molar(), mesh, work);
     FAIL() << "a surface of 2000 plates was taken";
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("more than the limit of 150000000"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("more than the limit of 250000000"), std::string::npos) << e.what();
   }
 }
 

@@ -272,6 +272,7 @@ itk::ImageIOBase::Pointer reader_of(const std::string& path, std::uint64_t bytes
 }
 
 Read read_one(const std::string& path, std::uint64_t bytes) {
+  require_no_neighbour(path);
   const auto io = reader_of(path, bytes);
   const auto e = lower_extension(path);
   const bool tiff = e == ".tif" || e == ".tiff";
