@@ -35,8 +35,7 @@ void ledger_forget(const LedgerOptions& o) {
   Ledger ledger(o.folder, key_of(o));
   Identities identities(ledger.places().identities());
   if (const auto late = remove_forgotten(ledger.content(), identities); late > 0)
-    std::cout << late << (late == 1 ? " identity" : " identities")
-              << " removed that entries said were forgotten\n";
+    std::cout << late << (late == 1 ? " identity" : " identities") << " removed that entries said were forgotten\n";
   std::vector<std::string> pseudonyms;
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())

@@ -153,7 +153,8 @@ StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& 
       return v;
     };
     constexpr std::size_t k_most_table_rows = 5000;  // each is left out in turn, which takes the square of their number
-    if (out.f_n.size() == k_most_table_rows) throw Error(at, "is beyond the limit of " + std::to_string(k_most_table_rows) + " rows", "leave some out");
+    if (out.f_n.size() == k_most_table_rows)
+      throw Error(at, "is beyond the limit of " + std::to_string(k_most_table_rows) + " rows", "leave some out");
     out.k_n_per_mm.push_back(value("k_n_per_mm", 0.0, false));
     out.f_n.push_back(value("f_n", -1e9, false));
     out.v_mm_s.push_back(value("v_mm_s", 0.0, true));
