@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct Target {
   void (*run)(Data);
   std::vector<Bytes> (*seeds)();  ///< sound and nearly sound inputs, made by the program itself
 };
+/// For the test's name, which would else show addresses.
+inline void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
 /// All of them, in the order above.
 [[nodiscard]] const std::vector<Target>& targets();
 

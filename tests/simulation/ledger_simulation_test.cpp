@@ -26,10 +26,6 @@ std::uint64_t number_in(const char* name, std::uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Processes that were killed leave their memory behind, SQLite's list of open files among it: each day has a real process of its own, so that it is
-/// the same whatever came before it, and a crash ends no more than this one.
-constexpr std::uint64_t k_days_together = 1;
-
 /// Days on which something was wrong once, each kept: a disk that is full while the key is replaced, twice, or while a backup is restored; a
 /// recording erased during a backup, twice, or while somebody verifies; a second backup cut off before it says what it holds.
 constexpr std::uint64_t k_kept[] = {2070568136836150368U, 3746302825775987233U, 15782216399703653366U, 17575763446533936184U,
@@ -47,31 +43,29 @@ void live_through(const std::vector<std::uint64_t>& seeds, Campaign& out) {
     static_cast<void>(warm.run());
   }
   const testing_basics::Folder folder;
-  for (std::size_t first = 0; first < seeds.size(); first += k_days_together) {
-    const std::size_t end = std::min(seeds.size(), first + k_days_together);
-    const std::string told = folder.file(std::to_string(first));
+  // Processes that were killed leave their memory behind, SQLite's list of open files among it: each day has a real process of its own, so that it is
+  // the same whatever came before it, and a crash ends no more than this one.
+  for (const std::uint64_t seed : seeds) {
+    const std::string told = folder.file("day");
     std::cout.flush();
     std::fflush(stdout);
     const pid_t child = ::fork();
     if (child == 0) {
       std::ofstream file(told);
-      for (std::size_t i = first; i < end; ++i) {
-        file << "day " << seeds[i] << std::endl;
-        SchoolDay day(morning(), seeds[i]);
-        day.draw();
-        for (const auto& w : day.run()) file << "wrong " << w << std::endl;
-        for (const auto& [what, n] : day.counts()) file << "count " << n << " " << what << "\n";
-      }
+      SchoolDay day(morning(), seed);
+      day.draw();
+      for (const auto& w : day.run()) file << "wrong " << w << std::endl;
+      for (const auto& [what, n] : day.counts()) file << "count " << n << " " << what << "\n";
       file << "end" << std::endl;
       ::_exit(0);
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     std::ifstream file(told);
-    std::string line, day;
+    std::string line;
+    const std::string day = std::to_string(seed);
     bool whole = false;
     while (std::getline(file, line)) {
-      if (line.starts_with("day ")) day = line.substr(4);
       if (line.starts_with("wrong ")) {
         out.wrong.push_back("CAVUM_SIMULATION_DAY=" + day + ": " + line.substr(6));
         std::cout << out.wrong.back() << std::endl;

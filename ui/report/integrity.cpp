@@ -91,7 +91,7 @@ void add_integrity(Document& d, const ReportSource& s) {
                                                                          : "tamper-evident, not replayed for this report") +
                      (s.filing ? "; ledger entry " + std::to_string(s.filing->entry) : ""));
   d.footer.push_back("Tooth " + s.facts.tooth_hash.substr(0, 16) + ", leaf " + fixed(s.result.leaf_mm, 3) +
-                     " mm. Definitions: grading/README.md of Cavum " CAVUM_VERSION ".");
+                     " mm. Definitions: docs/grading.md of Cavum " CAVUM_VERSION ".");
 }
 
 }  // namespace cavum
