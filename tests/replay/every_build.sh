@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# every_build.sh CAVUM SOURCE_DIR REPLAYER...
+# every_build.sh CAVUM SOURCE_DIR BUILD_DIR REPLAYER...
 # Records two simulated candidates at two tasks with CAVUM, takes the recorded exams in tests/replay/sessions too, and
 # lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All must verify and
-# print the same lines.
+# print the same lines. With CAVUM_DEEP one for arm64 is built, too.
 set -euo pipefail
-cavum=$1 source=$2
-shift 2
+cavum=$1 source=$2 build=$3
+shift 3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
@@ -13,9 +13,14 @@ for sitting in perforator:class_1 novice:slot; do
   "$cavum" exam "$source/data/scenarios/${sitting#*:}.toml" --candidate replay --operator "${sitting%:*}" --out "$work/${sitting%:*}.cavum" --quiet >/dev/null
 done
 cp "$source"/tests/replay/sessions/*.cavum "$work/"
+replayers=("$@")
+if [ -n "${CAVUM_DEEP:-}" ]; then
+  mkdir -p "$build/arm64"
+  replayers+=("$("$source/tests/replay/arm64.sh" "$source" "$build/arm64")")
+fi
 cd "$work"
 failed=0
-for replayer in "$@"; do
+for replayer in "${replayers[@]}"; do
   echo "== ${replayer##*/build/}"
   "$replayer" ./*.cavum >"$work/lines" || { failed=1; cat "$work/lines"; }
   if [ -f "$work/first" ]; then
