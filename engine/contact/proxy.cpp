@@ -1,7 +1,10 @@
 #include "engine/contact/proxy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "engine/base/hash.h"
 
 namespace cavum {
 namespace {
@@ -300,6 +303,14 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   result.normal = state.normal;
   state.touching = result.touching;
   return result;
+}
+
+std::uint64_t hash_of(const ContactState& s, std::uint64_t seed) noexcept {
+  const std::array<double, 9> real{s.proxy_mm.x, s.proxy_mm.y, s.proxy_mm.z, s.normal.x, s.normal.y,
+                                   s.normal.z,   s.moved_mm,   s.turned_rad, s.stride_mm};
+  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.point), static_cast<std::uint64_t>(s.touching), s.gathered.edit,
+                                           s.touched.edit};
+  return fast_hash(whole.data(), sizeof whole, fast_hash(real.data(), sizeof real, seed));
 }
 
 }  // namespace cavum

@@ -106,6 +106,20 @@ TEST(Cutting, RemovalDoesNotDependOnTheLengthOfATick) {
   }
 }
 
+TEST(Cutting, WhatIsOwedAtLiftOffIsCarvedWhereItWasOwed) {
+  // A tool that jumps out of a deep hole touches its walls on the way: that must neither be cut nor push aside what is owed at the bottom.
+  for (const double dt : {0.001, 0.00025})
+    for (double t_s = 5.9; t_s < 6.17; t_s += 0.05) {
+      Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.05}, dt);
+      rig.spin_up({0, 0, 0.05});
+      const double lead = 0.05 / k_feed;
+      const int n = static_cast<int>((t_s + lead) / dt + 0.5);
+      for (int i = 1; i <= n; ++i) (void)rig.tick({0, 0, -k_feed * (i * dt - lead)}, 1.0);
+      lift_off(rig, {0, 0, 0.3});
+      EXPECT_NEAR(-rig.state.carving.last.tip_mm.z, k_feed * t_s - closed_x_mm(t_s), 0.0015) << "after " << t_s << " s, tick " << dt;
+    }
+}
+
 TEST(Cutting, ASlotHasTheVolumeAndTheWallsOfItsSweep) {
   const double half = 1.2, depth = 0.8, r = 0.5;
   for (const double leaf : {0.05, 0.025}) {
@@ -218,7 +232,7 @@ TEST(Cutting, ALostPedalStopsTheHandpieceInTheSameTick) {
   Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.1});
   rig.spin_up({0, 0, 0.1});
   (void)rig.travel({0, 0, 0.1}, {0, 0, -0.5}, 0.5, 1.0);
-  ASSERT_NEAR(rig.state.rpm, 200000, 10);
+  ASSERT_NEAR(rig.state.handpiece.rpm, 200000, 10);
   const auto edits = rig.state.tooth.edit_hash();
   for (int i = 0; i < 1000; ++i) {
     const TickOutput out = rig.tick({0, 0, -0.5}, 1.0, {}, k_stylus_fresh);

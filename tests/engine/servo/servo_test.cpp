@@ -79,7 +79,7 @@ TEST(Servo, TheHandpieceSpinsUpExponentiallyWithThePedal) {
     ASSERT_NEAR(out.rpm, 100000 * (1 - std::exp(-i * 0.001 / 0.15)), 250);
   }
   for (int i = 0; i < 2000; ++i) (void)rig.tick({0, 0, 1}, 0.0);
-  EXPECT_EQ(rig.state.rpm, 0.0);
+  EXPECT_EQ(rig.state.handpiece.rpm, 0.0);
 }
 
 TEST(Servo, ForceFallsWhenTheTipBreaksThroughIntoThePulp) {
