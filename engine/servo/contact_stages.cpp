@@ -10,8 +10,8 @@ namespace {
 constexpr double k_lift_share = 0.04;  // of a carve's step
 
 /// What a tool that lifts off still owes is carved where it was owed, or many short touches would cut nothing.
-void carve_at_lift_off(const Recession& recession, double leaf_mm, HeadCarving& carving) noexcept {
-  if (recession.owed_mm >= k_lift_share * carve_step_mm(leaf_mm)) begin_carving(carving, receded_head(recession));
+void carve_at_lift_off(const Recession& owed, double leaf_mm, HeadCarving& carving) noexcept {
+  if (owed.owed_mm >= k_lift_share * carve_step_mm(leaf_mm)) begin_carving(carving, receded(owed.head, owed.normal, owed.owed_mm));
 }
 
 }  // namespace

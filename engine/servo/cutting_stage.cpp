@@ -15,9 +15,13 @@ constexpr double k_slide_mm = 0.1, k_slide_share = 0.5, k_void_share = 0.25;
 // Void tissue gives no recession: it goes as the head sweeps through it, a leaf at a time.
 constexpr double k_sweep_leaves = 1.0;
 
-/// Does the tooth hold the tool where it is? Before the proxy has arrived, its distance to the device is no penetration: a tool pulled out of its
-/// hole would cut on its way.
-bool rests(const Tick& tick) noexcept { return tick.means.touching && !tick.contact.on_its_way; }
+/// The head where the proxy is.
+CarvedHead head_here(const ServoState& state) noexcept { return {state.contact.proxy_mm, state.contact.rotation, state.contact.point}; }
+
+/// Is the proxy on a way of more than a leaf a tick? A tool pulled out of a deep hole touches its walls like that: it owes nothing there.
+bool travels(const Tick& tick, double leaf_mm) noexcept {
+  return tick.contact.on_its_way && dot(tick.contact.moved_mm, tick.contact.moved_mm) > leaf_mm * leaf_mm;
+}
 
 /// How far the head has come since it was last carved, tip and top together, mm. One that neck or shank hold, or that swings in its hole, has
 /// nothing to gain.
@@ -32,9 +36,8 @@ void begin_what_is_due(const ServoState& state, const Tick& tick, HeadCarving& c
   const bool sweeps = tick.means.void_tissue && carving.swept_mm >= k_sweep_leaves * leaf_mm;
   const double share = tick.means.void_tissue ? k_void_share : carving.swept_mm >= k_slide_mm ? k_slide_share : 1.0;
   const double due_mm = share * carve_step_mm(leaf_mm);
-  if (!sweeps && !(rests(tick) && owed_mm >= due_mm)) return;
-  const CarvedHead here{state.contact.proxy_mm, state.contact.rotation, tick.input.point};
-  const CarvedHead head = rests(tick) ? receded_head(state.recession) : here;
+  if (!sweeps && !(tick.means.touching && owed_mm >= due_mm)) return;
+  const CarvedHead here = head_here(state), head = tick.means.touching ? receded(here, state.contact.normal, owed_mm) : here;
   if (carving.last.point == head.point && way_mm(carving.last, head, tick.tool.point.cutting_length_mm) < due_mm) return;
   begin_carving(carving, head);
 }
@@ -55,10 +58,15 @@ void cut(const ServoModel& model, ServoState& state, const Tick& tick, TickOutpu
   if (still || state.carving.now.point != tick.input.point) drop_carving(state.carving);
   if (still) return;
   state.carving.swept_mm += length(tick.contact.moved_mm);
-  out.cutting = tick.means.touching && tick.means.of.recession_per_s > 0;
-  if (rests(tick)) {
+  if (tick.means.touching) {
+    const double leaf_mm = state.tooth.leaf_mm();
     const double speed_mm_s = tick.penetration_mm * tick.means.of.recession_per_s * (state.handpiece.rpm / model.force.rpm_ref);
-    gather_recession(speed_mm_s, model.config.tick_s, state.tooth.leaf_mm(), state.contact, state.recession);
+    gather_recession(speed_mm_s, model.config.tick_s, leaf_mm, state.recession);
+    if (!travels(tick, leaf_mm)) {
+      state.recession.head = head_here(state);
+      state.recession.normal = state.contact.normal;
+    }
+    out.cutting = tick.means.of.recession_per_s > 0;
   }
   if (!state.carving.under_way()) begin_what_is_due(state, tick, state.carving);
   if (state.carving.under_way()) carve(model, state, out);

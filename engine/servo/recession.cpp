@@ -1,6 +1,7 @@
 #include "engine/servo/recession.h"
 
 #include <algorithm>
+#include <array>
 
 #include "engine/base/hash.h"
 
@@ -41,18 +42,18 @@ void follow_recession(const ContactState& contact, const ContactResult& found, b
   if (!found.on_its_way) state.followed_edit = contact.gathered.edit;
 }
 
-void gather_recession(double speed_mm_s, double dt_s, double leaf_mm, const ContactState& contact, Recession& state) noexcept {
+void gather_recession(double speed_mm_s, double dt_s, double leaf_mm, Recession& state) noexcept {
   state.owed_mm = std::min(state.owed_mm + speed_mm_s * dt_s, k_most_owed_steps * carve_step_mm(leaf_mm));
-  state.head = {contact.proxy_mm, contact.rotation, contact.point};
-  state.normal = contact.normal;
 }
 
-CarvedHead receded_head(const Recession& state) noexcept {
-  return {state.head.tip_mm - state.normal * std::max(0.0, state.owed_mm), state.head.rotation, state.head.point};
+CarvedHead receded(CarvedHead head, Vec3 normal, double owed_mm) noexcept {
+  head.tip_mm = head.tip_mm - normal * std::max(0.0, owed_mm);
+  return head;
 }
 
 std::uint64_t hash_of(const Recession& s, std::uint64_t seed) noexcept {
-  return fast_hash(&s.followed_edit, sizeof s.followed_edit, fast_hash(&s.owed_mm, sizeof s.owed_mm, seed));
+  const std::array<double, 7> real{s.owed_mm, s.head.tip_mm.x, s.head.tip_mm.y, s.head.tip_mm.z, s.normal.x, s.normal.y, s.normal.z};
+  return fast_hash(&s.followed_edit, sizeof s.followed_edit, fast_hash(real.data(), sizeof real, seed));
 }
 
 }  // namespace cavum

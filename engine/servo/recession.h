@@ -12,8 +12,8 @@ namespace cavum {
 struct Recession {
   double owed_mm = 0.0;             ///< r, along the contact normal; below 0: the proxy went ahead by that
   std::uint64_t followed_edit = 0;  ///< edit hash of the tooth that the proxy has followed
-  CarvedHead head;                  ///< where it last gathered,
-  Vec3 normal;                      ///< and the contact normal there
+  CarvedHead head;                  ///< where it gathers: there it is carved when the tool lifts off
+  Vec3 normal;                      ///< contact normal there
 };
 
 /// Recession between two carves, mm: s_c = max(0.25 leaf, 0.025 mm).
@@ -23,11 +23,11 @@ struct Recession {
 void follow_recession(const ContactState& contact, const ContactResult& found, bool was_touching, const CarvedHead& carved, double leaf_mm,
                       Recession& state) noexcept;
 
-/// One tick of r' = `speed_mm_s`, at most three carves' worth, for a head that has arrived where the tooth holds it.
-void gather_recession(double speed_mm_s, double dt_s, double leaf_mm, const ContactState& contact, Recession& state) noexcept;
+/// One tick of r' = `speed_mm_s`, at most three carves' worth.
+void gather_recession(double speed_mm_s, double dt_s, double leaf_mm, Recession& state) noexcept;
 
-/// The head moved on by what is owed: what is to be carved.
-[[nodiscard]] CarvedHead receded_head(const Recession& state) noexcept;
+/// A head moved on by `owed_mm` against the contact normal: what is to be carved.
+[[nodiscard]] CarvedHead receded(CarvedHead head, Vec3 normal, double owed_mm) noexcept;
 
 /// For state_hash.
 [[nodiscard]] std::uint64_t hash_of(const Recession& state, std::uint64_t seed) noexcept;

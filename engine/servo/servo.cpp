@@ -58,12 +58,12 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   if (input.point < model.tray.size()) {
     const Pose device{state.estimate.tip_mm, input.pose().rotation};
     Tick tick{.input = input, .tool = model.tray[input.point], .device = device, .moved_mm = device.tip_mm - tip_before_mm};
-    find_contact(state, tick);
-    settle_recession(state, tick);
-    look_at_tissue(model, state, tick);
-    work_out_force(model, state, tick, out);
-    wanted_n = render(model, state, tick);
-    cut(model, state, tick, out);
+    find_contact(state, tick);                // p, n
+    settle_recession(state, tick);            // X = max(0, |p − s| − r)
+    look_at_tissue(model, state, tick);       // k, c, 1/τ
+    work_out_force(model, state, tick, out);  // F = max(0, k X + c V + Σ)
+    wanted_n = render(model, state, tick);    // k X + z + b V + Σ, along n
+    cut(model, state, tick, out);             // r' = X/τ · rpm/rpm_ref
   } else {
     out.notices |= k_notice_bad_point;
     state.handpiece = {};
