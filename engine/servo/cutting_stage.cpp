@@ -7,7 +7,8 @@ namespace cavum {
 namespace {
 
 // Units of 15 ns (Octree::plan), 24 µs in all: a tenth of the shortest tick, 0.25 ms. A whole carve in one tick takes 50 to 160 µs at leaves of
-// 0.05 mm and four times that at 0.025 (docs/decisions/0013); so much a tick ends it long before the next one is due.
+// 0.05 mm and four times that at 0.025 (docs/decisions/0013-a-carve-takes-equal-parts-of-ticks.md); so much a tick ends it long before the next one
+// is due.
 constexpr int k_carve_work = 1600;
 // A tool that slides is carved after half a step, for the surface that it leaves behind is the one it felt; that it slides shows after two leaves
 // of 0.05 mm. Void tissue ahead: a quarter, so that the last leaf over a pulp goes in time.
