@@ -33,10 +33,10 @@ void spread(const Profile& profile, double low_z, double high_z, double spacing,
     Profile::SurfacePoint place;
     double area, until;
   };
-  constexpr double k_step = 0.004;
+  constexpr double k_walk_mm = 0.004;
   std::vector<Ring> rings;
   double total = 0;
-  const auto places = profile.walk(k_step, high_z);
+  const auto places = profile.walk(k_walk_mm, high_z);
   ProfilePoint before;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& p = places[i];

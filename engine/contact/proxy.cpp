@@ -1,15 +1,19 @@
 #include "engine/contact/proxy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "engine/base/hash.h"
 
 namespace cavum {
 namespace {
 
 constexpr int k_max_steps = 12;                                // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
 constexpr double k_linear_leaves = 0.3, k_linear_mm = 0.0135;  // so far, or that far, a half space stands in for the curved surface
-constexpr double k_squeeze_leaves = 0.005;
-constexpr double k_deepest_leaves = 0.5;  // a sample that lies deeper is pushed out no faster
+constexpr double k_squeeze_leaves = 0.005;                     // what a squeezed tool may still move: the dead zone, and a little more
+constexpr double k_gather_more_leaves = 0.02;                  // beyond the step, against rounding
+constexpr double k_deepest_leaves = 0.5;                       // a sample that lies deeper is pushed out no faster
 constexpr double k_dead_leaves = 0.004;  // one that lies no deeper is not pushed at all: two walls that differ by rounding would squeeze the tool out
 constexpr double k_stays_near_mm = 0.3;  // what is near is not asked for air again before that much travel
 constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
@@ -195,6 +199,87 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
   return solution;
 }
 
+/// Is there nothing but air around the whole tool on its way to the device?
+bool way_is_free(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state) noexcept {
+  const double way_mm = length(device_mm - state.proxy_mm), travel = travel_mm(state, tool.reach_mm);
+  if (state.tool_air_until_mm <= travel + way_mm && state.tool_near_until_mm <= travel) {
+    const double air_mm = tool_air_mm(tooth, tool, state.rotation, state.proxy_mm);
+    state.tool_air_until_mm = travel + air_mm;
+    if (air_mm == 0.0) state.tool_near_until_mm = travel + k_stays_near_mm;
+  }
+  return travel + way_mm < state.tool_air_until_mm;
+}
+
+/// One step of the proxy.
+struct ProxyStep {
+  Vec3 step;
+  double mm = 0.0;       ///< its length
+  bool blocked = false;  ///< the tooth holds the tool before the device
+  bool is_long = false;  ///< more than half a stride
+  bool back = false;     ///< and it leads back the way the one before came
+};
+
+/// The way to the device as far as the tooth and the stride allow. One back makes the stride shorter.
+ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, ContactState& state) noexcept {
+  const double leaf = tooth.leaf_mm();
+  double& stride = state.stride_mm;
+  gather(tooth, tool, std::min(length(rest), stride) + k_gather_more_leaves * leaf, state);
+  // The whole way is projected, and what is left of it shortened: a deep push must not hold back a slide.
+  // The half spaces stand about the place where they were gathered: so do the steps.
+  const Vec3 since = state.proxy_mm - state.gathered.at_mm;
+  auto solution = solve(tooth, tool, since + rest, stride, state);
+  if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
+    for (auto& h : state.gathered.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
+    state.gathered.turned_rad = -1.0;
+    solution = nearest_step(since + rest, state.gathered.half_spaces);
+  }
+  solution.step -= since;
+  ProxyStep s{.step = solution.feasible ? solution.step : Vec3{}};
+  s.mm = length(s.step);
+  s.is_long = s.mm > 0.5 * stride;
+  s.back = s.is_long && state.touching && dot(s.step, state.last_step_mm) < 0.0;
+  if (s.back) stride = std::max(k_shorter * stride, k_resting_stride * leaf);
+  if (s.mm > stride) {
+    s.step = s.step * (stride / s.mm);
+    s.mm = stride;
+  }
+  const Vec3 held = solution.step - rest;
+  s.blocked = !solution.feasible || dot(held, held) > k_settled_mm * k_settled_mm;
+  return s;
+}
+
+/// Moves the proxy towards the device, near the tooth; true when the tooth holds it before.
+bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state, bool& on_its_way) noexcept {
+  // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves. Where the surface turns under a step
+  // the next one leads back: less far, or the proxy would go forth and back for ever.
+  const double leaf = tooth.leaf_mm();
+  double& stride = state.stride_mm;
+  if (!state.touching) stride = leaf;
+  bool strode = false, blocked = false;
+  int times_back = 0;
+  catch_up(tooth, tool, device_mm, std::min(length(device_mm - state.proxy_mm), stride) + k_gather_more_leaves * leaf, state);
+  for (int i = 0; i < k_max_steps; ++i) {
+    const Vec3 rest = device_mm - state.proxy_mm;
+    const ProxyStep s = next_step(tooth, tool, rest, state);
+    times_back += s.back;
+    blocked = s.blocked;
+    if (s.mm <= k_settled_mm) break;  // settled: standing still keeps what was gathered
+    state.proxy_mm += s.step;
+    state.moved_mm += s.mm;
+    if (!blocked && length(rest) <= stride) break;
+    state.last_step_mm = s.step;
+    strode |= s.is_long;
+    if (s.is_long && !s.back) stride = std::min(k_longer * stride, leaf);
+    on_its_way = i + 1 == k_max_steps || state.looked_up > (times_back > 1 ? k_most_going_back : k_most_looked_up);
+    if (on_its_way) break;
+  }
+  if (!strode) {  // at rest
+    stride = std::max(k_shorter * stride, k_resting_stride * leaf);
+    state.last_step_mm = {};
+  }
+  return blocked;
+}
+
 }  // namespace
 
 ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm) {
@@ -225,67 +310,13 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   if (state.point != point) reset(state, tool, point);
 
   ContactResult result;
-  const double leaf = tooth.leaf_mm();
-  const Vec3 way = device.tip_mm - state.proxy_mm;
-  const double way_mm = length(way), travel = travel_mm(state, tool.reach_mm);
-  if (state.tool_air_until_mm <= travel + way_mm && state.tool_near_until_mm <= travel) {
-    const double air_mm = tool_air_mm(tooth, tool, turned, state.proxy_mm);
-    state.tool_air_until_mm = travel + air_mm;
-    if (air_mm == 0.0) state.tool_near_until_mm = travel + k_stays_near_mm;
-  }
   bool blocked = false;
-  if (travel + way_mm < state.tool_air_until_mm) {
+  result.in_air = way_is_free(tooth, tool, device.tip_mm, state);
+  if (result.in_air) {
+    state.moved_mm += length(device.tip_mm - state.proxy_mm);
     state.proxy_mm = device.tip_mm;
-    state.moved_mm += way_mm;
-    result.in_air = true;
   } else {
-    // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves. Where the surface turns under a step
-    // the next one leads back: less far, or the proxy would go forth and back for ever.
-    const double least_stride = k_resting_stride * leaf;
-    double& stride = state.stride_mm;
-    if (!state.touching) stride = leaf;
-    bool strode = false;
-    int times_back = 0;
-    catch_up(tooth, tool, device.tip_mm, std::min(way_mm, stride) + 0.02 * leaf, state);
-    for (int i = 0; i < k_max_steps; ++i) {
-      const Vec3 rest = device.tip_mm - state.proxy_mm;
-      const double rest_mm = length(rest);
-      gather(tooth, tool, std::min(rest_mm, stride) + 0.02 * leaf, state);
-      // The whole way is projected, and what is left of it shortened: a deep push must not hold back a slide.
-      // The half spaces stand about the place where they were gathered: so do the steps.
-      const Vec3 since = state.proxy_mm - state.gathered.at_mm;
-      auto solution = solve(tooth, tool, since + rest, stride, state);
-      if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
-        for (auto& h : state.gathered.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
-        state.gathered.turned_rad = -1.0;
-        solution = nearest_step(since + rest, state.gathered.half_spaces);
-      }
-      solution.step -= since;
-      Vec3 stepped = solution.feasible ? solution.step : Vec3{};
-      double stepped_mm = length(stepped);
-      const bool long_step = stepped_mm > 0.5 * stride, back = long_step && state.touching && dot(stepped, state.last_step_mm) < 0.0;
-      times_back += back;
-      if (back) stride = std::max(k_shorter * stride, least_stride);
-      if (stepped_mm > stride) {
-        stepped = stepped * (stride / stepped_mm);
-        stepped_mm = stride;
-      }
-      const Vec3 held = solution.step - rest;
-      blocked = !solution.feasible || dot(held, held) > k_settled_mm * k_settled_mm;
-      if (stepped_mm <= k_settled_mm) break;  // settled: standing still keeps what was gathered
-      state.proxy_mm += stepped;
-      state.moved_mm += stepped_mm;
-      if (!blocked && rest_mm <= stride) break;
-      state.last_step_mm = stepped;
-      strode |= long_step;
-      if (long_step && !back) stride = std::min(k_longer * stride, leaf);
-      result.on_its_way = i + 1 == k_max_steps || state.looked_up > (times_back > 1 ? k_most_going_back : k_most_looked_up);
-      if (result.on_its_way) break;
-    }
-    if (!strode) {  // at rest
-      stride = std::max(k_shorter * stride, least_stride);
-      state.last_step_mm = {};
-    }
+    blocked = approach(tooth, tool, device.tip_mm, state, result.on_its_way);
   }
 
   result.moved_mm = state.proxy_mm - before;
@@ -300,6 +331,14 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
   result.normal = state.normal;
   state.touching = result.touching;
   return result;
+}
+
+std::uint64_t hash_of(const ContactState& s, std::uint64_t seed) noexcept {
+  const std::array<double, 9> real{s.proxy_mm.x, s.proxy_mm.y, s.proxy_mm.z, s.normal.x, s.normal.y,
+                                   s.normal.z,   s.moved_mm,   s.turned_rad, s.stride_mm};
+  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.point), static_cast<std::uint64_t>(s.touching), s.gathered.edit,
+                                           s.touched.edit};
+  return fast_hash(whole.data(), sizeof whole, fast_hash(real.data(), sizeof real, seed));
 }
 
 }  // namespace cavum

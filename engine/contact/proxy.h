@@ -71,4 +71,7 @@ struct ContactResult {
 /// Rotation follows the device.
 ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
 
+/// For state_hash.
+[[nodiscard]] std::uint64_t hash_of(const ContactState& state, std::uint64_t seed) noexcept;
+
 }  // namespace cavum

@@ -8,10 +8,16 @@ namespace cavum {
 namespace {
 
 constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
+// So little way changes no weight by more than 4 %, or 10 % after a carve.
 constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.001, k_late_means_leaves = 0.05, k_late_means_mm = 0.0025;
-constexpr double k_touch_leaves = 0.2;  // a sample nearer than that touches fully; rounding of distances is far less
-constexpr double k_fade_leaves = 0.5;   // and from there it touches less and less
-constexpr double k_ahead_leaves = 1.6;  // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
+constexpr double k_touch_leaves = 0.2;      // a sample nearer than that touches fully; rounding of distances is far less
+constexpr double k_fade_leaves = 0.5;       // and from there it touches less and less
+constexpr double k_ahead_leaves = 1.6;      // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
+constexpr double k_close_leaves = 0.1;      // and there, where a sheet is thinner than that: just inside the surface
+constexpr double k_void_near_leaves = 3.0;  // what is looked up ahead, and the eight leaves around it
+constexpr double k_furthest_mm2 = 1e-3;     // an eighth of what a sample of the head stands for
+constexpr double k_least_area_mm2 = 1e-9;   // rounding
+constexpr double k_even_share = 0.999;      // stiffnesses nearer than that are one tissue's
 
 /// Means of k, c and 1/τ over the solid (or the void) tissues of a mix, and their share in it.
 double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {
@@ -39,113 +45,165 @@ double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants*
   return share;
 }
 
+/// What was found the last time is good enough for this tick.
+bool still_hold(double leaf_mm, Vec3 tip, ContactState& state) noexcept {
+  TouchedMemory& last = state.touched;
+  const Vec3 swung = state.normal - last.normal, moved = tip - last.tip_mm;
+  if (last.turned_rad != state.turned_rad || dot(swung, swung) >= k_same_normal2) return false;
+  const double moved2 = dot(moved, moved);
+  const double same_mm = std::max(k_same_means_leaves * leaf_mm, k_same_means_mm), late_mm = std::max(k_late_means_leaves * leaf_mm, k_late_means_mm);
+  if (last.edit == state.gathered.edit && moved2 < same_mm * same_mm) return true;
+  // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
+  // stood: what it touches may be looked up in the next tick, or, in one tissue, when that is done.
+  const bool waits = state.catching_up && last.even;
+  if (!(waits || (state.looked_up > 0 && !last.late)) || moved2 >= late_mm * late_mm) return false;
+  last.late = !waits;
+  return true;
+}
+
+/// Sums over the places of a tool whose tip is, or will be, at `tip`.
+class Touching {
+ public:
+  Touching(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, Vec3 tip, ContactState& state)
+      : tooth_(tooth),
+        tool_(tool),
+        voids_(voids),
+        tissue_(tissue),
+        tip_(tip),
+        state_(state),
+        leaf_mm_(tooth.leaf_mm()),
+        ahead_(state.normal * (-k_ahead_leaves * leaf_mm_)),
+        close_(state.normal * (-k_close_leaves * leaf_mm_)),
+        head_end_(tool.patches[tool.head_patches - 1].last) {}
+
+  /// The samples near the tooth, by the half spaces that contact has gathered.
+  void count_gathered() noexcept {
+    const GatheredContact& gathered = state_.gathered;
+    const Vec3 since = tip_ - gathered.at_mm;
+    state_.looked_up += static_cast<int>(gathered.samples.size());
+    std::fill_n(state_.touched.counted.begin(), head_end_, std::uint8_t{0});
+    std::size_t patch = 0;
+    bool near = void_near(tool_.patches[patch]);
+    for (std::size_t n = 0; n < gathered.samples.size(); ++n) {
+      const std::uint32_t i = gathered.samples[n];
+      while (i >= tool_.patches[patch].last) near = void_near(tool_.patches[++patch]);  // samples stand in the order of their patches
+      const auto& s = tool_.samples[i];
+      const bool head = i < head_end_;
+      if (head) state_.touched.counted[i] = 1;
+      const double seen = -dot(state_.rotation * s.normal, state_.normal);
+      const auto& h = gathered.half_spaces[n];
+      if (seen > 0.0) count(tip_ + state_.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head, near);
+    }
+  }
+
+  /// A fine tip may touch between its samples: the furthest place counts a little, and alone if need be.
+  void count_furthest() noexcept {
+    const Vec3 furthest = tip_ + state_.rotation * tool_.furthest_along(state_.rotation.transposed(-state_.normal));
+    count(furthest, k_furthest_mm2, tooth_.sample(furthest, state_.cursor).distance_mm, true, true);
+  }
+
+  /// Samples of the head that are far from the surface, and have void tissue before them.
+  void count_void_ahead() noexcept {
+    for (std::size_t p = 0; p < tool_.head_patches; ++p) {
+      if (!void_near(tool_.patches[p])) continue;
+      for (std::uint32_t i = tool_.patches[p].first; i < tool_.patches[p].last; ++i) {
+        if (state_.touched.counted[i] != 0) continue;
+        const auto& s = tool_.samples[i];
+        const double seen = -dot(state_.rotation * s.normal, state_.normal);
+        if (seen <= 0.0) continue;
+        const Vec3 at = tip_ + state_.rotation * s.at_mm + ahead_;
+        if (tooth_.tissue_at(at, state_.cursor) != k_air)
+          count_void(s.area_mm2 * seen * mean_of(tooth_, tooth_.mix(at, state_.cursor), tissue_, false, void_mean_));
+      }
+    }
+  }
+
+  /// All sums over their areas.
+  [[nodiscard]] TouchedMeans means() noexcept {
+    TouchedMeans m = sums_;
+    m.touching = cut_area_ > k_least_area_mm2;
+    if (!m.touching) {
+      m.of = {};
+      return m;
+    }
+    const double area = solid_area_ + void_area_;
+    m.of.stiffness_n_per_mm /= area;
+    m.of.damping_n_s_per_mm /= area;
+    m.of.recession_per_s /= cut_area_;
+    return m;
+  }
+  [[nodiscard]] bool even() const noexcept { return !sums_.void_tissue && least_n_per_mm_ > k_even_share * most_n_per_mm_; }
+
+ private:
+  [[nodiscard]] bool void_near(const ToolPatch& patch) const noexcept {
+    return voids_.clear_mm(tip_ + state_.rotation * patch.centre_mm) <= patch.radius_mm + k_void_near_leaves * leaf_mm_;
+  }
+
+  void count_void(double area) noexcept {
+    if (area <= 0.0) return;
+    void_area_ += area;
+    sums_.void_tissue = true;
+    sums_.of.stiffness_n_per_mm += area * void_mean_.stiffness_n_per_mm;
+    sums_.of.damping_n_s_per_mm += area * void_mean_.damping_n_s_per_mm;
+  }
+
+  /// Adds a place of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface.
+  void count(Vec3 at, double area, double gap_mm, bool head, bool void_near) noexcept {
+    double touch = std::clamp(1.0 - (gap_mm - k_touch_leaves * leaf_mm_) / (k_fade_leaves * leaf_mm_), 0.0, 1.0);
+    if (touch <= 0.0 && !(head && void_near)) return;
+    const TissueMix mix = tooth_.mix(at + ahead_, state_.cursor);
+    double solid_share = mean_of(tooth_, mix, tissue_, true, solid_mean_);
+    const double void_share = mean_of(tooth_, mix, tissue_, false, void_mean_);
+    if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth_, tooth_.mix(at + close_, state_.cursor), tissue_, true, solid_mean_) <= 0.0) touch = 0.0;
+    if (touch > 0.0) {
+      const double touched = area * touch;
+      least_n_per_mm_ = std::min(least_n_per_mm_, solid_mean_.stiffness_n_per_mm);
+      most_n_per_mm_ = std::max(most_n_per_mm_, solid_mean_.stiffness_n_per_mm);
+      cut_area_ += touched;
+      if (head) sums_.of.recession_per_s += touched * solid_mean_.recession_per_s;
+      // a sheet over air holds the tool whole; one over void tissue only as far as there is solid tissue ahead
+      solid_share = void_share > 0.0 ? solid_share / (solid_share + void_share) : 1.0;
+      solid_area_ += touched * solid_share;
+      sums_.of.stiffness_n_per_mm += touched * solid_share * solid_mean_.stiffness_n_per_mm;
+      sums_.of.damping_n_s_per_mm += touched * solid_share * solid_mean_.damping_n_s_per_mm;
+      if (head) count_void(touched * (1.0 - solid_share));
+    }
+    if (head) count_void(area * (1.0 - touch) * void_share);
+  }
+
+  const Octree& tooth_;
+  const ContactTool& tool_;
+  const VoidMap& voids_;
+  const TissueConstants* tissue_;
+  const Vec3 tip_;
+  ContactState& state_;
+  const double leaf_mm_;
+  const Vec3 ahead_, close_;
+  const std::uint32_t head_end_;
+  TouchedMeans sums_;
+  TissueConstants solid_mean_, void_mean_;  // of the last place
+  double cut_area_ = 0.0, solid_area_ = 0.0, void_area_ = 0.0, least_n_per_mm_ = 1e9, most_n_per_mm_ = 0.0;
+};
+
 }  // namespace
 
 TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, double recession_mm,
                            ContactState& state) noexcept {
-  const double leaf = tooth.leaf_mm();
   const Vec3 tip = state.proxy_mm - state.normal * recession_mm;
-  const Vec3 swung = state.normal - state.touched.normal;
-  const Vec3 moved = tip - state.touched.tip_mm;
-  const double same_mm = std::max(k_same_means_leaves * leaf, k_same_means_mm);
-  if (state.touched.turned_rad == state.turned_rad && dot(swung, swung) < k_same_normal2) {
-    const double moved2 = dot(moved, moved), late_mm = std::max(k_late_means_leaves * leaf, k_late_means_mm);
-    if (state.touched.edit == state.gathered.edit && moved2 < same_mm * same_mm) return state.touched.means;
-    // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
-    // stood: what it touches may be looked up in the next tick, or, in one tissue, when that is done.
-    const bool waits = state.catching_up && state.touched.even;
-    if ((waits || (state.looked_up > 0 && !state.touched.late)) && moved2 < late_mm * late_mm) {
-      state.touched.late = !waits;
-      return state.touched.means;
-    }
-  }
-  state.touched.late = false;
-  state.touched.turned_rad = state.turned_rad;
-  state.touched.tip_mm = tip;
-  state.touched.edit = state.gathered.edit;
-  state.touched.normal = state.normal;
-  TouchedMeans& means = state.touched.means;
-  means = {};
-  state.looked_up += static_cast<int>(state.gathered.samples.size());
-  const double touch_mm = k_touch_leaves * leaf, fade_mm = k_fade_leaves * leaf;
-  const Vec3 ahead = state.normal * (-k_ahead_leaves * leaf), close = state.normal * (-0.1 * leaf), since = tip - state.gathered.at_mm;
-  const std::uint32_t head_end = tool.patches[tool.head_patches - 1].last;
-  double cut_area = 0.0, solid_area = 0.0, void_area = 0.0, least_n_per_mm = 1e9, most_n_per_mm = 0.0;
-  TissueConstants solid_mean, void_mean;
-  const auto count_void = [&](double area) {
-    if (area <= 0.0) return;
-    void_area += area;
-    means.void_tissue = true;
-    means.of.stiffness_n_per_mm += area * void_mean.stiffness_n_per_mm;
-    means.of.damping_n_s_per_mm += area * void_mean.damping_n_s_per_mm;
-  };
-  // Adds a place of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface.
-  const auto count = [&](Vec3 at, double area, double gap_mm, bool head, bool void_near) {
-    double touch = std::clamp(1.0 - (gap_mm - touch_mm) / fade_mm, 0.0, 1.0);
-    if (touch <= 0.0 && !(head && void_near)) return;
-    const TissueMix mix = tooth.mix(at + ahead, state.cursor);
-    double solid_share = mean_of(tooth, mix, tissue, true, solid_mean);
-    const double void_share = mean_of(tooth, mix, tissue, false, void_mean);
-    if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth, tooth.mix(at + close, state.cursor), tissue, true, solid_mean) <= 0.0) touch = 0.0;
-    if (touch > 0.0) {
-      const double touched = area * touch;
-      least_n_per_mm = std::min(least_n_per_mm, solid_mean.stiffness_n_per_mm);
-      most_n_per_mm = std::max(most_n_per_mm, solid_mean.stiffness_n_per_mm);
-      cut_area += touched;
-      if (head) means.of.recession_per_s += touched * solid_mean.recession_per_s;
-      // a sheet over air holds the tool whole; one over void tissue only as far as there is solid tissue ahead
-      solid_share = void_share > 0.0 ? solid_share / (solid_share + void_share) : 1.0;
-      solid_area += touched * solid_share;
-      means.of.stiffness_n_per_mm += touched * solid_share * solid_mean.stiffness_n_per_mm;
-      means.of.damping_n_s_per_mm += touched * solid_share * solid_mean.damping_n_s_per_mm;
-      if (head) count_void(touched * (1.0 - solid_share));
-    }
-    if (head) count_void(area * (1.0 - touch) * void_share);
-  };
-  const auto void_near = [&](const ToolPatch& patch) {
-    return voids.clear_mm(tip + state.rotation * patch.centre_mm) <= patch.radius_mm + 3.0 * leaf;
-  };
-  std::fill_n(state.touched.counted.begin(), head_end, std::uint8_t{0});
-  std::size_t patch = 0;
-  bool near = void_near(tool.patches[patch]);
-  for (std::size_t n = 0; n < state.gathered.samples.size(); ++n) {
-    const std::uint32_t i = state.gathered.samples[n];
-    while (i >= tool.patches[patch].last) near = void_near(tool.patches[++patch]);  // samples stand in the order of their patches
-    const auto& s = tool.samples[i];
-    const bool head = i < head_end;
-    if (head) state.touched.counted[i] = 1;
-    const double seen = -dot(state.rotation * s.normal, state.normal);
-    const auto& h = state.gathered.half_spaces[n];
-    if (seen > 0.0) count(tip + state.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head, near);
-  }
-  if (state.touching) {  // a fine tip may touch between its samples: the furthest place counts a little, and alone if need be
-    constexpr double k_furthest_mm2 = 1e-3;
-    const Vec3 furthest = tip + state.rotation * tool.furthest_along(state.rotation.transposed(-state.normal));
-    count(furthest, k_furthest_mm2, tooth.sample(furthest, state.cursor).distance_mm, true, true);
-  }
-  for (std::size_t p = 0; p < tool.head_patches; ++p) {
-    if (!void_near(tool.patches[p])) continue;
-    for (std::uint32_t i = tool.patches[p].first; i < tool.patches[p].last; ++i) {
-      if (state.touched.counted[i] != 0) continue;
-      const auto& s = tool.samples[i];
-      const double seen = -dot(state.rotation * s.normal, state.normal);
-      if (seen <= 0.0) continue;
-      const Vec3 at = tip + state.rotation * s.at_mm + ahead;
-      if (tooth.tissue_at(at, state.cursor) != k_air)
-        count_void(s.area_mm2 * seen * mean_of(tooth, tooth.mix(at, state.cursor), tissue, false, void_mean));
-    }
-  }
-  state.touched.even = !means.void_tissue && least_n_per_mm > 0.999 * most_n_per_mm;
-  means.touching = cut_area > 1e-9;
-  if (!means.touching) {
-    means.of = {};
-    return means;
-  }
-  const double area = solid_area + void_area;
-  means.of.stiffness_n_per_mm /= area;
-  means.of.damping_n_s_per_mm /= area;
-  means.of.recession_per_s /= cut_area;
-  return means;
+  TouchedMemory& memory = state.touched;
+  if (still_hold(tooth.leaf_mm(), tip, state)) return memory.means;
+  memory.late = false;
+  memory.turned_rad = state.turned_rad;
+  memory.tip_mm = tip;
+  memory.edit = state.gathered.edit;
+  memory.normal = state.normal;
+  Touching touching(tooth, tool, voids, tissue, tip, state);
+  touching.count_gathered();
+  if (state.touching) touching.count_furthest();
+  touching.count_void_ahead();
+  memory.even = touching.even();
+  memory.means = touching.means();
+  return memory.means;
 }
 
 }  // namespace cavum

@@ -1,7 +1,10 @@
 #include "engine/cutting/carve_head.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "engine/base/hash.h"
 
 namespace cavum {
 namespace {
@@ -95,11 +98,11 @@ struct HeadShape {
 
 }  // namespace
 
-void begin_carving(HeadCarving& carving, const CarvedHead& head, double ease_mm) noexcept {
+void begin_carving(HeadCarving& carving, const CarvedHead& head) noexcept {
   carving.now = head;
-  carving.ease_mm = ease_mm;
   carving.plan.clear();
   carving.worked_out = false;
+  carving.swept_mm = 0.0;
 }
 
 void drop_carving(HeadCarving& carving) noexcept { carving.now.point = -1; }
@@ -115,14 +118,14 @@ CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoin
     const Vec3 low{std::min(now.tip_mm.x, end.x) - r, std::min(now.tip_mm.y, end.y) - r, std::min(now.tip_mm.z, end.z) - r};
     const Vec3 high{std::max(now.tip_mm.x, end.x) + r, std::max(now.tip_mm.y, end.y) + r, std::max(now.tip_mm.z, end.z) + r};
     HeadShape shape(head, now.tip_mm, now.rotation, leaf);
-    if (last.point == now.point && carving.ease_mm == 0.0 && last.rotation == now.rotation) {
+    if (last.point == now.point && last.rotation == now.rotation) {
       shape.only_leading = true;
       shape.band_mm = (k_distance_band_leaves + 0.25) * leaf;
       shape.way = now.rotation.transposed(now.tip_mm - last.tip_mm);
       shape.across_mm = std::sqrt(shape.way.x * shape.way.x + shape.way.y * shape.way.y);
     }
     // Trilinear interpolation of a hollow of radius R lies leaf²/(8R) a direction inside it, rounding of the codes adds 0.01 leaf.
-    const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm) + carving.ease_mm;
+    const double clearance_mm = leaf * (0.01 + 0.25 * leaf / head.smallest_radius_mm);
     carving.worked_out = all = tooth.plan(low, high, shape, clearance_mm, work, carving.plan);
     if (work < k_at_once) return CarvingStep::under_way;
   }
@@ -131,6 +134,13 @@ CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoin
   carving.last = room ? now : CarvedHead{};
   carving.now.point = -1;
   return room ? CarvingStep::done : CarvingStep::no_room;
+}
+
+std::uint64_t hash_of(const HeadCarving& c, std::uint64_t seed) noexcept {
+  const std::array<double, 7> ways{c.last.tip_mm.x, c.last.tip_mm.y, c.last.tip_mm.z, c.now.tip_mm.x, c.now.tip_mm.y, c.now.tip_mm.z, c.swept_mm};
+  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(c.last.point), static_cast<std::uint64_t>(c.now.point),
+                                           c.under_way() ? c.plan.progress() : 0};
+  return fast_hash(whole.data(), sizeof whole, fast_hash(ways.data(), sizeof ways, seed));
 }
 
 }  // namespace cavum

@@ -19,16 +19,16 @@ struct CarvedHead {
 
 /// A carve is worked out over several ticks and made in the last of them.
 struct HeadCarving {
-  CarvedHead last;       ///< the last complete carve, to know what is done already
-  CarvedHead now;        ///< the carve under way
-  double ease_mm = 0.0;  ///< widens the distance field (not the labels) around the whole head, for one that is clamped in its hole
+  CarvedHead last;  ///< the last complete carve, to know what is done already
+  CarvedHead now;   ///< the carve under way
   Octree::Plan plan;
   bool worked_out = false;  ///< the plan is complete
+  double swept_mm = 0.0;    ///< way of the tool since `now` began; whoever moves it counts
   [[nodiscard]] bool under_way() const noexcept { return now.point >= 0; }
 };
 
 /// Begins to carve a head; what was under way is dropped.
-void begin_carving(HeadCarving& carving, const CarvedHead& head, double ease_mm) noexcept;
+void begin_carving(HeadCarving& carving, const CarvedHead& head) noexcept;
 void drop_carving(HeadCarving& carving) noexcept;
 
 enum class CarvingStep { under_way, done, no_room };
@@ -40,5 +40,8 @@ inline constexpr int k_at_once = 1 << 30;
 /// the last carve is carved on its leading side alone: behind it nothing can change, for all heads are convex.
 /// `no_room`: part of the head was not carved, and the carving is over.
 CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoint& head, int work, std::vector<RemovedLeaf>& removed) noexcept;
+
+/// For state_hash; the tooth has its own.
+[[nodiscard]] std::uint64_t hash_of(const HeadCarving& carving, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

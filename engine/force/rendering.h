@@ -3,6 +3,7 @@
 // Voigt law at rest and at constant speed, and stays passive in between.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "engine/force/voigt.h"
@@ -32,5 +33,8 @@ void update_speed(const RenderingModel& model, RenderState& state, bool touching
 [[nodiscard]] double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm,
                                     double approach_mm, double dt_s, double terms_n = 0.0,
                                     double fastest_mm_s = std::numeric_limits<double>::infinity()) noexcept;
+
+/// For state_hash.
+[[nodiscard]] std::uint64_t hash_of(const RenderState& state, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

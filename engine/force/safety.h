@@ -26,4 +26,7 @@ struct SafetyState {
 /// The force that may go to the device. Sets bits of TickNotice in `notices`.
 [[nodiscard]] Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bool fresh, double dt_s, std::uint16_t& notices) noexcept;
 
+/// For state_hash.
+[[nodiscard]] std::uint64_t hash_of(const SafetyState& state, std::uint64_t seed) noexcept;
+
 }  // namespace cavum

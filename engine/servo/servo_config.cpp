@@ -1,7 +1,8 @@
+#include "engine/servo/servo_config.h"
+
 #include <sstream>
 
 #include "engine/base/toml_reader.h"
-#include "engine/servo/servo.h"
 
 namespace cavum {
 

@@ -77,4 +77,7 @@ struct TickRecord {
 
 [[nodiscard]] TickRecord make_tick_record(const TickOutput& output) noexcept;
 
+/// For state_hash: over all that was recorded so far, when `seed` is that of the record before.
+[[nodiscard]] std::uint64_t hash_of(const TickRecord& record, std::uint64_t seed) noexcept;
+
 }  // namespace cavum

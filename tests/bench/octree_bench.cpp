@@ -55,7 +55,7 @@ double drill_on_us(const Tooth& block, const DiamondPoint& point) {
   for (double z = 0; z > -3.0; z -= 0.25 * tree.leaf_mm()) {
     removed.clear();
     const double begin = thread_us();
-    begin_carving(carving, {{0.013, 0.007, z}, {}, 0}, 0.0);
+    begin_carving(carving, {{0.013, 0.007, z}, {}, 0});
     (void)go_on_carving(carving, tree, point, k_at_once, removed);
     if (z < -1.5) us.push_back(thread_us() - begin);
   }

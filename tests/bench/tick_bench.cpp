@@ -6,8 +6,10 @@
 // often and how long that stops a thread which does nothing but ask for the time is printed first.
 //   tick_bench [TICKS [TOOTH.cvt]]   times; with a tooth file also on that tooth
 //   tick_bench count LEAF            drills 2000 ticks in a block, for valgrind --tool=callgrind --toggle-collect='cavum::step*'
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include "engine/base/error.h"
@@ -75,20 +77,44 @@ std::vector<double> drill(const Tooth& tooth, const DiamondPoint& point, Vec3 to
   return us;
 }
 
+/// Slides to and fro over a block at `speed_mm_s`, 0.3 mm deeper each second, at ticks of 0.25 ms; `sways` as in a hand, by 0.001 rad from tick to
+/// tick.
+std::vector<double> slide(const Tooth& tooth, const DiamondPoint& point, double speed_mm_s, bool sways, int ticks) {
+  constexpr double k_tick = 0.25e-3, k_half_mm = 1.2;
+  const Vec3 start{-k_half_mm, 0, 0.05};
+  Rig rig(tooth, {point}, shipped_model("consistent"), start, k_tick);
+  rig.spin_up(start);
+  Random random(1);
+  std::vector<double> us;
+  for (int i = 0; i < ticks; ++i) {
+    const double t = i * k_tick, way = std::fmod(speed_mm_s * t, 4 * k_half_mm);
+    const Vec3 at{way < 2 * k_half_mm ? way - k_half_mm : 3 * k_half_mm - way, 0, start.z - 0.3 * t};
+    const Quat turned = sways ? normalized(Quat{1, random.uniform(-0.001, 0.001), random.uniform(-0.001, 0.001), 0}) : Quat{};
+    rig.input = make_tick_input({at, turned}, 1.0, k_stylus_fresh | k_pedal_fresh, 0, rig.input);
+    const double begin = thread_us();
+    (void)step(rig.model, rig.state, rig.input);
+    us.push_back(thread_us() - begin);
+  }
+  return us;
+}
+
 constexpr int k_repeats = 5;
-/// All ticks of equal drillings, and the least time of each tick.
+/// All ticks of equal motions, and the least time of each tick.
 struct Repeated {
   std::vector<double> all_us, least_us;
 };
-Repeated drill_repeatedly(const Tooth& tooth, const DiamondPoint& point, Vec3 top, int ticks) {
+Repeated repeatedly(const std::function<std::vector<double>()>& motion) {
   Repeated r;
   for (int i = 0; i < k_repeats; ++i) {
-    const auto us = drill(tooth, point, top, ticks);
+    const auto us = motion();
     r.all_us.insert(r.all_us.end(), us.begin(), us.end());
     if (i == 0) r.least_us = us;
     for (std::size_t k = 0; k < us.size(); ++k) r.least_us[k] = std::min(r.least_us[k], us[k]);
   }
   return r;
+}
+Repeated drill_repeatedly(const Tooth& tooth, const DiamondPoint& point, Vec3 top, int ticks) {
+  return repeatedly([&] { return drill(tooth, point, top, ticks); });
 }
 
 std::vector<double> in_air(const Tooth& tooth, const DiamondPoint& point, double top_mm, int ticks) {
@@ -180,6 +206,13 @@ int run(int argc, char** argv) {
   line("block, round-1.0, out of contact", quantiles(in_air(tooth, ball, 0, ticks)));
   for (const auto& name : testing_engine::point_names())
     (void)lines(name.c_str(), drill_repeatedly(tooth, testing_engine::diamond_point(name), {0, 0, 0}, ticks / 2));
+  for (const char* name : {"round-1.4", "endo-access-1.0"})
+    for (const double speed_mm_s : {2.0, 10.0, 40.0})
+      for (const bool sways : {false, true}) {
+        char what[80];
+        std::snprintf(what, sizeof what, "%s slides, %g mm/s%s, 0.25 ms ticks", name, speed_mm_s, sways ? ", swaying" : "");
+        (void)lines(what, repeatedly([&] { return slide(tooth, testing_engine::diamond_point(name), speed_mm_s, sways, 4 * ticks); }));
+      }
   if (real) {
     // straight down from the first solid leaf over the middle of the crown
     Vec3 top{0, 0, 12};

@@ -95,7 +95,7 @@ Recording read_session_recording(const std::string& path, const std::string& for
   std::vector<std::vector<Row>> contacts(1);
   std::map<int, double> removed;
   std::int64_t tick = 0;
-  Vec3 last_tip = simulation.state.last_tip_mm;
+  Vec3 last_tip = simulation.state.estimate.tip_mm;
   for (std::size_t chunk = 0; chunk < session.chunks().size(); ++chunk) {
     const ChunkMotion motion = session.motion(chunk);
     for (std::size_t i = 0; i < motion.inputs.size(); ++i, ++tick) {
@@ -105,8 +105,8 @@ Recording read_session_recording(const std::string& path, const std::string& for
         throw Error(path, "its replay differs from the record at tick " + std::to_string(tick), "see what `cavum replay --verify` says of it");
       double& worn = removed[input.point];
       worn += out.removed_count * simulation.state.tooth.leaf_volume_mm3();
-      const Vec3 moved = simulation.state.last_tip_mm - last_tip;
-      last_tip = simulation.state.last_tip_mm;
+      const Vec3 moved = simulation.state.estimate.tip_mm - last_tip;
+      last_tip = simulation.state.estimate.tip_mm;
       if (!out.contact) {
         if (!contacts.back().empty()) contacts.emplace_back();
         continue;

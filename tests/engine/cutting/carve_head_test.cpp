@@ -19,7 +19,7 @@ std::vector<RemovedLeaf> room() {
 
 /// A whole carve in one call; false when room ran out.
 bool carve(Octree& tooth, const DiamondPoint& point, const CarvedHead& head, HeadCarving& carving, std::vector<RemovedLeaf>& removed) {
-  begin_carving(carving, head, 0.0);
+  begin_carving(carving, head);
   return go_on_carving(carving, tooth, point, k_at_once, removed) == CarvingStep::done;
 }
 
@@ -105,7 +105,7 @@ TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
     for (int i = 0; i < 6; ++i) {
       tip += random_direction(random) * random.uniform(0.002, 0.05);
       ASSERT_TRUE(carve(one.octree, point, {tip, turned, 0}, at_once, removed_one));
-      begin_carving(spread, {tip, turned, 0}, 0.0);
+      begin_carving(spread, {tip, turned, 0});
       const auto before = two.octree.edit_hash();
       const auto listed = removed_two.size();
       for (CarvingStep step = CarvingStep::under_way; step == CarvingStep::under_way; ++calls) {
@@ -136,7 +136,7 @@ TEST(CarveHead, WhatIsDroppedWasNeverCarved) {
   auto removed = room();
   HeadCarving carving;
   const auto before = tooth.octree.edit_hash();
-  begin_carving(carving, {{0, 0, -0.5}, Mat3{}, 0}, 0.0);
+  begin_carving(carving, {{0, 0, -0.5}, Mat3{}, 0});
   ASSERT_EQ(go_on_carving(carving, tooth.octree, point, 1000, removed), CarvingStep::under_way);
   drop_carving(carving);
   EXPECT_FALSE(carving.under_way());

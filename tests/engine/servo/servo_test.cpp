@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
@@ -72,6 +74,40 @@ TEST(Servo, TheHashSeesASingleNanometreAndASinglePedalStep) {
   }
 }
 
+TEST(Servo, TheHashSeesTheStateOfEveryStage) {
+  Rig rig = wild_rig();
+  Random random(7);
+  TickInput in;
+  for (int i = 0; i < 1200; ++i) {
+    in = wild(random, i, in);
+    (void)step(rig.model, rig.state, in);
+  }
+  ServoState& s = rig.state;
+  std::set<std::uint64_t> seen{state_hash(s)};
+  const auto changed = [&](auto& part, auto by) {
+    const auto before = part;
+    part += by;
+    EXPECT_TRUE(seen.insert(state_hash(s)).second) << "change " << seen.size();
+    part = before;
+  };
+  changed(s.tick, 1);
+  changed(s.trace_hash, 1);
+  changed(s.handpiece.rpm, 1.0);
+  changed(s.estimate.speed_mm_s.x, 1e-9);
+  changed(s.contact.proxy_mm.z, 1e-9);
+  changed(s.contact.stride_mm, 1e-9);
+  changed(s.recession.owed_mm, 1e-9);
+  changed(s.recession.followed_edit, 1);
+  changed(s.recession.head.tip_mm.y, 1e-9);
+  changed(s.render.branch_n, 1e-9);
+  changed(s.carving.swept_mm, 1e-9);
+  changed(s.carving.last.tip_mm.x, 1e-9);
+  changed(s.safety.used_budget_n_s, 1e-9);
+  s.terms.count = 1;
+  changed(s.terms.memory[0][0], 1e-9);
+  EXPECT_EQ(seen.size(), 15u);
+}
+
 TEST(Servo, TheHandpieceSpinsUpExponentiallyWithThePedal) {
   Rig rig = wild_rig();
   for (int i = 1; i <= 600; ++i) {
@@ -79,7 +115,7 @@ TEST(Servo, TheHandpieceSpinsUpExponentiallyWithThePedal) {
     ASSERT_NEAR(out.rpm, 100000 * (1 - std::exp(-i * 0.001 / 0.15)), 250);
   }
   for (int i = 0; i < 2000; ++i) (void)rig.tick({0, 0, 1}, 0.0);
-  EXPECT_EQ(rig.state.rpm, 0.0);
+  EXPECT_EQ(rig.state.handpiece.rpm, 0.0);
 }
 
 TEST(Servo, ForceFallsWhenTheTipBreaksThroughIntoThePulp) {

@@ -195,7 +195,7 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
     }
     tip += Vec3{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.05)};
     removed.clear();
-    begin_carving(carving, {tip, turned, 0}, 0.0);
+    begin_carving(carving, {tip, turned, 0});
     ASSERT_EQ(go_on_carving(carving, tree, point, k_at_once, removed), CarvingStep::done);
     all_removed += removed.size();
 
