@@ -134,7 +134,7 @@ Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
     if (const Mechanism& m = mechanisms()[at]; is_offset(m))
       for (auto& shape : starts(m, v.scene)) {
         causes[i] = {static_cast<int>(at), shape};
-        if (const double chi2 = fit_terms(v, causes).chi2; chi2 < least) least = chi2, best = causes[i];
+        if (const double chi2 = penalised_chi2(v, causes); chi2 < least) least = chi2, best = causes[i];
       }
   return best;
 }

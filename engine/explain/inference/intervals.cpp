@@ -7,9 +7,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_same_chi2 = 10.0;  // another variant of the formula this close fits as well
-constexpr double k_clock_rows =
-    0.05;  // standard deviation of the instant to which a row belongs, in rows: position and force are read one after the other
+constexpr double k_same_chi2 = 10.0;   // another variant of the formula this close fits as well
 constexpr double k_normal = 1.959964;  // of 95 %
 
 /// Parameters of all causes, then k and c, from shapes and a fit with tangents (or without: tangents 0).
@@ -107,7 +105,7 @@ void set_parameters(Explanation& e, const View& v, const Null& null, double infl
   std::vector<std::vector<Interval>> interval(middle.size());
   for (std::size_t c = 0; c < middle.size(); ++c) {
     const auto forms = c < v.causes.size() ? other_forms(v, c, inflation) : std::vector<std::vector<NamedValue>>{};
-    const bool lag = c < v.causes.size() && mechanism_at(v.causes[c].mechanism).like_when_short != nullptr;
+    const double open = c < v.causes.size() && mechanism_at(v.causes[c].mechanism).open ? mechanism_at(v.causes[c].mechanism).open(v.scene) : 0.0;
     for (std::size_t p = 0; p < middle[c].size(); ++p) {
       const double value = middle[c][p].value;
       Eigen::VectorXd slope(truth.size());
@@ -126,7 +124,7 @@ void set_parameters(Explanation& e, const View& v, const Null& null, double infl
         scatter += d * d / n;
       }
       if (n > 3.0) variance = std::max(variance, (scatter - bias * bias) * n / (n - 1.0)) + bias * bias;
-      if (lag && middle[c][p].name == "tau_s") variance += std::pow(k_clock_rows * v.scene.dt_s.mean(), 2);
+      variance += open * open;
       double half = k_normal * std::sqrt(std::max(0.0, variance));
       std::vector<double> left;
       for (const auto& w : without) left.push_back(w[c][p].value);

@@ -177,6 +177,7 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   }
   if (!options.products) return v;
 
+  v.scene.left_n = v.residual_n;
   const Whitening white = whitening_of(v);
   {
     Series z = v.residual_n;
