@@ -1,5 +1,6 @@
 #include "grading/result/result_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -126,6 +127,13 @@ Json to_json(const Result& r) {
     j["access"]["target_taper_deg"] = optional(r.access.target_taper_deg);
     put_bounds(j, r, "/access/bounds/");
     j["access"]["bounds"]["target_taper_deg"] = rounded(r.access.target_taper_bound_deg);
+  }
+  // only where it is asked for: a session graded before this was known grades to the same text
+  if (std::any_of(r.criteria.begin(), r.criteria.end(),
+                  [](const CriterionResult& c) { return json_place(known_measure(c.metric)).starts_with("/pulp/"); })) {
+    put_values(j, r, {"/pulp/"});
+    j["pulp"].update({{"thinnest_site_mm", place_of(r.over_pulp.thinnest)}, {"thinnest_tick", tick_of(r.over_pulp.thinnest)}});
+    put_bounds(j, r, "/pulp/bounds/");
   }
   Json events = Json::array();
   for (const auto& e : r.perforation.events)
