@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/explain/model/mechanism.h"
+#include "engine/explain/model/surface_offsets.h"
 
 namespace cavum::explain {
 namespace {
@@ -44,95 +45,23 @@ Columns drift_columns(const Scene& s, const Shape& p) {
   return {{t}, {}, {}};
 }
 
-constexpr double k_farthest_mm = 0.5;       // docs/physics.md section 13
-constexpr Eigen::Index k_least_rows = 20;   // in air, and in contact: with fewer of either an offset of the surface is one of the force
-constexpr Eigen::Index k_looked_at = 2000;  // rows of a session that a start is found from
-// a start is looked for in ever finer steps, this far to both sides of the one before; k and c are fitted in between
-constexpr std::array k_steps_mm{0.005, 0.0025, 0.0005, 0.0005}, k_reach_mm{k_farthest_mm, 0.04, 0.01, 0.01};
-
 constexpr std::array k_delta_names{"delta_1_mm", "delta_2_mm", "delta_3_mm", "delta_4_mm",  "delta_5_mm",  "delta_6_mm",
                                    "delta_7_mm", "delta_8_mm", "delta_9_mm", "delta_10_mm", "delta_11_mm", "delta_12_mm"};
 
-/// Columns of k and c in one row, had the surface been `delta_mm` nearer to the tool.
-struct Pressed {
-  double spring_mm = 0, damper_mm_s = 0;
-};
-
-Pressed pressed(const Scene& s, Eigen::Index i, double delta_mm, Base base) {
-  const double x = s.motion.x_mm[i] + delta_mm;
-  const double spring = x * relative_at(s.recording->relative_k, i), damper = s.motion.v_mm_s[i] * relative_at(s.recording->relative_c, i);
-  if (base.k_n_per_mm > 0.0 && base.k_n_per_mm * spring + base.c_n_s_per_mm * damper <= 0.0) return {};
-  const double touching = touching_probability(x, s.motion.sd_x_mm[i]);
-  return {touching * spring, touching * damper};
-}
-
-/// Rows that share an offset: those of a session, or all.
-std::vector<SessionRows> groups_of(const Recording& r) {
-  if (session_groups(r) > 1) return r.sessions;
-  return {{"all", 0, r.rows()}};
-}
-
-bool crosses_the_surface(const Scene& s, const SessionRows& rows) {
-  const auto x = s.motion.x_mm.segment(rows.begin, rows.end - rows.begin);
-  return (x < 0.0).count() >= k_least_rows && (s.active.segment(rows.begin, rows.end - rows.begin) > 0.5).count() >= k_least_rows;
-}
-
-/// Offsets that fit what is left best, all together with k and c: a start for the search. 0 where a session cannot show one.
-Shape offsets_of(const Scene& s) {
-  const std::vector<SessionRows> groups = groups_of(*s.recording);
-  Shape delta(k_delta_names.size(), 0.0);
-  Base base = s.base;
-  const auto measured_n = [&](Eigen::Index i) { return s.left_n[i] + s.base.k_n_per_mm * s.spring_mm[i] + s.base.c_n_s_per_mm * s.damper_mm_s[i]; };
-  const auto each_row = [](const SessionRows& rows, const auto& visit) {
-    const Eigen::Index step = std::max<Eigen::Index>(1, (rows.end - rows.begin) / k_looked_at);
-    for (Eigen::Index i = rows.begin; i < rows.end; i += step) visit(i);
-  };
-  for (std::size_t round = 0; round < k_steps_mm.size(); ++round) {
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      if (!crosses_the_surface(s, groups[g])) continue;
-      const auto misfit = [&](double d) {
-        double sum = 0.0;
-        each_row(groups[g], [&](Eigen::Index i) {
-          const Pressed p = pressed(s, i, d, base);
-          const double gap = measured_n(i) - base.k_n_per_mm * p.spring_mm - base.c_n_s_per_mm * p.damper_mm_s;
-          sum += s.weight[i] * std::fabs(gap);  // not its square: one row that is wrong must not outweigh the others
-        });
-        return sum;
-      };
-      // every row that a wrong surface puts into contact, or takes out of it, is a step of c V: many narrow valleys, so all are looked into
-      const double middle = delta[g], step = k_steps_mm[round], reach = k_reach_mm[round];
-      double best = middle, least = misfit(middle);
-      for (double d = std::max(-k_farthest_mm, middle - reach); d <= std::min(k_farthest_mm, middle + reach); d += step)
-        if (const double m = misfit(d); m < least) least = m, best = d;
-      delta[g] = best;
-    }
-    double xx = 0, xv = 0, vv = 0, xf = 0, vf = 0;
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      each_row(groups[g], [&](Eigen::Index i) {
-        const auto [x, v] = pressed(s, i, delta[g], base);
-        const double w = s.weight[i], f = measured_n(i);
-        xx += w * x * x, xv += w * x * v, vv += w * v * v, xf += w * x * f, vf += w * v * f;
-      });
-    const double det = xx * vv - xv * xv;
-    if (!(det > 1e-9 * xx * vv)) break;
-    base = {std::max(1e-9, (vv * xf - xv * vf) / det), std::max(0.0, (xx * vf - xv * xf) / det)};
-  }
-  return delta;
-}
-
 Grid contact_grid(const Scene& s) {
   if (s.left_n.size() == 0) return {};
-  Shape delta = offsets_of(s);
+  Shape delta = surface_offsets_mm(s);
   if (std::all_of(delta.begin(), delta.end(), [](double d) { return d == 0.0; })) return {};
+  delta.resize(k_delta_names.size(), 0.0);
   return {std::move(delta)};
 }
 
 Columns contact_columns(const Scene& s, const Shape& delta) {
   Columns c{{}, -s.spring_mm, -s.damper_mm_s};
-  const std::vector<SessionRows> groups = groups_of(*s.recording);
+  const std::vector<SessionRows> groups = rows_of_one_surface(*s.recording);
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (Eigen::Index i = groups[g].begin; i < groups[g].end; ++i) {
-      const Pressed p = pressed(s, i, delta[g], s.base);
+      const PressedRow p = pressed_at(s, i, delta[g], s.base);
       c.spring[i] += p.spring_mm;
       c.damper[i] += p.damper_mm_s;
     }
@@ -150,7 +79,7 @@ double between_rows_mm(const Scene& s) {
 
 std::vector<ShapeRange> contact_shape() {
   std::vector<ShapeRange> out;
-  for (const char* name : k_delta_names) out.push_back({name, -k_farthest_mm, k_farthest_mm, false, true});
+  for (const char* name : k_delta_names) out.push_back({name, -k_farthest_surface_mm, k_farthest_surface_mm, false, true});
   return out;
 }
 
