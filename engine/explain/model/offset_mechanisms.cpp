@@ -50,10 +50,13 @@ constexpr std::array k_delta_names{"delta_1_mm", "delta_2_mm", "delta_3_mm", "de
 
 Grid contact_grid(const Scene& s) {
   if (s.left_n.size() == 0) return {};
-  Shape delta = surface_offsets_mm(s);
-  if (std::all_of(delta.begin(), delta.end(), [](double d) { return d == 0.0; })) return {};
-  delta.resize(k_delta_names.size(), 0.0);
-  return {std::move(delta)};
+  Grid g;
+  for (auto& delta : surface_offsets_mm(s)) {
+    if (std::all_of(delta.begin(), delta.end(), [](double d) { return d == 0.0; })) continue;
+    delta.resize(k_delta_names.size(), 0.0);
+    g.push_back(std::move(delta));
+  }
+  return g;
 }
 
 Columns contact_columns(const Scene& s, const Shape& delta) {

@@ -10,6 +10,7 @@ namespace cavum::explain {
 namespace {
 
 constexpr Eigen::Index k_least_rows = 20;   // in air, and in contact
+constexpr double k_none_mm = 1e-9;          // an offset that is fitted, and not 0: a shape of 0 is one that is not there
 constexpr double k_ridge = 1e-6;            // of a column's own norm
 constexpr Eigen::Index k_looked_at = 2000;  // rows of a session that an estimate is made from
 // Offsets are looked for in steps, this far to both sides of those before; in between they move together with k and c.
@@ -101,19 +102,20 @@ std::vector<SessionRows> rows_of_one_surface(const Recording& r) {
   return {{"all", 0, r.rows()}};
 }
 
-std::vector<double> surface_offsets_mm(const Scene& s) {
+std::vector<std::vector<double>> surface_offsets_mm(const Scene& s) {
   const std::vector<SessionRows> all = rows_of_one_surface(*s.recording);
   Estimate e{s, {}, {}, {}, s.base};
   for (std::size_t g = 0; g < all.size(); ++g)
     if (crosses_the_surface(s, all[g])) e.groups.push_back(all[g]), e.index.push_back(g);
   e.delta_mm.assign(e.groups.size(), 0.0);
+  std::vector<std::vector<double>> found;
   for (std::size_t round = 0; round < k_steps_mm.size() && !e.groups.empty(); ++round) {
     if (round > 0) e.solve();
     e.scan(k_steps_mm[round], k_reach_mm[round]);
+    found.emplace_back(all.size(), 0.0);
+    for (std::size_t g = 0; g < e.groups.size(); ++g) found.back()[e.index[g]] = e.delta_mm[g] != 0.0 ? e.delta_mm[g] : k_none_mm;
   }
-  std::vector<double> out(all.size(), 0.0);
-  for (std::size_t g = 0; g < e.groups.size(); ++g) out[e.index[g]] = e.delta_mm[g];
-  return out;
+  return found;
 }
 
 }  // namespace cavum::explain

@@ -22,8 +22,9 @@ struct PressedRow {
 /// Rows that share an offset: those of each session, or all when there are more than 12.
 [[nodiscard]] std::vector<SessionRows> rows_of_one_surface(const Recording& recording);
 
-/// Offsets that fit `scene.left_n` together with k and c, mm; 0 for a session without motion in air or without contact: there an offset of the
-/// surface is one of the force.
-[[nodiscard]] std::vector<double> surface_offsets_mm(const Scene& scene);
+/// Offsets that fit `scene.left_n` together with k and c, mm, one for each of `rows_of_one_surface`: several estimates, coarse ones first, for a
+/// finer one is not always better. 0 for a session without motion in air or without contact: there an offset of the surface is one of the force.
+/// Empty when all sessions are like that.
+[[nodiscard]] std::vector<std::vector<double>> surface_offsets_mm(const Scene& scene);
 
 }  // namespace cavum::explain
