@@ -52,7 +52,6 @@ Grid contact_grid(const Scene& s) {
   if (s.left_n.size() == 0) return {};
   Grid g;
   for (auto& delta : surface_offsets_mm(s)) {
-    if (std::all_of(delta.begin(), delta.end(), [](double d) { return d == 0.0; })) continue;
     delta.resize(k_delta_names.size(), 0.0);
     g.push_back(std::move(delta));
   }
