@@ -11,6 +11,7 @@
 #include "grading/measures/access.h"
 #include "grading/measures/cut_surface.h"
 #include "grading/measures/motion.h"
+#include "grading/measures/over_pulp.h"
 #include "grading/measures/removed_map.h"
 #include "grading/measures/volumes.h"
 #include "grading/result/loss.h"
@@ -160,6 +161,7 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.volumes = measure_volumes(input, removed, last_tick);
   r.shape = measure_shape(input, removed, last_tick);
   r.access = measure_access(input, removed, last_tick);
+  r.over_pulp = measure_over_pulp(input, removed, last_tick);
   r.pauses = find_pauses(input, ticks);
   for (const auto& e : input.events) r.pauses_refused += is_kind(e, ExamEventKind::pause_refused) ? 1 : 0;
   r.late_work = find_late_work(input);

@@ -148,6 +148,11 @@ Loss floor_cut(const Result& r, const Asked&) {
   return {"beginning at " + when(r.access.floor_first) + " at " + place(r.access.floor_first.site_mm), r.access.floor_first};
 }
 
+Loss dentin_over_pulp(const Result& r, const Asked&) {
+  const Trace& at = r.over_pulp.thinnest;
+  return {(*r.over_pulp.dentin_mm > 0 ? "thinnest at " : "the pulp was opened at ") + place(at.site_mm) + ", cut at " + when(at), at};
+}
+
 Loss time_over(const Result& r, const Asked& a) {
   Loss loss{"", clock_at(r, a.full)};
   if (loss.first.tick >= 0) loss.text = "that time was over at " + when(loss.first);

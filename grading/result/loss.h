@@ -28,7 +28,8 @@ namespace reason {
 [[nodiscard]] Loss overhang(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss canals_covered(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss floor_cut(const Result& measured, const Asked& asked);
-[[nodiscard]] Loss time_over(const Result& measured, const Asked& asked);  ///< when the time with full marks was over
+[[nodiscard]] Loss dentin_over_pulp(const Result& measured, const Asked& asked);  ///< where it is thinnest, and when that was cut
+[[nodiscard]] Loss time_over(const Result& measured, const Asked& asked);         ///< when the time with full marks was over
 [[nodiscard]] Loss force_peak(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss force_over_limit(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss fault_opened(const Result& measured, const Asked& asked);  ///< by the tissue

@@ -200,6 +200,13 @@ std::vector<MeasureMarking> shape_markings() {
        .reason = reason::floor_cut,
        .json = "/access/",
        .bound_json = "/access/bounds/"},
+      {.measure = "dentin_over_pulp_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.over_pulp.dentin_mm, r.over_pulp.bound_mm};
+       },
+       .reason = reason::dentin_over_pulp,
+       .json = "/pulp/",
+       .bound_json = "/pulp/bounds/"},
   };
 }
 

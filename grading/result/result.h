@@ -98,6 +98,14 @@ struct AccessMeasures {
   double target_taper_bound_deg = 0.0;
 };
 
+/// What was left between the cavity and the pulp; see grading/measures/over_pulp.h.
+struct OverPulpMeasures {
+  std::optional<double> dentin_mm;  ///< where it is thinnest; none without pulp, or where nothing hard was cut
+  double bound_mm = 0.0;
+  Trace thinnest;  ///< place on the cut surface, and when it was cut
+  Vec3 pulp_mm;    ///< nearest place on the pulp's wall
+};
+
 /// A breakthrough seen in the force.
 struct PerforationEvent {
   std::int64_t tick = 0;       ///< onset of the drop
@@ -191,6 +199,7 @@ struct Result {
   VolumeMeasures volumes;
   ShapeMeasures shape;
   AccessMeasures access;
+  OverPulpMeasures over_pulp;
   PerforationMeasures perforation;
   MotionMeasures motion;
   ProgressMeasures progress;

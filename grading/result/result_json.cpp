@@ -1,5 +1,6 @@
 #include "grading/result/result_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -66,6 +67,117 @@ void put_bounds(Json& j, const Result& r, const std::string& object) {
   }
 }
 
+Json score_json(const Result& r) {
+  return {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
+          {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
+          {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
+}
+
+Json criterion_json(const CriterionResult& c) {
+  Json j = {{"id", c.id},
+            {"title", c.title},
+            {"metric", c.metric},
+            {"value", optional(c.value)},
+            {"unit", c.unit},
+            {"bound", rounded(c.bound)},
+            {"points", rounded(c.points)},
+            {"max", rounded(c.max)},
+            {"points_bound", rounded(c.points_bound)},
+            {"critical_failed", c.critical_failed},
+            {"reason", c.reason},
+            {"first_tick", tick_of(c.first)},
+            {"first_t_s", time_of(c.first)}};
+  if (c.work_share < 1) j["work_share"] = rounded(c.work_share);
+  if (c.doubtful) j["doubtful"] = true;
+  return j;
+}
+
+void put_volumes(Json& j, const Result& r) {
+  Json tissues = Json::object(), bounds = Json::object();
+  for (const auto& t : r.tissues) {
+    tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
+    bounds[t.name] = rounded(r.volumes.tissue[t.id].bound_mm3);
+  }
+  j["volumes"] = {{"target_mm3", rounded(r.volumes.target.mm3)}};
+  put_values(j, r, {"/volumes/"});
+  put_values(j, r, {"/volumes/overcut/"});
+  j["volumes"]["tissue_mm3"] = tissues;
+  j["volumes"]["bounds"] = {{"target_mm3", rounded(r.volumes.target.bound_mm3)}};
+  put_bounds(j, r, "/volumes/bounds/");
+  j["volumes"]["bounds"]["tissue_mm3"] = bounds;
+}
+
+void put_shape(Json& j, const Result& r) {
+  j["walls"] = Json::object();
+  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape);
+  put_values(j, r, {"/shape/"});
+  j["shape"].update({{"target_length_mm", rounded(r.shape.target_length_mm)},
+                     {"target_width_mm", rounded(r.shape.target_width_mm)},
+                     {"target_depth_mm", rounded(r.shape.target_depth_mm)},
+                     {"bound_mm", rounded(r.shape.bound_mm)},
+                     {"taper_bound_deg", rounded(r.shape.taper_bound_deg)}});
+}
+
+/// Only where the task opens something.
+void put_access(Json& j, const Result& r) {
+  if (!r.access.overhang) return;
+  put_values(j, r, {"/access/"});
+  j["access"]["target_taper_deg"] = optional(r.access.target_taper_deg);
+  put_bounds(j, r, "/access/bounds/");
+  j["access"]["bounds"]["target_taper_deg"] = rounded(r.access.target_taper_bound_deg);
+}
+
+/// Only where it is asked for: a session graded before this was known grades to the same text.
+void put_pulp(Json& j, const Result& r) {
+  const auto asks = [](const CriterionResult& c) { return json_place(known_measure(c.metric)).starts_with("/pulp/"); };
+  if (std::none_of(r.criteria.begin(), r.criteria.end(), asks)) return;
+  put_values(j, r, {"/pulp/"});
+  j["pulp"].update({{"thinnest_site_mm", place_of(r.over_pulp.thinnest)}, {"thinnest_tick", tick_of(r.over_pulp.thinnest)}});
+  put_bounds(j, r, "/pulp/bounds/");
+}
+
+Json perforation_json(const PerforationMeasures& p) {
+  Json events = Json::array();
+  for (const auto& e : p.events)
+    events.push_back({{"t_s", rounded(static_cast<double>(e.tick) * k_tick_s)},
+                      {"tick", e.tick},
+                      {"seen_t_s", rounded(static_cast<double>(e.seen_tick) * k_tick_s)},
+                      {"site_mm", point(e.site_mm)},
+                      {"force_before_n", rounded(e.force_before_n)},
+                      {"force_after_n", rounded(e.force_after_n)},
+                      {"sureness", rounded(e.sureness)},
+                      {"advance_mm", rounded(e.advance_mm)},
+                      {"kind", e.fault ? "fault" : "aim"},
+                      {"confirmed", e.confirmed}});
+  return {{"detected", p.detected()}, {"events", events}, {"truth", truth_json(p.fault)}, {"aim", truth_json(p.aim)}, {"agree", p.agree()}};
+}
+
+Json pauses_json(const Result& r) {
+  Json list = Json::array();
+  std::int64_t sum = 0;
+  for (const auto& p : r.pauses) {
+    list.push_back({{"from_tick", p.begin}, {"to_tick", p.end}});
+    sum += p.end - p.begin;
+  }
+  return {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
+}
+
+/// Only where there is something to say: a session graded before these were known grades to the same text.
+void put_what_there_was(Json& j, const Result& r) {
+  const auto& a = r.accommodations;
+  if (a != Accommodations{}) {
+    j["accommodations"] = {{"extra_time_percent", a.extra_time_percent},
+                           {"extra_time_s", a.extra_time_s},
+                           {"left_handed", a.left_handed},
+                           {"high_contrast", a.high_contrast}};
+    j["time_limit_s"] = rounded(static_cast<double>(r.limit_ticks) * k_tick_s);
+  }
+  if (!r.pauses.empty() || r.pauses_refused > 0) j["pauses"] = pauses_json(r);
+  if (r.motion.lost_s > 0) j["lost_time_s"] = rounded(r.motion.lost_s);
+  if (r.motion.late_ticks > 0) j["late_removed_mm3"] = rounded(r.motion.late_removed_mm3);
+  if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
+}
+
 std::string padded(std::string s, std::size_t width) {
   while (s.size() < width) s += ' ';
   return s;
@@ -80,70 +192,14 @@ Json to_json(const Result& r) {
   j["leaf_mm"] = r.leaf_mm;
   j["verdict"] = verdict_name(r.verdict);
   j["verdict_reasons"] = r.verdict_reasons;
-  j["score"] = {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
-                {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
-                {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
+  j["score"] = score_json(r);
   j["criteria"] = Json::array();
-  for (const auto& c : r.criteria) {
-    j["criteria"].push_back({{"id", c.id},
-                             {"title", c.title},
-                             {"metric", c.metric},
-                             {"value", optional(c.value)},
-                             {"unit", c.unit},
-                             {"bound", rounded(c.bound)},
-                             {"points", rounded(c.points)},
-                             {"max", rounded(c.max)},
-                             {"points_bound", rounded(c.points_bound)},
-                             {"critical_failed", c.critical_failed},
-                             {"reason", c.reason},
-                             {"first_tick", tick_of(c.first)},
-                             {"first_t_s", time_of(c.first)}});
-    if (c.work_share < 1) j["criteria"].back()["work_share"] = rounded(c.work_share);
-    if (c.doubtful) j["criteria"].back()["doubtful"] = true;
-  }
-  Json tissues = Json::object(), tissue_bounds = Json::object();
-  for (const auto& t : r.tissues) {
-    tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
-    tissue_bounds[t.name] = rounded(r.volumes.tissue[t.id].bound_mm3);
-  }
-  j["volumes"] = {{"target_mm3", rounded(r.volumes.target.mm3)}};
-  put_values(j, r, {"/volumes/"});
-  put_values(j, r, {"/volumes/overcut/"});
-  j["volumes"]["tissue_mm3"] = tissues;
-  j["volumes"]["bounds"] = {{"target_mm3", rounded(r.volumes.target.bound_mm3)}};
-  put_bounds(j, r, "/volumes/bounds/");
-  j["volumes"]["bounds"]["tissue_mm3"] = tissue_bounds;
-  j["walls"] = Json::object();
-  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape);
-  put_values(j, r, {"/shape/"});
-  j["shape"].update({{"target_length_mm", rounded(r.shape.target_length_mm)},
-                     {"target_width_mm", rounded(r.shape.target_width_mm)},
-                     {"target_depth_mm", rounded(r.shape.target_depth_mm)},
-                     {"bound_mm", rounded(r.shape.bound_mm)},
-                     {"taper_bound_deg", rounded(r.shape.taper_bound_deg)}});
-  if (r.access.overhang) {  // only where the task opens something
-    put_values(j, r, {"/access/"});
-    j["access"]["target_taper_deg"] = optional(r.access.target_taper_deg);
-    put_bounds(j, r, "/access/bounds/");
-    j["access"]["bounds"]["target_taper_deg"] = rounded(r.access.target_taper_bound_deg);
-  }
-  Json events = Json::array();
-  for (const auto& e : r.perforation.events)
-    events.push_back({{"t_s", rounded(static_cast<double>(e.tick) * k_tick_s)},
-                      {"tick", e.tick},
-                      {"seen_t_s", rounded(static_cast<double>(e.seen_tick) * k_tick_s)},
-                      {"site_mm", point(e.site_mm)},
-                      {"force_before_n", rounded(e.force_before_n)},
-                      {"force_after_n", rounded(e.force_after_n)},
-                      {"sureness", rounded(e.sureness)},
-                      {"advance_mm", rounded(e.advance_mm)},
-                      {"kind", e.fault ? "fault" : "aim"},
-                      {"confirmed", e.confirmed}});
-  j["perforation"] = {{"detected", r.perforation.detected()},
-                      {"events", events},
-                      {"truth", truth_json(r.perforation.fault)},
-                      {"aim", truth_json(r.perforation.aim)},
-                      {"agree", r.perforation.agree()}};
+  for (const auto& c : r.criteria) j["criteria"].push_back(criterion_json(c));
+  put_volumes(j, r);
+  put_shape(j, r);
+  put_access(j, r);
+  put_pulp(j, r);
+  j["perforation"] = perforation_json(r.perforation);
   put_values(j, r, {"/", "/force/"});
   j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
   j["violations"] = r.progress.violations;
@@ -153,27 +209,7 @@ Json to_json(const Result& r) {
   j["grading_version"] = k_grading_version;
   put_bounds(j, r, "/bounds/");
   j["bounds"]["force_n"] = rounded(r.motion.force_bound_n);  // of the mean and of the largest
-  // Only where there is something to say: a session graded before these were known grades to the same text.
-  const auto& a = r.accommodations;
-  if (a != Accommodations{}) {
-    j["accommodations"] = {{"extra_time_percent", a.extra_time_percent},
-                           {"extra_time_s", a.extra_time_s},
-                           {"left_handed", a.left_handed},
-                           {"high_contrast", a.high_contrast}};
-    j["time_limit_s"] = rounded(static_cast<double>(r.limit_ticks) * k_tick_s);
-  }
-  if (!r.pauses.empty() || r.pauses_refused > 0) {
-    Json list = Json::array();
-    std::int64_t sum = 0;
-    for (const auto& p : r.pauses) {
-      list.push_back({{"from_tick", p.begin}, {"to_tick", p.end}});
-      sum += p.end - p.begin;
-    }
-    j["pauses"] = {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
-  }
-  if (r.motion.lost_s > 0) j["lost_time_s"] = rounded(r.motion.lost_s);
-  if (r.motion.late_ticks > 0) j["late_removed_mm3"] = rounded(r.motion.late_removed_mm3);
-  if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
+  put_what_there_was(j, r);
   j["notes"] = r.notes;
   return j;
 }

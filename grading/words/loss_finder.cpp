@@ -309,6 +309,12 @@ void LossFinder::floor_cut() {
   }));
 }
 
+void LossFinder::dentin_over_pulp() {
+  const OverPulpMeasures& o = r_.over_pulp;
+  if (!o.dentin_mm) return;
+  fact(*o.dentin_mm > 0 ? "left over the pulp's wall at " + place(o.pulp_mm) : "the pulp was opened", o.dentin_mm, "mm", o.thinnest, o.bound_mm);
+}
+
 void LossFinder::tissue() {
   std::uint8_t id = k_air;
   for (const auto& t : r_.tissues)

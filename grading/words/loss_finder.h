@@ -31,6 +31,7 @@ class LossFinder {
   void overhang();
   void canals();
   void floor_cut();
+  void dentin_over_pulp();
   void tissue();
   void perforation();  ///< by tissue and by force
   void time();

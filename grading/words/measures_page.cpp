@@ -41,9 +41,11 @@ const char* needs_words(Needs needs) {
     case Needs::fault:
       return "a fault";
     case Needs::force_limit:
+      return "a force limit";
+    case Needs::pulp:
       break;
   }
-  return "a force limit";
+  return "a tooth with pulp";
 }
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }

@@ -42,6 +42,7 @@ const std::vector<MomentsOfMeasure>& moments_of_measures() {
       {.measure = "overhang_mm3", .words = "each piece of roof, last cut near it", .list = &LossFinder::overhang},
       {.measure = "canals_covered_percent", .words = "each mouth, last cut near it", .list = &LossFinder::canals},
       {.measure = "floor_cut_mm3", .words = "what was removed there", .list = &LossFinder::floor_cut},
+      {.measure = "dentin_over_pulp_mm", .words = "the thinnest place, when it was cut", .list = &LossFinder::dentin_over_pulp},
       {.measure = "time_s", .words = "events, idle times", .list = &LossFinder::time},
       {.measure = "handpiece_time_s", .words = "when it turned", .list = &LossFinder::handpiece_time},
       {.measure = "idle_s", .words = "idle times", .list = &LossFinder::idle},

@@ -148,6 +148,12 @@ std::vector<Measure> access_measures() {
        .most = &most::percent,
        .needs = Needs::aim},
       {.name = "floor_cut_mm3", .unit = "mm3", .words = "hard tissue removed below the target", .most = &most::tooth, .of_floor = true},
+      {.name = "dentin_over_pulp_mm",
+       .unit = "mm",
+       .words = "thinnest hard tissue left between the cavity and the pulp, 0 where it was opened",
+       .better = Better::more,
+       .most = &most::no_end,
+       .needs = Needs::pulp},
   };
 }
 

@@ -17,7 +17,7 @@ enum class Better { less, more, by_task };
 /// Work: an untouched tooth does badly in it of itself. Care: it does best in it, so care counts only for as much as was done.
 enum class Judges { care, work };
 /// What an exam must have for a measure to say anything.
-enum class Needs { nothing, protection, leeway_sides, leeway_bottom, container_sides, container_bottom, container, aim, fault, force_limit };
+enum class Needs { nothing, protection, leeway_sides, leeway_bottom, container_sides, container_bottom, container, aim, fault, force_limit, pulp };
 
 /// What is said of a wall.
 enum class WallFigure { mean, p95, max_over, max_under };

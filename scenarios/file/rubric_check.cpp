@@ -15,7 +15,7 @@ Problem problem_of(const RubricSpec& rubric, Place at, const std::string& what, 
 }
 
 /// What a measure needs and this exam lacks; empty when nothing.
-std::string lacking(Needs needs, const Scenario& s) {
+std::string lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
   const MarginSpec &leeway = s.zones.leeway, &container = s.zones.container;
   const bool sides = container.sides_mm > leeway.sides_mm, bottom = container.bottom_mm > leeway.bottom_mm;
   switch (needs) {
@@ -39,6 +39,8 @@ std::string lacking(Needs needs, const Scenario& s) {
       return s.perforation.faults.empty() ? "no tissue is a fault" : "";
     case Needs::force_limit:
       return s.force_limit_n > 0 ? "" : "there is no force limit";
+    case Needs::pulp:
+      return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [](const Tissue& t) { return t.name == "pulp"; }) ? "" : "the tooth has no pulp";
   }
   throw std::logic_error("rubric_check: a need that nothing is said of");
 }
@@ -53,7 +55,7 @@ std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& 
     const Measure measure = known_measure(c.metric);
     if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
       problems.push_back(problem_of(rubric, c.metric_at, "'" + c.metric + "' measures no tissue of this tooth", suggestion(c.metric, known)));
-    if (const std::string what = lacking(measure.needs, scenario); !what.empty())
+    if (const std::string what = lacking(measure.needs, scenario, tooth); !what.empty())
       problems.push_back(problem_of(rubric, c.metric_at, "'" + c.metric + "' measures nothing in this exam: " + what,
                                     "take the criterion out, or choose a measure of what there is"));
   }

@@ -138,7 +138,8 @@ const std::vector<std::string>& mechanisms() {
                                               "run_out",
                                               "chatter",
                                               "coolant",
-                                              "thermal_softening"};
+                                              "thermal_softening",
+                                              "contact_offset"};
   return names;
 }
 
@@ -313,6 +314,23 @@ Effect make_effect(const std::string& name, Draw& draw, const Motion& m, const B
   } else if (name == "thermal_softening") {
     scaled(each_row(m, [&, f = base()](std::size_t i) { return -f[i] * (m.temperature_c[i] - m.temperature_c[0]); }),
            just("per_k|a_per_k|per_c|a_per_c"));
+  } else if (name == "contact_offset") {
+    std::vector<double> part(static_cast<std::size_t>(*std::max_element(m.session.begin(), m.session.end())));
+    for (double& p : part) p = draw.sign() * draw.uniform(0.3, 1.0);
+    curved(
+        0.4,
+        [&m, b, k, c, part](double farthest) {
+          const Forces believed = base_force_n(m, b);
+          return each_row(m, [&](std::size_t i) {
+            const double x = m.x_mm[i] + farthest * part[static_cast<std::size_t>(m.session[i] - 1)];
+            return (x > 0.0 ? std::max(0.0, k * x + c * m.v_mm_s[i]) : 0.0) - believed[i];
+          });
+        },
+        [=](double farthest) {
+          std::vector<Parameter> p;
+          for (std::size_t s = 0; s < part.size(); ++s) p.push_back({"delta_" + std::to_string(s + 1) + "_mm", farthest * part[s]});
+          return p;
+        });
   } else if (name == "ripple") {
     const double period = draw.uniform(0.25, 0.5), phase = draw.uniform(0.0, 2.0 * k_pi);
     e.variable = "x_mm";

@@ -30,7 +30,7 @@ struct Effect {
   std::function<std::vector<Parameter>(double amount)> truth;  ///< what the report should say
 };
 
-/// All 27 names of docs/laws.md.
+/// All names of docs/laws.md.
 [[nodiscard]] const std::vector<std::string>& mechanisms();
 /// `ripple`, `rezeroed`, `unnamed_column`, `lateral_square`.
 [[nodiscard]] const std::vector<std::string>& outsiders();

@@ -85,6 +85,35 @@ TEST(BlindEffect, ALagOfARampIsItsSlopeTimesTau) {
   EXPECT_NEAR(play.force_n(0.2).back(), -0.1, 1e-9);
 }
 
+TEST(BlindEffect, AnOffsetOfTheSurfaceIsKTimesItInContactAndBeginsContactElsewhere) {
+  Motion m;
+  for (int session = 1; session <= 2; ++session)
+    for (int i = 0; i < 2000; ++i) {
+      m.session.push_back(session);
+      m.t_s.push_back(i * k_step_s);
+      m.x_mm.push_back(-0.99950 + i * k_step_s);
+      m.v_mm_s.push_back(1.0);
+    }
+  Draw draw(4);
+  const Base base{2.0, 0.5};
+  const Effect effect = make_effect("contact_offset", draw, m, base);
+  const std::vector<double> force = effect.force_n(0.2);
+  const std::vector<Parameter> truth = effect.truth(0.2);
+  ASSERT_EQ(truth.size(), 2u);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const double delta = truth[s].value;
+    EXPECT_EQ(truth[s].names, "delta_" + std::to_string(s + 1) + "_mm");
+    EXPECT_TRUE(std::abs(delta) >= 0.06 && std::abs(delta) <= 0.2) << delta;
+    EXPECT_DOUBLE_EQ(force[s * 2000], 0.0);                   // in air
+    EXPECT_NEAR(force[s * 2000 + 1999], 2.0 * delta, 1e-12);  // deep in contact: k delta, whatever the depth
+    EXPECT_NEAR(force[s * 2000 + 1500], 2.0 * delta, 1e-12);
+    double first = 0.0;  // contact begins where x = -delta, with c v at once
+    for (std::size_t i = s * 2000; i < s * 2000 + 2000 && first == 0.0; ++i)
+      if (force[i] + base_force_n(m, base)[i] > 0.0) first = m.x_mm[i];
+    EXPECT_NEAR(first, -delta, 1.1 * k_step_s);
+  }
+}
+
 TEST(BlindRecording, TheSameRequestWritesTheSameBytes) {
   const Folder folder;
   const Request request{Kind::pair, {"wear", "bias"}, 0.6, 0.01, 7};

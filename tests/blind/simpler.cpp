@@ -106,6 +106,8 @@ std::vector<Column> library(const Data& d, const Series& v, const Series& f_sim)
   add("hidden_layer", [&](std::size_t i) { return std::max(0.0, x[i] - 0.5); });
   add("graded_stiffness", [&](std::size_t i) { return in(i) ? x[i] * x[i] : 0.0; });
   add("feed_power_law", [&](std::size_t i) { return in(i) ? v[i] * std::log(std::abs(v[i]) + 1e-3) : 0.0; });
+  for (const double one : std::set<double>(session.begin(), session.end()))
+    add("contact_offset", [&, one](std::size_t i) { return in(i) && session[i] == one ? 1.0 : 0.0; });
   if (d.has("posture_deg")) add("gravity_posture", [&](std::size_t i) { return std::sin(d["posture_deg"][i] * k_pi / 180.0); });
   if (d.has("fy_n"))
     for (const char* side : {"fy_n", "fz_n"}) add("cross_talk", [&, side](std::size_t i) { return d[side][i]; });

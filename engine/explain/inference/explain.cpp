@@ -1,114 +1,19 @@
 #include "engine/explain/inference/explain.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 
 #include "engine/base/text.h"
+#include "engine/explain/inference/causes.h"
 #include "engine/explain/inference/heldout.h"
 #include "engine/explain/inference/intervals.h"
-#include "engine/explain/inference/search.h"
 #include "engine/explain/recording/faults.h"
 #include "engine/explain/recording/specimens.h"
 
 namespace cavum::explain {
 namespace {
-
-constexpr std::size_t k_first_twins = 10;  // enough when the answer is plain
-constexpr double k_plain = 6.0;            // z this many times what the twins reach needs no more twins
-constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
-constexpr double k_worth_refining = 0.4;
-constexpr std::size_t k_refined = 5;
-
-struct Step {
-  View view;
-  Scores scores;
-  Null null;
-  Judgement judgement;
-};
-
-double best_p(const Step& s) { return *std::min_element(s.judgement.p_value.begin(), s.judgement.p_value.end()); }
-double best_z(const Step& s) { return *std::max_element(s.judgement.z.begin(), s.judgement.z.end()); }
-
-/// Refines the shapes of `causes` first: with a cause in the model, k and c move, and with them who is in contact and clipped.
-Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o, const std::function<void()>& done) {
-  ViewOptions options;
-  options.fixed_n = o.fixed_n;
-  if (!causes.empty()) {
-    options.products = false;
-    causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
-    options.products = true;
-  }
-  options.sharp = true;
-  Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
-  s.scores = scores_of(s.view);
-  const std::uint64_t seed = o.seed * 1000003ULL + causes.size();
-  add_twins(s.null, s.view, std::min(k_first_twins, o.twins), seed, o.fixed_n, done);
-  s.judgement = judge(s.scores, s.null);
-  double reach = 1.0;
-  for (const auto& twin : s.null.twins) {
-    Scores as_data = twin;
-    as_data.structures = s.scores.structures;
-    for (auto& structure : as_data.structures) structure.raw_gain = 0.0;
-    as_data.blur = s.scores.blur;
-    const Judgement j = judge(as_data, s.null);
-    reach = std::max(reach, *std::max_element(j.z.begin(), j.z.end()));
-  }
-  if (best_p(s) < 0.06 && best_z(s) < k_plain * reach) {
-    add_twins(s.null, s.view, o.twins, seed, o.fixed_n, done);
-    s.judgement = judge(s.scores, s.null);
-  }
-  return s;
-}
-
-struct Rival {
-  std::vector<Term> causes;  ///< all, with the rival last (or in place)
-  int mechanism = -1;
-  double chi2 = 0;  ///< penalised
-  Eigen::Index parameters = 0;
-};
-
-/// Candidates worth it, refined beside the known causes; best first.
-std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std::vector<const Candidate*> candidates) {
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
-  std::vector<Rival> out;
-  for (const auto* c : candidates) {
-    if (out.size() >= k_refined || c->gain < k_worth_refining * candidates.front()->gain) break;
-    View beside = v;
-    beside.causes = others;
-    std::vector<Term> begin{start_of(beside, *c)};
-    const Mechanism& m = mechanism_at(c->hypothesis.term.mechanism);
-    if (m.simpler)
-      if (auto simpler = m.simpler(begin[0].shape); !simpler.empty()) begin.push_back({begin[0].mechanism, std::move(simpler)});
-    Rival best;
-    best.chi2 = 1e300;
-    for (const auto& start : begin) {
-      std::vector<Term> causes = others;
-      causes.push_back(start);
-      causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
-      const View own_contact = without_pulling(v, causes);
-      causes = refine(own_contact, causes, 1, others.size());
-      const FitResult fitted = fit_terms(own_contact, causes);
-      const auto own = m.columns(v.scene, causes.back().shape).own.size();
-      if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
-      const double chi2 = penalised_chi2(own_contact, causes);
-      if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
-    }
-    if (!best.causes.empty()) out.push_back(best);
-  }
-  std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
-  return out;
-}
-
-/// What is left when cause `i` is taken out of a view: its products without it.
-View without(const View& v, std::size_t i) {
-  View out = v;
-  out.causes.erase(out.causes.begin() + static_cast<std::ptrdiff_t>(i));
-  out.known.erase(out.known.begin() + static_cast<std::ptrdiff_t>(i));
-  return out;
-}
 
 void list_not_testable(Explanation& e, const std::vector<Candidate>& candidates, const Scene& scene) {
   for (const auto& c : candidates) {
@@ -134,7 +39,7 @@ Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
     if (const Mechanism& m = mechanisms()[at]; is_offset(m))
       for (auto& shape : starts(m, v.scene)) {
         causes[i] = {static_cast<int>(at), shape};
-        if (const double chi2 = fit_terms(v, causes).chi2; chi2 < least) least = chi2, best = causes[i];
+        if (const double chi2 = penalised_chi2(v, causes); chi2 < least) least = chi2, best = causes[i];
       }
   return best;
 }
@@ -211,21 +116,90 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   }
 }
 
-}  // namespace
-
-Explanation explain(const Recording& given, const ExplainOptions& options) {
+/// As it is explained: on a common scale where its sessions are different specimens. With its notes, and its faults.
+Explanation opened(const Recording& given, const ExplainOptions& options) {
   Explanation e;
   e.data_faults = data_faults(given);
-  auto scaled = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
-  const Recording& recording = *scaled;
-  e.recording = scaled;
-  e.notes = recording.notes;
+  e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
+  e.notes = e.recording->notes;
   if (options.twins == 0) e.notes.emplace_back("without twins: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
-    return e;
   }
+  return e;
+}
+
+/// Where the motion goes one way, what needs a reversal to be known becomes a plain offset. True: some did.
+bool make_offsets(CauseSearch& search) {
+  bool changed = false;
+  for (std::size_t i = 0; i < search.causes.size(); ++i) {
+    const Mechanism& m = mechanism_of(search.causes[i]);
+    if (!needs_reversal(m) || is_offset(m)) continue;
+    search.causes[i] = as_offset(search.step.view, search.causes, i);
+    changed = true;
+  }
+  return changed;
+}
+
+void alias_short_lags(std::vector<Cause>& causes, const CauseSearch& search) {
+  for (auto& cause : causes) {
+    const char* other = mechanism_of(cause.term).like_when_short;
+    if (is_too_short_to_tell(cause.term, search.motion, search.recording.v_mm_s.size() > 0) &&
+        std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
+      cause.aliases.emplace_back(other);
+  }
+}
+
+/// What is named beside it is no other word for it.
+void drop_named_aliases(std::vector<Cause>& causes) {
+  for (auto& cause : causes)
+    std::erase_if(cause.aliases, [&](const std::string& a) {
+      const int law = law_of(known_mechanism(a));
+      return std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return law_of(c.term.mechanism) == law; }) &&
+             law != law_of(cause.term.mechanism);
+    });
+}
+
+/// Where the motion goes one way, an offset is any of them.
+void alias_offsets(std::vector<Cause>& causes) {
+  for (auto& cause : causes) {
+    const Mechanism& found = mechanism_of(cause.term);
+    if (!needs_reversal(found) && std::none_of(cause.aliases.begin(), cause.aliases.end(), alias_needs_reversal)) continue;
+    std::erase_if(cause.aliases, alias_needs_reversal);
+    for (const auto& other : mechanisms())
+      if (is_offset(other) && &other != &found) cause.aliases.emplace_back(other.name);
+  }
+}
+
+/// Parameters, gain, noise and what is left. `first`: the look without causes.
+void put_figures(Explanation& e, const Step& first, const Step& last) {
+  set_parameters(e, last.view, last.null, last.judgement.inflation);
+  list_not_testable(e, first.scores.candidates, first.view.scene);
+  e.base = {last.view.base_fit.value[0], last.view.base_fit.value[1]};
+  e.noise = last.view.noise;
+  e.gain = heldout_gain(first.view, first.scores, first.null, e.causes.size(), e.noise.sd_n);
+  e.structures = last.scores.structures;
+  e.candidates = first.scores.candidates;
+  e.before = first.view;
+  e.after = last.view;
+}
+
+/// Something may be left over beside the causes; when it is more than what was found, they are not the answer.
+void drop_lesser_causes(Explanation& e, const Step& last) {
+  if (!e.unexplained || e.causes.empty()) return;
+  double left = 0.0;
+  for (const auto& s : e.structures)
+    if (s.variable == e.unexplained->variable) left = s.gain;
+  const double explained = fit(last.view.products, {}).chi2 - fit(last.view.products, known_of(last.view)).chi2;
+  if (left > explained) e.causes.clear();
+}
+
+}  // namespace
+
+Explanation explain(const Recording& given, const ExplainOptions& options) {
+  Explanation e = opened(given, options);
+  if (!e.data_faults.empty()) return e;
   // three looks are the most that is usual; the bar never runs backwards
   const double expected = static_cast<double>(options.twins) * 2.0;
   std::atomic<int> finished{0};
@@ -234,124 +208,21 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     if (options.progress) options.progress(0.9 * (1.0 - std::exp(-2.0 * n / expected)));
   };
 
-  const Motion motion = estimate_motion(recording);
-  std::vector<Term> causes;
-  std::vector<double> p_values;
-  Step step = look(recording, motion, causes, options, done);
-  const Step first = step;
-  while (true) {
-    const std::size_t mechanisms_n = mechanisms().size();
-    std::vector<const Candidate*> found;
-    for (std::size_t m = 0; m < mechanisms_n; ++m)
-      if (step.scores.candidates[m].testable && step.judgement.p_value[m] < k_alpha) found.push_back(&step.scores.candidates[m]);
-    const Structure* structure = nullptr;
-    for (std::size_t s = 0; s < step.scores.structures.size(); ++s)
-      if (step.judgement.p_value[mechanisms_n + s] < k_alpha && (structure == nullptr || step.scores.structures[s].gain > structure->gain))
-        structure = &step.scores.structures[s];
-    const bool full = static_cast<int>(causes.size()) >= options.max_causes;
-    if (found.empty() || full) {
-      if (structure != nullptr) e.unexplained = Unexplained{structure->variable, structure->form, structure->effect_n};
-      break;
-    }
-    const auto rivals = rivals_of(step.view, causes, found);
-    if (rivals.empty()) break;
-    const double before = penalised_chi2(step.view, causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
-    const double gain = before - rivals.front().chi2;
-    // a curve or a step must beat one mechanism clearly, and any two of them at all
-    if (structure != nullptr && structure->gain > 1.15 * gain + 20.0 &&
-        structure->gain > 1.02 * best_pair_gain(step.view, step.scores.candidates) + 10.0) {
-      e.unexplained = Unexplained{structure->variable, structure->form, structure->effect_n};
-      break;
-    }
-    if (gain < k_alias_chi2) break;
-    const auto at = static_cast<std::size_t>(rivals.front().mechanism);
-    causes = refine(step.view, rivals.front().causes, 1);
-    p_values.push_back(step.judgement.p_value[at]);
-    step = look(recording, motion, causes, options, done);
-  }
-
-  // does every cause still earn its place, and is there a better one in that place?
-  bool changed = false;
-  for (std::size_t i = 0; i < causes.size();) {
-    View rest = without(step.view, i);
-    auto others = causes;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const double with = penalised_chi2(step.view, causes);
-    const auto candidates = candidates_of(rest);
-    std::vector<const Candidate*> worth;
-    for (const auto& c : candidates)
-      if (c.testable && c.gain > 0.0) worth.push_back(&c);
-    const double earned = penalised_chi2(step.view, others) + k_parameter_penalty - with;
-    if (causes.size() > 1 && earned < 2.0 * k_alias_chi2 * step.judgement.inflation) {
-      causes = others;
-      p_values.erase(p_values.begin() + static_cast<std::ptrdiff_t>(i));
-      changed = true;
-      step = look(recording, motion, causes, options, done);
-      continue;
-    }
-    Cause cause;
-    cause.p_value = p_values[i];
-    if (!worth.empty()) {
-      const auto rivals = rivals_of(rest, others, worth);
-      for (const auto& r : rivals)
-        if (r.mechanism != causes[i].mechanism && r.chi2 < with - 1.0 && causes.size() > 1) {  // found when the others were not yet known
-          causes[i] = r.causes.back();
-          changed = true;
-          break;
-        }
-      const double own = penalised_chi2(step.view, causes);
-      for (const auto& r : rivals)
-        if (r.mechanism != causes[i].mechanism && r.chi2 - own < k_alias_chi2 * step.judgement.inflation + 0.003 * earned &&
-            r.parameters <= parameters_of(causes[i], step.view.scene))
-          cause.aliases.emplace_back(mechanism_at(r.mechanism).name);
-    }
-    cause.term = causes[i];
-    e.causes.push_back(cause);
-    ++i;
-  }
-  const bool one_way = moves_one_way(motion);
-  for (std::size_t i = 0; one_way && i < causes.size(); ++i)
-    if (needs_reversal(mechanism_of(causes[i])) && !is_offset(mechanism_of(causes[i]))) causes[i] = as_offset(step.view, causes, i), changed = true;
-  if (changed) step = look(recording, motion, causes, options, done);
-  for (std::size_t i = 0; i < causes.size(); ++i) e.causes[i].term = causes[i];
-  for (auto& cause : e.causes) {
-    const char* other = mechanism_of(cause.term).like_when_short;
-    if (is_too_short_to_tell(cause.term, motion, recording.v_mm_s.size() > 0) &&
-        std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
-      cause.aliases.emplace_back(other);
-  }
-  for (auto& cause : e.causes)  // what is named beside it is no other word for it
-    std::erase_if(cause.aliases, [&](const std::string& a) {
-      return std::any_of(causes.begin(), causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(known_mechanism(a)); }) &&
-             law_of(known_mechanism(a)) != law_of(cause.term.mechanism);
-    });
-  for (auto& cause : e.causes) {
-    const Mechanism& found = mechanism_of(cause.term);
-    if (!one_way || (!needs_reversal(found) && std::none_of(cause.aliases.begin(), cause.aliases.end(), alias_needs_reversal))) continue;
-    std::erase_if(cause.aliases, alias_needs_reversal);
-    for (const auto& other : mechanisms())
-      if (is_offset(other) && &other != &found) cause.aliases.emplace_back(other.name);
-  }
-
-  set_parameters(e, step.view, step.null, step.judgement.inflation);
-  list_not_testable(e, first.scores.candidates, first.view.scene);
-  e.base = {step.view.base_fit.value[0], step.view.base_fit.value[1]};
-  e.noise = step.view.noise;
-  e.gain = heldout_gain(first.view, first.scores, first.null, causes.size(), e.noise.sd_n);
-  e.structures = step.scores.structures;
-  e.candidates = first.scores.candidates;
-  if (e.unexplained && !e.causes.empty()) {
-    // something is left over; when it is more than what was found, the causes are not the answer
-    double left = 0.0;
-    for (const auto& s : e.structures)
-      if (s.variable == e.unexplained->variable) left = s.gain;
-    const double explained = fit(step.view.products, {}).chi2 - fit(step.view.products, known_of(step.view)).chi2;
-    if (left > explained) e.causes.clear();
-  }
-  e.before = first.view;
-  e.after = step.view;
+  CauseSearch search = begin_search(*e.recording, options, done);
+  const Step first = search.step;
+  const bool one_way = moves_one_way(search.motion);
+  e.unexplained = add_causes(search);
+  bool changed = weigh_causes(search, e.causes);
+  if (one_way) changed = make_offsets(search) || changed;
+  if (changed) look_again(search);
+  for (std::size_t i = 0; i < search.causes.size(); ++i) e.causes[i].term = search.causes[i];
+  alias_short_lags(e.causes, search);
+  drop_named_aliases(e.causes);
+  if (one_way) alias_offsets(e.causes);
+  put_figures(e, first, search.step);
+  drop_lesser_causes(e, search.step);
   conclude(e, one_way);
-  compare_with_rig(e, recording.rig, recording.v_mm_s.size() > 0);
+  compare_with_rig(e, e.recording->rig, e.recording->v_mm_s.size() > 0);
   if (options.progress) options.progress(1.0);
   return e;
 }

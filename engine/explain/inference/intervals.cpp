@@ -7,9 +7,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_same_chi2 = 10.0;  // another variant of the formula this close fits as well
-constexpr double k_clock_rows =
-    0.05;  // standard deviation of the instant to which a row belongs, in rows: position and force are read one after the other
+constexpr double k_same_chi2 = 10.0;   // another variant of the formula this close fits as well
 constexpr double k_normal = 1.959964;  // of 95 %
 
 /// Parameters of all causes, then k and c, from shapes and a fit with tangents (or without: tangents 0).
@@ -84,74 +82,100 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
   return out;
 }
 
+/// Values of all causes' parameters, then of k and c, as the fit has them and found in other ways.
+struct Findings {
+  using Values = std::vector<std::vector<NamedValue>>;
+  Eigen::VectorXd truth;  ///< what the twins were made with: shapes as they are, tangents 0
+  Values middle;
+  std::vector<Values> without, twins;  ///< without each session in turn; in each twin
+};
+
+Findings findings_of(const View& v, const FitResult& f, const std::vector<const Hypothesis*>& known, const Null& null) {
+  Findings out;
+  out.truth = f.value;
+  out.truth.head(v.base_fit.value.size()) = v.base_fit.value;
+  out.truth.tail(out.truth.size() - v.base_fit.value.size()).setZero();
+  out.middle = named_values(v, out.truth);
+  const std::size_t folds = v.products.by_session.size();
+  for (std::size_t s = 0; s < folds && folds > 1; ++s) out.without.push_back(named_values(v, fit(v.products, known, static_cast<int>(s)).value));
+  for (const auto& value : null.values)
+    if (value.size() == out.truth.size()) out.twins.push_back(named_values(v, value));
+  return out;
+}
+
+/// Variance of parameter `p` of cause `c` by the noise alone.
+double noise_variance(const View& v, const FitResult& f, const Findings& found, std::size_t c, std::size_t p) {
+  const double value = found.middle[c][p].value;
+  Eigen::VectorXd slope(found.truth.size());
+  for (Eigen::Index i = 0; i < found.truth.size(); ++i) {
+    const double step = 1e-3 * std::sqrt(std::max(1e-30, f.covariance(i, i)));
+    Eigen::VectorXd moved = found.truth;
+    moved[i] += step;
+    slope[i] = (named_values(v, moved)[c][p].value - value) / step;
+  }
+  return std::max(1.0, f.chi2 / std::max(1.0, v.products.rows)) * slope.dot(f.covariance * slope);
+}
+
+/// What twins scatter by, with their bias added, where that is more than `variance`.
+double with_twins(double variance, const Findings& found, std::size_t c, std::size_t p) {
+  double bias = 0.0, scatter = 0.0;
+  const auto n = static_cast<double>(found.twins.size());
+  for (const auto& twin : found.twins) {
+    const double d = twin[c][p].value - found.middle[c][p].value;
+    bias += d / n;
+    scatter += d * d / n;
+  }
+  return n > 3.0 ? std::max(variance, (scatter - bias * bias) * n / (n - 1.0)) + bias * bias : variance;
+}
+
+/// Half of the 95 % by variance, or by leaving out sessions where that is more.
+double half_width(double variance, const Findings& found, std::size_t c, std::size_t p) {
+  const double half = k_normal * std::sqrt(std::max(0.0, variance));
+  std::vector<double> left;
+  for (const auto& w : found.without) left.push_back(w[c][p].value);
+  return left.size() > 2 ? std::max(half, student(static_cast<double>(left.size()) - 1.0) * jackknife_sd(left)) : half;
+}
+
+/// Root mean square of the force of cause `c`.
+double effect_of(const View& v, std::size_t c) {
+  auto others = v.causes;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
+  Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].coefficients());
+  Eigen::Index to = 0, from = 2;
+  rest[to++] = v.base_fit.value[0];
+  rest[to++] = v.base_fit.value[1];
+  for (std::size_t k = 0; k < v.known.size(); ++k) {
+    for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
+      if (k != c) rest[to++] = v.base_fit.value[from];
+  }
+  return std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
+}
+
 }  // namespace
 
 void set_parameters(Explanation& e, const View& v, const Null& null, double inflation) {
-  std::vector<const Hypothesis*> known;
-  for (const auto& h : v.known) known.push_back(&h);
+  const std::vector<const Hypothesis*> known = known_of(v);
   const FitResult f = fit(v.products, known, -1, true);
-  const Eigen::VectorXd truth = [&] {  // what the twins were made with: shapes as they are
-    Eigen::VectorXd t = f.value;
-    t.head(v.base_fit.value.size()) = v.base_fit.value;
-    t.tail(t.size() - v.base_fit.value.size()).setZero();
-    return t;
-  }();
-  const auto middle = named_values(v, truth);
-  const double scale = std::max(1.0, f.chi2 / std::max(1.0, v.products.rows));
-  std::vector<std::vector<std::vector<NamedValue>>> without;  // by session that is left out
-  const std::size_t folds = v.products.by_session.size();
-  for (std::size_t s = 0; s < folds && folds > 1; ++s) without.push_back(named_values(v, fit(v.products, known, static_cast<int>(s)).value));
-  std::vector<std::vector<std::vector<NamedValue>>> twins;
-  for (const auto& value : null.values)
-    if (value.size() == truth.size()) twins.push_back(named_values(v, value));
-  std::vector<std::vector<Interval>> interval(middle.size());
-  for (std::size_t c = 0; c < middle.size(); ++c) {
-    const auto forms = c < v.causes.size() ? other_forms(v, c, inflation) : std::vector<std::vector<NamedValue>>{};
-    const bool lag = c < v.causes.size() && mechanism_at(v.causes[c].mechanism).like_when_short != nullptr;
-    for (std::size_t p = 0; p < middle[c].size(); ++p) {
-      const double value = middle[c][p].value;
-      Eigen::VectorXd slope(truth.size());
-      for (Eigen::Index i = 0; i < truth.size(); ++i) {
-        const double step = 1e-3 * std::sqrt(std::max(1e-30, f.covariance(i, i)));
-        Eigen::VectorXd moved = truth;
-        moved[i] += step;
-        slope[i] = (named_values(v, moved)[c][p].value - value) / step;
-      }
-      double variance = scale * slope.dot(f.covariance * slope);
-      double bias = 0.0, scatter = 0.0;
-      const auto n = static_cast<double>(twins.size());
-      for (const auto& twin : twins) {
-        const double d = twin[c][p].value - value;
-        bias += d / n;
-        scatter += d * d / n;
-      }
-      if (n > 3.0) variance = std::max(variance, (scatter - bias * bias) * n / (n - 1.0)) + bias * bias;
-      if (lag && middle[c][p].name == "tau_s") variance += std::pow(k_clock_rows * v.scene.dt_s.mean(), 2);
-      double half = k_normal * std::sqrt(std::max(0.0, variance));
-      std::vector<double> left;
-      for (const auto& w : without) left.push_back(w[c][p].value);
-      if (left.size() > 2) half = std::max(half, student(static_cast<double>(left.size()) - 1.0) * jackknife_sd(left));
+  const Findings found = findings_of(v, f, known, null);
+  std::vector<std::vector<Interval>> interval(found.middle.size());
+  for (std::size_t c = 0; c < found.middle.size(); ++c) {
+    const bool is_cause = c < v.causes.size();
+    const auto forms = is_cause ? other_forms(v, c, inflation) : Findings::Values{};
+    const double open = is_cause && mechanism_at(v.causes[c].mechanism).open ? mechanism_at(v.causes[c].mechanism).open(v.scene) : 0.0;
+    for (std::size_t p = 0; p < found.middle[c].size(); ++p) {
+      const auto& [name, value] = found.middle[c][p];
+      const double half = half_width(with_twins(noise_variance(v, f, found, c, p), found, c, p) + open * open, found, c, p);
       Interval out{value, value - half, value + half};
       for (const auto& form : forms)
         for (const auto& other : form)
-          if (other.name == middle[c][p].name) out.low = std::min(out.low, other.value - half), out.high = std::max(out.high, other.value + half);
+          if (other.name == name) out.low = std::min(out.low, other.value - half), out.high = std::max(out.high, other.value + half);
       interval[c].push_back(out);
     }
   }
   for (std::size_t c = 0; c < e.causes.size(); ++c) {
     e.causes[c].parameters.clear();
-    for (std::size_t p = 0; p < middle[c].size(); ++p) e.causes[c].parameters.emplace_back(middle[c][p].name, interval[c][p]);
-    auto others = v.causes;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
-    Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].coefficients());
-    Eigen::Index to = 0, from = 2;
-    rest[to++] = v.base_fit.value[0];
-    rest[to++] = v.base_fit.value[1];
-    for (std::size_t k = 0; k < v.known.size(); ++k) {
-      for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
-        if (k != c) rest[to++] = v.base_fit.value[from];
-    }
-    e.causes[c].effect_n = std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
+    for (std::size_t p = 0; p < found.middle[c].size(); ++p) e.causes[c].parameters.emplace_back(found.middle[c][p].name, interval[c][p]);
+    e.causes[c].effect_n = effect_of(v, c);
   }
   e.k = interval.back()[0];
   e.c = interval.back()[1];

@@ -122,7 +122,7 @@ Series added_force_n(const ForceModel& model, const std::string& material, const
     const bool a_term = std::any_of(model.term_values.begin(), model.term_values.end(), [&](const TermValues& t) { return t.kind == effect.kind; });
     if (a_term && !fits_here(model, effect.kind, scene)) continue;  // another recording: the term itself counts
     const Mechanism& m = mechanism_at(at);
-    const bool lacks = starts(m, scene).empty() && !m.in_spectrum;
+    const bool lacks = starts(m, scene).empty() && !m.from_residual;
     if (lacks || m.shape.size() != effect.shape.size())
       throw Error(where, "measurement effect '" + effect.kind + "' does not fit this recording", "remove it, or add the column that it needs");
     if (m.columns(scene, effect.shape).own.size() != effect.values.size())

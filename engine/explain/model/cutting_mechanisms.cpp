@@ -208,7 +208,7 @@ std::vector<Mechanism> cutting_mechanisms() {
             out.emplace_back("spinning", shape[1]);
             return true;
           },
-      .in_spectrum = true,
+      .from_residual = true,
       .by_session = true,
   });
 

@@ -22,17 +22,11 @@ struct Parameter {
   }
 };
 
-}  // namespace
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, k_max_columns, k_max_columns>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, k_max_columns, 1>;
 
-Eigen::Index Hypothesis::parameters() const {
-  Eigen::Index fitted = 0;
-  const auto& ranges = mechanism_at(term.mechanism).shape;
-  for (std::size_t i = 0; i < ranges.size(); ++i) fitted += ranges[i].fitted && term.shape[i] != 0.0;
-  return own + repeats - 1 + fitted;
-}
-
-FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
-  Parameter p[k_max_columns];
+/// k, c, own coefficients of each hypothesis in turn, tangents of each in turn. How many.
+Eigen::Index lay_out(const std::vector<const Hypothesis*>& model, Parameter* p) {
   Eigen::Index n = 2;
   p[0].add(1);
   p[1].add(2);
@@ -47,17 +41,17 @@ FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::
   }
   for (const auto* h : model)
     for (Eigen::Index i = 0; i < h->tangent_count && n < k_max_columns; ++i) p[n++].add(h->tangents + i);
+  return n;
+}
 
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, k_max_columns, k_max_columns>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, k_max_columns, 1>;
-  Small a(n, n);
-  Vector b(n);
+/// Left and right side of the normal equations, from the sums of products.
+void equations(const Eigen::MatrixXd& sums, const Products& products, int left_out, const Parameter* p, Small& a, Vector& b) {
   const Eigen::MatrixXd nothing;
   const auto sums_of = [&](Eigen::Index session) -> const Eigen::MatrixXd& {
     if (session < 0) return sums;
     return session == left_out ? nothing : products.by_session[static_cast<std::size_t>(session)];
   };
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
     const Eigen::MatrixXd& own = sums_of(p[i].session);
     b[i] = 0.0;
     for (int u = 0; u < p[i].count && own.size() > 0; ++u) b[i] += p[i].factor[u] * own(0, p[i].column[u]);
@@ -74,6 +68,23 @@ FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::
       a(i, j) = a(j, i) = sum;
     }
   }
+}
+
+}  // namespace
+
+Eigen::Index Hypothesis::parameters() const {
+  Eigen::Index fitted = 0;
+  const auto& ranges = mechanism_at(term.mechanism).shape;
+  for (std::size_t i = 0; i < ranges.size(); ++i) fitted += ranges[i].fitted && term.shape[i] != 0.0;
+  return own + repeats - 1 + fitted;
+}
+
+FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
+  Parameter p[k_max_columns];
+  const Eigen::Index n = lay_out(model, p);
+  Small a(n, n);
+  Vector b(n);
+  equations(sums, products, left_out, p, a, b);
   double yy = sums(0, 0);
   for (Eigen::Index i = 0; i < 2; ++i) {
     a(i, i) += products.prior[i];

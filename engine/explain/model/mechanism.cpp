@@ -24,7 +24,7 @@ void check(const std::vector<Mechanism>& all) {
     }
     terms.insert(m.term);
     if (name != m.term->name) wrong(name + " names the force term " + m.term->name);
-    if (!m.from_term && !m.in_spectrum) wrong(name + " cannot be read from its force term");
+    if (!m.from_term && !m.from_residual) wrong(name + " cannot be read from its force term");
   }
   for (const auto& m : all)
     for (const char* other : {m.variant_of, m.like_when_short})

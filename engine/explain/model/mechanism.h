@@ -79,6 +79,9 @@ struct Mechanism {
   /// Parameters in the names of the formula, from shape and own coefficients.
   std::function<std::vector<NamedValue>(const std::vector<double>& shape, const std::vector<double>& own, Base base)> parameters{};
 
+  /// Standard deviation of its parameters that is left open by rows being apart, whatever the noise; none: nothing.
+  std::function<double(const Scene&)> open{};
+
   // To and from a force term
   /// The inverse of `parameters`, from the force term; none when the term has a form that no shape is.
   std::function<std::optional<Numbers>(const TermReader& value, Base base)> from_term{};
@@ -91,7 +94,7 @@ struct Mechanism {
   OneWay one_way = OneWay::told;
   const char* like_when_short = nullptr;  ///< a lag in tau_s: the one that cannot be told from it when both are shorter than the data resolve
   bool in_recordings = true;              ///< false: no recording of k and c can show it, whatever the motion
-  bool in_spectrum = false;               ///< its grid is what this recording's spectrum shows: given as known, it needs none
+  bool from_residual = false;             ///< its grid is what this recording's residual shows: given as known, it needs none
   /// A shape with fewer numbers to start from as well; empty: none.
   std::function<std::vector<double>(const std::vector<double>& shape)> simpler{};
 
@@ -128,7 +131,7 @@ struct Mechanism {
 [[nodiscard]] Series removed_since_new_mm3(const Scene& scene, bool carried);
 
 // Families, one file each; together they are `mechanisms()`, in this order.
-[[nodiscard]] std::vector<Mechanism> offset_mechanisms();    ///< bias drift
+[[nodiscard]] std::vector<Mechanism> offset_mechanisms();    ///< bias drift contact_offset
 [[nodiscard]] std::vector<Mechanism> friction_mechanisms();  ///< coulomb_friction stribeck_friction viscous_friction
 [[nodiscard]] std::vector<Mechanism> sensor_mechanisms();    ///< gravity_posture inertia gain_error cross_talk delay low_pass saturation
 [[nodiscard]] std::vector<Mechanism> play_mechanisms();      ///< backlash hysteresis

@@ -1,8 +1,10 @@
-// A zero of the load cell that is off, or wanders.
+// A zero of the load cell that is off, or wanders; and a zero of the position that is.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/explain/model/mechanism.h"
+#include "engine/explain/model/surface_offsets.h"
 
 namespace cavum::explain {
 namespace {
@@ -43,6 +45,46 @@ Columns drift_columns(const Scene& s, const Shape& p) {
   return {{t}, {}, {}};
 }
 
+constexpr std::array k_delta_names{"delta_1_mm", "delta_2_mm", "delta_3_mm", "delta_4_mm",  "delta_5_mm",  "delta_6_mm",
+                                   "delta_7_mm", "delta_8_mm", "delta_9_mm", "delta_10_mm", "delta_11_mm", "delta_12_mm"};
+
+Grid contact_grid(const Scene& s) {
+  if (s.left_n.size() == 0) return {};
+  Grid g;
+  for (auto& delta : surface_offsets_mm(s)) {
+    delta.resize(k_delta_names.size(), 0.0);
+    g.push_back(std::move(delta));
+  }
+  return g;
+}
+
+Columns contact_columns(const Scene& s, const Shape& delta) {
+  Columns c{{}, -s.spring_mm, -s.damper_mm_s};
+  const std::vector<SessionRows> groups = rows_of_one_surface(*s.recording);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (Eigen::Index i = groups[g].begin; i < groups[g].end; ++i) {
+      const PressedRow p = pressed_at(s, i, delta[g], s.base);
+      c.spring[i] += p.spring_mm;
+      c.damper[i] += p.damper_mm_s;
+    }
+  return c;
+}
+
+/// Contact begins between two rows.
+double between_rows_mm(const Scene& s) {
+  double way = 0.0, times = 0.0;
+  for (const auto& rows : s.recording->sessions)
+    for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i)
+      if ((s.motion.x_mm[i] > 0.0) != (s.motion.x_mm[i - 1] > 0.0)) way += std::fabs(s.motion.x_mm[i] - s.motion.x_mm[i - 1]), times += 1.0;
+  return times > 0.0 ? way / times / std::sqrt(12.0) : 0.0;
+}
+
+std::vector<ShapeRange> contact_shape() {
+  std::vector<ShapeRange> out;
+  for (const char* name : k_delta_names) out.push_back({name, -k_farthest_surface_mm, k_farthest_surface_mm, false, true});
+  return out;
+}
+
 }  // namespace
 
 std::vector<Mechanism> offset_mechanisms() {
@@ -77,6 +119,27 @@ std::vector<Mechanism> offset_mechanisms() {
             return p[1] > 0.5 ? std::vector<NamedValue>{{"amplitude_n", own[0]}, {"tau_s", p[2]}} : std::vector<NamedValue>{{"rate_n_per_s", own[0]}};
           },
       .one_way = OneWay::needs_reversal,
+  });
+
+  m.push_back({
+      .name = "contact_offset",
+      .equation = "F_sim(X + delta) - F_sim(X), one delta for each session",
+      .words = "the place of the surface, which lies nearer or further than the recording has it",
+      .separate =
+          "come to the surface from air several times, on tissues of several stiffnesses: k delta grows with k, an offset of the force does not",
+      .shape = contact_shape(),
+      .grid = contact_grid,
+      .columns = contact_columns,
+      .parameters =
+          [](const Shape& delta, const Shape&, Base) {
+            std::vector<NamedValue> out;
+            for (std::size_t g = 0; g < delta.size(); ++g)
+              if (delta[g] != 0.0) out.push_back({k_delta_names[g], delta[g]});
+            return out;
+          },
+      .open = between_rows_mm,
+      .one_way = OneWay::looks_like_offset,
+      .from_residual = true,
   });
 
   return m;

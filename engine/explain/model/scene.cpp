@@ -13,6 +13,9 @@ double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 }  // namespace
 
+// away from the surface this is 0 or 1; the width of 1e-5 mm stands for positions without error
+double touching_probability(double x_mm, double sd_mm) noexcept { return normal_cdf(x_mm / (sd_mm + 1e-5)); }
+
 void never_pull(Scene& s, const Series* pressed_n) {
   s.active = pressed_n == nullptr ? s.touching : Series(s.touching * (*pressed_n > 0.0).cast<double>());
   s.spring_mm = s.motion.x_mm * s.active;
@@ -36,8 +39,7 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
     const double rk = relative_at(recording.relative_k, i), rc = relative_at(recording.relative_c, i);
     const double k = rk * base.k_n_per_mm, c = rc * base.c_n_s_per_mm;
     const double x = motion.x_mm[i], v = motion.v_mm_s[i], sx = motion.sd_x_mm[i], sv = motion.sd_v_mm_s[i];
-    // away from the surface this is 0 or 1; the width of 1e-5 mm stands for positions without error
-    const double p = normal_cdf(x / (sx + 1e-5));
+    const double p = touching_probability(x, sx);
     s.touching[i] = p;
     const double pressed = pressed_n != nullptr ? (*pressed_n)[i] : k * x + c * v;
     const double slope = std::hypot(k * sx, c * sv);

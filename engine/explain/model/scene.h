@@ -27,6 +27,7 @@ struct Scene {
   Series force_n;                ///< base force F_sim
   Series spinning;               ///< 1 where spindle_rpm > 0; all 0 without that column
   Series weight;                 ///< 0..1: less where the position leaves the base force uncertain, and near contact transitions
+  Series left_n;                 ///< force that base and causes leave; empty outside of a view with products
   std::vector<double> lines_hz;  ///< lines found in the residual, candidates of chatter (lines.h)
 };
 
@@ -41,6 +42,9 @@ struct Scene {
                                const Series* pressed_n = nullptr);
 /// Contact is lost where `pressed_n` would pull: sets `active` and the columns of k and c, and nothing else. nullptr = nowhere.
 void never_pull(Scene& scene, const Series* pressed_n);
+
+/// Probability that a penetration known as `x_mm` with this standard deviation is above zero.
+[[nodiscard]] double touching_probability(double x_mm, double sd_mm) noexcept;
 
 /// Largest penetration, mm, > 0.
 [[nodiscard]] inline double deepest_mm(const Scene& scene) { return std::max(1e-6, scene.spring_mm.maxCoeff()); }

@@ -12,6 +12,8 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
+constexpr double k_clock_rows =
+    0.05;  // standard deviation of the instant to which a row belongs, in rows: position and force are read one after the other
 constexpr double k_radians = 3.14159265358979323846 / 180.0;
 
 Grid no_shape(const Scene&) { return {{}}; }
@@ -41,6 +43,8 @@ Grid delay_grid(const Scene& s) {
   for (const double rows : {10.0, 13.0, 18.0, 25.0, 35.0}) g.push_back({rows * row});
   return g;
 }
+
+double clock_s(const Scene& s) { return k_clock_rows * s.dt_s.mean(); }
 
 Grid saturation_grid(const Scene& s) {
   std::vector<double> pressed;
@@ -150,6 +154,7 @@ std::vector<Mechanism> sensor_mechanisms() {
           [](const Shape& p, const Shape&, Base) {
             return std::vector<NamedValue>{{"tau_s", p[0]}};
           },
+      .open = clock_s,
       .like_when_short = "low_pass",
   });
 
@@ -165,6 +170,7 @@ std::vector<Mechanism> sensor_mechanisms() {
           [](const Shape& p, const Shape&, Base) {
             return std::vector<NamedValue>{{"tau_s", p[0]}};
           },
+      .open = clock_s,
       .variant_of = "delay",
       .like_when_short = "delay",
   });

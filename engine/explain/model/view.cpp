@@ -88,6 +88,109 @@ bool any_inside(const std::vector<Term>& causes) {
   return std::any_of(causes.begin(), causes.end(), [](const Term& t) { return mechanism_at(t.mechanism).inside; });
 }
 
+/// Base, noise and weights in turn, with the causes at their shapes. The base that came out.
+Base fit_in_turn(View& v, const Recording& recording, const Motion& motion, Base base) {
+  double noise_sd = 0.0;
+  Series pressed;
+  for (int round = 0; round < k_rounds; ++round) {
+    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr);
+    if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0};
+    const Design d = design_of(v.scene, v.causes);
+    v.base_fit = fit_design(d, v.force_n, whitening_of(v), recording.rig, false);
+    v.model_n = combined(d, v.base_fit.value);
+    v.residual_n = v.force_n - v.model_n;
+    base = {std::max(1e-9, v.base_fit.value[0]),
+            std::max(0.0, v.base_fit.value[1])};  // a damper that pushes is an offset in disguise: no contact is lost by it
+    v.noise = estimate_noise(recording, v.residual_n, v.scene.weight);
+    noise_sd = v.noise.sd_n;
+    if (any_inside(v.causes)) pressed = pressed_n(v.scene, v.causes, v.base_fit.value);
+    v.robust.resize(0);
+    Series z = v.residual_n;
+    whitening_of(v).apply(z);
+    v.robust = robust_weights(z);
+  }
+  return base;
+}
+
+/// Columns of the products, whitened, one after the other.
+class WhiteColumns {
+ public:
+  explicit WhiteColumns(const View& v) : view_(v), white_(whitening_of(v)) {
+    add(v.force_n);
+    add(v.scene.spring_mm);
+    add(v.scene.damper_mm_s);
+  }
+  [[nodiscard]] const std::vector<Series>& all() const { return columns_; }
+  [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(columns_.size()); }
+
+  Eigen::Index add(Series column) {
+    white_.apply(column);
+    columns_.push_back(std::move(column));
+    return count() - 1;
+  }
+
+  Hypothesis add_term(const Term& term) {
+    const Mechanism& m = mechanism_at(term.mechanism);
+    Columns c = m.columns(view_.scene, term.shape);
+    Hypothesis h;
+    h.term = term;
+    h.first = count();
+    h.repeats = m.by_session ? static_cast<Eigen::Index>(session_groups(*view_.scene.recording)) : 1;
+    h.own = static_cast<Eigen::Index>(c.own.size()) / h.repeats;
+    for (Eigen::Index i = 0; i < h.own; ++i) {  // columns of different sessions do not overlap: their sum holds them all
+      Series whole = std::move(c.own[static_cast<std::size_t>(i)]);
+      for (Eigen::Index s = 1; s < h.repeats; ++s) whole += c.own[static_cast<std::size_t>(s * h.own + i)];
+      add(std::move(whole));
+    }
+    if (c.spring.size() > 0) h.spring = add(std::move(c.spring));
+    if (c.damper.size() > 0) h.damper = add(std::move(c.damper));
+    return h;
+  }
+
+ private:
+  const View& view_;
+  Whitening white_;
+  std::vector<Series> columns_;
+};
+
+/// The causes, with tangents at the coefficients that the base was fitted with.
+void add_known(View& v, WhiteColumns& columns, Base base) {
+  Eigen::Index own_at = 2;
+  for (const auto& term : v.causes) {
+    Hypothesis h = columns.add_term(term);
+    std::vector<double> own;
+    for (Eigen::Index i = 0; i < h.coefficients(); ++i) own.push_back(v.base_fit.value[own_at++]);
+    h.tangents = columns.count();
+    for (auto& t : tangents_of(v.scene, term, own, base)) {
+      columns.add(std::move(t));
+      ++h.tangent_count;
+    }
+    v.known.push_back(h);
+  }
+}
+
+/// Sums of products, fold by fold and all together.
+void sum_products(View& v, const WhiteColumns& columns) {
+  const Eigen::Index count = columns.count();
+  v.products.all = Eigen::MatrixXd::Zero(count, count);
+  constexpr Eigen::Index k_block = 512;  // rows that stay in the cache
+  Eigen::MatrixXf block(k_block, count);
+  for (const auto& [begin, end] : v.folds) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count, count);
+    for (Eigen::Index at = begin; at < end; at += k_block) {
+      const Eigen::Index rows = std::min(k_block, end - at);
+      for (Eigen::Index c = 0; c < count; ++c)
+        block.col(c).head(rows) = columns.all()[static_cast<std::size_t>(c)].segment(at, rows).cast<float>().matrix();
+      Eigen::MatrixXf part = Eigen::MatrixXf::Zero(count, count);
+      part.selfadjointView<Eigen::Lower>().rankUpdate(block.topRows(rows).transpose());
+      sums.triangularView<Eigen::Lower>() += part.cast<double>();
+    }
+    sums.triangularView<Eigen::StrictlyUpper>() = sums.transpose();
+    v.products.all += sums;
+    v.products.by_session.push_back(std::move(sums));
+  }
+}
+
 }  // namespace
 
 View without_pulling(const View& view, const std::vector<Term>& causes) {
@@ -156,95 +259,21 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   } else if (recording.rig.k_n_per_mm) {
     base = {*recording.rig.k_n_per_mm, recording.rig.c_n_s_per_mm.value_or(0.0)};
   }
-  double noise_sd = 0.0;
-  Series pressed;
-  for (int round = 0; round < k_rounds; ++round) {
-    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr);
-    if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0};
-    const Design d = design_of(v.scene, causes);
-    v.base_fit = fit_design(d, v.force_n, whitening_of(v), recording.rig, false);
-    v.model_n = combined(d, v.base_fit.value);
-    v.residual_n = v.force_n - v.model_n;
-    base = {std::max(1e-9, v.base_fit.value[0]),
-            std::max(0.0, v.base_fit.value[1])};  // a damper that pushes is an offset in disguise: no contact is lost by it
-    v.noise = estimate_noise(recording, v.residual_n, v.scene.weight);
-    noise_sd = v.noise.sd_n;
-    if (any_inside(causes)) pressed = pressed_n(v.scene, causes, v.base_fit.value);
-    v.robust.resize(0);
-    Series z = v.residual_n;
-    whitening_of(v).apply(z);
-    v.robust = robust_weights(z);
-  }
+  base = fit_in_turn(v, recording, motion, base);
   if (!options.products) return v;
 
-  const Whitening white = whitening_of(v);
-  {
-    Series z = v.residual_n;
-    white.apply(z);
-    v.scene.lines_hz = strongest_lines_hz(v.scene, z, 2);
-  }
-  // whitened columns, one after the other; then their products by session
-  std::vector<Series> z;
-  const auto add = [&](Series column) {
-    white.apply(column);
-    z.push_back(std::move(column));
-    return static_cast<Eigen::Index>(z.size()) - 1;
-  };
-  add(v.force_n);
-  add(v.scene.spring_mm);
-  add(v.scene.damper_mm_s);
-  const auto add_term = [&](const Term& term) {
-    Hypothesis h;
-    h.term = term;
-    Columns c = mechanism_at(term.mechanism).columns(v.scene, term.shape);
-    h.first = static_cast<Eigen::Index>(z.size());
-    const Mechanism& m = mechanism_at(term.mechanism);
-    h.repeats = m.by_session ? static_cast<Eigen::Index>(session_groups(recording)) : 1;
-    h.own = static_cast<Eigen::Index>(c.own.size()) / h.repeats;
-    for (Eigen::Index i = 0; i < h.own; ++i) {  // columns of different sessions do not overlap: their sum holds them all
-      Series whole = std::move(c.own[static_cast<std::size_t>(i)]);
-      for (Eigen::Index s = 1; s < h.repeats; ++s) whole += c.own[static_cast<std::size_t>(s * h.own + i)];
-      add(std::move(whole));
-    }
-    if (c.spring.size() > 0) h.spring = add(std::move(c.spring));
-    if (c.damper.size() > 0) h.damper = add(std::move(c.damper));
-    return h;
-  };
-  Eigen::Index own_at = 2;
-  for (const auto& term : causes) {
-    Hypothesis h = add_term(term);
-    std::vector<double> own;
-    for (Eigen::Index i = 0; i < h.coefficients(); ++i) own.push_back(v.base_fit.value[own_at++]);
-    h.tangents = static_cast<Eigen::Index>(z.size());
-    for (auto& t : tangents_of(v.scene, term, own, base)) {
-      add(std::move(t));
-      ++h.tangent_count;
-    }
-    v.known.push_back(h);
-  }
+  v.scene.left_n = v.residual_n;
+  Series z = v.residual_n;
+  whitening_of(v).apply(z);
+  v.scene.lines_hz = strongest_lines_hz(v.scene, z, 2);
+  WhiteColumns columns(v);
+  add_known(v, columns, base);
   for (std::size_t m = 0; m < mechanisms().size(); ++m)
-    for (auto& shape : starts(mechanisms()[m], v.scene)) v.grid.push_back(add_term({static_cast<int>(m), std::move(shape)}));
-
+    for (auto& shape : starts(mechanisms()[m], v.scene)) v.grid.push_back(columns.add_term({static_cast<int>(m), std::move(shape)}));
   set_prior(v.products, recording.rig);
-  v.products.rows = (white.root_weight() * v.noise.step_sd_n).square().sum();
-  const auto count = static_cast<Eigen::Index>(z.size());
-  v.products.all = Eigen::MatrixXd::Zero(count, count);
-  constexpr Eigen::Index k_block = 512;  // rows that stay in the cache
-  Eigen::MatrixXf block(k_block, count);
+  v.products.rows = (whitening_of(v).root_weight() * v.noise.step_sd_n).square().sum();
   v.folds = folds_of(recording);
-  for (const auto& [begin, end] : v.folds) {
-    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count, count);
-    for (Eigen::Index at = begin; at < end; at += k_block) {
-      const Eigen::Index rows = std::min(k_block, end - at);
-      for (Eigen::Index c = 0; c < count; ++c) block.col(c).head(rows) = z[static_cast<std::size_t>(c)].segment(at, rows).cast<float>().matrix();
-      Eigen::MatrixXf part = Eigen::MatrixXf::Zero(count, count);
-      part.selfadjointView<Eigen::Lower>().rankUpdate(block.topRows(rows).transpose());
-      sums.triangularView<Eigen::Lower>() += part.cast<double>();
-    }
-    sums.triangularView<Eigen::StrictlyUpper>() = sums.transpose();
-    v.products.all += sums;
-    v.products.by_session.push_back(std::move(sums));
-  }
+  sum_products(v, columns);
   return v;
 }
 

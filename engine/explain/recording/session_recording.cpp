@@ -76,23 +76,14 @@ Viscoelastic stiffest(const ForceModel& model) {
   return out;
 }
 
-}  // namespace
-
-Recording read_session_recording(const std::string& path, const std::string& force_csv) {
-  const SessionReader session(path);
-  session.require_readable();
-  if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(path, "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
-                "explain it with the program that recorded it");
-  Simulation simulation = make_simulation(session.setup(), path);
+/// Stretches of contact in which the force is known, replayed tick by tick. `measured` without rows: the rendered force.
+std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulation& simulation, const Force& measured, std::int64_t every,
+                                          const std::string& path) {
   const double tick_s = simulation.model.config.tick_s;
-  const Force measured = force_csv.empty() ? force_of_events(session, tick_s) : force_of_csv(force_csv);
-  const bool rendered = measured.t_s.empty();
-  const Viscoelastic reference = stiffest(simulation.model.force);
-  if (!(reference.stiffness_n_per_mm > 0.0)) throw Error(path, "no material of its force model resists", "explain a session in which something does");
-
-  const auto every = std::max<std::int64_t>(1, std::llround(k_row_s / tick_s));
   std::vector<std::vector<Row>> contacts(1);
+  const auto ends = [&contacts] {
+    if (!contacts.back().empty()) contacts.emplace_back();
+  };
   std::map<int, double> removed;
   std::int64_t tick = 0;
   Vec3 last_tip = simulation.state.estimate.tip_mm;
@@ -108,14 +99,14 @@ Recording read_session_recording(const std::string& path, const std::string& for
       const Vec3 moved = simulation.state.estimate.tip_mm - last_tip;
       last_tip = simulation.state.estimate.tip_mm;
       if (!out.contact) {
-        if (!contacts.back().empty()) contacts.emplace_back();
+        ends();
         continue;
       }
       if (tick % every != 0) continue;
       const double t = static_cast<double>(tick) * tick_s;
-      const std::optional<double> force = rendered ? std::optional(dot(out.rendered_force_n, out.normal)) : measured.at(t);
+      const std::optional<double> force = measured.t_s.empty() ? std::optional(dot(out.rendered_force_n, out.normal)) : measured.at(t);
       if (!force) {
-        if (!contacts.back().empty()) contacts.emplace_back();
+        ends();
         continue;
       }
       const auto& touched = simulation.state.contact.touched.means.of;
@@ -126,18 +117,19 @@ Recording read_session_recording(const std::string& path, const std::string& for
                                  degrees(std::acos(std::clamp(dot(axis, out.normal), -1.0, 1.0)))});
     }
   }
+  return contacts;
+}
+
+/// Those of at least so many rows, each as a session; k and c by those of `reference`.
+Recording joined(const std::vector<std::vector<Row>>& contacts, std::size_t least, Viscoelastic reference) {
   std::vector<const Row*> rows;
   Recording r;
-  const auto least = static_cast<std::size_t>(k_least_contact_s / (tick_s * static_cast<double>(every)));
   for (const auto& contact : contacts) {
     if (contact.size() < least) continue;
     const auto begin = static_cast<Eigen::Index>(rows.size());
     for (const auto& row : contact) rows.push_back(&row);
     r.sessions.push_back({"contact " + std::to_string(r.sessions.size() + 1), begin, static_cast<Eigen::Index>(rows.size())});
   }
-  if (rows.empty())
-    throw Error(path, rendered ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
-                "explain a session in which the tooth was touched for longer");
   const auto series = [&rows](double Row::*field) {
     Series out(static_cast<Eigen::Index>(rows.size()));
     for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = rows[static_cast<std::size_t>(i)]->*field;
@@ -154,6 +146,30 @@ Recording read_session_recording(const std::string& path, const std::string& for
                {"approach_deg", series(&Row::approach_deg)}, {"slide_mm_s", series(&Row::slide_mm_s)},   {"tilt_deg", series(&Row::tilt_deg)}};
   r.rig.k_n_per_mm = reference.stiffness_n_per_mm;
   if (reference.damping_n_s_per_mm > 0.0) r.rig.c_n_s_per_mm = reference.damping_n_s_per_mm;
+  return r;
+}
+
+}  // namespace
+
+Recording read_session_recording(const std::string& path, const std::string& force_csv) {
+  const SessionReader session(path);
+  session.require_readable();
+  if (session.number("physics_version", 0) != k_physics_version)
+    throw Error(path, "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
+                "explain it with the program that recorded it");
+  Simulation simulation = make_simulation(session.setup(), path);
+  const double tick_s = simulation.model.config.tick_s;
+  const Force measured = force_csv.empty() ? force_of_events(session, tick_s) : force_of_csv(force_csv);
+  const bool rendered = measured.t_s.empty();
+  const Viscoelastic reference = stiffest(simulation.model.force);
+  if (!(reference.stiffness_n_per_mm > 0.0)) throw Error(path, "no material of its force model resists", "explain a session in which something does");
+
+  const auto every = std::max<std::int64_t>(1, std::llround(k_row_s / tick_s));
+  const auto least = static_cast<std::size_t>(k_least_contact_s / (tick_s * static_cast<double>(every)));
+  Recording r = joined(contacts_of(session, simulation, measured, every, path), least, reference);
+  if (r.sessions.empty())
+    throw Error(path, rendered ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
+                "explain a session in which the tooth was touched for longer");
   r.rig.force_quantum_n = rendered ? 1e-6 : 0.0;
   if (rendered) r.rig.force_limit_n = simulation.model.config.limits.peak_n;
   r.notes.push_back(rendered

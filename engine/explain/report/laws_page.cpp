@@ -6,18 +6,16 @@
 namespace cavum::explain {
 namespace {
 
-/// All shapes of which each number is 0 or an end of its range.
-std::vector<std::vector<double>> corners(const std::vector<ShapeRange>& shape) {
-  std::vector<std::vector<double>> out{{}};
-  for (const auto& range : shape) {
-    std::vector<std::vector<double>> longer;
-    for (const auto& begun : out)
-      for (const double value : {0.0, range.low, range.high}) {
-        longer.push_back(begun);
-        longer.back().push_back(value);
-      }
-    out = std::move(longer);
-  }
+/// Shapes of zeros, but for at most two numbers that are at an end of their range: no form of a law takes more to be seen.
+std::vector<std::vector<double>> forms_of(const std::vector<ShapeRange>& shape) {
+  std::vector<std::vector<double>> out{std::vector<double>(shape.size(), 0.0)};
+  for (int set = 0; set < 2; ++set)
+    for (const auto& begun : std::vector(out))
+      for (std::size_t i = 0; i < shape.size(); ++i)
+        for (const double value : {shape[i].low, shape[i].high}) {
+          out.push_back(begun);
+          out.back()[i] = value;
+        }
   return out;
 }
 
@@ -48,7 +46,7 @@ std::string ranges(const TermKind& kind) {
 
 std::vector<std::string> parameter_names(const Mechanism& m) {
   std::vector<std::string> out;
-  for (const auto& shape : corners(m.shape))
+  for (const auto& shape : forms_of(m.shape))
     for (const auto& p : m.parameters(shape, {1.0, 2.0}, {1.0, 1.0}))  // none has more coefficients that are its own
       if (std::find(out.begin(), out.end(), p.name) == out.end()) out.push_back(p.name);
   return out;

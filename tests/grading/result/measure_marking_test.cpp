@@ -40,7 +40,8 @@ TEST(MeasureMarking, ARowThatIsLackingOrTooManyOrUnfinishedIsRefused) {
 }
 
 TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
-  Carved c(opening_pulp(k_chamber_target), chambered_block(0.1));
+  const std::string asked = "[[rubric.criteria]]\nid = \"left\"\nmetric = \"dentin_over_pulp_mm\"\nfull = 1\nzero = 0\npoints = 1\n";
+  Carved c(opening_pulp(k_chamber_target) + asked, chambered_block(0.1));
   c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
   const Result r = c.graded();

@@ -60,6 +60,7 @@ TEST(Measures, SayWhichWayIsBetterAndWhatTheyJudge) {
   const auto better = [](const char* name) { return known_measure(name).better; };
   EXPECT_EQ(better("target_removed_percent"), Better::more);
   EXPECT_EQ(better("steps_completed"), Better::more);
+  EXPECT_EQ(better("dentin_over_pulp_mm"), Better::more);
   EXPECT_EQ(better("canals_covered_percent"), Better::less);
   EXPECT_EQ(better("walls_max_over_mm"), Better::less);
   EXPECT_EQ(better("side_walls_p95_mm"), Better::by_task);

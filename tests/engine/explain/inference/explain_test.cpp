@@ -69,6 +69,43 @@ TEST(Explain, ABiasStaysInTheMeasurementAndIsTakenOff) {
   EXPECT_NEAR(added[10], parameter(e, "bias_n").value, 1e-9);
 }
 
+/// What it adds that the surface of session `s` lies `delta_mm[s]` nearer than the recording has it.
+std::function<double(const made::Row&)> surface_off_by(std::vector<double> delta_mm) {
+  return [delta_mm, s = -1](const made::Row& q) mutable {
+    if (q.first) ++s;
+    const double x = q.x_mm + delta_mm[static_cast<std::size_t>(s)];
+    return (x > 0.0 ? std::max(0.0, made::k_k * x + made::k_c * q.v_mm_s) : 0.0) - q.base_n;
+  };
+}
+
+TEST(Explain, ASurfaceThatLiesElsewhereInEachSessionIsNamedWithEachOffset) {
+  const std::vector<double> delta{0.08, -0.05, 0.03, 0.06, -0.07, 0.02};
+  for (const double quantum : {0.0, 0.01}) {
+    made::Options o;
+    o.quantum_mm = quantum;
+    const Explanation e = explain(made::recording(o, surface_off_by(delta)));
+    ASSERT_EQ(first_cause(e), "contact_offset") << quantum << to_text(e);
+    EXPECT_EQ(e.verdict, "named") << to_text(e);
+    for (std::size_t s = 0; s < delta.size(); ++s) {
+      const Interval& found = parameter(e, "delta_" + std::to_string(s + 1) + "_mm");
+      EXPECT_NEAR(found.value, delta[s], 0.01) << s;
+      EXPECT_LT(found.low, delta[s]);
+      EXPECT_GT(found.high, delta[s]);
+    }
+    EXPECT_NEAR(e.base.k_n_per_mm, made::k_k, 0.02);
+  }
+}
+
+TEST(Explain, AnOffsetOfTheForceInEachSessionIsNotTakenForOneOfTheSurface) {
+  const std::vector<double> offset_n{0.05, -0.04, 0.02, 0.04, -0.05, 0.01};
+  int s = -1;
+  const Explanation e = explain(made::recording({}, [&](const made::Row& q) {
+    if (q.first) ++s;
+    return offset_n[static_cast<std::size_t>(s)];  // in air too
+  }));
+  for (const auto& c : e.causes) EXPECT_STRNE(mechanism_at(c.term.mechanism).name, "contact_offset") << to_text(e);
+}
+
 TEST(Explain, WhatNoMechanismDescribesIsLaidToItsVariable) {
   made::Options o;
   Recording r = made::recording(o);

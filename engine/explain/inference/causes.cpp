@@ -1,0 +1,201 @@
+#include "engine/explain/inference/causes.h"
+
+#include <algorithm>
+
+namespace cavum::explain {
+namespace {
+
+constexpr std::size_t k_first_twins = 10;  // enough when the answer is plain
+constexpr double k_plain = 6.0;            // z this many times what the twins reach needs no more twins
+constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
+constexpr double k_worth_refining = 0.4;
+constexpr std::size_t k_refined = 5;
+
+double best_p(const Step& s) { return *std::min_element(s.judgement.p_value.begin(), s.judgement.p_value.end()); }
+double best_z(const Step& s) { return *std::max_element(s.judgement.z.begin(), s.judgement.z.end()); }
+
+Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o, const std::function<void()>& done) {
+  ViewOptions options;
+  options.fixed_n = o.fixed_n;
+  if (!causes.empty()) {
+    options.products = false;
+    causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
+    options.products = true;
+  }
+  options.sharp = true;
+  Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
+  s.scores = scores_of(s.view);
+  const std::uint64_t seed = o.seed * 1000003ULL + causes.size();
+  add_twins(s.null, s.view, std::min(k_first_twins, o.twins), seed, o.fixed_n, done);
+  s.judgement = judge(s.scores, s.null);
+  double reach = 1.0;
+  for (const auto& twin : s.null.twins) {
+    Scores as_data = twin;
+    as_data.structures = s.scores.structures;
+    for (auto& structure : as_data.structures) structure.raw_gain = 0.0;
+    as_data.blur = s.scores.blur;
+    const Judgement j = judge(as_data, s.null);
+    reach = std::max(reach, *std::max_element(j.z.begin(), j.z.end()));
+  }
+  if (best_p(s) < 0.06 && best_z(s) < k_plain * reach) {
+    add_twins(s.null, s.view, o.twins, seed, o.fixed_n, done);
+    s.judgement = judge(s.scores, s.null);
+  }
+  return s;
+}
+
+struct Rival {
+  std::vector<Term> causes;  ///< all, with the rival last (or in place)
+  int mechanism = -1;
+  double chi2 = 0;  ///< penalised
+  Eigen::Index parameters = 0;
+};
+
+/// Candidates worth it, refined beside the known causes; best first.
+std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std::vector<const Candidate*> candidates) {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
+  std::vector<Rival> out;
+  for (const auto* c : candidates) {
+    if (out.size() >= k_refined || c->gain < k_worth_refining * candidates.front()->gain) break;
+    View beside = v;
+    beside.causes = others;
+    std::vector<Term> begin{start_of(beside, *c)};
+    const Mechanism& m = mechanism_at(c->hypothesis.term.mechanism);
+    if (m.simpler)
+      if (auto simpler = m.simpler(begin[0].shape); !simpler.empty()) begin.push_back({begin[0].mechanism, std::move(simpler)});
+    Rival best;
+    best.chi2 = 1e300;
+    for (const auto& start : begin) {
+      std::vector<Term> causes = others;
+      causes.push_back(start);
+      causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
+      const View own_contact = without_pulling(v, causes);
+      causes = refine(own_contact, causes, 1, others.size());
+      const FitResult fitted = fit_terms(own_contact, causes);
+      const auto own = m.columns(v.scene, causes.back().shape).own.size();
+      if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
+      const double chi2 = penalised_chi2(own_contact, causes);
+      if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
+    }
+    if (!best.causes.empty()) out.push_back(best);
+  }
+  std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
+  return out;
+}
+
+/// What is left when cause `i` is taken out of a view: its products without it.
+View without(const View& v, std::size_t i) {
+  View out = v;
+  out.causes.erase(out.causes.begin() + static_cast<std::ptrdiff_t>(i));
+  out.known.erase(out.known.begin() + static_cast<std::ptrdiff_t>(i));
+  return out;
+}
+
+/// Candidates of the last look that are improbable in noise.
+std::vector<const Candidate*> improbable(const Step& step) {
+  std::vector<const Candidate*> found;
+  for (std::size_t m = 0; m < step.scores.candidates.size(); ++m)
+    if (step.scores.candidates[m].testable && step.judgement.p_value[m] < k_alpha) found.push_back(&step.scores.candidates[m]);
+  return found;
+}
+
+/// The structure that gains most of those that are; null: none is.
+const Structure* improbable_structure(const Step& step) {
+  const Structure* best = nullptr;
+  const std::size_t after = mechanisms().size();
+  for (std::size_t s = 0; s < step.scores.structures.size(); ++s)
+    if (step.judgement.p_value[after + s] < k_alpha && (best == nullptr || step.scores.structures[s].gain > best->gain))
+      best = &step.scores.structures[s];
+  return best;
+}
+
+/// A curve or a step must beat one mechanism clearly, and any two of them at all.
+bool beats_mechanisms(const Structure& structure, double gain, const Step& step) {
+  return structure.gain > 1.15 * gain + 20.0 && structure.gain > 1.02 * best_pair_gain(step.view, step.scores.candidates) + 10.0;
+}
+
+Unexplained as_unexplained(const Structure& s) { return {s.variable, s.form, s.effect_n}; }
+
+/// Candidates that gain anything in the place of cause `i`, each refined beside the others; best first.
+std::vector<Rival> rivals_in_place(const CauseSearch& search, std::size_t i, const std::vector<Term>& others) {
+  const View rest = without(search.step.view, i);
+  const auto candidates = candidates_of(rest);
+  std::vector<const Candidate*> worth;
+  for (const auto& c : candidates)
+    if (c.testable && c.gain > 0.0) worth.push_back(&c);
+  return worth.empty() ? std::vector<Rival>{} : rivals_of(rest, others, worth);
+}
+
+/// The rival that fits better in the place of cause `i`; null: none does.
+const Rival* better_one(const CauseSearch& search, std::size_t i, const std::vector<Rival>& rivals, double with) {
+  for (const auto& r : rivals)
+    if (r.mechanism != search.causes[i].mechanism && r.chi2 < with - 1.0 && search.causes.size() > 1) return &r;
+  return nullptr;
+}
+
+}  // namespace
+
+CauseSearch begin_search(const Recording& recording, const ExplainOptions& options, std::function<void()> done) {
+  CauseSearch search{recording, options, std::move(done), estimate_motion(recording), {}, {}, {}};
+  look_again(search);
+  return search;
+}
+
+void look_again(CauseSearch& s) { s.step = look(s.recording, s.motion, s.causes, s.options, s.done); }
+
+std::optional<Unexplained> add_causes(CauseSearch& search) {
+  while (true) {
+    const Step& step = search.step;
+    const std::vector<const Candidate*> found = improbable(step);
+    const Structure* structure = improbable_structure(step);
+    const bool full = static_cast<int>(search.causes.size()) >= search.options.max_causes;
+    if (found.empty() || full) return structure != nullptr ? std::optional(as_unexplained(*structure)) : std::nullopt;
+    const auto rivals = rivals_of(step.view, search.causes, found);
+    if (rivals.empty()) return std::nullopt;
+    const double before = penalised_chi2(step.view, search.causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
+    const double gain = before - rivals.front().chi2;
+    if (structure != nullptr && beats_mechanisms(*structure, gain, step)) return as_unexplained(*structure);
+    if (gain < k_alias_chi2) return std::nullopt;
+    const auto at = static_cast<std::size_t>(rivals.front().mechanism);
+    search.causes = refine(step.view, rivals.front().causes, 1);
+    search.p_values.push_back(step.judgement.p_value[at]);
+    look_again(search);
+  }
+}
+
+bool weigh_causes(CauseSearch& search, std::vector<Cause>& weighed) {
+  bool changed = false;
+  auto& causes = search.causes;
+  for (std::size_t i = 0; i < causes.size();) {
+    auto others = causes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double with = penalised_chi2(search.step.view, causes);
+    const double earned = penalised_chi2(search.step.view, others) + k_parameter_penalty - with;
+    const double inflation = search.step.judgement.inflation;
+    if (causes.size() > 1 && earned < 2.0 * k_alias_chi2 * inflation) {
+      causes = others;
+      search.p_values.erase(search.p_values.begin() + static_cast<std::ptrdiff_t>(i));
+      changed = true;
+      look_again(search);
+      continue;
+    }
+    Cause cause;
+    cause.p_value = search.p_values[i];
+    const auto rivals = rivals_in_place(search, i, others);
+    if (const Rival* better = better_one(search, i, rivals, with)) {  // found when the others were not yet known
+      causes[i] = better->causes.back();
+      changed = true;
+    }
+    const double own = penalised_chi2(search.step.view, causes);
+    for (const auto& r : rivals)
+      if (r.mechanism != causes[i].mechanism && r.chi2 - own < k_alias_chi2 * inflation + 0.003 * earned &&
+          r.parameters <= parameters_of(causes[i], search.step.view.scene))
+        cause.aliases.emplace_back(mechanism_at(r.mechanism).name);
+    cause.term = causes[i];
+    weighed.push_back(cause);
+    ++i;
+  }
+  return changed;
+}
+
+}  // namespace cavum::explain
