@@ -107,7 +107,7 @@ TEST(StylusKinds, WhatIsOpenSaysWhatItsRecordSays) {
   EXPECT_EQ(simulated->facts().position_quantum_mm, record.position_quantum_mm);
 }
 
-TEST(StylusKinds, TheUsualPlacementHasTheMiddleOfTheReachAtTheCrown) {
+TEST(StylusKinds, UsualSettingsAreTheRecordsAndRightIsMesial) {
   for (const auto& kind : stylus_kinds().all()) {
     const StationStylus usual = usual_station_stylus(kind);
     for (const auto& s : kind.settings) EXPECT_EQ(usual.settings.at(s.key), s.usual) << kind.facts.id;
