@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/device/hardware/falcon_stylus.h"
+#include "engine/device/hardware/inverse3_stylus.h"
 #include "engine/device/hardware/openhaptics_stylus.h"
 #include "engine/device/pointer_stylus.h"
 
@@ -76,7 +77,7 @@ std::string StylusKinds::ids(std::initializer_list<StylusHand> hands) const {
 }
 
 const StylusKinds& stylus_kinds() {
-  static const StylusKinds k_kinds({simulated_kind(), mouse_kind(), falcon_kind(), touch_kind()});
+  static const StylusKinds k_kinds({simulated_kind(), mouse_kind(), falcon_kind(), touch_kind(), inverse3_kind()});
   return k_kinds;
 }
 
