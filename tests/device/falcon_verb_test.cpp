@@ -47,6 +47,15 @@ TEST_F(FalconVerb, IsListedAndTried) {
   EXPECT_NE(pushed.out.find("did not move"), std::string::npos) << pushed.out;
 }
 
+TEST_F(FalconVerb, TheRuleForUdevIsPrintedForItAndForNoStylusThatNeedsNone) {
+  const Ran printed = run("manual --udev-rules");
+  EXPECT_EQ(printed.code, 0);
+  EXPECT_NE(printed.out.find("\nSUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0660\", TAG+=\"uaccess\"\n"),
+            std::string::npos)
+      << printed.out;
+  EXPECT_EQ(printed.out.find("Inverse3"), std::string::npos) << "its service opens it";
+}
+
 TEST_F(FalconVerb, IsPlacedByFourMarks) {
   EmulatedFalcon falcon;
   std::mt19937_64 random(testing_basics::drawn_seed("FalconVerb"));

@@ -18,8 +18,8 @@
 #include "engine/session/verify.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/tooth.h"
-#include "tests/device/emulated_inverse3.h"
 #include "tests/device/emulated_pedal.h"
+#include "tests/device/inverse3_hands.h"
 #include "tests/device/program.h"
 #include "tests/engine/support/basics.h"
 
@@ -28,10 +28,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-bool comes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 20000 && !condition(); ++i) std::this_thread::sleep_for(5ms);
-  return condition();
-}
+bool comes_true(const std::function<bool()>& condition) { return testing_device::comes_true(condition, 100s); }
 
 class Inverse3Exam : public ::testing::Test {
  protected:

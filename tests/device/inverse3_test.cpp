@@ -1,92 +1,26 @@
 // The Inverse3's stylus on the emulated service: places, directions and forces in the right axes and units; and no force whenever something is wrong.
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <random>
-#include <thread>
 
-#include "engine/base/error.h"
 #include "engine/device/hardware/inverse3_stylus.h"
 #include "engine/device/hardware/open_stylus.h"
-#include "engine/servo/scheduling.h"
-#include "tests/device/emulated_inverse3.h"
+#include "tests/device/inverse3_hands.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
 
 using namespace std::chrono_literals;
-using testing_basics::error_of;
+using testing_device::comes_true;
 using testing_device::EmulatedInverse3;
+using testing_device::own_frame;
+using testing_device::Servo;
 using Answer = EmulatedInverse3::Answer;
 using Clock = std::chrono::steady_clock;
-
-bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 20000ms) {
-  for (const auto end = Clock::now() + within; Clock::now() < end; std::this_thread::sleep_for(1ms))
-    if (condition()) return true;
-  return condition();
-}
-
-/// In the device's own frame: what goes in comes out.
-StationStylus own_frame(const EmulatedInverse3& service, const std::string& device = {}, const std::string& grip = {}) {
-  StationStylus s = usual_station_stylus(inverse3_kind());
-  s.placement = {};
-  s.settings["port"] = static_cast<double>(service.port());
-  s.settings["device"] = device;
-  s.settings["grip"] = grip;
-  return s;
-}
-
-/// Wants a force, over and over, as a servo does.
-class Servo {
- public:
-  Servo(Stylus& stylus, Vec3 force_n)
-      : thread_([this, &stylus, force_n] {
-          for (; !stop_; std::this_thread::sleep_for(1ms)) stylus.send_force(force_n);
-        }) {}
-  ~Servo() {
-    stop_ = true;
-    thread_.join();
-  }
-
- private:
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
-
-/// What the computer gives at most beside all that it has to do: a thread with the same timetable, and one that answers it at once.
-std::int64_t exchanges_of_one_byte(int seconds) {
-  int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return -1;
-  std::thread other([end = ends[1]] {
-    static_cast<void>(ask_for_fifo(69));
-    for (char c = 0; ::read(end, &c, 1) == 1 && ::write(end, &c, 1) == 1;) {
-    }
-  });
-  std::int64_t count = 0;
-  std::thread one([&] {
-    static_cast<void>(ask_for_fifo(69));
-    ask_for_sharp_timers();
-    constexpr std::int64_t k_period_ns = 1'000'000;
-    const std::int64_t until = monotonic_ns() + seconds * 1'000'000'000LL;
-    for (std::int64_t due = monotonic_ns(); monotonic_ns() < until; ++count) {
-      due = std::max(due + k_period_ns, monotonic_ns() - k_period_ns);
-      char c = 'x';
-      if (::write(ends[0], &c, 1) != 1 || ::read(ends[0], &c, 1) != 1) break;
-      sleep_until(due);
-    }
-  });
-  one.join();
-  ::close(ends[0]);
-  other.join();
-  ::close(ends[1]);
-  return count;
-}
 
 class Inverse3 : public ::testing::Test {
  protected:
@@ -155,22 +89,6 @@ TEST_F(Inverse3, ForcesArriveInItsAxesAndInTheFormOfItsVersion) {
   EXPECT_TRUE(comes_true([&] { return older.force_n().x == 0.25; }));
   EXPECT_EQ(older.told().name, "values");
   EXPECT_EQ(older.commands_that_were_none() + service_.commands_that_were_none(), 0);
-}
-
-TEST_F(Inverse3, AThousandExchangesASecondAreKept) {
-  const int seconds = std::getenv("CAVUM_DEEP") != nullptr ? 60 : 4;
-  Inverse3Stylus stylus(own_frame(service_));
-  const Servo servo(stylus, {0, 0, 0.1});
-  ASSERT_TRUE(comes_true([&] { return service_.force_n().z > 0; }));
-  const std::int64_t before = service_.told().count, from = monotonic_ns();
-  const std::int64_t possible = exchanges_of_one_byte(seconds), kept = service_.told().count - before;
-  const double took_s = static_cast<double>(monotonic_ns() - from) * 1e-9;
-  const StylusHealth h = stylus.health();
-  std::printf("%d s: %lld exchanges of %lld possible; scatter %.3f ms, longest gap %.1f ms\n", seconds, static_cast<long long>(kept),
-              static_cast<long long>(possible), 1e3 * h.jitter_s, 1e3 * h.longest_gap_s);
-  EXPECT_GT(static_cast<double>(kept), 0.9 * static_cast<double>(possible));
-  EXPECT_LE(static_cast<double>(kept), 1000.0 * took_s + 10.0) << "never faster than the servo";
-  EXPECT_EQ(h.unplugged, 0);
 }
 
 TEST_F(Inverse3, AForceThatNobodyRenewsIsLetGo) {

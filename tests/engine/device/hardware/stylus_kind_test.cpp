@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <regex>
+#include <set>
+#include <sstream>
 
+#include "engine/base/file.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/stylus_probe.h"
 #include "tests/engine/support/basics.h"
@@ -70,6 +74,25 @@ TEST(StylusKinds, AStylusOfOneRecordIsListedOpenedPlacedAndGivenForce) {
   stylus->send_force({0, 0, 1});
   EXPECT_NEAR(stylus->read(1e-3).pose.tip_mm.z, 5.25, 1e-12) << "1 N on a spring of 4 N/mm";
   EXPECT_NE(error_of([&] { static_cast<void>(parse_station_stylus(to_toml(options.station) + "stiffness = 1\n", "toy.toml", toy)); }), "");
+}
+
+TEST(StylusKinds, TheRecipeNamesTheFieldsOfTheRecord) {
+  const std::string root = CAVUM_SOURCE_DIR, page = read_text_file(root + "/docs/howto/add_a_stylus.md");
+  const std::string whole = read_text_file(root + "/engine/device/hardware/stylus_kind.h"),
+                    record = whole.substr(whole.find("struct StylusKind {"), whole.find("class StylusKinds") - whole.find("struct StylusKind {"));
+  const std::regex in_page(R"(`([a-z]+)`)"), in_record(R"( ([a-z]+)(?: = [^;]*)?;)");
+  const auto names = [](const std::string& text, const std::regex& pattern) {
+    std::set<std::string> found;
+    for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) found.insert((*i)[1]);
+    return found;
+  };
+  std::string rows;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("   | `")) rows += line.substr(0, line.find('|', 5)) + "\n";
+  std::set<std::string> fields = names(std::regex_replace(record, std::regex("//.*"), ""), in_record);
+  EXPECT_EQ(fields.erase("hand"), 1u) << "a person's, unless told otherwise";
+  EXPECT_EQ(names(rows, in_page), fields);
 }
 
 TEST(StylusKinds, ARecordThatLacksSomethingIsSaidAtOnce) {
