@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "engine/base/file.h"
@@ -113,6 +114,35 @@ TEST_F(Inverse3Exam, IsListedAndTried) {
   EXPECT_GT(nlohmann::json::parse(tried.out)["rate_hz"], 400.0);
   service_.stop();
   EXPECT_NE(testing_device::run("devices").out.find("no service listens"), std::string::npos);
+}
+
+TEST_F(Inverse3Exam, IsPlacedByFourMarksAndACrownAtTheEdgeOfItsReachIsNamed) {
+  for (const double off_mm : {0.0, 90.0}) {
+    const Vec3 crown_mm = Vec3{0, -120, 150} + Vec3{off_mm, 0, 0};  // the device's axes
+    const std::string said = folder_.file("said");
+    write_text_file(said, "");
+    FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " devices --place --stylus inverse3 > " + said + " 2>&1").c_str(), "w");
+    ASSERT_NE(pipe, nullptr);
+    int asked = 0;
+    for (const Vec3 mark : {Vec3{0, 0, 0}, Vec3{20, 0, 0}, Vec3{0, 20, 0}, Vec3{0, 0, 20}}) {
+      ++asked;
+      EXPECT_TRUE(comes_true([&] {
+        int count = 0;
+        std::istringstream lines(read_text_file(said));
+        for (std::string line; std::getline(lines, line);) count += line.starts_with("hold the tip") ? 1 : 0;
+        return count == asked;
+      }));
+      service_.move_to((crown_mm + mark) / 1000.0);
+      std::this_thread::sleep_for(50ms);  // some states later
+      std::fputs("\n", pipe);
+      std::fflush(pipe);
+    }
+    EXPECT_EQ(WEXITSTATUS(::pclose(pipe)), 0) << read_text_file(said);
+    const StationStylus kept = load_station_stylus(inverse3_kind());
+    EXPECT_LT(length(to_tooth(kept.placement, crown_mm).tip_mm), 1e-6);
+    EXPECT_EQ(kept.number("port"), service_.port()) << "what the station had told it stays";
+    EXPECT_EQ(read_text_file(said).find("move the device") != std::string::npos, off_mm > 0) << read_text_file(said);
+  }
 }
 
 TEST_F(Inverse3Exam, IsTakenWhileTheServiceIsBegunAgainGradedAndReplays) {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
@@ -57,6 +58,12 @@ TEST(Inverse3Protocol, WhatIsNoMessageIsRefused) {
     EXPECT_NE(error_of([&] { static_cast<void>(parse_inverse3(wrong)); }).find("stylus inverse3"), std::string::npos) << wrong;
   EXPECT_NE(error_of([] { static_cast<void>(parse_inverse3(std::string(k_inverse3_largest + 1, ' '))); }), "");
   EXPECT_NE(error_of([] { static_cast<void>(parse_inverse3(R"({"inverse3":)" + std::string(13, '[') + std::string(13, ']') + "}")); }), "");
+}
+
+TEST(Inverse3Protocol, ThePageOfLimitsSaysHowLargeAMessageMayBe) {
+  const std::string page = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/limits.md");
+  EXPECT_NE(page.find("bytes | 65,536 | `k_inverse3_largest` |"), std::string::npos);
+  EXPECT_EQ(k_inverse3_largest, 65'536u);
 }
 
 TEST(Inverse3Protocol, DamageIsReadOrRefusedAndNothingElse) {
