@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
@@ -39,10 +40,15 @@ bool has_left(int socket) {
 }  // namespace
 
 struct EmulatedInverse3::Line {
-  explicit Line(asio::ip::tcp::socket socket) : stream(std::move(socket)) {}
+  explicit Line(asio::ip::tcp::socket socket) : cutter(::dup(socket.native_handle())), stream(std::move(socket)) {}
+  ~Line() { ::close(cutter); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  void cut() const { ::shutdown(cutter, SHUT_RDWR); }
+
+  const int cutter;  // the same socket for other threads, so that its number is not another's once the line is over
   beast::websocket::stream<asio::ip::tcp::socket> stream;
   std::set<std::string> pushed;  // ids of devices that it told a force
-  std::atomic<bool> over{false};
   std::thread thread;
 };
 
@@ -56,7 +62,7 @@ struct EmulatedInverse3::Listener {
 
   void cut_all() {
     const std::lock_guard lock(mutex);
-    for (Line& line : lines) ::shutdown(line.stream.next_layer().native_handle(), SHUT_RDWR);
+    for (const Line& line : lines) line.cut();
   }
 };
 
@@ -122,7 +128,7 @@ void EmulatedInverse3::serve(Line& line) {
       told_[id].since = Clock::now();
     }
   }
-  ::shutdown(line.stream.next_layer().native_handle(), SHUT_RDWR);
+  line.cut();
   --lines_;
 }
 
