@@ -32,7 +32,7 @@ std::optional<bool> truth_in(const json& j, const char* key) {
 
 /// It is sent back inside our own text: nothing in it may need a quote.
 std::string id_in(const json& j) {
-  const std::string id = text_in(j, "device_id");
+  std::string id = text_in(j, "device_id");
   const auto is_plain = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' || c == ':';
   };
