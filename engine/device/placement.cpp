@@ -98,6 +98,13 @@ Pose to_tooth(const Placement& placement, Vec3 device_mm, Quat tool_to_device) n
 
 Vec3 force_to_device(const Placement& placement, Vec3 tooth_n) noexcept { return rotation(placement.rotation).transposed(tooth_n); }
 
+Placement upright_device(Vec3 middle_mm) noexcept {
+  Placement placement;
+  placement.rotation = rotation_of({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+  placement.offset_mm = Vec3{} - rotation(placement.rotation) * middle_mm;
+  return placement;
+}
+
 PlacementFit fit_placement(const std::vector<Vec3>& device_mm, const std::vector<Vec3>& tooth_mm) {
   if (device_mm.size() != tooth_mm.size() || device_mm.size() < 3)
     throw Error("placement",

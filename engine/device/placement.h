@@ -28,6 +28,10 @@ struct Placement {
 /// Of an orthonormal matrix given by its columns, which need be so to 1e-3 only.
 [[nodiscard]] Quat rotation_of(Vec3 column_x, Vec3 column_y, Vec3 column_z) noexcept;
 
+/// In front of the candidate, who looks at the tooth with mesial to the right and buccal away, `middle_mm` of the device at the crown's middle: of a
+/// device whose x points to the right, y up and z towards the candidate.
+[[nodiscard]] Placement upright_device(Vec3 middle_mm) noexcept;
+
 struct PlacementFit {
   Placement placement;
   double rms_mm = 0.0, worst_mm = 0.0;  ///< what is left between the marks

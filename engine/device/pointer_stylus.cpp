@@ -5,6 +5,13 @@
 
 namespace cavum {
 
+OmniModel pointer_omni() {
+  OmniModel model;
+  model.coulomb_n = 0.05;
+  model.quantum_mm = 0.01;
+  return model;
+}
+
 PointerStylus::PointerStylus(const OmniModel& omni, const HandModel& hand, double tick_s, const PointerIntent& first)
     : omni_(omni), hand_(hand), tick_s_(tick_s), state_(make_omni_state(first.tip_mm)), intent_(first), followed_mm_(first.tip_mm) {
   silent_s_ = k_silent_s;  // nobody has spoken yet

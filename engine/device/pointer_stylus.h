@@ -20,6 +20,9 @@ struct PointerIntent {
   bool button_2 = false;
 };
 
+/// The simulated Omni behind a mouse, which has no joints that rub; a coarse grid of its own would be felt.
+[[nodiscard]] OmniModel pointer_omni();
+
 class PointerStylus final : public ServoDevice {
  public:
   static constexpr double k_silent_s = 0.25;        ///< without a `want` for so long, the pedal is unknown and the handpiece stands

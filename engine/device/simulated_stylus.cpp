@@ -5,6 +5,17 @@
 
 namespace cavum {
 
+StylusFacts simulated_facts(const OmniModel& omni) {
+  return {.id = "simulated",
+          .name = "simulated Omni in a simulated hand",
+          .position_quantum_mm = omni.quantum_mm,
+          .peak_n = omni.saturation_n,
+          .continuous_n = 0.88,
+          .rate_hz = 1000.0,
+          .reach_mm = 35.0,
+          .measures_direction = false};
+}
+
 DeviceReading SimulatedStylus::read(double elapsed_s) {
   constexpr int k_most_steps = 1000;
   const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_most_steps);

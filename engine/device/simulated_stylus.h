@@ -16,6 +16,9 @@ struct HandIntent {
   double pedal = 0.0;  ///< 0..1
 };
 
+/// What a simulated Omni says of itself. Its reach is half the depth of the real one's workspace of 160 x 120 x 70 mm (recalled).
+[[nodiscard]] StylusFacts simulated_facts(const OmniModel& omni);
+
 class SimulatedStylus final : public Stylus {
  public:
   /// `intent` is asked in the servo thread with the time since the start; it must not allocate.
@@ -35,12 +38,7 @@ class SimulatedStylus final : public Stylus {
   double tick_s_;
   std::function<HandIntent(double)> intent_;
   OmniState state_;
-  StylusFacts facts_{.id = "simulated",
-                     .name = "simulated Omni in a simulated hand",
-                     .position_quantum_mm = omni_.quantum_mm,
-                     .peak_n = omni_.saturation_n,
-                     .continuous_n = 0.88,
-                     .measures_direction = false};
+  StylusFacts facts_ = simulated_facts(omni_);
   double time_s_ = 0.0;
   Vec3 force_n_;
   std::atomic<bool> cut_{false};

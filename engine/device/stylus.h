@@ -11,12 +11,14 @@ namespace cavum {
 
 /// What a stylus is; the same for as long as it is open.
 struct StylusFacts {
-  std::string id;                    ///< `simulated`, `falcon`, `touch`
+  std::string id;                    ///< of its record in the table of styluses: a lower-case word
   std::string name;                  ///< in words, with what the device says of itself
   std::string serial = {};           ///< of this very device; empty when it tells none
   double position_quantum_mm = 0.0;  ///< step of the positions it reports; 0 = exact
   double peak_n = 0.0;               ///< force that it can give for a moment; more is cut to it
   double continuous_n = 0.0;         ///< force that it can give without end
+  double rate_hz = 0.0;              ///< exchanges in a second, when all is well
+  double reach_mm = 0.0;             ///< from the middle of its workspace, in each direction
   bool measures_direction = false;   ///< of the handpiece; otherwise the placement's fixed one counts
 };
 

@@ -32,7 +32,7 @@ TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
       servo_rig_setup(read_text_file(data + "points/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
 
   testing_device::EmulatedFalcon falcon;
-  StationStylus station = usual_station_stylus("falcon");
+  StationStylus station = usual_station_stylus(falcon_kind());
   Simulation simulation = make_simulation(setup, path);
   const double top_mm = setup.first_tip_mm().z;
   FalconStylus stylus(station);

@@ -30,7 +30,7 @@ bool comes_true(const std::function<bool()>& condition, std::chrono::millisecond
 
 /// In the device's own frame: what goes in comes out.
 StationStylus own_frame() {
-  StationStylus s;
+  StationStylus s = usual_station_stylus(falcon_kind());
   s.placement = {};
   return s;
 }
@@ -82,7 +82,7 @@ TEST_F(FalconTest, FirmwareArrivesByteForByteAndRuns) {
   for (char& c : firmware) c = static_cast<char>(random());
   write_text_file(folder_.file("fw.bin"), firmware);
   StationStylus station = own_frame();
-  station.firmware = folder_.file("fw.bin");
+  station.settings["firmware"] = folder_.file("fw.bin");
   FalconStylus stylus(station);
   ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
   const auto got = falcon.firmware();

@@ -47,6 +47,15 @@ TEST_F(FalconVerb, IsListedAndTried) {
   EXPECT_NE(pushed.out.find("did not move"), std::string::npos) << pushed.out;
 }
 
+TEST_F(FalconVerb, TheRuleForUdevIsPrintedForItAndForNoStylusThatNeedsNone) {
+  const Ran printed = run("manual --udev-rules");
+  EXPECT_EQ(printed.code, 0);
+  EXPECT_NE(printed.out.find("\nSUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0660\", TAG+=\"uaccess\"\n"),
+            std::string::npos)
+      << printed.out;
+  EXPECT_EQ(printed.out.find("Inverse3"), std::string::npos) << "its service opens it";
+}
+
 TEST_F(FalconVerb, IsPlacedByFourMarks) {
   EmulatedFalcon falcon;
   std::mt19937_64 random(testing_basics::drawn_seed("FalconVerb"));
@@ -79,7 +88,7 @@ TEST_F(FalconVerb, IsPlacedByFourMarks) {
     std::fflush(pipe);
   }
   ASSERT_EQ(WEXITSTATUS(::pclose(pipe)), 0);
-  const StationStylus kept = load_station_stylus("falcon");
+  const StationStylus kept = load_station_stylus(stylus_kinds().at("falcon", "test", {StylusHand::person}));
   for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{10, -5, 8}})
     EXPECT_LT(length(to_tooth(kept.placement, device_at(p)).tip_mm - p), 0.2) << "two encoder steps and more";
   EXPECT_NE(run("devices").out.find("(placed)"), std::string::npos);

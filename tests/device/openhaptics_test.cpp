@@ -43,9 +43,10 @@ struct Hands {
 };
 
 StationStylus station(const std::string& name = {}) {
-  StationStylus s;
-  s.library = FAKE_HD;
-  s.device_name = name;
+  StationStylus s = usual_station_stylus(stylus_kinds().at("touch", "test", {StylusHand::person}));
+  s.placement = {};
+  s.settings["library"] = FAKE_HD;
+  s.settings["device_name"] = name;
   return s;
 }
 
@@ -62,9 +63,9 @@ class OpenHaptics : public ::testing::Test {
 
 TEST_F(OpenHaptics, WithoutTheLibraryItSaysWhatToInstall) {
   StationStylus none = station();
-  none.library = "libHD-that-is-nowhere.so";
+  none.settings["library"] = "libHD-that-is-nowhere.so";
   EXPECT_NE(error_of([&] { const OpenHapticsStylus s(none); }).find("install OpenHaptics"), std::string::npos);
-  none.library = "libm.so.6";
+  none.settings["library"] = "libm.so.6";
   EXPECT_NE(error_of([&] { const OpenHapticsStylus s(none); }).find("has no hdInitDevice"), std::string::npos);
   bool there = true;
   EXPECT_NE(openhaptics_problem(none, there), "");
@@ -113,7 +114,7 @@ TEST_F(OpenHaptics, PlaceDirectionAndButtonsAreTheDevices) {
 
 TEST_F(OpenHaptics, ForcesArriveInTheDevicesFrameAndAreCutToItsPeak) {
   StationStylus placed = station();
-  placed.placement = usual_station_stylus("touch").placement;
+  placed.placement = touch_kind().placement;
   OpenHapticsStylus stylus(placed);
   ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
   const auto arrives = [&](Vec3 sent, Vec3 wanted) {

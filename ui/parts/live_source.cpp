@@ -39,9 +39,9 @@ class SimulatedSource final : public LiveSource {
 
 class StylusSource final : public LiveSource {
  public:
-  explicit StylusSource(LiveSourceOptions options) : options_(std::move(options)) {
-    stylus_options_.station = load_station_stylus(options_.device);
-    stylus_ = open_stylus(options_.device, stylus_options_);
+  StylusSource(LiveSourceOptions options, const StylusKind& kind) : options_(std::move(options)) {
+    stylus_options_.station = load_station_stylus(kind);
+    stylus_ = kind.open(stylus_options_);
     station_pedal_ = require_pedal();
     const auto& p = station_pedal_;
     pedal_ = std::make_unique<HidPedal>(p.vendor, p.product, p.calibration);
@@ -104,14 +104,15 @@ class StylusSource final : public LiveSource {
 }  // namespace
 
 std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
-  if (options.device == "simulated") {
+  const StylusKind& kind = stylus_kinds().at(options.device, "--device " + options.device, {StylusHand::candidate, StylusHand::person});
+  if (kind.hand == StylusHand::candidate) {
     if (options.operator_name.empty()) throw Error("--device simulated", "needs a hand", "add --operator expert, novice, perforator or careless");
     if (!options.point.empty()) throw Error("--point", "is for a stylus in a hand", "leave it out: the operator chooses the point that fits");
     return std::make_unique<SimulatedSource>(options);
   }
   if (!options.operator_name.empty())
     throw Error("--operator " + options.operator_name, "holds only the simulated stylus", "leave it out, or take --device simulated");
-  return std::make_unique<StylusSource>(options);
+  return std::make_unique<StylusSource>(options, kind);
 }
 
 }  // namespace cavum

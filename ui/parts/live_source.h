@@ -12,7 +12,7 @@
 namespace cavum {
 
 struct LiveSourceOptions {
-  std::string device;         ///< `simulated`, `falcon`, `touch`
+  std::string device;         ///< id in the table of styluses
   std::string operator_name;  ///< of the simulated one
   std::uint64_t seed = 1;
   std::string point;  ///< of a real one: name of the diamond point mounted; empty: the tray's first

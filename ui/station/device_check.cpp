@@ -22,7 +22,7 @@ CheckItem stylus_item(const DeviceSight& s) {
   using State = CheckItem::State;
   if (!s.error.empty()) return {State::bad, "Stylus", s.error};
   if (!s.read_once) return {State::waiting, "Stylus", "waiting for its first word"};
-  if (s.rate_hz < DeviceCheck::k_least_rate_hz)
+  if (s.rate_hz < DeviceCheck::k_least_share * s.usual_rate_hz)
     return {State::waiting, "Stylus", "speaks too seldom: " + number("%.0f", s.rate_hz) + " times a second"};
   return {State::good, "Stylus", number("speaks %.0f times a second", s.rate_hz)};
 }
@@ -89,7 +89,7 @@ bool all_good(const std::array<CheckItem, 3>& items) {
   return std::all_of(items.begin(), items.end(), [](const CheckItem& i) { return i.state == CheckItem::State::good; });
 }
 
-DeviceCheck::DeviceCheck(ServoDevice& device) : device_(device), thread_([this] { run(); }) {}
+DeviceCheck::DeviceCheck(ServoDevice& device, double usual_rate_hz) : device_(device), usual_rate_hz_(usual_rate_hz), thread_([this] { run(); }) {}
 
 DeviceCheck::~DeviceCheck() {
   stop_.store(true, std::memory_order_release);
@@ -103,6 +103,7 @@ DeviceSight DeviceCheck::sight() const {
 
 void DeviceCheck::run() noexcept {
   DeviceSight seen;
+  seen.usual_rate_hz = usual_rate_hz_;
   LastSecond last;
   auto due = Clock::now();
   auto before = due;

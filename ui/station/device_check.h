@@ -16,7 +16,8 @@ namespace cavum {
 /// What the check has seen so far. Rates and places are of the last second.
 struct DeviceSight {
   bool read_once = false;
-  double rate_hz = 0.0;  ///< of fresh poses
+  double rate_hz = 0.0;         ///< of fresh poses
+  double usual_rate_hz = 1000;  ///< of this device, when all is well
   Vec3 tip_mm;
   Quat rotation;
   double wander_mm = 1e9;  ///< largest distance of the tip from its mean
@@ -41,11 +42,11 @@ struct CheckItem {
 
 class DeviceCheck {
  public:
-  static constexpr double k_least_rate_hz = 400.0;
+  static constexpr double k_least_share = 0.4;     ///< of the usual rate
   static constexpr double k_most_wander_mm = 0.6;  ///< of a hand on its finger rest
 
-  /// Reads from now on; the device must outlive it and be read by nobody else.
-  explicit DeviceCheck(ServoDevice& device);
+  /// `usual_rate_hz`: at which the device speaks when all is well. Reads from now on; the device must outlive it and be read by nobody else.
+  explicit DeviceCheck(ServoDevice& device, double usual_rate_hz = 1000.0);
   /// Stops reading.
   ~DeviceCheck();
   DeviceCheck(const DeviceCheck&) = delete;
@@ -56,6 +57,7 @@ class DeviceCheck {
   void run() noexcept;
 
   ServoDevice& device_;
+  const double usual_rate_hz_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   DeviceSight sight_;

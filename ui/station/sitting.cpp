@@ -101,7 +101,7 @@ Sitting::~Sitting() {
 void Sitting::advance() {
   if (stage_ == Stage::preparing && is_ready(preparing_)) {
     setup_ = preparing_.get();
-    check_ = std::make_unique<DeviceCheck>(device_->for_check());
+    check_ = std::make_unique<DeviceCheck>(device_->for_check(), station_stylus_kind(options_.device.name).facts.rate_hz);
     stage_ = Stage::checking;
   }
   if (stage_ == Stage::running) {
@@ -167,7 +167,7 @@ void Sitting::begin() {
     live_->start();
   } catch (...) {
     live_.reset();
-    check_ = std::make_unique<DeviceCheck>(device_->for_check());
+    check_ = std::make_unique<DeviceCheck>(device_->for_check(), station_stylus_kind(options_.device.name).facts.rate_hz);
     throw;
   }
   stage_ = Stage::running;

@@ -45,16 +45,17 @@ class SimulatedHand final : public StationDevice {
 
 class Mouse final : public StationDevice {
  public:
-  [[nodiscard]] std::string name() const override { return "mouse and keyboard, simulated Omni"; }
+  explicit Mouse(const StylusKind& kind) : kind_(kind) {}
+  [[nodiscard]] std::string name() const override { return kind_.facts.name; }
   [[nodiscard]] MotionSource source() const override { return {"pointer", "mouse and keyboard"}; }
-  [[nodiscard]] double position_quantum_mm() const override { return omni().quantum_mm; }
+  [[nodiscard]] double position_quantum_mm() const override { return kind_.facts.position_quantum_mm; }
   void prepare(const ExamSetup& setup) override {
     constexpr double k_above_mm = 4.0;
     const ZoneMap& zones = setup.zones;
     const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
     first_.tip_mm = Vec3{middle.x, middle.y, zones.opening_z_mm()} + zones.approach() * k_above_mm;
     first_.rotation = rotation_between({0, 0, 1}, zones.approach());
-    stylus_ = std::make_unique<PointerStylus>(omni(), HandModel{}, k_tick_s, first_);
+    stylus_ = std::make_unique<PointerStylus>(pointer_omni(), HandModel{}, k_tick_s, first_);
   }
   [[nodiscard]] ServoDevice& for_check() override { return *stylus_; }
   [[nodiscard]] ServoDevice& for_exam() override { return *stylus_; }
@@ -63,13 +64,7 @@ class Mouse final : public StationDevice {
   [[nodiscard]] PointerStylus* pointer() override { return stylus_.get(); }
 
  private:
-  /// The mouse has no joints that rub, but a grid of its own would be felt.
-  [[nodiscard]] static OmniModel omni() {
-    OmniModel model;
-    model.coulomb_n = 0.05;
-    model.quantum_mm = 0.01;
-    return model;
-  }
+  const StylusKind& kind_;
   PointerIntent first_;
   std::unique_ptr<PointerStylus> stylus_;
 };
@@ -100,11 +95,21 @@ class PluggedIn final : public StationDevice {
 
 }  // namespace
 
+const StylusKind& station_stylus_kind(const std::string& name) {
+  return stylus_kinds().at(name, "--device " + name, {StylusHand::candidate, StylusHand::mouse, StylusHand::person});
+}
+
 std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice) {
-  if (choice.name == "simulated") return std::make_unique<SimulatedHand>(choice);
-  if (choice.name == "mouse") return std::make_unique<Mouse>();
-  if (choice.name == "falcon" || choice.name == "touch") return std::make_unique<PluggedIn>(choice);
-  throw Error("--device " + choice.name, "is no device of the station", "name one of simulated, mouse, falcon, touch");
+  const StylusKind& kind = station_stylus_kind(choice.name);
+  switch (kind.hand) {
+    case StylusHand::candidate:
+      return std::make_unique<SimulatedHand>(choice);
+    case StylusHand::mouse:
+      return std::make_unique<Mouse>(kind);
+    case StylusHand::person:
+      break;
+  }
+  return std::make_unique<PluggedIn>(choice);
 }
 
 }  // namespace cavum

@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/pointer_stylus.h"
 #include "scenarios/candidates/candidate_device.h"
 
 namespace cavum {
 
 struct DeviceChoice {
-  std::string name = "simulated";        ///< or `mouse`, `falcon`, `touch`
+  std::string name = "simulated";        ///< or another of the table of styluses
   std::string operator_name = "expert";  ///< of the simulated candidate, see make_skill
   std::uint64_t seed = 1;
 };
@@ -45,6 +46,8 @@ class StationDevice {
   [[nodiscard]] virtual PointerStylus* pointer() { return nullptr; }
 };
 
+/// The record of `name`. Throws Error for a name that is none.
+[[nodiscard]] const StylusKind& station_stylus_kind(const std::string& name);
 /// Throws Error for a name that is none, and when what a stylus needs is missing.
 [[nodiscard]] std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice);
 

@@ -15,6 +15,7 @@
 #include "engine/base/text.h"
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/station_pedal.h"
+#include "engine/device/hardware/stylus_kind.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/number_check.h"
 #include "ui/parts/print_json.h"
@@ -191,7 +192,8 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
   auto* devices = app.add_subcommand("devices", "What is plugged in and what is wrong with it");
   devices->add_option("--pedal", o->id, "vendor and product, for example 068e:00f2; needed when there are several");
-  auto* stylus = devices->add_option("--stylus", o->stylus, "falcon, touch or simulated: for --test and --place");
+  auto* stylus =
+      devices->add_option("--stylus", o->stylus, stylus_kinds().ids({StylusHand::person, StylusHand::candidate}) + ": for --test and --place");
   auto* test_flag =
       devices->add_flag("--test", o->test,
                         "listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "

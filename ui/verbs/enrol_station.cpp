@@ -4,8 +4,7 @@
 #include <iostream>
 
 #include "engine/base/file.h"
-#include "engine/device/hardware/falcon_usb.h"
-#include "engine/device/hardware/usb_serial.h"
+#include "engine/device/hardware/stylus_kind.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/station_ticket.h"
 #include "grading/ledger/stations.h"
@@ -14,9 +13,8 @@ namespace cavum {
 namespace {
 
 MotionSource stylus(const std::string& id) {
-  if (id == "falcon") return {"device", id, usb_serial(k_falcon_vendor, k_falcon_product)};
-  if (id == "touch") return {"device", id, ""};
-  throw Error("--stylus " + id, "is none", "name falcon or touch");
+  const StylusKind& kind = stylus_kinds().at(id, "--stylus " + id, {StylusHand::person});
+  return {"device", id, kind.serial ? kind.serial(load_station_stylus(kind)) : ""};
 }
 
 }  // namespace

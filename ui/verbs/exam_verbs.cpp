@@ -13,6 +13,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/device/hardware/stylus_kind.h"
 #include "engine/servo/real_time_json.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/candidate_id.h"
@@ -364,7 +365,9 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
   auto* name = exam->add_option("--operator", o->operator_name,
                                 "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
-  auto* device = exam->add_option("--device", o->device, "in real time, without a window: falcon, touch, or simulated with --operator as its hand");
+  auto* device = exam->add_option("--device", o->device,
+                                  "in real time, without a window: " + stylus_kinds().ids({StylusHand::person}) + ", or " +
+                                      stylus_kinds().ids({StylusHand::candidate}) + " with --operator as its hand");
   motion->excludes(name);
   device->excludes(motion);
   exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);

@@ -1,8 +1,10 @@
-// The manual page and the shell's completion, made of what the program says of itself with --help.
+// The manual page, the shell's completion and the udev rules, made of what the program says of itself with --help.
 #include <iostream>
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/device/hardware/stylus_kind.h"
+#include "engine/device/hardware/udev_rule.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum {
@@ -98,19 +100,31 @@ void write_completion(std::ostream& out, const CLI::App& app) {
          "complete -o filenames -F _cavum cavum\n";
 }
 
+void write_udev_rules(std::ostream& out) {
+  out << "# Whoever sits at the screen may use the stylus. `cavum devices` names the line that another device needs.\n";
+  for (const auto& kind : stylus_kinds().all())
+    if (kind.usb) out << "# " << kind.facts.name << "\n" << udev_rule(kind.usb->vendor, kind.usb->product, false) << "\n";
+}
+
 }  // namespace
 
 void add_manual_verbs(CLI::App& app, int& exit_code) {
   struct Options {
-    bool man = false, completion = false;
+    bool man = false, completion = false, udev = false;
   };
   const auto o = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("manual", "The manual page (roff), or the completion of bash");
+  auto* verb = app.add_subcommand("manual", "The manual page (roff), the completion of bash, or the udev rules of the styluses");
   auto* man = verb->add_flag("--man", o->man, "the manual page: cavum manual --man | man -l -");
-  verb->add_flag("--completion", o->completion, "what bash is to source, so that it completes verbs and options")->excludes(man);
+  auto* completion = verb->add_flag("--completion", o->completion, "what bash is to source, so that it completes verbs and options")->excludes(man);
+  verb->add_flag("--udev-rules", o->udev, "lets whoever sits at the screen use a stylus: for /etc/udev/rules.d/60-cavum.rules")
+      ->excludes(man)
+      ->excludes(completion);
   verb->callback([o, &app, &exit_code] {
-    if (!o->man && !o->completion) throw Error("cavum manual", "is to write nothing", "add --man or --completion");
-    o->man ? write_man_page(std::cout, app) : write_completion(std::cout, app);
+    if (!o->man && !o->completion && !o->udev) throw Error("cavum manual", "is to write nothing", "add --man, --completion or --udev-rules");
+    if (o->udev)
+      write_udev_rules(std::cout);
+    else
+      o->man ? write_man_page(std::cout, app) : write_completion(std::cout, app);
     exit_code = 0;
   });
 }

@@ -10,6 +10,7 @@
 #include "ui/parts/seed_check.h"
 #include "ui/station/author.h"
 #include "ui/station/station.h"
+#include "ui/station/station_device.h"
 #include "ui/verbs/enrol_station.h"
 #include "ui/verbs/verbs.h"
 
@@ -56,8 +57,7 @@ void require_sound(const StationOptions& o, const std::string& author) {
   }
   if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
   // a name that is none is refused now; what is plugged in is opened for each candidate
-  if (const std::string& device = o.sitting.device.name; device != "falcon" && device != "touch")
-    static_cast<void>(make_station_device(o.sitting.device));
+  if (station_stylus_kind(o.sitting.device.name).hand != StylusHand::person) static_cast<void>(make_station_device(o.sitting.device));
   if (o.sitting.out.ends_with(".cavum")) {
     require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
     if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
@@ -92,7 +92,10 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--replay", s.replay, "look at a recorded exam instead");
   station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
   station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");
-  station->add_option("--device", s.sitting.device.name, "what is in the candidate's hand: simulated, mouse, falcon, touch")->capture_default_str();
+  station
+      ->add_option("--device", s.sitting.device.name,
+                   "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}))
+      ->capture_default_str();
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
@@ -119,8 +122,9 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
                       "ask the school to enrol this station, with the one-time code that it gave; --out is the request to write");
   station->add_flag("--replace-key", o->enrol.replace_key,
                     "make a new key for this enrolled station, and ask for it to take the old one's place; --out as above");
-  station->add_option("--stylus", o->enrol.styluses,
-                      "with --enrol or --replace-key: falcon or touch; only recordings of it count then; may be repeated");
+  station->add_option(
+      "--stylus", o->enrol.styluses,
+      "with --enrol or --replace-key: " + stylus_kinds().ids({StylusHand::person}) + "; only recordings of it count then; may be repeated");
   station->callback([o, &exit_code] {
     if (!o->enrol.code.empty() || o->enrol.replace_key) {
       o->enrol.out = o->station.sitting.out;

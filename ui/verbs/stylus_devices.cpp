@@ -24,6 +24,24 @@ bool placed(const std::string& id) { return ::access(station_stylus_path(id).c_s
 
 constexpr double k_patience_s = 10.0;
 
+const StylusKind& kind_of(const std::string& id) { return stylus_kinds().at(id, "--stylus " + id, {StylusHand::candidate, StylusHand::person}); }
+
+nlohmann::json ratings(const std::string& id) {
+  const StylusFacts& f = kind_of(id).facts;
+  return {
+      {"peak_n", f.peak_n}, {"continuous_n", f.continuous_n}, {"rate_hz", f.rate_hz}, {"reach_mm", f.reach_mm}, {"direction", f.measures_direction}};
+}
+
+/// A crown at the edge of what the device reaches is cut short by it, not by the tooth.
+void warn_of_the_edge(const StylusKind& kind, const Placement& placed) {
+  const Vec3 usual_middle_mm = rotation(kind.placement.rotation).transposed(-kind.placement.offset_mm);
+  const double off_mm = length(to_tooth(placed, usual_middle_mm).tip_mm);
+  constexpr double k_tooth_mm = 15.0;
+  if (off_mm + k_tooth_mm > kind.facts.reach_mm)
+    std::cout << "the crown is " << fixed(off_mm, 0) << " mm from the middle of its reach of " << fixed(kind.facts.reach_mm, 0)
+              << " mm: move the device, and place it anew\n";
+}
+
 /// Where the tip is, in the mean of a fifth of a second: hands tremble.
 Vec3 held_at(Stylus& stylus) {
   constexpr int k_looks = 100;
@@ -40,7 +58,7 @@ Vec3 held_at(Stylus& stylus) {
 nlohmann::json styluses_json(bool again) {
   nlohmann::json all = nlohmann::json::array();
   for (const auto& s : list_styluses(!again))
-    all.push_back({{"id", s.id}, {"name", s.name}, {"there", s.there}, {"problem", s.problem}, {"placed", placed(s.id)}});
+    all.push_back({{"id", s.id}, {"name", s.name}, {"there", s.there}, {"problem", s.problem}, {"placed", placed(s.id)}, {"ratings", ratings(s.id)}});
   return all;
 }
 
@@ -57,9 +75,10 @@ std::string styluses_text(bool again) {
 
 int test_stylus(const std::string& id, double seconds, bool friction, bool json) {
   const auto stylus = open_stylus(id);
+  const bool real = kind_of(id).hand == StylusHand::person;
   static_cast<void>(first_pose(*stylus, k_patience_s));
   if (!json && friction) std::cout << "let go of the stylus and let it stand free: it is pushed slowly, by 1 N at most ...\n" << std::flush;
-  const StylusProbe p = probe_stylus(*stylus, {.listen_s = seconds, .friction = friction, .real_time = id != "simulated"});
+  const StylusProbe p = probe_stylus(*stylus, {.listen_s = seconds, .friction = friction, .real_time = real});
   if (json) {
     nlohmann::json axes = nlohmann::json::object();
     const std::array<const char*, 3> names{"x", "y", "z"};
@@ -94,15 +113,15 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
 }
 
 void place_stylus(const std::string& id) {
-  if (id == "simulated") throw Error("--place", "the simulated stylus stands where its hand holds it", "place falcon or touch");
+  const StylusKind& kind = stylus_kinds().at(id, "--place --stylus " + id, {StylusHand::person});
   const std::string path = station_stylus_path(id);
   make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
   StylusOptions options;
-  options.station = load_station_stylus(id);
+  options.station = load_station_stylus(kind);
   const Quat tool = options.station.placement.tool;
   options.station.placement = {};  // its own frame
-  const auto stylus = open_stylus(id, options);
+  const auto stylus = kind.open(options);
   static_cast<void>(first_pose(*stylus, k_patience_s));
   const std::array<std::pair<const char*, Vec3>, 4> marks{{{"where the middle of the crown shall be", {0, 0, 0}},
                                                            {"20 mm to mesial (to the right) of it", {20, 0, 0}},
@@ -125,6 +144,7 @@ void place_stylus(const std::string& id) {
   options.station.placement.tool = tool;
   write_private_text_file(path, to_toml(options.station));
   std::cout << "marks fit within " << fixed(fit.worst_mm, 2) << " mm\nwritten: " << path << "\n";
+  warn_of_the_edge(kind, fit.placement);
 }
 
 }  // namespace cavum

@@ -6,7 +6,7 @@
 
 namespace cavum {
 
-/// For `cavum devices --json`: a list of {id, name, there, problem, placed}.
+/// For `cavum devices --json`: a list of {id, name, there, problem, placed, ratings}.
 /// `again`: asked twice a second, which not every driver likes; see list_styluses.
 [[nodiscard]] nlohmann::json styluses_json(bool again);
 /// The same as lines for a terminal.

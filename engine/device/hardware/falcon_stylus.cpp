@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/usb_serial.h"
 #include "engine/servo/scheduling.h"
 
@@ -15,31 +16,58 @@ namespace {
 constexpr std::uint8_t k_all_homed = 7;
 
 std::string firmware_of(const StationStylus& station) {
-  if (!station.firmware.empty()) return station.firmware;
+  if (!station.text("firmware").empty()) return station.text("firmware");
   const char* named = std::getenv("CAVUM_FALCON_FIRMWARE");
   return named != nullptr ? named : "";
 }
 
 FalconDrive drive_of(const StationStylus& station) {
   FalconDrive drive;
-  drive.arm_offset_rad = station.arm_offset_deg * k_pi / 180.0;
+  drive.arm_offset_rad = station.number("arm_offset_deg") * k_pi / 180.0;
   return drive;
 }
-
-}  // namespace
 
 StylusFacts falcon_facts() {
   return {.id = "falcon",
           .name = "Novint Falcon",
-          .serial = usb_serial(k_falcon_vendor, k_falcon_product),
           .position_quantum_mm = k_falcon_quantum_mm,
           .peak_n = 8.9,
           .continuous_n = 2.0,
+          .rate_hz = 1000.0,
+          .reach_mm = 50.0,
           .measures_direction = false};
 }
 
+StylusFacts facts_of_this_one() {
+  StylusFacts facts = falcon_facts();
+  facts.serial = usb_serial(k_falcon_vendor, k_falcon_product);
+  return facts;
+}
+
+}  // namespace
+
+StylusKind falcon_kind() {
+  StylusKind kind{.facts = falcon_facts(),
+                  .placement = upright_device(k_falcon_middle_mm),
+                  // sources say 35 to 50; no firmware: the file in $CAVUM_FALCON_FIRMWARE
+                  .settings = {{.key = "arm_offset_deg", .usual = 35.0, .least = 0.0, .most = 90.0}, {.key = "firmware", .usual = ""}},
+                  .usb = UsbNumbers{k_falcon_vendor, k_falcon_product}};
+  kind.look = [](const StationStylus&, bool) {
+    StylusLook look;
+    look.problem = falcon_problem(look.there);
+    return look;
+  };
+  kind.serial = [](const StationStylus&) { return usb_serial(k_falcon_vendor, k_falcon_product); };
+  kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> {
+    bool there = false;
+    if (const std::string problem = falcon_problem(there); there && !problem.empty()) throw_problem(problem);
+    return std::make_unique<FalconStylus>(options.station);
+  };
+  return kind;
+}
+
 FalconStylus::FalconStylus(const StationStylus& station)
-    : station_(station), firmware_(firmware_of(station)), drive_(drive_of(station)), facts_(falcon_facts()), thread_([this] { run(); }) {}
+    : station_(station), firmware_(firmware_of(station)), drive_(drive_of(station)), facts_(facts_of_this_one()), thread_([this] { run(); }) {}
 
 FalconStylus::~FalconStylus() {
   {

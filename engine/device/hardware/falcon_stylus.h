@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "engine/device/hardware/falcon_usb.h"
-#include "engine/device/hardware/station_stylus.h"
+#include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/latest_value.h"
 #include "engine/device/period_meter.h"
 #include "engine/device/stylus.h"
@@ -69,7 +69,7 @@ class FalconStylus final : public Stylus {
   std::thread thread_;
 };
 
-/// What is known of every Falcon. Peak: 2 lbf, as its maker says; continuous: not published, assumed.
-[[nodiscard]] StylusFacts falcon_facts();
+/// Its record. Peak: 2 lbf, as its maker says; continuous: not published, assumed. Reach: half of the maker's 4 inches.
+[[nodiscard]] StylusKind falcon_kind();
 
 }  // namespace cavum

@@ -1,23 +1,14 @@
 // Finds and opens the stylus that is asked for by name, and says what stands in the way when it cannot: not plugged in, no permission (with the
-// udev rule to add), no driver library, no firmware.
+// udev rule to add), no driver library, no firmware, no service.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "engine/device/hardware/station_stylus.h"
-#include "engine/device/simulated_stylus.h"
-#include "engine/device/stylus.h"
+#include "engine/device/hardware/stylus_kind.h"
 
 namespace cavum {
-
-struct StylusOptions {
-  StationStylus station;                       ///< placement and settings of this station
-  std::function<HandIntent(double t_s)> hand;  ///< of the simulated one; empty: nobody holds it, it lies free
-  Vec3 free_at_mm{0, 0, 20};                   ///< where it lies then, tooth frame
-};
 
 /// What was found of one kind of stylus.
 struct StylusInfo {
@@ -25,18 +16,21 @@ struct StylusInfo {
   bool there = false;
   std::string problem;  ///< why it cannot be opened, and what to do; empty when it can
 };
-/// The three kinds: `simulated`, `falcon`, `touch`. Opens none for longer than a look; `touch` only with `begin_touch`, for its driver does not like
-/// to be begun again and again: otherwise its library alone counts.
-[[nodiscard]] std::vector<StylusInfo> list_styluses(bool begin_touch = true);
+/// Of all kinds but the mouse, in the order of the table. Opens none for longer than a look; with `begin` drivers may be begun, which not every one
+/// likes again and again.
+[[nodiscard]] std::vector<StylusInfo> list_styluses(bool begin = true, const StylusKinds& kinds = stylus_kinds());
 
-/// Opens `wanted`, one of those names. A Falcon may be plugged in later, and again: see its health. Throws Error on another name, naming what there
-/// is, or when it can never work as it stands (no library, no firmware, no permission).
-[[nodiscard]] std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options);
-/// With what this station keeps of it: load_station_stylus(wanted).
+/// Opens `wanted`. One that may be plugged in later, and again, is opened without: see its health. Throws Error on a name that is none, naming what
+/// there is, or when it can never work as it stands (no library, no firmware, no permission).
+[[nodiscard]] std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options, const StylusKinds& kinds = stylus_kinds());
+/// With what this station keeps of it: load_station_stylus.
 [[nodiscard]] std::unique_ptr<Stylus> open_stylus(const std::string& wanted);
 
 /// Where the tip is, tooth frame: waits until the stylus is ready, for `patience_s` at most. For the thread that will give it to the servo.
 /// Throws Error with its problem when time is up.
 [[nodiscard]] Pose first_pose(Stylus& stylus, double patience_s);
+
+/// Throws the Error whose text `problem` is.
+[[noreturn]] void throw_problem(const std::string& problem);
 
 }  // namespace cavum

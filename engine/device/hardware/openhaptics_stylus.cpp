@@ -45,7 +45,32 @@ std::string code_text(unsigned code) {
   return text;
 }
 
+StylusFacts touch_facts() {
+  return {.id = "touch",
+          .name = "Touch or PHANTOM Omni through OpenHaptics",
+          .position_quantum_mm = 0.055,
+          .peak_n = 3.3,
+          .continuous_n = 0.88,
+          .rate_hz = 1000.0,
+          .reach_mm = 35.0,
+          .measures_direction = true};
+}
+
 }  // namespace
+
+StylusKind touch_kind() {
+  StylusKind kind{.facts = touch_facts(),
+                  .placement = upright_device({}),
+                  // the library to load; the name given in its maker's setup, none: the default device
+                  .settings = {{.key = "library", .usual = "libHD.so"}, {.key = "device_name", .usual = ""}}};
+  kind.look = [](const StationStylus& station, bool begin) {
+    StylusLook look;
+    look.problem = openhaptics_problem(station, look.there, begin);
+    return look;
+  };
+  kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> { return std::make_unique<OpenHapticsStylus>(options.station); };
+  return kind;
+}
 
 /// The library, once for all devices of the program: its scheduler is one.
 struct OpenHapticsStylus::Library {
@@ -146,9 +171,9 @@ struct OpenHapticsStylus::Library {
 std::string openhaptics_problem(const StationStylus& station, bool& there, bool begin) {
   there = false;
   try {
-    const auto library = OpenHapticsStylus::Library::load(station.library);
+    const auto library = OpenHapticsStylus::Library::load(station.text("library"));
     const std::lock_guard lock(library->mutex);
-    if (begin && library->running == 0) library->disable_device(library->begin(station.device_name));
+    if (begin && library->running == 0) library->disable_device(library->begin(station.text("device_name")));
     there = true;
   } catch (const Error& e) {
     return e.what();
@@ -157,9 +182,9 @@ std::string openhaptics_problem(const StationStylus& station, bool& there, bool 
 }
 
 OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
-    : station_(station), library_(Library::load(station.library)), handle_(k_no_handle) {
+    : station_(station), library_(Library::load(station.text("library"))), handle_(k_no_handle) {
   const std::lock_guard lock(library_->mutex);
-  handle_ = library_->begin(station.device_name);
+  handle_ = library_->begin(station.text("device_name"));
   library_->make_current(handle_);
   const auto number = [this](unsigned what, double otherwise) {
     double value = 0.0;
@@ -167,12 +192,11 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
     constexpr double k_most_n = 100.0;
     return value > 0.0 && value < k_most_n ? value : otherwise;
   };
-  facts_ = {.id = "touch",
-            .name = "OpenHaptics, " + (station.device_name.empty() ? std::string("default device") : station.device_name),
-            .position_quantum_mm = 0.055,
-            .peak_n = number(k_max_force, 3.3),
-            .continuous_n = number(k_continuous_force, 0.88),
-            .measures_direction = true};
+  const std::string& name = station.text("device_name");
+  facts_ = touch_facts();
+  facts_.name = "OpenHaptics, " + (name.empty() ? std::string("default device") : name);
+  facts_.peak_n = number(k_max_force, facts_.peak_n);
+  facts_.continuous_n = number(k_continuous_force, facts_.continuous_n);
   library_->enable(k_force_output);
   if (const unsigned error = library_->take_errors(); error != 0) {
     library_->disable_device(handle_);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/device/hardware/station_stylus.h"
+#include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/latest_value.h"
 #include "engine/device/period_meter.h"
 #include "engine/device/stylus.h"
@@ -68,5 +68,8 @@ class OpenHapticsStylus final : public Stylus {
   std::atomic<std::int64_t> forces_cut_{0}, errors_{0};
   unsigned long task_ = 0;
 };
+
+/// Its record. Ratings are the Omni's, unless the device says its own; reach: half the depth of the Omni's workspace (recalled).
+[[nodiscard]] StylusKind touch_kind();
 
 }  // namespace cavum

@@ -6,6 +6,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/toml_reader.h"
+#include "engine/device/hardware/stylus_kind.h"
 
 namespace cavum {
 namespace {
@@ -44,39 +45,59 @@ std::string quoted(const std::string& text) {
   return out.str();
 }
 
+StylusValue read_setting(TomlReader& in, const StylusSetting& s) {
+  if (const auto* number = std::get_if<double>(&s.usual)) return in.number_or(s.key, s.least, s.most, *number);
+  return in.text_or(s.key, std::get<std::string>(s.usual));
+}
+
+std::string written(const StylusValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  std::ostringstream out;
+  out.precision(17);
+  out << std::get<double>(value);
+  return out.str();
+}
+
+template <class T>
+const T& setting(const StationStylus& s, const std::string& key) {
+  const auto found = s.settings.find(key);
+  if (found == s.settings.end() || !std::holds_alternative<T>(found->second))
+    throw Error("setting '" + key + "'", "is none of this stylus", "add it to the settings of its record");
+  return std::get<T>(found->second);
+}
+
 }  // namespace
+
+double StationStylus::number(const std::string& key) const { return setting<double>(*this, key); }
+const std::string& StationStylus::text(const std::string& key) const { return setting<std::string>(*this, key); }
 
 std::string station_stylus_path(const std::string& id) { return station_path("stylus-" + id + ".toml"); }
 
-StationStylus usual_station_stylus(const std::string& id) {
-  // Both devices: x to the right, y up, z towards the candidate. The candidate looks at the tooth with mesial to the right and buccal away.
-  StationStylus s;
-  s.placement.rotation = rotation_of({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
-  constexpr double k_middle_of_falcon_mm = 120.0;  // in front of its base, by its kinematics
-  if (id == "falcon") s.placement.offset_mm = {0, k_middle_of_falcon_mm, 0};
-  if (id == "simulated") s.placement = {};
+StationStylus usual_station_stylus(const StylusKind& kind) {
+  StationStylus s{.placement = kind.placement, .settings = {}};
+  for (const auto& setting : kind.settings) s.settings[setting.key] = setting.usual;
   return s;
 }
 
-StationStylus parse_station_stylus(const std::string& text, const std::string& where) {
+StationStylus parse_station_stylus(const std::string& text, const std::string& where, const StylusKind& kind) {
   const toml::table table = parse_toml(text, where);
   TomlReader in(table, where);
-  StationStylus s;
+  StationStylus s = usual_station_stylus(kind);
   s.placement.rotation = quaternion(in, "rotation");
   const auto offset = numbers(in, "offset_mm", 3, 1000.0);
   s.placement.offset_mm = {offset[0], offset[1], offset[2]};
   s.placement.tool = quaternion(in, "tool");
-  s.firmware = in.text_or("firmware", s.firmware);
-  s.arm_offset_deg = in.number_or("arm_offset_deg", 0, 90, s.arm_offset_deg);
-  s.library = in.text_or("library", s.library);
-  s.device_name = in.text_or("device_name", s.device_name);
+  for (const auto& setting : kind.settings) s.settings[setting.key] = read_setting(in, setting);
+  for (const auto& other : stylus_kinds().all())
+    for (const auto& setting : other.settings)
+      if (!s.settings.contains(setting.key)) static_cast<void>(read_setting(in, setting));
   in.finish();
   return s;
 }
 
-StationStylus load_station_stylus(const std::string& id) {
-  const std::string path = station_stylus_path(id);
-  return ::access(path.c_str(), F_OK) == 0 ? parse_station_stylus(read_text_file(path), path) : usual_station_stylus(id);
+StationStylus load_station_stylus(const StylusKind& kind) {
+  const std::string path = station_stylus_path(kind.facts.id);
+  return ::access(path.c_str(), F_OK) == 0 ? parse_station_stylus(read_text_file(path), path, kind) : usual_station_stylus(kind);
 }
 
 std::string to_toml(const StationStylus& s) {
@@ -84,10 +105,8 @@ std::string to_toml(const StationStylus& s) {
   out.precision(17);
   out << "# How a stylus of this station stands beside the tooth, by `cavum devices --place`.\nrotation = " << list(s.placement.rotation)
       << "\noffset_mm = [" << s.placement.offset_mm.x << ", " << s.placement.offset_mm.y << ", " << s.placement.offset_mm.z
-      << "]\ntool = " << list(s.placement.tool) << "\narm_offset_deg = " << s.arm_offset_deg << "\n";
-  if (!s.firmware.empty()) out << "firmware = " << quoted(s.firmware) << "\n";
-  if (s.library != StationStylus{}.library) out << "library = " << quoted(s.library) << "\n";
-  if (!s.device_name.empty()) out << "device_name = " << quoted(s.device_name) << "\n";
+      << "]\ntool = " << list(s.placement.tool) << "\n";
+  for (const auto& [key, value] : s.settings) out << key << " = " << written(value) << "\n";
   return out.str();
 }
 

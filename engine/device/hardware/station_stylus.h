@@ -2,29 +2,44 @@
 // a kind of stylus in the station's own folder.
 #pragma once
 
+#include <map>
 #include <string>
+#include <variant>
 
 #include "engine/device/placement.h"
 
 namespace cavum {
 
+struct StylusKind;
+
+/// A number or a text.
+using StylusValue = std::variant<double, std::string>;
+
+/// One thing that a driver must be told, with the value that is meant when the station says nothing.
+struct StylusSetting {
+  std::string key;
+  StylusValue usual;
+  double least = 0.0, most = 0.0;  ///< of a number
+};
+
 struct StationStylus {
   Placement placement;
-  std::string firmware;              ///< Falcon: file with its firmware; empty: $CAVUM_FALCON_FIRMWARE
-  double arm_offset_deg = 35.0;      ///< Falcon: angle of the arms at encoder 0; sources say 35 to 50
-  std::string library = "libHD.so";  ///< OpenHaptics: the library to load
-  std::string device_name;           ///< OpenHaptics: the name given in its own setup; empty: the default device
+  std::map<std::string, StylusValue> settings;  ///< all that its kind has, by key
+
+  /// Throws Error for a key that this kind of stylus has not, or of the other type.
+  [[nodiscard]] double number(const std::string& key) const;
+  [[nodiscard]] const std::string& text(const std::string& key) const;
 };
 
 /// station_path("stylus-ID.toml").
 [[nodiscard]] std::string station_stylus_path(const std::string& id);
-/// The placement that is meant when nobody has made one: the device in front of the candidate, its middle at the crown's.
-[[nodiscard]] StationStylus usual_station_stylus(const std::string& id);
-/// Throws Error on a file that is no such text: `rotation` and `tool` (w, x, y, z; not all 0), `offset_mm` (x, y, z within 1 m), and optionally
-/// `firmware`, `arm_offset_deg` 0..90, `library`, `device_name`.
-[[nodiscard]] StationStylus parse_station_stylus(const std::string& text, const std::string& where);
+/// What is meant when nobody has placed it: the kind's own.
+[[nodiscard]] StationStylus usual_station_stylus(const StylusKind& kind);
+/// Throws Error on a file that is no such text: `rotation` and `tool` (w, x, y, z; not all 0), `offset_mm` (x, y, z within 1 m), and optionally the
+/// settings of `kind`, each in its range. Settings of other styluses are left out: older versions wrote them into every file.
+[[nodiscard]] StationStylus parse_station_stylus(const std::string& text, const std::string& where, const StylusKind& kind);
 /// What the station keeps, or the usual. Throws Error when the file is damaged.
-[[nodiscard]] StationStylus load_station_stylus(const std::string& id);
+[[nodiscard]] StationStylus load_station_stylus(const StylusKind& kind);
 /// What parse_station_stylus reads.
 [[nodiscard]] std::string to_toml(const StationStylus& stylus);
 

@@ -6,7 +6,9 @@
 
 namespace cavum {
 
-/// The rule, where to put it, and what to run then. `hid`: for its /dev/hidraw node instead of the device itself.
+/// The rule alone. `hid`: for its /dev/hidraw node instead of the device itself.
+[[nodiscard]] std::string udev_rule(std::uint16_t vendor, std::uint16_t product, bool hid);
+/// The rule, where to put it, and what to run then.
 [[nodiscard]] std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid);
 
 }  // namespace cavum

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "engine/device/hardware/station_stylus.h"
+#include "engine/device/hardware/stylus_kind.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
@@ -18,6 +18,8 @@ Quat drawn_rotation(std::mt19937_64& random) {
   std::normal_distribution<double> n;
   return normalized(Quat{n(random), n(random), n(random), n(random)});
 }
+
+const StylusKind& kind(const std::string& id) { return stylus_kinds().at(id, "test", {StylusHand::person}); }
 
 TEST(Placement, FitFindsWhereTheMarksWere) {
   std::mt19937_64 random(drawn_seed("Placement"));
@@ -86,24 +88,32 @@ TEST(Placement, RotationsFollowTheirMatrices) {
 
 TEST(StationStylus, IsReadAsItWasWritten) {
   std::mt19937_64 random(drawn_seed("StationStylus"));
-  StationStylus s;
+  const StylusKind& falcon = kind("falcon");
+  StationStylus s = usual_station_stylus(falcon);
   s.placement = {drawn_rotation(random), {1.25, -3, 77}, drawn_rotation(random)};
-  s.firmware = "/home/a \"b\"/nvent_firmware.bin";
-  s.arm_offset_deg = 41.5;
-  s.library = "/opt/libHD.so.3.4";
-  s.device_name = "left one";
-  const StationStylus read = parse_station_stylus(to_toml(s), "stylus.toml");
+  s.settings["firmware"] = "/home/a \"b\"/nvent_firmware.bin";
+  s.settings["arm_offset_deg"] = 41.5;
+  const StationStylus read = parse_station_stylus(to_toml(s), "stylus.toml", falcon);
   EXPECT_EQ(read.placement.offset_mm, s.placement.offset_mm);
   EXPECT_NEAR(read.placement.rotation.x, s.placement.rotation.x, 1e-15);
   EXPECT_NEAR(read.placement.tool.z, s.placement.tool.z, 1e-15);
-  EXPECT_EQ(read.firmware, s.firmware);
-  EXPECT_EQ(read.arm_offset_deg, s.arm_offset_deg);
-  EXPECT_EQ(read.library, s.library);
-  EXPECT_EQ(read.device_name, s.device_name);
+  EXPECT_EQ(read.settings, s.settings);
+  EXPECT_EQ(read.number("arm_offset_deg"), 41.5);
+  EXPECT_THROW(static_cast<void>(read.text("library")), Error) << "a setting of another stylus";
+  EXPECT_THROW(static_cast<void>(read.text("arm_offset_deg")), Error) << "a number, not a text";
+}
+
+TEST(StationStylus, AFileOfAnOlderVersionWithSettingsOfOtherStylusesIsRead) {
+  const StylusKind& touch = kind("touch");
+  const std::string old = to_toml(usual_station_stylus(touch)) + "arm_offset_deg = 35\n";
+  const StationStylus read = parse_station_stylus(old, "stylus.toml", touch);
+  EXPECT_EQ(read.text("library"), "libHD.so");
+  EXPECT_THROW(static_cast<void>(read.number("arm_offset_deg")), Error);
+  EXPECT_THROW(static_cast<void>(parse_station_stylus(old + "arm_lenght = 1\n", "stylus.toml", touch)), Error) << "known to none";
 }
 
 TEST(StationStylus, WrongFilesAreRefused) {
-  const std::string good = to_toml(usual_station_stylus("falcon"));
+  const std::string good = to_toml(usual_station_stylus(kind("falcon")));
   for (const auto& [from, to] : {std::pair{"rotation", "turning"},
                                  {"offset_mm = [", "offset_mm = [1, "},
                                  {"tool = [1", "tool = [0"},
@@ -113,12 +123,12 @@ TEST(StationStylus, WrongFilesAreRefused) {
     std::string wrong = good;
     ASSERT_NE(wrong.find(from), std::string::npos) << from << "\n" << good;
     wrong.replace(wrong.find(from), std::string(from).size(), to);
-    EXPECT_THROW(static_cast<void>(parse_station_stylus(wrong, "stylus.toml")), Error) << wrong;
+    EXPECT_THROW(static_cast<void>(parse_station_stylus(wrong, "stylus.toml", kind("falcon"))), Error) << wrong;
   }
 }
 
 TEST(StationStylus, UsualPlaceHasTheMiddleAtTheCrownAndUpIsUp) {
-  const Placement p = usual_station_stylus("falcon").placement;
+  const Placement p = usual_station_stylus(kind("falcon")).placement;
   EXPECT_LT(length(to_tooth(p, {0, 0, 120}).tip_mm), 1e-9);
   EXPECT_LT(length(to_tooth(p, {0, 10, 120}).tip_mm - Vec3{0, 0, 10}), 1e-9) << "up is occlusal";
   EXPECT_LT(length(to_tooth(p, {10, 0, 120}).tip_mm - Vec3{10, 0, 0}), 1e-9) << "right is mesial";

@@ -78,6 +78,13 @@ TEST(DeviceCheck, SeesAHandThatHasNoRest) {
   EXPECT_NE(items[2].detail.find("wanders"), std::string::npos) << items[2].detail;
 }
 
+TEST(DeviceCheck, AsksOfADeviceForItsOwnRate) {
+  DeviceSight sight{.read_once = true, .rate_hz = 300, .tip_mm = {}, .rotation = {}, .error = {}};
+  EXPECT_EQ(check_items(sight)[0].state, State::waiting) << "of 1000";
+  sight.usual_rate_hz = 500;
+  EXPECT_EQ(check_items(sight)[0].state, State::good);
+}
+
 TEST(DeviceCheck, SaysWhatAFailingDeviceSaid) {
   Scripted device([](double t) -> DeviceReading {
     if (t > 0.05) throw std::runtime_error("the cable was pulled");

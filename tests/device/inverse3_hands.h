@@ -1,0 +1,50 @@
+// What the tests of the Inverse3 share: its settings for the emulated service, and a servo that wants a force.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "engine/device/hardware/inverse3_stylus.h"
+#include "tests/device/emulated_inverse3.h"
+
+namespace cavum::testing_device {
+
+/// Within 20 s, or as told.
+inline bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = std::chrono::seconds(20)) {
+  using Clock = std::chrono::steady_clock;
+  for (const auto end = Clock::now() + within; Clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    if (condition()) return true;
+  return condition();
+}
+
+/// In the device's own frame: what goes in comes out.
+inline StationStylus own_frame(const EmulatedInverse3& service, const std::string& device = {}, const std::string& grip = {}) {
+  StationStylus s = usual_station_stylus(inverse3_kind());
+  s.placement = {};
+  s.settings["port"] = static_cast<double>(service.port());
+  s.settings["device"] = device;
+  s.settings["grip"] = grip;
+  return s;
+}
+
+/// Wants a force, over and over, as a servo does.
+class Servo {
+ public:
+  Servo(Stylus& stylus, Vec3 force_n)
+      : thread_([this, &stylus, force_n] {
+          for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) stylus.send_force(force_n);
+        }) {}
+  ~Servo() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace cavum::testing_device
