@@ -271,11 +271,12 @@ RubricSpec parse_rubric(const std::string& text, const std::string& path) {
 std::string find_tooth_file(const Scenario& scenario) {
   namespace fs = std::filesystem;
   const fs::path written(scenario.tooth_file), folder = fs::path(scenario.path).parent_path();
-  if (written.is_absolute() && fs::exists(written)) return written.string();
+  std::error_code unreadable;  // a name too long for the file system is not there either
+  if (written.is_absolute() && fs::exists(written, unreadable)) return written.string();
   std::vector<fs::path> places{folder / written, folder / ".." / "teeth" / written};
   for (const auto& data : shipped_folders()) places.push_back(data / "teeth" / written);
   for (const fs::path& candidate : places)
-    if (fs::exists(candidate)) return candidate.lexically_normal().string();
+    if (fs::exists(candidate, unreadable)) return candidate.lexically_normal().string();
   throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",
               "put it beside the scenario or in data/teeth, or name another with --tooth");
 }

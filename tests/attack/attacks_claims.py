@@ -127,7 +127,7 @@ def older_physics(s):
 @attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "physics|version")
 def physics_of_the_future(s):
     """... version 99999999999999999999."""
-    s.must(insider(s, lambda r: r.facts.update(physics_version="5")).rc != 0, "physics version 5 is taken")
+    s.must(insider(s, lambda r: r.facts.update(physics_version="1000")).rc != 0, "physics version 1000 is taken")
     return insider(s, lambda r: r.facts.update(physics_version="99999999999999999999"))
 
 

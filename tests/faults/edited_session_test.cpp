@@ -13,8 +13,6 @@
 namespace cavum {
 namespace {
 
-constexpr std::int64_t k_ticks = 2600;
-
 std::string blob(std::span<const std::uint8_t> bytes) { return "x'" + to_hex(bytes) + "'"; }
 
 /// Inputs of chunk `index`, with the tip lifted by 20 micrometres from tick `tick` of the chunk on.
@@ -26,7 +24,7 @@ Bytes lifted_inputs(const SessionReader& session, std::size_t index, std::size_t
 
 class EditedSession : public testing::Test {
  protected:
-  void SetUp() override { test::make_closed_session(path_, k_ticks); }
+  void SetUp() override { test::make_closed_session(path_, 2600); }
 
   VerifyReport edited(const std::string& sql) {
     test::tamper(path_, sql);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "grading/measures/cut_surface.h"
 #include "grading/result/result_json.h"
@@ -19,8 +20,6 @@ using testing::dentin_block;
 using testing::round_hole;
 using testing::scenario_text;
 
-constexpr double k_pi_here = 3.14159265358979323846;
-
 std::string round_target(double radius, double depth) {
   return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + std::to_string(radius) +
          " }\nbottom = { kind = \"level\", z_mm = -" + std::to_string(depth) + " }\n";
@@ -36,7 +35,7 @@ TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 4, 0.05));
   c.carve(round_hole(0, 0, 2.0, -2.5), 0);
   const Result r = c.graded();
-  const double target = k_pi_here * 2.25 * 2, removed = k_pi_here * 4 * 2.5;
+  const double target = std::numbers::pi * 2.25 * 2, removed = std::numbers::pi * 4 * 2.5;
   EXPECT_NEAR(r.volumes.target.mm3, target, 0.005 * target);
   EXPECT_NEAR(r.volumes.removed.mm3, removed, 0.005 * removed);
   EXPECT_NEAR(r.volumes.target.mm3, target, r.volumes.target.bound_mm3);
@@ -47,9 +46,9 @@ TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
   EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);  // every removed leaf lies in exactly one zone
   // the ring of the leeway beside the target: 1.5 to 1.7 mm, down to the floor and the corner of its bottom
-  const double ring = k_pi_here * (1.7 * 1.7 - 1.5 * 1.5) * 2;
+  const double ring = std::numbers::pi * (1.7 * 1.7 - 1.5 * 1.5) * 2;
   EXPECT_NEAR(zone_volume(r, Zone::leeway_sides).mm3, ring, 0.12 * ring);
-  const double under = k_pi_here * 2.25 * 0.3;
+  const double under = std::numbers::pi * 2.25 * 0.3;
   EXPECT_NEAR(zone_volume(r, Zone::leeway_bottom).mm3, under, 0.2 * under);
 }
 
@@ -86,14 +85,14 @@ TEST(Grade, SurfaceIsFoundBetweenLeaves) {
 TEST(Grade, TaperIsMeasuredToADegree) {
   for (const double degrees : {-6.0, 3.0, 8.0, 15.0}) {
     Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 3, 0.05));
-    const double t = std::tan(degrees * k_pi_here / 180), cosine = std::cos(degrees * k_pi_here / 180);
+    const double t = std::tan(degrees * std::numbers::pi / 180), cosine = std::cos(degrees * std::numbers::pi / 180);
     c.carve([&](Vec3 p) { return std::max((std::sqrt(p.x * p.x + p.y * p.y) - 1.5 - t * (p.z + 2)) * cosine, -2 - p.z); }, 0);
     EXPECT_NEAR(*c.graded().shape.taper_deg, degrees, 1.0);
   }
 }
 
 TEST(Grade, ArcTangentAgreesWithTheLibrary) {
-  for (double t = -20; t < 20; t += 0.037) EXPECT_NEAR(atan_deg(t), std::atan(t) * 180 / k_pi_here, 1e-7) << t;
+  for (double t = -20; t < 20; t += 0.037) EXPECT_NEAR(atan_deg(t), std::atan(t) * 180 / std::numbers::pi, 1e-7) << t;
 }
 
 TEST(Grade, NamesTheWallAndTheTickWhereTheLossBegan) {

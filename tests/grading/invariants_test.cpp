@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "engine/base/random.h"
 #include "grading/result/result_json.h"
@@ -19,8 +20,6 @@ using testing::dentin_block;
 using testing::make_tooth;
 using testing::scenario_text;
 using testing_basics::drawn_seed;
-
-constexpr double k_pi_here = 3.14159265358979323846;
 
 /// One criterion for every measure of which less, or none, is better.
 std::string criteria_of_care() {
@@ -169,7 +168,7 @@ TEST(Invariant, TurningAndMirroringToothAndScenarioTogetherChangesNothing) {
         }
       }
     // any other turn: the raster lies differently, so within the bounds
-    const double angle = random.uniform(0, 2 * k_pi_here);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
     const auto a = turnable(first), b = turnable(graded_after({std::cos(angle), std::sin(angle), false}, balls, 0.1));
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_NEAR(a[i].value, b[i].value, a[i].bound + b[i].bound) << a[i].name << " turned by " << angle;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 
 #include "engine/base/random.h"
 #include "grading/grade.h"
@@ -19,7 +20,6 @@ using testing::dentin_block;
 using testing::scenario_text;
 using testing_basics::drawn_seed;
 
-constexpr double k_pi_here = 3.14159265358979323846, k_leaf = 0.05, k_top = 6.0;  // bodies rise this far from their lower face, beyond the block
 constexpr int k_poses = 20;
 
 /// A body standing at `at`, its axis tilted by `tilt` towards `azimuth` and turned about it by `turn` (radians).
@@ -27,10 +27,10 @@ struct Pose {
   Vec3 at, x, y, z;
   Pose(Random& random, double depth, double most_tilt) {
     at = {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -depth};
-    const double tilt = random.uniform(0, most_tilt) * k_pi_here / 180, azimuth = random.uniform(0, 2 * k_pi_here);
+    const double tilt = random.uniform(0, most_tilt) * std::numbers::pi / 180, azimuth = random.uniform(0, 2 * std::numbers::pi);
     z = {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
     const Vec3 x0 = normalized(Vec3{1, 0, 0} - z * z.x), y0 = cross(z, x0);
-    const double turn = random.uniform(0, 2 * k_pi_here);
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
     x = x0 * std::cos(turn) + y0 * std::sin(turn);
     y = y0 * std::cos(turn) - x0 * std::sin(turn);
   }
@@ -90,12 +90,12 @@ Known round_body(Random& random, double most_tilt, double slope) {
     const Vec3 low = pose.world({0, 0, -below});
     const double c = pose.z.z, axis = -low.z / c;  // length of the axis up to the top face
     const double foot = radius - slope * below;
-    if (slope == 0) return k_pi_here * foot * foot * axis;
+    if (slope == 0) return std::numbers::pi * foot * foot * axis;
     const double to_apex = foot / slope, t2 = slope * slope, sine2 = 1 - c * c;
     const double height = (to_apex + axis) * c;  // of the apex under the top face
     const double e = c * c - t2 * sine2;         // ellipse of the section: areas from the plane's distance to the apex
-    const double area = k_pi_here * t2 * height * height / (e * std::sqrt(e));
-    return area * height / 3 - k_pi_here * foot * foot * to_apex / 3;
+    const double area = std::numbers::pi * t2 * height * height / (e * std::sqrt(e));
+    return area * height / 3 - std::numbers::pi * foot * foot * to_apex / 3;
   };
   k.target_mm3 = volume(r, 0);
   k.removed_mm3 = volume(r + wider, f);
@@ -107,18 +107,18 @@ Known round_body(Random& random, double most_tilt, double slope) {
   k.furthest_mm = std::max(k.furthest_mm, std::max(s, f));
   std::vector<Vec3> rim;
   for (int i = 0; i < 7200; ++i) {
-    const double a = i * k_pi_here / 3600, big = r + wider + slope * k_top;
+    const double a = i * std::numbers::pi / 3600, big = r + wider + slope * k_top;
     rim.push_back(
         at_top(pose.world({(r + wider) * std::cos(a), (r + wider) * std::sin(a), 0}), pose.world({big * std::cos(a), big * std::sin(a), k_top})));
   }
   outline_from(k, rim);
   double lowest = 0;
   for (int i = 0; i < 3600; ++i) {
-    const double a = i * k_pi_here / 1800;
+    const double a = i * std::numbers::pi / 1800;
     lowest = std::min(lowest, pose.world({edge * std::cos(a), edge * std::sin(a), -f}).z);
   }
   k.depth_mm = -lowest;
-  k.taper_deg = std::atan(slope) * 180 / k_pi_here;
+  k.taper_deg = std::atan(slope) * 180 / std::numbers::pi;
   return k;
 }
 
@@ -135,7 +135,7 @@ Known box_body(Random& random, double most_tilt) {
   }
   // as the corners are given in the tilted frame by `turn_deg`, the angle of our x from the frame's own
   const Vec3 x0 = std::fabs(pose.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - pose.z * pose.z.x) : Vec3{0, 1, 0}, y0 = cross(pose.z, x0);
-  const double turn = std::atan2(dot(pose.x, y0), dot(pose.x, x0)) * 180 / k_pi_here;
+  const double turn = std::atan2(dot(pose.x, y0), dot(pose.x, x0)) * 180 / std::numbers::pi;
   k.target_toml = "[[zones.target]]\nshape = \"box\"\nat_mm = " + vector(pose.world({0, 0, k_top / 2})) + "\naxis = " + vector(pose.z) +
                   "\nturn_deg = " + number(turn) + "\nsize_mm = " + vector({2 * a, 2 * b, k_top}) + "\n";
   k.cut = [=](Vec3 p) {
@@ -167,7 +167,7 @@ Known ball_body(Random& random) {
   k.cut = [=](Vec3 p) { return length(p - at) - r - s; };
   const auto volume = [&](double radius) {  // the ball without its cap above the top
     const double cap = radius - deep;
-    return k_pi_here * (4.0 / 3 * radius * radius * radius - cap * cap * (radius - cap / 3));
+    return std::numbers::pi * (4.0 / 3 * radius * radius * radius - cap * cap * (radius - cap / 3));
   };
   k.target_mm3 = volume(r);
   k.removed_mm3 = volume(r + s);
@@ -252,7 +252,7 @@ TEST(KnownGeometry, BoxAtRandomPoses) {
 }
 TEST(KnownGeometry, ConeAtRandomPoses) {
   run("cone", [](Random& random, bool upright) {
-    const double slope = std::tan(random.uniform(3, 15) * k_pi_here / 180);
+    const double slope = std::tan(random.uniform(3, 15) * std::numbers::pi / 180);
     return round_body(random, upright ? 0 : 15, slope);
   });
 }

@@ -21,7 +21,7 @@ PY
 for place in "$source" "$build"; do
   if grep -aqF "$place" "$cavum"; then echo "the program names the folder that it was built in: $place"; exit 1; fi
 done
-for file in share/man/man1/cavum.1 share/bash-completion/completions/cavum share/applications/cavum.desktop lib/udev/rules.d/60-cavum.rules share/doc/*/copyright; do
+for file in share/man/man1/cavum.1 share/bash-completion/completions/cavum share/applications/cavum.desktop lib/udev/rules.d/60-cavum.rules share/cavum/schemas/result.schema.json share/doc/*/copyright; do
   [ -s moved/$file ] || { echo "not installed: $file"; exit 1; }
 done
 for verb in $("$cavum" --help | sed -n '/^Subcommands:/,$p' | awk '/^  [a-z]/ {print $1}'); do

@@ -21,10 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing_ui::k_block;
+using testing_ui::k_data;
 using testing_ui::Ran;
-
-const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data";
-const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
 
 class CommandLine : public testing_ui::Program {
  protected:

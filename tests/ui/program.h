@@ -15,6 +15,10 @@
 
 namespace cavum::testing_ui {
 
+/// What ships, and a small task on a block.
+inline const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data";
+inline const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+
 struct Ran {
   int exit_code = -1;  ///< -1: ended by a signal
   std::string out, err;

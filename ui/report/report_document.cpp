@@ -98,7 +98,8 @@ void add_moments(Document& d, const ReportSource& s) {
   d.blocks.push_back(Paragraph{"Each moment begins at its time; its place is where it went furthest.", "", Paragraph::Kind::small});
   for (const auto& w : s.lost) {
     const auto& c = w.criterion;
-    d.blocks.push_back(Heading{c.title + ": " + fixed(c.max - c.points, 1) + " of " + fixed(c.max, 1) + " points lost", 3});
+    const double lost = c.max - c.points;
+    d.blocks.push_back(Heading{c.title + ": " + fixed(lost, lost < 0.05 ? 3 : 1) + " of " + fixed(c.max, 1) + " points lost", 3});
     ReportTable t{{{"Time", true, 1.2}, {"Place x, y, z, mm", true, 2}, {"What", false, 6}, {"How much", true, 1.7}, {"Points lost", true, 1.2}},
                   {},
                   "Moments behind " + c.title};

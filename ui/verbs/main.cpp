@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "engine/base/memory_reserve.h"
@@ -57,6 +58,9 @@ int main(int argc, char** argv) {
     return 2;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "cavum: memory: there is not enough; close other programs, and try again\n");
+    return 2;
+  } catch (const std::filesystem::filesystem_error& e) {
+    std::fprintf(stderr, "cavum: %.300s: %s; give another file or folder\n", cavum::one_line(e.path1().string()).c_str(), e.code().message().c_str());
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "cavum: %s\n", cavum::one_line(e.what()).c_str());

@@ -23,7 +23,7 @@ double line_n(const std::vector<double>& f, double frequency_hz, double tick_s) 
   return 2 * std::sqrt(s * s + c * c) / static_cast<double>(f.size());
 }
 
-TermInput cutting(double rpm, double dt_s = 0.001) { return {true, 0.3, 0, 0, 0.8, 0, 0.24, rpm, 0, dt_s}; }
+TermInput at_speed(double rpm, double dt_s = 0.001) { return {true, 0.3, 0, 0, 0.8, 0, 0.24, rpm, 0, dt_s}; }
 
 TEST(RunOut, IsASineOfTheTurnsMade) {
   for (const double dt : {0.001, 0.00025, 0.0137})
@@ -32,7 +32,7 @@ TEST(RunOut, IsASineOfTheTurnsMade) {
       TermMemory memory{};
       for (int i = 1; i <= 4000; ++i) {
         const double turns = rpm / 60 * dt * i + 0.125, amplitude = 0.01 + 0.020 * 0.8;
-        ASSERT_NEAR(term.evaluate(cutting(rpm, dt), memory).tissue_n, amplitude * std::sin(2 * k_pi * turns), 1e-7 * amplitude * (1 + turns));
+        ASSERT_NEAR(term.evaluate(at_speed(rpm, dt), memory).tissue_n, amplitude * std::sin(2 * k_pi * turns), 1e-7 * amplitude * (1 + turns));
         ASSERT_GE(memory[0], 0.0);
         ASSERT_LT(memory[0], 1.0);
       }
@@ -46,7 +46,7 @@ TEST(RunOut, FollowsASpindleThatRunsUp) {  // turns = ∫ rpm/60 dt
   for (int i = 0; i < 3000; ++i) {
     const double rpm = 50.0 * i;
     turns += rpm / 60 * 0.001;
-    ASSERT_NEAR(term.evaluate(cutting(rpm), memory).tissue_n, rpm > 0 ? 0.05 * std::sin(2 * k_pi * turns) : 0.0, 1e-9);
+    ASSERT_NEAR(term.evaluate(at_speed(rpm), memory).tissue_n, rpm > 0 ? 0.05 * std::sin(2 * k_pi * turns) : 0.0, 1e-9);
   }
 }
 
@@ -56,7 +56,7 @@ TEST(RunOut, IsALineAtTheAliasOfTheSpindleRate) {
     const ForceTerms terms{make_force_term("run_out", {{"eccentricity_um", 20.0}}, "test")};
     TermMemory memory{};
     std::vector<double> f;
-    for (int i = 0; i < 3000; ++i) f.push_back(force_along_feed_n(terms, cutting(rpm), {&memory, 1}));
+    for (int i = 0; i < 3000; ++i) f.push_back(force_along_feed_n(terms, at_speed(rpm), {&memory, 1}));
     double alias = std::fmod(rpm / 60, 1 / tick_s);
     alias = std::min(alias, 1 / tick_s - alias);
     EXPECT_NEAR(line_n(f, alias, tick_s), 0.020 * 0.8, 1e-6) << rpm << " rpm, seen at " << alias << " Hz";
@@ -67,9 +67,9 @@ TEST(RunOut, IsALineAtTheAliasOfTheSpindleRate) {
 TEST(RunOut, NeitherInAirNorAtRest) {
   const ForceTerms terms{make_force_term("run_out", {{"amplitude_n", 0.05}}, "test")};
   TermMemory memory{};
-  TermInput in = cutting(0);
+  TermInput in = at_speed(0);
   EXPECT_DOUBLE_EQ(force_along_feed_n(terms, in, {&memory, 1}), 0.24);
-  in = cutting(30000);
+  in = at_speed(30000);
   in.touching = false;
   for (int i = 0; i < 100; ++i) EXPECT_EQ(force_along_feed_n(terms, in, {&memory, 1}), 0.0);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_engine;
 
-Tooth layered() { return make_block({2.4, 2.4, 3.0}, {{"enamel", 0.7}, {"dentin", 0.5}, {"pulp", 0.8}, {"dentin", 1.0}}, 0.05); }
+Tooth four_layers() { return make_block({2.4, 2.4, 3.0}, {{"enamel", 0.7}, {"dentin", 0.5}, {"pulp", 0.8}, {"dentin", 1.0}}, 0.05); }
 
 /// A wild but repeatable tick: drilling, sliding, leaving, changing the point, losing pedal and stylus.
 TickInput wild(Random& random, int i, const TickInput& previous) {
@@ -26,7 +26,7 @@ TickInput wild(Random& random, int i, const TickInput& previous) {
   return make_tick_input({tip, turned}, i % 900 < 850 ? 1.0 : 0.0, flags, static_cast<std::uint8_t>(i / 1000 % 2), previous);
 }
 
-Rig wild_rig() { return {layered(), {diamond_point("round-1.0"), diamond_point("taper-round-1.2")}, hard_model(0.8, 1.79, 0.3), {0, 0, 0.3}}; }
+Rig wild_rig() { return {four_layers(), {diamond_point("round-1.0"), diamond_point("taper-round-1.2")}, hard_model(0.8, 1.79, 0.3), {0, 0, 0.3}}; }
 
 TEST(Servo, EqualInputsGiveEqualStatesTickByTickAndACopyGoesOnAlike) {
   const std::uint64_t seed = drawn_seed("Servo.EqualInputsGiveEqualStatesTickByTickAndACopyGoesOnAlike");
@@ -172,7 +172,7 @@ TEST(Servo, ForceStaysContinuousAcrossTheBorderOfTwoTissues) {
 }
 
 TEST(Servo, NoticesTellWhatWentWrong) {
-  const Tooth tooth = layered();
+  const Tooth tooth = four_layers();
   const auto pressed = [&] {
     Rig rig(tooth, {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.1});
     (void)rig.travel({0, 0, 0.1}, {0, 0, -1}, 20);
@@ -290,7 +290,7 @@ TEST(Servo, ConfigSurvivesItsTomlAndRefusesOddValues) {
 TEST(Servo, AModelWithoutAMaterialForASolidTissueIsRefused) {
   ForceModel force = shipped_model("paper");
   force.materials.erase("dentin");
-  const Tooth tooth = layered();
+  const Tooth tooth = four_layers();
   EXPECT_NE(error_of([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }).find("dentin"), std::string::npos);
   EXPECT_NE(error_of([&] { (void)make_servo_model(tooth, {}, shipped_model("paper"), {}); }), "");
   force = hard_model(0.8, 0, 0);

@@ -10,6 +10,8 @@
 namespace cavum {
 namespace {
 
+using testing_tooth::Ball;
+
 Bytes canonical(const Octree& octree) {
   ByteWriter out;
   octree.write(out);
@@ -36,12 +38,6 @@ void expect_round_trip(const Octree& octree, const std::vector<Tissue>& tissues)
   ASSERT_EQ(unpacked(once, tissues), canonical(octree));
   ASSERT_EQ(packed(octree, tissues), once);
 }
-
-struct Ball {
-  Vec3 centre_mm;
-  double radius_mm;
-  double operator()(Vec3 p) const { return length(p - centre_mm) - radius_mm; }
-};
 
 std::vector<Tissue> many_tissues() {
   std::vector<Tissue> tissues;

@@ -18,6 +18,8 @@
 namespace cavum {
 namespace {
 
+using testing_tooth::Ball;
+
 constexpr double k_pi = 3.14159265358979;
 
 /// All patches as one mesh, in which vertices are one when all bits of their positions are equal.
@@ -66,12 +68,6 @@ std::vector<SurfacePatch> copy_of(const SurfacePatches& patches) {
   for (std::size_t p = 0; p < patches.count(); ++p) all.push_back(patches.patch(p));
   return all;
 }
-
-struct Ball {
-  Vec3 centre_mm;
-  double radius_mm;
-  double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
-};
 
 std::size_t cut(Octree& tree, const Ball& ball) {
   std::vector<RemovedLeaf> removed;

@@ -6,11 +6,23 @@
 #include <vector>
 
 #include "engine/tooth/surface_mesh.h"
+#include "engine/tooth/tooth.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::testing_tooth {
 
 using testing_basics::drawn_seed;
+
+inline double volume_mm3(const Tooth& tooth, std::uint8_t tissue) {
+  return static_cast<double>(tooth.octree.count_leaves()[tissue]) * tooth.octree.leaf_volume_mm3();
+}
+
+/// A body to carve: distance from its surface, mm, negative inside.
+struct Ball {
+  Vec3 centre_mm;
+  double radius_mm;
+  double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
+};
 
 /// Every edge is used once in each direction: closed, 2-manifold along edges, and consistently oriented.
 inline bool is_closed_and_oriented(const TriangleMesh& mesh) {

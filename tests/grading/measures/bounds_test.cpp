@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "grading/result/result_json.h"
 #include "tests/grading/carved.h"
@@ -17,8 +18,6 @@ using testing::box_hole;
 using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
-
-constexpr double k_pi_here = 3.14159265358979323846;
 
 const char k_round_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1.5 }\nbottom = { kind = \"level\", z_mm = -2 }\n";
@@ -58,17 +57,18 @@ points = 30
     for (const double deeper : {-0.43, 0.17}) {
       SCOPED_TRACE(std::to_string(degrees) + " degrees, " + std::to_string(deeper) + " mm");
       Carved c(scenario_text(k_round_target, more), dentin_block(4, 4, 0.05));
-      const double t = std::tan(degrees * k_pi_here / 180), cosine = std::cos(degrees * k_pi_here / 180), depth = 2 + deeper, foot = 1.15;
+      const double t = std::tan(degrees * std::numbers::pi / 180), cosine = std::cos(degrees * std::numbers::pi / 180), depth = 2 + deeper,
+                   foot = 1.15;
       c.carve([&](Vec3 p) { return std::max((std::sqrt(p.x * p.x + p.y * p.y) - foot - t * (p.z + depth)) * cosine, -depth - p.z); }, 0);
       const Result r = c.graded();
       // closed forms: frusta of the cone of the cut, and of what of it lies above the target's floor
       const auto frustum = [&](double low, double high) {
-        return k_pi_here * (high - low) / 3 * ([&] {
+        return std::numbers::pi * (high - low) / 3 * ([&] {
                  const double a = foot + t * (low + depth), b = foot + t * (high + depth);
                  return a * a + a * b + b * b;
                }());
       };
-      const double target = k_pi_here * 2.25 * 2, removed = frustum(-depth, 0), inside = frustum(std::max(-depth, -2.0), 0);
+      const double target = std::numbers::pi * 2.25 * 2, removed = frustum(-depth, 0), inside = frustum(std::max(-depth, -2.0), 0);
       ASSERT_LT(foot + t * depth, 1.5);
       const double percent = 100 * inside / target, dice = 2 * inside / (removed + target);
       EXPECT_NEAR(r.volumes.target_removed_percent, percent, r.volumes.target_removed_bound_percent);
@@ -116,7 +116,7 @@ TEST(Bounds, HoldBothEndsOfWhatAFigureIsMadeOf) {
   EXPECT_NEAR(dice_bound(in, missed, beyond), 16.0 / 19 - 14.0 / (14 + 2.5 + 1.25), 1e-9);
   EXPECT_DOUBLE_EQ(share_bound_percent({8, 1}, {0, 0}), 0);       // nothing missed, for certain
   EXPECT_NEAR(mean_bound({{1, 1, 1, 1}, {3}, {-4}}), 1.4, 1e-9);  // with -4 and without 3 the mean falls from 1.4 to 0
-  EXPECT_NEAR(taper_bound_deg({{100, 0, 1}, {100, 0, 0.5}}, 0.05), std::atan((0.05 + 0.1) / 2) * 180 / k_pi_here, 1e-6);
+  EXPECT_NEAR(taper_bound_deg({{100, 0, 1}, {100, 0, 0.5}}, 0.05), std::atan((0.05 + 0.1) / 2) * 180 / std::numbers::pi, 1e-6);
 }
 
 }  // namespace

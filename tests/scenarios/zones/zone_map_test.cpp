@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <numbers>
 
 #include "engine/base/random.h"
 #include "scenarios/zones/distance_transform.h"
@@ -16,8 +17,6 @@ namespace {
 using testing::chambered_block;
 using testing::dentin_block;
 using testing::scenario_text;
-
-constexpr double k_pi_here = 3.14159265358979323846;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr double k_patience = 10;  // how much slower a program may be that watches itself
@@ -63,21 +62,21 @@ TEST(DistanceTransform, FindsTheNearestSeedLikeBruteForce) {
 
 TEST(ZoneMap, VolumesOfKnownShapesAreWithinHalfAPercent) {
   const Tooth block = dentin_block(4, 5, 0.05);
-  EXPECT_NEAR(zones_of(block, cylinder(1.5, 3)).target_mm3(), k_pi_here * 1.5 * 1.5 * 3, 0.005 * k_pi_here * 1.5 * 1.5 * 3);
+  EXPECT_NEAR(zones_of(block, cylinder(1.5, 3)).target_mm3(), std::numbers::pi * 1.5 * 1.5 * 3, 0.005 * std::numbers::pi * 1.5 * 1.5 * 3);
   const auto box = zones_of(block, "[[zones.target]]\nshape = \"box\"\nat_mm = [0.01, 0.02, -1]\nsize_mm = [3, 2, 4]\nturn_deg = 30\n");
   EXPECT_NEAR(box.target_mm3(), 3 * 2 * 3, 0.005 * 18);
   const auto cone =
       zones_of(block, "[[zones.target]]\nshape = \"cone\"\nat_mm = [0.01, 0, -3]\nradius_mm = 0.8\ntop_radius_mm = 1.6\nheight_mm = 3\n");
-  const double cone_mm3 = k_pi_here * 3 / 3 * (0.8 * 0.8 + 0.8 * 1.6 + 1.6 * 1.6);
+  const double cone_mm3 = std::numbers::pi * 3 / 3 * (0.8 * 0.8 + 0.8 * 1.6 + 1.6 * 1.6);
   EXPECT_NEAR(cone.target_mm3(), cone_mm3, 0.005 * cone_mm3);
   const auto ball = zones_of(block, "[[zones.target]]\nshape = \"ball\"\nat_mm = [0.013, 0.007, -2.5]\nradius_mm = 1.5\n");
-  const double ball_mm3 = 4.0 / 3 * k_pi_here * 1.5 * 1.5 * 1.5;
+  const double ball_mm3 = 4.0 / 3 * std::numbers::pi * 1.5 * 1.5 * 1.5;
   EXPECT_NEAR(ball.target_mm3(), ball_mm3, 0.005 * ball_mm3);
   const auto stroke =
       zones_of(block,
                "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"stroke\", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }\n"
                "bottom = { kind = \"below_lowest\", depth_mm = 1.8 }\n");
-  const double stroke_mm3 = (3 * 1.4 + k_pi_here * 0.49) * 1.8;
+  const double stroke_mm3 = (3 * 1.4 + std::numbers::pi * 0.49) * 1.8;
   EXPECT_NEAR(stroke.target_mm3(), stroke_mm3, 0.005 * stroke_mm3);
 }
 
@@ -87,7 +86,7 @@ TEST(ZoneMap, TaperWidensTheColumnTowardsTheOpening) {
       zones_of(block,
                "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"
                "taper_deg = 10\n");
-  const double top = 1 + 2 * std::tan(10 * k_pi_here / 180), want = k_pi_here * 2 / 3 * (1 + top + top * top);
+  const double top = 1 + 2 * std::tan(10 * std::numbers::pi / 180), want = std::numbers::pi * 2 / 3 * (1 + top + top * top);
   EXPECT_NEAR(z.target_mm3(), want, 0.005 * want);
 }
 
@@ -103,7 +102,7 @@ TEST(ZoneMap, DistancesAreTrueToHalfALeafEverywhere) {
 
   // a box has edges and corners, where a distance is easily wrong; it is open to the top
   const auto box = zones_of(block, "[[zones.target]]\nshape = \"box\"\nat_mm = [0.01, 0.02, 0]\nsize_mm = [3, 2, 4]\nturn_deg = 20\n");
-  const double c = std::cos(20 * k_pi_here / 180), s = std::sin(20 * k_pi_here / 180);
+  const double c = std::cos(20 * std::numbers::pi / 180), s = std::sin(20 * std::numbers::pi / 180);
   worst = 0;
   box.for_each_leaf([&](IVec3 l, Zone) {
     const Vec3 p = box.centre_mm(l) - Vec3{0.01, 0.02, 0};
@@ -161,7 +160,7 @@ TEST(ZoneMap, ShapesAreAddedSubtractedAndIntersectedInOrder) {
   const auto z = zones_of(block, cylinder(1.5, 3) +
                                      "[[zones.target]]\ncombine = \"subtract\"\nshape = \"box\"\nat_mm = [0, 0, -1.5]\nsize_mm = [0.5, 0.5, 4]\n" +
                                      "[[zones.target]]\ncombine = \"intersect\"\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [8, 8, 4]\n");
-  const double want = (k_pi_here * 2.25 - 0.25) * 2;
+  const double want = (std::numbers::pi * 2.25 - 0.25) * 2;
   EXPECT_NEAR(z.target_mm3(), want, 0.005 * want);
 }
 
@@ -181,7 +180,7 @@ TEST(ZoneMap, ColumnOverTheChamberFollowsItsShadowDownToItsFloor) {
       zones_of(tooth,
                "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1 }\n"
                "bottom = { kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }\n");
-  const double area = 3 * 2 + 2 * 0.1 * 5 + k_pi_here * 0.01, want = area * 4.5;
+  const double area = 3 * 2 + 2 * 0.1 * 5 + std::numbers::pi * 0.01, want = area * 4.5;
   EXPECT_NEAR(z.target_mm3(), want, 0.02 * want);  // a shadow is known to half a leaf
   EXPECT_EQ(z.zone(tooth.octree.leaf_at({0, 0, -4.4})), Zone::target);
   EXPECT_EQ(z.zone(tooth.octree.leaf_at({0, 0, -4.6})), Zone::leeway_bottom);

@@ -18,8 +18,7 @@ namespace {
 
 using nlohmann::json;
 using testing_report::unpack;
-
-const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+using testing_ui::k_block;
 
 std::uint64_t solid_leaves(const Octree& tree) {
   std::uint64_t n = 0;

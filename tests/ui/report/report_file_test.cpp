@@ -18,8 +18,7 @@ namespace {
 
 using nlohmann::json;
 using testing_report::data_in;
-
-const std::string k_block = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+using testing_ui::k_block;
 
 std::size_t times(const std::string& text, const std::string& part) {
   std::size_t n = 0;

@@ -7,23 +7,23 @@
 namespace cavum {
 namespace {
 
-const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data/";
+using testing_ui::k_data;
 
 class ExplainVerbs : public testing_ui::Program {};
 
 TEST_F(ExplainVerbs, TheTableOfFig6IsAnAliasAndItsReportSaysWhy) {
-  const auto j = run_json("explain " + k_data + "measured/fig6/fig6.csv --out " + path("fig6.html"));
+  const auto j = run_json("explain " + k_data + "/measured/fig6/fig6.csv --out " + path("fig6.html"));
   EXPECT_EQ(j["verdict"], "alias");
   EXPECT_FALSE(j["next_experiment"].get<std::string>().empty());
   const std::string page = read_text_file(path("fig6.html"));
   for (const char* part : {"<svg", "has no intercept", "cannot be told apart", "The next experiment"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("http://", page.find("</head>")), page.find("http://www.w3.org/2000/svg")) << "self-contained";
-  expect_refused("explain " + k_data + "measured/fig6/fig6.csv --model-out " + path("m.toml"), {"table of means"});
+  expect_refused("explain " + k_data + "/measured/fig6/fig6.csv --model-out " + path("m.toml"), {"table of means"});
 }
 
 TEST_F(ExplainVerbs, TheModelOfTheHuntIsLoadedByRigExamAndExplain) {
-  const std::string recording = k_data + "measured/hunt/recording.csv", model = path("found.toml");
+  const std::string recording = k_data + "/measured/hunt/recording.csv", model = path("found.toml");
   const auto found = run_json("explain " + recording + " --seed 3 --model-out " + model + " --out " + path("hunt.html"));
   ASSERT_EQ(found["verdict"], "named");
   EXPECT_EQ(run_json("explain " + recording + " --seed 3"), found) << "the same seed gives the same answer";
@@ -34,7 +34,7 @@ TEST_F(ExplainVerbs, TheModelOfTheHuntIsLoadedByRigExamAndExplain) {
   EXPECT_EQ(run_json("explain " + recording + " --model " + model)["verdict"], "clean");
   EXPECT_EQ(run_json("rig cube --model " + model + " --k 0.4,0.8,1.2 --runs 1")["experiment"], "cube");
   const auto exam =
-      run("exam " + k_data + "scenarios/slot.toml --candidate x --operator expert --model " + model + " --out " + path("s.cavum") + " --quiet");
+      run("exam " + k_data + "/scenarios/slot.toml --candidate x --operator expert --model " + model + " --out " + path("s.cavum") + " --quiet");
   EXPECT_EQ(exam.exit_code, 0) << exam.err;
   EXPECT_EQ(run("replay " + path("s.cavum") + " --verify").exit_code, 0);
   // the session, explained: no force was measured in it, and it says so
@@ -45,11 +45,11 @@ TEST_F(ExplainVerbs, TheModelOfTheHuntIsLoadedByRigExamAndExplain) {
 TEST_F(ExplainVerbs, ASessionTakesNoColumnsAndARecordingNoForce) {
   expect_refused("explain " + path("none.cavum"), {"none.cavum"});
   expect_refused("explain " + path("none.cavum") + " --column x_mm=z", {"is a session"});
-  expect_refused("explain " + k_data + "measured/hunt/recording.csv --force f.csv", {"--force", "session only"});
+  expect_refused("explain " + k_data + "/measured/hunt/recording.csv --force f.csv", {"--force", "session only"});
 }
 
 TEST_F(ExplainVerbs, NothingThatIsReadIsWrittenOver) {
-  const std::string data = read_text_file(k_data + "measured/hunt/recording.csv"), rig = read_text_file(k_data + "measured/hunt/rig.toml");
+  const std::string data = read_text_file(k_data + "/measured/hunt/recording.csv"), rig = read_text_file(k_data + "/measured/hunt/rig.toml");
   write_text_file(path("r.csv"), data);
   write_text_file(path("rig.toml"), rig);
   for (const std::string& options : {"--out " + path("r.csv"), "--out " + path("./r.csv"), "--model-out " + path("rig.toml"),
@@ -67,14 +67,14 @@ TEST_F(ExplainVerbs, NothingThatIsReadIsWrittenOver) {
 }
 
 TEST_F(ExplainVerbs, WrongOptionsAreRefused) {
-  const std::string hunt = "explain " + k_data + "measured/hunt/recording.csv ";
+  const std::string hunt = "explain " + k_data + "/measured/hunt/recording.csv ";
   for (const std::string wrong : {"--seed -1", "--twins 5", "--material pulp --model consistent", "--material unobtainium --model consistent",
                                   "--material dentin", "--out r.pdf", "--protocol p.html"})
     expect_refused(hunt + wrong, {"cavum"});
 }
 
 TEST_F(ExplainVerbs, ForceOfTheWrongSignIsAFaultAndSaysSoInJsonWhateverElseIsAsked) {
-  const std::string data = read_text_file(k_data + "measured/hunt/recording.csv");
+  const std::string data = read_text_file(k_data + "/measured/hunt/recording.csv");
   std::istringstream in(data);
   std::string line, turned;
   std::getline(in, line);

@@ -8,10 +8,10 @@ namespace cavum::explain {
 namespace {
 
 /// A scene on a path given by formula, without uncertainty: k = 0.8, c = 0.
-struct Stage {
+struct PathScene {
   Recording recording;
   Scene scene;
-  explicit Stage(const std::function<double(double)>& x, Base base = {0.8, 0.0}, double length_s = 10.0) {
+  explicit PathScene(const std::function<double(double)>& x, Base base = {0.8, 0.0}, double length_s = 10.0) {
     const double dt = 0.005;
     const auto n = static_cast<Eigen::Index>(length_s / dt);
     recording.t_s = Series::LinSpaced(n, 0.0, dt * static_cast<double>(n - 1));
@@ -39,7 +39,7 @@ TEST(Mechanisms, EachHasItsTexts) {
 }
 
 TEST(Mechanisms, RelaxationDecaysInAHoldAsOneExponential) {
-  const Stage s([](double t) { return t < 1 ? 0.5 * t : 0.5; });
+  const PathScene s([](double t) { return t < 1 ? 0.5 * t : 0.5; });
   const Series z = s.columns("relaxation", {2.0, 0.0, 1.0}).own[0];
   // loading at 0.5 mm/s for 1 s gives 0.5·2·(1 − e^(−1/2)), then it decays with 2 s
   const double at_one = 0.5 * 2.0 * (1 - std::exp(-0.5));
@@ -48,20 +48,20 @@ TEST(Mechanisms, RelaxationDecaysInAHoldAsOneExponential) {
 }
 
 TEST(Mechanisms, LowPassAnswersAStepWithAnExponential) {
-  const Stage s([](double t) { return t < 1 ? 1e-6 : 1.0; });
+  const PathScene s([](double t) { return t < 1 ? 1e-6 : 1.0; });
   const Series change = s.columns("low_pass", {0.25}).spring;
   EXPECT_NEAR(change[250] + s.scene.spring_mm[250], 1 - std::exp(-0.25 / 0.25), 0.02);
 }
 
 TEST(Mechanisms, DelayShiftsARampByTauTimesItsSpeed) {
-  const Stage s([](double t) { return 0.1 + 0.2 * t; });
+  const PathScene s([](double t) { return 0.1 + 0.2 * t; });
   const Series change = s.columns("delay", {0.033}).spring;
   EXPECT_NEAR(change[1000], -0.2 * 0.033, 1e-9);
 }
 
 TEST(Mechanisms, BacklashStandsStillForTwiceItsRadiusAfterAReversal) {
   const double b = 0.05;
-  const Stage s([](double t) { return t < 5 ? 0.1 + 0.1 * t : 0.6 - 0.1 * (t - 5); });
+  const PathScene s([](double t) { return t < 5 ? 0.1 + 0.1 * t : 0.6 - 0.1 * (t - 5); });
   const Series y = s.columns("backlash", {0, b}).spring + s.scene.spring_mm;
   EXPECT_NEAR(y[800], 0.5 - b, 1e-6);         // behind by b on the way in
   EXPECT_NEAR(y[1190], y[1000], 1e-3);        // 0.95 s after the turn: still within the play of 0.1 mm
@@ -69,14 +69,14 @@ TEST(Mechanisms, BacklashStandsStillForTwiceItsRadiusAfterAReversal) {
 }
 
 TEST(Mechanisms, DahlLoopEndsAtItsDistance) {
-  const Stage s([](double t) { return 0.1 * t + 1e-3; });
+  const PathScene s([](double t) { return 0.1 * t + 1e-3; });
   const Series z = s.columns("hysteresis", {1, 0.05}).own[0];
   EXPECT_NEAR(z[1999], 0.05, 1e-3);
   EXPECT_NEAR(z[100], 0.05 * (1 - std::exp(-0.05 / 0.05)), 1e-3);  // z = d (1 − e^(−X/d)), X = 0.05 mm
 }
 
 TEST(Mechanisms, HiddenLayerAndPowerAreClosedForms) {
-  const Stage s([](double t) { return 0.1 * t + 1e-3; });
+  const PathScene s([](double t) { return 0.1 * t + 1e-3; });
   EXPECT_NEAR(s.columns("hidden_layer", {0.3}).own[0][1000], 0.501 - 0.3, 1e-9);
   EXPECT_NEAR(s.columns("nonlinear_stiffness", {1.5}).spring[1000], std::pow(0.501, 1.5) - 0.501, 1e-9);
   EXPECT_NEAR(s.columns("graded_stiffness", {}).own[0][1000], 0.501 * 0.501, 1e-9);
@@ -84,7 +84,7 @@ TEST(Mechanisms, HiddenLayerAndPowerAreClosedForms) {
 
 TEST(Mechanisms, AnOffsetOfTheSurfaceIsKDeltaInContactAndMovesTheFirstContact) {
   for (const double delta : {0.1, -0.1}) {
-    const Stage s([](double t) { return -0.5 + 0.1 * t; }, {0.8, 0.2});
+    const PathScene s([](double t) { return -0.5 + 0.1 * t; }, {0.8, 0.2});
     std::vector<double> shape(12, 0.0);
     shape[0] = delta;
     const Columns c = s.columns("contact_offset", shape);
@@ -99,7 +99,7 @@ TEST(Mechanisms, AnOffsetOfTheSurfaceIsKDeltaInContactAndMovesTheFirstContact) {
 }
 
 TEST(Mechanisms, AnOffsetOfTheSurfaceScalesWithTheTissueAndOneOfTheForceDoesNot) {
-  Stage s([](double t) { return -0.5 + 0.1 * t; });
+  PathScene s([](double t) { return -0.5 + 0.1 * t; });
   s.recording.relative_k = Series::Ones(s.recording.rows());
   s.recording.relative_k.tail(200) = 3.0;
   const Scene scene = make_scene(s.recording, s.scene.motion, s.scene.base, 0.0, 0.0);
@@ -112,7 +112,7 @@ TEST(Mechanisms, AnOffsetOfTheSurfaceScalesWithTheTissueAndOneOfTheForceDoesNot)
 
 TEST(Mechanisms, AnOffsetOfTheSurfaceNeedsFreeMotionBeforeContact) {
   const auto starts_on = [](double from_mm) {
-    Stage s([=](double t) { return from_mm + 0.1 * t; });
+    PathScene s([=](double t) { return from_mm + 0.1 * t; });
     s.scene.left_n = Series::Constant(s.recording.rows(), 0.0);
     for (Eigen::Index i = 0; i < s.recording.rows(); ++i)
       s.scene.left_n[i] = 0.8 * (std::max(0.0, s.scene.motion.x_mm[i] + 0.07) - std::max(0.0, s.scene.motion.x_mm[i]));
@@ -126,7 +126,7 @@ TEST(Mechanisms, AnOffsetOfTheSurfaceNeedsFreeMotionBeforeContact) {
 }
 
 TEST(Mechanisms, FrictionFlipsWithTheMotionInAirToo) {
-  const Stage s([](double t) { return -1 + 0.2 * std::sin(t); });
+  const PathScene s([](double t) { return -1 + 0.2 * std::sin(t); });
   const Series f = s.columns("coulomb_friction", {0.01}).own[0];
   EXPECT_NEAR(f[0], 1.0, 1e-6);
   EXPECT_NEAR(f[628], -1.0, 1e-6);  // t = pi

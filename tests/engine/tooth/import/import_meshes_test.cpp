@@ -8,9 +8,12 @@
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/mesh/read_mesh.h"
 #include "tests/engine/tooth/import/import_testing.h"
+#include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
 namespace {
+
+using testing_tooth::volume_mm3;
 
 using namespace testing_import;
 
@@ -21,8 +24,6 @@ struct Blocks {
     return {write_obj(f / "e.obj", enamel), write_obj(f / "d.obj", dentin), write_ascii_stl(f / "p.stl", pulp)};
   }
 };
-
-double volume_mm3(const Tooth& t, std::uint8_t id) { return static_cast<double>(t.octree.count_leaves()[id]) * t.octree.leaf_volume_mm3(); }
 
 MeshImportOptions options(double leaf_mm, double periodontium_mm = 0.0) {
   MeshImportOptions o;

@@ -10,6 +10,8 @@
 namespace cavum {
 namespace {
 
+using testing_tooth::volume_mm3;
+
 using namespace testing_import;
 
 /// A ball-headed pillar: crown = ball of radius 4 mm, root = cylinder of radius 2.6 mm downwards, broken off flat; pulp =
@@ -62,17 +64,15 @@ std::array<double, 4> phantom_mm3() {
   return v;
 }
 
-VolumeImportOptions options(double leaf_mm = 0.1) {
+VolumeImportOptions volume_options(double leaf_mm = 0.1) {
   VolumeImportOptions o;
   o.leaf_mm = leaf_mm;
   o.periodontium_mm = 0;
   return o;
 }
 
-double volume_mm3(const Tooth& t, std::uint8_t id) { return static_cast<double>(t.octree.count_leaves()[id]) * t.octree.leaf_volume_mm3(); }
-
 TEST(ImportCt, FindsTissuesWithADarkPulpAndAPartialVolumeRim) {
-  const auto done = import_volume(write_mhd(fresh_folder(), ct(), "0.2 0.2 0.2"), options());
+  const auto done = import_volume(write_mhd(fresh_folder(), ct(), "0.2 0.2 0.2"), volume_options());
   const auto truth = phantom_mm3();
   EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), truth[k_enamel], 0.04 * truth[k_enamel]);
   EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), truth[k_dentin], 0.04 * truth[k_dentin]);
@@ -99,7 +99,7 @@ TEST(ImportCt, FindsTissuesWithADarkPulpAndAPartialVolumeRim) {
 // A ball cut from voxels twice the leaf: the surface must lie on the sphere, without steps.
 TEST(ImportCt, TheSurfaceShowsNoSteps) {
   const auto volume = phantom([](std::uint8_t t) { return t == k_air ? 78.0 : t == k_pulp ? 26.0 : t == k_dentin ? 162.0 : 235.0; }, true, 0.0);
-  const auto done = import_volume(write_mhd(fresh_folder(), volume, "0.2 0.2 0.2"), options());
+  const auto done = import_volume(write_mhd(fresh_folder(), volume, "0.2 0.2 0.2"), volume_options());
   Octree::Cursor cursor;
   // The frame's origin comes from the enamel's voxels, so the ball's centre is known to a voxel only: fit its height.
   std::vector<std::pair<double, double>> seen;  // cosine of the polar angle, distance
@@ -125,10 +125,10 @@ TEST(ImportCt, TheSurfaceShowsNoSteps) {
 }
 
 TEST(ImportCt, MissingSpacingIsAssumedAndSaid) {
-  const auto done = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), options());
+  const auto done = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), volume_options());
   EXPECT_TRUE(done.spacing_assumed);
   EXPECT_NE(done.tooth.source.find("spacing assumed"), std::string::npos);
-  auto given = options();
+  auto given = volume_options();
   given.spacing_mm = Vec3{0.2, 0.2, 0.2};
   const auto told = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), given);
   EXPECT_FALSE(told.spacing_assumed);
@@ -137,7 +137,7 @@ TEST(ImportCt, MissingSpacingIsAssumedAndSaid) {
 
 TEST(ImportCt, ExplicitThresholdsAreObeyed) {
   const auto path = write_mhd(fresh_folder(), ct(), "0.2 0.2 0.2");
-  auto o = options(0.2);
+  auto o = volume_options(0.2);
   o.thresholds.dentin = 120;
   o.thresholds.enamel = 250;
   EXPECT_NE(error_of([&] { (void)import_volume(path, o); }).find("no enamel"), std::string::npos);
@@ -151,38 +151,39 @@ TEST(ImportCt, DamagedOrEmptyVolumesAreErrors) {
   const auto folder = fresh_folder();
   const auto path = write_mhd(folder, ct(), "0.2 0.2 0.2");
   fs::resize_file(folder / "v.raw", fs::file_size(folder / "v.raw") - 1);
-  const auto truncated = error_of([&] { (void)import_volume(path, options()); });
+  const auto truncated = error_of([&] { (void)import_volume(path, volume_options()); });
   EXPECT_NE(truncated.find("v.raw: truncated"), std::string::npos) << truncated;
   fs::remove(folder / "v.raw");
-  EXPECT_NE(error_of([&] { (void)import_volume(path, options()); }).find("missing"), std::string::npos);
-  EXPECT_NE(error_of([&] { (void)import_volume((folder / "none.nrrd").string(), options()); }).find("no such volume"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)import_volume(path, volume_options()); }).find("missing"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)import_volume((folder / "none.nrrd").string(), volume_options()); }).find("no such volume"), std::string::npos);
   const auto nrrd = write_nrrd(folder / "l.nrrd", labels());
   fs::resize_file(nrrd, fs::file_size(nrrd) / 2);
-  EXPECT_NE(error_of([&] { (void)import_volume(nrrd, options()); }).find("truncated"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)import_volume(nrrd, volume_options()); }).find("truncated"), std::string::npos);
   const auto nifti = write_nifti(folder / "l.nii", labels());
   fs::resize_file(nifti, fs::file_size(nifti) - 100);
-  EXPECT_NE(error_of([&] { (void)import_volume(nifti, options()); }).find("truncated"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)import_volume(nifti, volume_options()); }).find("truncated"), std::string::npos);
   std::ofstream(folder / "text.nrrd") << "hello";
-  EXPECT_NE(error_of([&] { (void)import_volume((folder / "text.nrrd").string(), options()); }), "");
+  EXPECT_NE(error_of([&] { (void)import_volume((folder / "text.nrrd").string(), volume_options()); }), "");
 
   Voxels flat = ct();
   std::fill(flat.gray.begin(), flat.gray.end(), std::uint8_t{78});
-  EXPECT_NE(error_of([&] { (void)import_volume(write_mhd(folder, flat, "0.2 0.2 0.2"), options()); }).find("same gray"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)import_volume(write_mhd(folder, flat, "0.2 0.2 0.2"), volume_options()); }).find("same gray"), std::string::npos);
   Random random(3);
   for (auto& g : flat.gray) g = static_cast<std::uint8_t>(70 + random.below(17));
-  EXPECT_NE(error_of([&] { (void)import_volume(write_mhd(folder, flat, "0.2 0.2 0.2"), options()); }).find("no tooth found"), std::string::npos);
+  EXPECT_NE(error_of([&] { (void)import_volume(write_mhd(folder, flat, "0.2 0.2 0.2"), volume_options()); }).find("no tooth found"),
+            std::string::npos);
 }
 
 TEST(ImportDicom, ASeriesIsReadAndAHoleIsAnError) {
   const auto folder = fresh_folder();
   const Voxels v = ct();
   for (int z = 0; z < v.nz; ++z) write_dicom_slice(folder / ("s" + std::to_string(z) + ".dcm"), v, z);
-  const auto done = import_volume(folder.string(), options(0.2));
+  const auto done = import_volume(folder.string(), volume_options(0.2));
   const auto truth = phantom_mm3();
   EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), truth[k_dentin], 0.06 * truth[k_dentin]);
   EXPECT_NE(done.tooth.source.find("spacing from the file 0.2,0.2,0.2"), std::string::npos) << done.tooth.source;
   fs::remove(folder / "s33.dcm");
-  const auto hole = error_of([&] { (void)import_volume(folder.string(), options(0.2)); });
+  const auto hole = error_of([&] { (void)import_volume(folder.string(), volume_options(0.2)); });
   EXPECT_NE(hole.find("hole"), std::string::npos) << hole;
   EXPECT_NE(hole.find("s32.dcm and s34.dcm"), std::string::npos) << hole;
 }
@@ -190,7 +191,7 @@ TEST(ImportDicom, ASeriesIsReadAndAHoleIsAnError) {
 TEST(ImportLabelMap, NrrdAndNiftiGiveTheirTissues) {
   const auto folder = fresh_folder();
   const auto truth = phantom_mm3();
-  auto o = options();
+  auto o = volume_options();
   o.labels = parse_label_map("1=enamel,2=dentin,3=pulp");
   for (const auto& path : {write_nrrd(folder / "l.nrrd", labels()), write_nifti(folder / "l.nii", labels())}) {
     const auto done = import_volume(path, o);
@@ -205,7 +206,7 @@ TEST(ImportLabelMap, NrrdAndNiftiGiveTheirTissues) {
 
 TEST(ImportLabelMap, ExchangedLayersAreTheSameErrorAsForMeshes) {
   const auto path = write_nrrd(fresh_folder() / "l.nrrd", labels());
-  auto o = options();
+  auto o = volume_options();
   o.labels = parse_label_map("2=enamel,1=dentin,3=pulp");
   const auto error = error_of([&] { (void)import_volume(path, o); });
   EXPECT_NE(error.find("l.nrrd: enamel and dentin look exchanged: the pulp lies in the enamel; exchange"), std::string::npos) << error;
@@ -215,7 +216,7 @@ TEST(ImportLabelMap, ExchangedLayersAreTheSameErrorAsForMeshes) {
 
 TEST(ImportLabelMap, LabelsWithoutMeaningAreListed) {
   const auto path = write_nrrd(fresh_folder() / "l.nrrd", labels());
-  auto o = options();
+  auto o = volume_options();
   o.labels = parse_label_map("1=enamel");
   const auto error = error_of([&] { (void)import_volume(path, o); });
   EXPECT_NE(error.find("2, 3"), std::string::npos) << error;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_import;
 
-double volume_mm3(const Tooth& t, std::uint8_t id) { return static_cast<double>(t.octree.count_leaves()[id]) * t.octree.leaf_volume_mm3(); }
+using testing_tooth::volume_mm3;
 
 MeshPaths layers(const std::string& tooth) {
   const auto f = shared_folder() / "teeth" / "openmandible";

@@ -9,9 +9,7 @@
 namespace cavum {
 namespace {
 
-double volume_mm3(const Tooth& tooth, const std::string& tissue) {
-  return static_cast<double>(tooth.octree.count_leaves()[tooth.tissue_id(tissue)]) * tooth.octree.leaf_volume_mm3();
-}
+double volume_mm3(const Tooth& tooth, const std::string& tissue) { return testing_tooth::volume_mm3(tooth, tooth.tissue_id(tissue)); }
 
 TEST(MakeBlock, VolumesAreExactWhereSizesAreMultiplesOfTheLeaf) {
   const Tooth tooth = make_block({10, 10, 6}, parse_layers("enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3"), 0.05);

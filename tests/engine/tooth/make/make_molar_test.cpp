@@ -12,6 +12,8 @@
 namespace cavum {
 namespace {
 
+using testing_tooth::volume_mm3;
+
 MolarShape coarse(int canals = 3) {
   MolarShape shape;
   shape.leaf_mm = 0.1;
@@ -22,10 +24,6 @@ MolarShape coarse(int canals = 3) {
 const Tooth& molar() {
   static const Tooth tooth = make_molar(coarse());
   return tooth;
-}
-
-double volume_mm3(const Tooth& tooth, std::uint8_t id) {
-  return static_cast<double>(tooth.octree.count_leaves()[id]) * tooth.octree.leaf_volume_mm3();
 }
 
 TEST(MakeMolar, HasTheVolumesOfALowerFirstMolar) {

@@ -10,11 +10,9 @@
 namespace cavum {
 namespace {
 
-Tooth block() { return make_block({6, 6, 5}, parse_layers("enamel:1.0,dentin:2.5,pulp:0.5,dentin:1.0"), 0.05); }
+using testing_tooth::volume_mm3;
 
-double volume_mm3(const Tooth& tooth, std::uint8_t tissue) {
-  return static_cast<double>(tooth.octree.count_leaves()[tissue]) * tooth.octree.leaf_volume_mm3();
-}
+Tooth block() { return make_block({6, 6, 5}, parse_layers("enamel:1.0,dentin:2.5,pulp:0.5,dentin:1.0"), 0.05); }
 
 TEST(PlantLesion, HasTheVolumeOfItsEllipsoidAndTakesItFromTheDentinAlone) {
   const Tooth before = block(), after = plant_lesion(block(), {{0.3, -0.2, -2.2}, {1.4, 1.0, 0.8}});
