@@ -41,11 +41,8 @@ Grid as_grid(const std::vector<double>& values) {
   return g;
 }
 
-}  // namespace
-
-std::vector<Mechanism> friction_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism coulomb_friction() {
+  return {
       .name = "coulomb_friction",
       .equation = "Fc tanh(V/v0), in air too",
       .words = "dry friction of joints or guides",
@@ -69,9 +66,11 @@ std::vector<Mechanism> friction_mechanisms() {
       },
       .own = k_positive,
       .one_way = OneWay::looks_like_offset,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism stribeck_friction() {
+  return {
       .name = "stribeck_friction",
       .equation = "[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too",
       .words = "friction that falls as the motion becomes faster",
@@ -103,9 +102,11 @@ std::vector<Mechanism> friction_mechanisms() {
       .own = k_positive,
       .variant_of = "coulomb_friction",
       .one_way = OneWay::needs_reversal,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism viscous_friction() {
+  return {
       .name = "viscous_friction",
       .equation = "b V, in air too",
       .words = "friction in proportion to speed",
@@ -125,9 +126,17 @@ std::vector<Mechanism> friction_mechanisms() {
       },
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+std::vector<Mechanism> friction_mechanisms() {
+  return {
+      coulomb_friction(),
+      stribeck_friction(),
+      viscous_friction(),
+  };
 }
 
 }  // namespace cavum::explain
