@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
-#include "engine/tooth/distance.h"
+#include "engine/tooth/distance_transform.h"
 
 namespace cavum {
 namespace {
@@ -67,7 +67,7 @@ Bodies bodies_of(IVec3 size, const Mask& mask) {
 
 /// Rule 2: what a ball reaches from the border.
 Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
-  const auto nearest = nearest_marked(size, hard, radius_voxels);
+  const auto nearest = nearest_seed(size, hard, radius_voxels);
   Mask reached(hard.size(), 0);
   std::vector<std::size_t> front;
   const auto enter = [&](std::size_t i) {
@@ -82,7 +82,7 @@ Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
     front.pop_back();
     for_neighbours(size, i, enter);
   }
-  const auto to_reached = nearest_marked(size, reached, radius_voxels + 0.5);
+  const auto to_reached = nearest_seed(size, reached, radius_voxels + 0.5);
   Mask outside(hard.size());
   for (std::size_t i = 0; i < hard.size(); ++i) outside[i] = !hard[i] && to_reached[i] >= 0;
   return outside;
@@ -90,10 +90,10 @@ Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
 
 /// Rule 3, on voxels labelled by gray alone.
 void give_rim_to_what_lies_beneath(Segmentation& s, const Mask& outside) {
-  const auto to_outside = nearest_marked(s.size, outside, k_rim_voxels);
+  const auto to_outside = nearest_seed(s.size, outside, k_rim_voxels);
   Mask trusted(s.tissue.size());
   for (std::size_t i = 0; i < trusted.size(); ++i) trusted[i] = s.tissue[i] == k_enamel || (s.tissue[i] == k_dentin && to_outside[i] < 0);
-  const auto nearest = nearest_marked(s.size, trusted, 4 * k_rim_voxels);
+  const auto nearest = nearest_seed(s.size, trusted, 4 * k_rim_voxels);
   const auto before = s.tissue;
   for (std::size_t i = 0; i < trusted.size(); ++i)
     if (before[i] == k_dentin && !trusted[i] && nearest[i] >= 0) s.tissue[i] = before[static_cast<std::size_t>(nearest[i])];
