@@ -16,10 +16,10 @@ namespace {
 constexpr double k_exact_n = 1e-3;
 constexpr double k_95 = 1.96;
 
-constexpr CsvForm k_form{.most_fields = 200,
-                         .most_rows = 5000,  // each is left out in turn, which takes the square of their number
-                         .field_word = "cells",
-                         .plain_text = false};
+constexpr CsvForm k_table{.most_fields = 200,
+                          .most_rows = 5000,  // each is left out in turn, which takes the square of their number
+                          .field_word = "cells",
+                          .plain_text = false};
 
 /// A column that each table has, and the least of its values; with `above` they are greater than that.
 struct TableColumn {
@@ -122,13 +122,13 @@ constexpr const char* k_next =
 double TableFit::at(double k_n_per_mm) const { return slope_mm * k_n_per_mm + root * std::sqrt(k_n_per_mm) + intercept_n; }
 
 bool is_stiffness_table(const std::string& csv, const std::string& where) {
-  CsvReader in(csv, where, k_form);
+  CsvReader in(csv, where, k_table);
   return in.next_row() && holds(in, "k_n_per_mm") && holds(in, "f_n") && !holds(in, "t_s");
 }
 
 StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& where) {
   StiffnessTable out;
-  CsvReader in(csv, where, k_form);
+  CsvReader in(csv, where, k_table);
   CsvReader::Line line;
   while ((line = in.next()) == CsvReader::Line::comment)
     if (!in.comment().empty()) out.origin += (out.origin.empty() ? "" : " ") + one_line(in.comment());
@@ -171,7 +171,7 @@ TableExplanation explain_table(const StiffnessTable& table) {
     c.term.mechanism = known_mechanism("bias");
     for (const char* other : {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"}) c.aliases.emplace_back(other);
     c.parameters.emplace_back("bias_n", interval(e.line.intercept_n, e.line.intercept_error_n));
-    c.p_value = 0.5 * std::erfc(z / std::sqrt(2.0));
+    c.p_value = normal_cdf(-z);
     c.effect_n = e.line.intercept_n;
     said.causes.push_back(c);
   }

@@ -6,6 +6,7 @@
 #include "engine/force/coulomb_friction.h"
 #include "engine/force/friction_terms.h"
 #include "engine/force/term_laws.h"
+#include "engine/statistics/order.h"
 
 namespace cavum::explain {
 namespace {
@@ -28,10 +29,10 @@ Series sign_of_motion(const Scene& s, double v0_mm_s) {
 std::vector<double> speeds(const Scene& s, std::initializer_list<double> parts) {
   std::vector<double> v;
   for (Eigen::Index i = 0; i < s.motion.v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion.v_mm_s[i]));
-  const auto at = v.begin() + static_cast<std::ptrdiff_t>(v.size() * 9 / 10);
-  std::nth_element(v.begin(), at, v.end());
+  const std::size_t fast = v.size() * 9 / 10;
+  const double fast_mm_s = in_order(std::move(v), fast);
   std::vector<double> out;
-  for (const double p : parts) out.push_back(std::max(1e-5, p * *at));
+  for (const double p : parts) out.push_back(std::max(1e-5, p * fast_mm_s));
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/explain/model/lags.h"
 #include "engine/explain/model/mechanism.h"
+#include "engine/statistics/order.h"
 
 namespace cavum::explain {
 namespace {
@@ -53,8 +54,7 @@ Grid saturation_grid(const Scene& s) {
   if (pressed.size() < 100) return {};
   std::sort(pressed.begin(), pressed.end());
   Grid g;
-  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995})
-    g.push_back({pressed[static_cast<std::size_t>(part * static_cast<double>(pressed.size() - 1))]});
+  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995}) g.push_back({quantile_of_sorted(pressed, part)});
   return g;
 }
 
