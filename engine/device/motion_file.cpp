@@ -4,9 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <string_view>
 
+#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 
@@ -16,54 +16,18 @@ namespace {
 constexpr std::array<std::string_view, 12> k_columns{"t_s", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz", "pedal", "b1", "b2", "point"};
 constexpr std::size_t k_required = 9;
 
-constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
 constexpr double k_longest_s = 86'400;  // a day
 constexpr double k_latest_s = 1e10;     // a clock in seconds since 1970 reaches it in 2286; one in milliseconds is far beyond
 
-std::string_view trimmed(std::string_view s) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!s.empty() && blank(s.front())) s.remove_prefix(1);
-  while (!s.empty() && blank(s.back())) s.remove_suffix(1);
-  return s;
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// Reads the lines of one file and says where it stands.
-class Reader {
- public:
-  Reader(const std::string& text, std::string where) : rest_(text), where_(std::move(where)) {
-    if (rest_.starts_with(k_byte_order_mark)) rest_.remove_prefix(k_byte_order_mark.size());
-  }
-
-  std::optional<std::string_view> line() {
-    if (rest_.empty()) return std::nullopt;
-    ++number_;
-    const auto end = std::min(rest_.find_first_of("\r\n"), rest_.size());
-    const auto line = trimmed(rest_.substr(0, end));
-    rest_.remove_prefix(end + (rest_.substr(end).starts_with("\r\n") ? 2 : end < rest_.size() ? 1 : 0));
-    return line;
-  }
-  [[noreturn]] void fail(const std::string& what, const std::string& todo) const { throw Error(where_ + ":" + std::to_string(number_), what, todo); }
-
- private:
-  std::string_view rest_;
-  std::string where_;
-  int number_ = 0;
-};
+constexpr CsvForm k_motion{.most_rows = 200'000'000,  // a day of ticks at 2 kHz
+                           .field_word = "values",
+                           .quotes = false,
+                           .plain_text = false};
 
 /// Which of our columns each cell of the header is.
-std::vector<std::size_t> read_header(const Reader& in, std::string_view header) {
+std::vector<std::size_t> read_header(const CsvReader& in) {
   std::vector<std::size_t> column_of;
-  for (const auto name : cells_of(header)) {
+  for (const auto name : in.fields()) {
     const auto found = std::find(k_columns.begin(), k_columns.end(), name);
     if (found == k_columns.end()) {
       for (const std::string_view axis : {"t", "x", "y", "z"})
@@ -82,10 +46,8 @@ std::vector<std::size_t> read_header(const Reader& in, std::string_view header) 
   return column_of;
 }
 
-MotionSample read_row(const Reader& in, std::string_view line, const std::vector<std::size_t>& column_of) {
-  const auto cells = cells_of(line);
-  if (cells.size() != column_of.size())
-    in.fail("has " + std::to_string(cells.size()) + " values for " + std::to_string(column_of.size()) + " columns", "complete the row");
+MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& column_of) {
+  const auto& cells = in.fields();
   std::array<double, k_columns.size()> v{};
   v[11] = -1;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -114,35 +76,25 @@ MotionSample read_row(const Reader& in, std::string_view line, const std::vector
   return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
 }
 
-}  // namespace
+/// The diamond point, where the comment is `# point = NAME`.
+void take_point(const CsvReader& in, std::string& point) {
+  const auto equals = in.comment().find('=');
+  if (equals == std::string_view::npos || without_blanks(in.comment().substr(0, equals)) != "point") return;
+  point = without_blanks(in.comment().substr(equals + 1));
+  if (point.empty()) in.fail("'# point =' names no diamond point", "write its name, such as round-1.0, or leave the line out");
+}
 
-Motion parse_motion(const std::string& text, const std::string& where) {
-  if (text.find('\0') != std::string::npos) throw Error(where, "is no text: it holds zero bytes", "give a motion as CSV, in UTF-8");
-  Reader in(text, where);
-  Motion motion;
-  std::vector<std::size_t> column_of;
-  while (const auto line = in.line()) {
-    if (line->empty()) continue;
-    if (line->front() == '#') {
-      const auto equals = line->find('=');
-      if (equals != std::string_view::npos && trimmed(line->substr(1, equals - 1)) == "point") {
-        motion.point = trimmed(line->substr(equals + 1));
-        if (motion.point.empty()) in.fail("'# point =' names no diamond point", "write its name, such as round-1.0, or leave the line out");
-      }
-      continue;
-    }
-    if (column_of.empty()) {
-      column_of = read_header(in, *line);
-      continue;
-    }
-    motion.samples.push_back(read_row(in, *line, column_of));
-    const auto n = motion.samples.size();
-    if (n > 1 && !(motion.samples[n - 1].t_s > motion.samples[n - 2].t_s)) in.fail("t_s does not grow", "sort the rows and remove repeated times");
-    if (motion.duration_s() > k_longest_s)
-      in.fail("t_s is " + plain_number(motion.duration_s()) + " s after the first row, more than a day",
-              "give seconds, and cut the file where the work ends");
-  }
-  if (motion.samples.size() < 2) throw Error(where, "holds fewer than two rows of motion", "give a header and at least two rows");
+/// Throws Error unless the sample is later than those before it, and within a day of the first.
+void add(Motion& motion, const MotionSample& sample, const CsvReader& in) {
+  if (!motion.samples.empty() && !(sample.t_s > motion.samples.back().t_s)) in.fail("t_s does not grow", "sort the rows and remove repeated times");
+  motion.samples.push_back(sample);
+  if (motion.duration_s() > k_longest_s)
+    in.fail("t_s is " + plain_number(motion.duration_s()) + " s after the first row, more than a day",
+            "give seconds, and cut the file where the work ends");
+}
+
+/// Throws Error for a motion so small that its positions must be metres.
+void require_millimetres(const Motion& motion, const std::string& where) {
   Vec3 low = motion.samples[0].pose.tip_mm, high = low;
   for (const auto& s : motion.samples) {
     const Vec3 p = s.pose.tip_mm;
@@ -151,7 +103,32 @@ Motion parse_motion(const std::string& text, const std::string& where) {
   }
   const double way = length(high - low);
   if (way > 0 && way < 0.05) throw Error(where, "moves less than 0.05 mm in all", "x_mm, y_mm and z_mm look like metres: multiply by 1000");
+}
+
+}  // namespace
+
+Motion parse_motion(const std::string& text, const std::string& where) {
+  if (text.find('\0') != std::string::npos) throw Error(where, "is no text: it holds zero bytes", "give a motion as CSV, in UTF-8");
+  CsvReader in(text, where, k_motion);
+  Motion motion;
+  std::vector<std::size_t> column_of;
+  for (CsvReader::Line line; (line = in.next()) != CsvReader::Line::end;) {
+    if (line == CsvReader::Line::comment)
+      take_point(in, motion.point);
+    else if (column_of.empty())
+      column_of = read_header(in);
+    else
+      add(motion, read_row(in, column_of), in);
+  }
+  if (motion.samples.size() < 2) throw Error(where, "holds fewer than two rows of motion", "give a header and at least two rows");
+  require_millimetres(motion, where);
   return motion;
+}
+
+int line_of_sample(const std::string& text, std::size_t sample) {
+  CsvReader in(text, "", k_motion);
+  for (std::size_t row = 0; row <= sample + 1; ++row) in.next_row();  // the heading is row 0
+  return in.line();
 }
 
 MotionSample Motion::at(double t_s) const noexcept {

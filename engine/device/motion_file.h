@@ -31,5 +31,7 @@ struct Motion {
 /// Throws Error(where:line, ...) on a missing or unknown column, a wrong unit, NaN, a pedal outside 0..1, time that is
 /// negative, does not grow, or goes on for more than a day, a rotation without direction, or a way that cannot be millimetres.
 [[nodiscard]] Motion parse_motion(const std::string& text, const std::string& where);
+/// Line, from 1, on which sample `sample` stands in a text that parse_motion has accepted.
+[[nodiscard]] int line_of_sample(const std::string& text, std::size_t sample);
 
 }  // namespace cavum

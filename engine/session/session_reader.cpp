@@ -65,6 +65,26 @@ void quick_check(Database& database, std::vector<std::string>& findings) {
 
 Clocks clocks_at(const Statement& s, int column) { return {s.integer(column), s.integer(column + 1), s.integer(column + 2)}; }
 
+/// A row of table chunk, which must be number `expected`.
+ChunkRow chunk_at(const Statement& row, std::int64_t expected) {
+  ChunkRow c;
+  c.seq = rising(row, expected, "chunk");
+  c.first_tick = row.integer(1);
+  c.ticks = row.integer(2);
+  c.inputs = row.blob(3);
+  c.records = row.blob(4);
+  c.removed = row.blob(5);
+  c.state_hash = static_cast<std::uint64_t>(row.integer(6));
+  c.clocks = clocks_at(row, 7);
+  c.inputs_sha256 = row.fixed_blob<32>(10);
+  c.records_sha256 = row.fixed_blob<32>(11);
+  c.removed_sha256 = row.fixed_blob<32>(12);
+  c.events_sha256 = row.fixed_blob<32>(13);
+  c.prev_sha256 = row.fixed_blob<32>(14);
+  c.sha256 = row.fixed_blob<32>(15);
+  return c;
+}
+
 }  // namespace
 
 SessionReader::SessionReader(const std::string& path) : path_(path) { read(read_session_image(path, findings_)); }
@@ -75,66 +95,62 @@ SessionReader::SessionReader(Bytes file, const std::string& name) : path_(name) 
 }
 
 void SessionReader::read(Bytes image) {
-  const std::string& path = path_;
   const bool marked = header_number(image, 68) == k_session_application_id;
-  Database database = Database::from_image(std::move(image), path);
+  Database database = Database::from_image(std::move(image), path_);
   try {
     check_schema(database, findings_);
   } catch (const Error& e) {
-    if (!marked) throw Error(path, "is an SQLite database, but not a Cavum session", "name a .cavum file that an exam wrote");
+    if (!marked) throw Error(path_, "is an SQLite database, but not a Cavum session", "name a .cavum file that an exam wrote");
     findings_.push_back(std::string("file: ") + e.what());
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
+  read_table(database, "meta", "key, value", findings_, [&](const Statement& row) { meta_.emplace(row.text(0), row.text(1)); });
+  read_artifacts(database);
+  read_chunks(database);
+  read_table(database, "event", "seq, tick, chunk, kind, detail_json", findings_, [&](const Statement& row) {
+    const auto seq = rising(row, static_cast<std::int64_t>(events_.size()), "event");
+    events_.push_back({seq, row.integer(2), {row.integer(1), row.text(3), row.text(4)}});
+  });
+  read_table(database, "result", "seq, json", findings_, [&](const Statement& row) {
+    rising(row, 0, "result");
+    result_json_ = row.text(1);
+  });
+  read_seal(database);
+}
 
-  read_table(database, "meta", "key, value", findings_, [&](const Statement& s) { meta_.emplace(s.text(0), s.text(1)); });
+void SessionReader::read_artifacts(Database& database) {
   std::set<std::string> names;
-  read_table(database, "artifact", "seq, name, sha256, size_bytes, bytes", findings_, [&](const Statement& s) {
-    rising(s, static_cast<std::int64_t>(artifacts_.size()), "artifact");
-    Artifact a{s.text(1), s.fixed_blob<32>(2), s.blob(4)};
+  read_table(database, "artifact", "seq, name, sha256, size_bytes, bytes", findings_, [&](const Statement& row) {
+    rising(row, static_cast<std::int64_t>(artifacts_.size()), "artifact");
+    Artifact a{row.text(1), row.fixed_blob<32>(2), row.blob(4)};
     if (!names.insert(a.name).second) throw Error("artifact", "'" + a.name + "' is there twice", "use an intact copy");
-    if (s.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back("table artifact, '" + a.name + "': its size was changed");
+    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back("table artifact, '" + a.name + "': its size was changed");
     artifacts_.push_back(std::move(a));
   });
+}
+
+void SessionReader::read_chunks(Database& database) {
   const std::string columns =
       "seq, first_tick, ticks, inputs, records, removed, state_hash, monotonic_ns, boot_ns, utc_ns, inputs_sha256, records_sha256, "
       "removed_sha256, events_sha256, prev_sha256, sha256";
-  read_table(database, "chunk", columns, findings_, [&](const Statement& s) {
-    ChunkRow c;
-    c.seq = rising(s, static_cast<std::int64_t>(chunks_.size()), "chunk");
-    c.first_tick = s.integer(1);
-    c.ticks = s.integer(2);
-    c.inputs = s.blob(3);
-    c.records = s.blob(4);
-    c.removed = s.blob(5);
-    c.state_hash = static_cast<std::uint64_t>(s.integer(6));
-    c.clocks = clocks_at(s, 7);
-    c.inputs_sha256 = s.fixed_blob<32>(10);
-    c.records_sha256 = s.fixed_blob<32>(11);
-    c.removed_sha256 = s.fixed_blob<32>(12);
-    c.events_sha256 = s.fixed_blob<32>(13);
-    c.prev_sha256 = s.fixed_blob<32>(14);
-    c.sha256 = s.fixed_blob<32>(15);
+  read_table(database, "chunk", columns, findings_, [&](const Statement& row) {
+    ChunkRow c = chunk_at(row, static_cast<std::int64_t>(chunks_.size()));
     const std::string where = "table chunk, " + std::to_string(c.seq);
     if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, std::to_string(c.ticks) + " ticks", "use an intact copy");
     if (c.first_tick != ticks())
       throw Error(where, "begins at tick " + std::to_string(c.first_tick) + " instead of " + std::to_string(ticks()), "use an intact copy");
     chunks_.push_back(std::move(c));
   });
-  read_table(database, "event", "seq, tick, chunk, kind, detail_json", findings_, [&](const Statement& s) {
-    const auto seq = rising(s, static_cast<std::int64_t>(events_.size()), "event");
-    events_.push_back({seq, s.integer(2), {s.integer(1), s.text(3), s.text(4)}});
-  });
-  read_table(database, "result", "seq, json", findings_, [&](const Statement& s) {
-    rising(s, 0, "result");
-    result_json_ = s.text(1);
-  });
-  const std::string seal_columns =
+}
+
+void SessionReader::read_seal(Database& database) {
+  const std::string columns =
       "seq, chain_sha256, final_tooth_sha256, result_sha256, chunks, ticks, events, monotonic_ns, boot_ns, utc_ns, public_key, signature";
-  read_table(database, "seal", seal_columns, findings_, [&](const Statement& s) {
-    rising(s, 0, "seal");
-    seal_ = Seal{s.fixed_blob<32>(1), s.fixed_blob<32>(2), s.fixed_blob<32>(3),  s.integer(4),        s.integer(5),
-                 s.integer(6),        clocks_at(s, 7),     s.fixed_blob<32>(10), s.fixed_blob<64>(11)};
+  read_table(database, "seal", columns, findings_, [&](const Statement& row) {
+    rising(row, 0, "seal");
+    seal_ = Seal{row.fixed_blob<32>(1), row.fixed_blob<32>(2), row.fixed_blob<32>(3),  row.integer(4),        row.integer(5),
+                 row.integer(6),        clocks_at(row, 7),     row.fixed_blob<32>(10), row.fixed_blob<64>(11)};
   });
 }
 

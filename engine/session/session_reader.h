@@ -12,6 +12,8 @@
 
 namespace cavum {
 
+class Database;
+
 /// The most leaves that a recording says were removed: 1000 mm3 at a leaf of 0.05 mm have 8 million, each removed once.
 inline constexpr std::size_t k_most_removed_leaves = 16'000'000;
 
@@ -68,6 +70,9 @@ class SessionReader {
 
  private:
   void read(Bytes image);
+  void read_artifacts(Database& database);
+  void read_chunks(Database& database);
+  void read_seal(Database& database);
 
   std::string path_;
   std::vector<std::string> findings_;

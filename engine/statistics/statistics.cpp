@@ -1,21 +1,37 @@
 #include "engine/statistics/statistics.h"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace cavum {
 
-MeanSd mean_sd(std::span<const double> values) noexcept {
-  MeanSd out;
-  const auto n = static_cast<double>(values.size());
-  if (values.empty()) return out;
-  for (const double v : values) out.mean += v / n;
-  if (values.size() < 2) return out;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - out.mean) * (v - out.mean);
-  out.sd = std::sqrt(squares / (n - 1.0));
-  return out;
+double mean(std::span<const double> values) noexcept {
+  return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
+
+double variance(std::span<const double> values) noexcept {
+  if (values.size() < 2) return 0.0;
+  const double middle = mean(values);
+  double squares = 0.0;
+  for (const double v : values) squares += (v - middle) * (v - middle);
+  return squares / static_cast<double>(values.size() - 1);
+}
+
+double correlation(std::span<const double> a, std::span<const double> b) noexcept {
+  const double ma = mean(a), mb = mean(b);
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - ma) * (b[i] - mb);
+    aa += (a[i] - ma) * (a[i] - ma);
+    bb += (b[i] - mb) * (b[i] - mb);
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+double normal_cdf(double z) noexcept { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+MeanSd mean_sd(std::span<const double> values) noexcept { return {mean(values), std::sqrt(variance(values))}; }
 
 Fit fit_columns(std::span<const std::vector<double>> columns, std::span<const double> y) noexcept {
   Fit fit;

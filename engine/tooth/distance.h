@@ -1,6 +1,6 @@
-// Distances on the leaf lattice: exact distance to triangles in a narrow band, the surface of a smooth
-// field as distance codes, and the nearest marked leaf of every leaf. Shared by the makers and importers,
-// so that every tooth carries the same kind of surface: exact on planes, a few micrometres on curves.
+// Distances on the leaf lattice: exact distance to triangles in a narrow band, and the surface of a smooth
+// field as distance codes. Shared by the makers and importers, so that every tooth carries the same kind of
+// surface: exact on planes, a few micrometres on curves.
 #pragma once
 
 #include <cstdint>
@@ -56,9 +56,5 @@ class BandDistance {
 /// unit. `exact`, when given, is the same field anywhere (mm) and places the surface's vertices more finely.
 void set_surface_from_field(TissueGrid& grid, const std::vector<Tissue>& tissues, std::span<const float> field,
                             const std::function<double(Vec3)>& exact = {});
-
-/// Index of the nearest marked leaf for every leaf (exact Euclidean, O(n)), -1 where none lies within
-/// `radius_leaves`. Ties go to one of the nearest, always the same.
-[[nodiscard]] std::vector<std::int32_t> nearest_marked(IVec3 size, std::span<const std::uint8_t> marked, double radius_leaves);
 
 }  // namespace cavum

@@ -29,6 +29,70 @@ inline int inside_first(std::array<int, 4>& corner, const std::array<bool, 8>& i
   return count;
 }
 
+/// Vertices on the edges between the points of a lattice, each made once. An edge is known by its lower point and its direction (1..7); two layers of
+/// them are enough.
+template <class Fraction>
+class EdgeVertices {
+ public:
+  EdgeVertices(IVec3 size, Vec3 first_mm, double step_mm, const Fraction& fraction, std::vector<Vec3>& vertices_mm)
+      : nx_(static_cast<std::size_t>(size.x)), first_mm_(first_mm), step_mm_(step_mm), fraction_(fraction), vertices_mm_(vertices_mm) {
+    for (auto& layer : layers_) layer.assign(nx_ * static_cast<std::size_t>(size.y) * 8, k_none);
+  }
+
+  /// Cells of layer z come next: what is known of the edges that begin two layers before is forgotten.
+  void begin_layer(std::int32_t z) { std::fill(layer_of(z + 1).begin(), layer_of(z + 1).end(), k_none); }
+
+  /// The vertex on the edge between corner p of a cell, which is inside, and corner q, which is not.
+  std::uint32_t between(IVec3 cell, int p, int q) {
+    const IVec3 low = corner(cell, std::min(p, q));
+    auto& vertex = layer_of(low.z)[(static_cast<std::size_t>(low.y) * nx_ + static_cast<std::size_t>(low.x)) * 8 + static_cast<std::size_t>(p ^ q)];
+    if (vertex == k_none) {
+      vertex = static_cast<std::uint32_t>(vertices_mm_.size());
+      const IVec3 a = corner(cell, p), b = corner(cell, q);
+      const double t = fraction_(a, b);
+      const Vec3 from{double(a.x), double(a.y), double(a.z)}, to{double(b.x), double(b.y), double(b.z)};
+      vertices_mm_.push_back(first_mm_ + (from + (to - from) * t) * step_mm_);
+    }
+    return vertex;
+  }
+
+ private:
+  static constexpr std::uint32_t k_none = ~0u;
+  static IVec3 corner(IVec3 cell, int c) { return {cell.x + (c & 1), cell.y + (c >> 1 & 1), cell.z + (c >> 2)}; }
+  std::vector<std::uint32_t>& layer_of(std::int32_t z) { return layers_[static_cast<std::size_t>(z & 1)]; }
+
+  std::size_t nx_;
+  Vec3 first_mm_;
+  double step_mm_;
+  const Fraction& fraction_;
+  std::vector<Vec3>& vertices_mm_;
+  std::array<std::vector<std::uint32_t>, 2> layers_;
+};
+
+/// The part of the surface that passes through one cell, whose corners are `in` or not.
+template <class Edges>
+void add_cell(IVec3 cell, const std::array<bool, 8>& in, Edges& edges, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  const auto on = [&](int p, int q) { return edges.between(cell, p, q); };
+  for (auto t : k_tetrahedra) {
+    switch (inside_first(t, in)) {
+      case 1:
+        triangles.push_back({on(t[0], t[1]), on(t[0], t[2]), on(t[0], t[3])});
+        break;
+      case 2: {
+        const std::array<std::uint32_t, 4> q{on(t[0], t[2]), on(t[0], t[3]), on(t[1], t[3]), on(t[1], t[2])};
+        triangles.push_back({q[0], q[1], q[2]});
+        triangles.push_back({q[0], q[2], q[3]});
+        break;
+      }
+      case 3:
+        triangles.push_back({on(t[0], t[3]), on(t[1], t[3]), on(t[2], t[3])});
+        break;
+      default:
+        break;
+    }
+  }
+}
+
 }  // namespace marching
 
 template <class Fraction>
@@ -37,11 +101,9 @@ TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::sp
   TriangleMesh mesh;
   const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
   const std::array<std::size_t, 8> corner_step{0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1};
-  // An edge is known by its lower point and its direction (1..7); two layers of them are enough.
-  std::array<std::vector<std::uint32_t>, 2> edges;
-  for (auto& layer : edges) layer.assign(nx * ny * 8, ~0u);
+  marching::EdgeVertices edges(size, first_mm, step_mm, fraction, mesh.vertices_mm);
   for (std::int32_t z = 0; z + 1 < size.z; ++z) {
-    std::fill(edges[static_cast<std::size_t>((z + 1) & 1)].begin(), edges[static_cast<std::size_t>((z + 1) & 1)].end(), ~0u);
+    edges.begin_layer(z);
     for (std::int32_t y = 0; y + 1 < size.y; ++y) {
       const std::size_t row = (static_cast<std::size_t>(z) * ny + static_cast<std::size_t>(y)) * nx;
       for (std::int32_t x = 0; x + 1 < size.x; ++x) {
@@ -55,39 +117,7 @@ TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::sp
         if (filled == 0 || filled == 8) continue;
         if (mesh.triangles.size() > k_most_triangles)
           throw Error("surface", "has more than " + std::to_string(k_most_triangles) + " triangles", "use a tooth with larger leaves");
-        const auto at = [&](int c) { return IVec3{x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)}; };
-        const auto crossing = [&](int p, int q) {  // p inside, q outside
-          const int low = std::min(p, q), direction = p ^ q;
-          const IVec3 l = at(low);
-          auto& slot = edges[static_cast<std::size_t>(l.z & 1)]
-                            [(static_cast<std::size_t>(l.y) * nx + static_cast<std::size_t>(l.x)) * 8 + static_cast<std::size_t>(direction)];
-          if (slot == ~0u) {
-            slot = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-            const IVec3 a = at(p), b = at(q);
-            const double t = fraction(a, b);
-            const Vec3 from{double(a.x), double(a.y), double(a.z)}, to{double(b.x), double(b.y), double(b.z)};
-            mesh.vertices_mm.push_back(first_mm + (from + (to - from) * t) * step_mm);
-          }
-          return slot;
-        };
-        for (auto t : marching::k_tetrahedra) {
-          switch (marching::inside_first(t, in)) {
-            case 1:
-              mesh.triangles.push_back({crossing(t[0], t[1]), crossing(t[0], t[2]), crossing(t[0], t[3])});
-              break;
-            case 2: {
-              const std::array<std::uint32_t, 4> q{crossing(t[0], t[2]), crossing(t[0], t[3]), crossing(t[1], t[3]), crossing(t[1], t[2])};
-              mesh.triangles.push_back({q[0], q[1], q[2]});
-              mesh.triangles.push_back({q[0], q[2], q[3]});
-              break;
-            }
-            case 3:
-              mesh.triangles.push_back({crossing(t[0], t[3]), crossing(t[1], t[3]), crossing(t[2], t[3])});
-              break;
-            default:
-              break;
-          }
-        }
+        marching::add_cell({x, y, z}, in, edges, mesh.triangles);
       }
     }
   }

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "grading/ledger/csv.h"
 #include "grading/ledger/exam_scale.h"
 #include "scenarios/zones/zone_map.h"
 

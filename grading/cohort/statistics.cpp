@@ -48,31 +48,6 @@ double f_of(const std::vector<std::vector<double>>& groups, double& share) {
 
 }  // namespace
 
-double mean(std::span<const double> v) {
-  require(!v.empty(), "needs one value at least");
-  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
-}
-
-double variance(std::span<const double> v) {
-  require(v.size() >= 2, "needs two values at least");
-  const double m = mean(v);
-  double sum = 0;
-  for (const double x : v) sum += (x - m) * (x - m);
-  return sum / static_cast<double>(v.size() - 1);
-}
-
-double correlation(std::span<const double> a, std::span<const double> b) {
-  require(a.size() == b.size() && a.size() >= 2, "needs two values of each at least");
-  const double ma = mean(a), mb = mean(b);
-  double ab = 0, aa = 0, bb = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (a[i] - ma) * (b[i] - mb);
-    aa += (a[i] - ma) * (a[i] - ma);
-    bb += (b[i] - mb) * (b[i] - mb);
-  }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0;
-}
-
 double cronbach_alpha(std::size_t criteria, double sum_of_variances, double variance_of_sum) {
   require(criteria >= 2, "needs two criteria at least");
   require(variance_of_sum > 0, "needs sums that differ");
@@ -156,7 +131,7 @@ Matrix quadratic_weights(std::size_t n) {
 }
 
 LimitsOfAgreement limits_of_agreement(std::span<const double> a, std::span<const double> b) {
-  require(a.size() == b.size(), "needs both marks of each");
+  require(a.size() == b.size() && a.size() >= 2, "needs both marks of two at least");
   std::vector<double> difference;
   for (std::size_t i = 0; i < a.size(); ++i) difference.push_back(a[i] - b[i]);
   LimitsOfAgreement out;

@@ -7,16 +7,16 @@
 #include <span>
 #include <vector>
 
+#include "engine/statistics/statistics.h"
+
 namespace cavum::cohort {
 
 /// Rows of equal length: persons by criteria, or objects by judges. Functions throw Error when it is too small or ragged.
 using Matrix = std::vector<std::vector<double>>;
 
-[[nodiscard]] double mean(std::span<const double> v);
-/// Of a sample: over n - 1.
-[[nodiscard]] double variance(std::span<const double> v);
-/// Product-moment correlation; 0 when either does not vary.
-[[nodiscard]] double correlation(std::span<const double> a, std::span<const double> b);
+using cavum::correlation;
+using cavum::mean;
+using cavum::variance;
 
 /// alpha = k/(k-1)·(1 - sum of the criteria's variances / variance of the sum). Cronbach, Psychometrika 16 (1951) 297.
 [[nodiscard]] double cronbach_alpha(std::size_t criteria, double sum_of_variances, double variance_of_sum);

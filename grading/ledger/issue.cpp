@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
-#include "grading/ledger/csv.h"
 #include "grading/ledger/registry.h"
 
 namespace cavum {

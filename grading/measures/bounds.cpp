@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/statistics/order.h"
+#include "engine/statistics/statistics.h"
 #include "grading/measures/cut_surface.h"
 
 namespace cavum {
@@ -13,16 +15,11 @@ double more(const Volume& v) noexcept { return v.mm3 + v.bound_mm3; }
 /// a / (a + b), 1 when there is neither.
 double share(double a, double b) noexcept { return a + b > 0 ? a / (a + b) : 1.0; }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
-
+/// By the nearest rank.
 double p95_of(std::vector<double> values) {
   if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[(values.size() * 95 + 99) / 100 - 1];
+  const std::size_t rank = (values.size() * 95 + 99) / 100;
+  return in_order(std::move(values), rank - 1);
 }
 
 /// The mean when only those doubtful values count that raise it (sign 1) or lower it (sign -1).
@@ -60,7 +57,7 @@ double dice_bound(const Volume& in, const Volume& missed, const Volume& beyond) 
 }
 
 double mean_bound(const WallValues& v) {
-  const double now = mean_of(all_own(v));
+  const double now = mean(all_own(v));
   return std::max(extreme_mean(v, 1) - now, now - extreme_mean(v, -1));
 }
 

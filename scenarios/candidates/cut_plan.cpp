@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "scenarios/zones/distance_transform.h"
+#include "engine/tooth/distance_transform.h"
 
 namespace cavum {
 namespace {

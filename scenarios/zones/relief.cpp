@@ -5,7 +5,7 @@
 
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
-#include "scenarios/zones/distance_transform.h"
+#include "engine/tooth/distance_transform.h"
 
 namespace cavum {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "scenarios/zones/distance_transform.h"
+#include "engine/tooth/distance_transform.h"
 #include "scenarios/zones/mesh_body.h"
 #include "scenarios/zones/outline.h"
 

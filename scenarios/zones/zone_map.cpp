@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "scenarios/zones/distance_transform.h"
+#include "engine/tooth/distance_transform.h"
 #include "scenarios/zones/leaf_parts.h"
 #include "scenarios/zones/shape.h"
 

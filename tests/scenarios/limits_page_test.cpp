@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "engine/base/csv.h"
 #include "engine/base/file.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/toml_limits.h"
@@ -46,6 +47,8 @@ TEST(LimitsPage, SaysTheNumbersOfTheCode) {
                                                    {"k_toml_depth", k_toml_depth},
                                                    {"k_toml_parts", k_toml_parts},
                                                    {"k_toml_named", k_toml_named},
+                                                   {"CsvForm::most_rows", CsvForm{}.most_rows},
+                                                   {"CsvForm::most_fields", CsvForm{}.most_fields},
                                                    {"k_most_items", k_most_items},
                                                    {"k_most_tray", k_most_tray},
                                                    {"k_most_points", k_most_points},

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "engine/statistics/order.h"
 #include "scenarios/exam/exam.h"
 #include "ui/station/gpu.h"
 #include "ui/station/scene.h"
@@ -42,9 +43,9 @@ void print_frame_times(const StationOptions& options, int frames) {
     times_ms.push_back(1e3 * seconds_since(start));
   }
   std::sort(times_ms.begin(), times_ms.end());
-  const auto at = [&](double share) { return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))]; };
   std::printf("%s, %d x %d, %zu triangles: first mesh %.2f s; a picture takes %.1f ms (median of %d), 95 %% within %.1f ms\n",
-              renderer_name().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, at(0.5), frames, at(0.95));
+              renderer_name().c_str(), options.width, options.height, scene.tooth().triangles(), made_s, quantile_of_sorted(times_ms, 0.5), frames,
+              quantile_of_sorted(times_ms, 0.95));
 }
 
 }  // namespace cavum

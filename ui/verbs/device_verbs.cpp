@@ -16,6 +16,7 @@
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/station_pedal.h"
 #include "engine/device/hardware/stylus_kind.h"
+#include "engine/statistics/order.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/number_check.h"
 #include "ui/parts/print_json.h"
@@ -45,12 +46,7 @@ HidPedalInfo chosen(const std::vector<HidPedalInfo>& pedals, const std::string& 
   return pedals[0];
 }
 
-std::int32_t median_of(std::vector<std::int32_t> numbers) {
-  if (numbers.empty()) return 0;
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
+std::int32_t median_or_0(const std::vector<std::int32_t>& numbers) { return numbers.empty() ? 0 : median(numbers); }
 
 /// Smallest difference between two numbers that were heard; 0 when all were the same.
 std::int32_t quantum_of(std::vector<std::int32_t> numbers) {
@@ -159,8 +155,8 @@ void calibrate(const Options& o) {
   std::vector<AxisHeard> axes(down.numbers.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto& silent = off.numbers[i].empty() ? down.numbers[i] : off.numbers[i];  // one that speaks on change may say nothing at rest
-    axes[i].released = off.numbers[i].empty() && !silent.empty() ? silent.front() : median_of(silent);
-    axes[i].pressed = median_of(down.numbers[i]);
+    axes[i].released = off.numbers[i].empty() && !silent.empty() ? silent.front() : median_or_0(silent);
+    axes[i].pressed = median_or_0(down.numbers[i]);
     if (!off.numbers[i].empty()) {
       const auto [low, high] = std::minmax_element(off.numbers[i].begin(), off.numbers[i].end());
       axes[i].jitter = *high - *low;

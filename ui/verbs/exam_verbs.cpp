@@ -67,22 +67,6 @@ class ProgressBar {
   bool shown_;
 };
 
-/// Line of the file that holds sample `sample` of a motion that parse_motion has accepted: header, comments and empty
-/// lines give no sample.
-std::size_t line_of_sample(std::string_view text, std::size_t sample) {
-  constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
-  if (text.starts_with(k_byte_order_mark)) text.remove_prefix(k_byte_order_mark.size());
-  std::size_t number = 0, rows = 0;
-  while (!text.empty()) {
-    ++number;
-    const auto end = std::min(text.find_first_of("\r\n"), text.size());
-    const auto first = text.substr(0, end).find_first_not_of(" \t");
-    if (first != std::string_view::npos && text[first] != '#' && ++rows == sample + 2) break;  // the header is row 1
-    text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
-  }
-  return number;
-}
-
 /// A motion file whose diamond points are all on the tray; else throws Error.
 std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
   const std::string text = read_text_file(path, k_largest_table);

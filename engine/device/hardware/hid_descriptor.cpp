@@ -16,6 +16,23 @@ constexpr std::size_t k_most_stacked = 16, k_deepest = 64;
   throw Error("HID report descriptor, byte " + std::to_string(at), what, "unplug the device and plug it in again; if it stays so, use another pedal");
 }
 
+/// Bits 2 and 3 of an item's first byte (HID 1.11, 6.2.2.2).
+enum class ItemType : std::uint8_t { main = 0x00, global = 0x04, local = 0x08, reserved = 0x0c };
+constexpr std::uint8_t k_long_item = 0xfe;
+
+struct Item {
+  std::size_t start;  // its first byte in the descriptor
+  std::uint8_t tag;   // the first byte without the size
+  std::size_t size;   // bytes of its value: 0, 1, 2 or 4
+  std::uint32_t value;
+
+  [[nodiscard]] std::int32_t as_signed() const noexcept {
+    if (size == 1) return static_cast<std::int8_t>(value);
+    if (size == 2) return static_cast<std::int16_t>(value);
+    return static_cast<std::int32_t>(value);
+  }
+};
+
 /// Items that hold until they are changed.
 struct Globals {
   std::uint16_t page = 0;
@@ -37,91 +54,118 @@ class Parser {
 
   HidLayout parse() {
     if (bytes_.size() > k_hid_descriptor_most_bytes) refuse(k_hid_descriptor_most_bytes, "the descriptor is longer than any that Linux hands out");
-    while (at_ < bytes_.size()) item();
+    while (at_ < bytes_.size()) read_item();
     if (depth_ != 0) refuse(bytes_.size(), "a collection is not closed");
     if (layout_.fields.empty()) refuse(bytes_.size(), "no input field is described");
     return std::move(layout_);
   }
 
  private:
-  void item() {
-    const std::size_t start = at_;
+  void read_item() {
+    Item item{.start = at_, .tag = static_cast<std::uint8_t>(bytes_[at_] & 0xfc), .size = 0, .value = 0};
     const std::uint8_t prefix = bytes_[at_++];
-    constexpr std::uint8_t k_long = 0xfe;
-    if (prefix == k_long) {  // nothing that 1.11 defines is long
-      if (bytes_.size() - at_ < 2 || bytes_.size() - at_ - 2 < bytes_[at_]) refuse(start, "a long item is cut off");
-      at_ += 2u + bytes_[at_];
+    if (prefix == k_long_item) {
+      skip_long_item(item.start);
       return;
     }
-    const std::size_t size = (prefix & 3) == 3 ? 4 : prefix & 3;
-    if (bytes_.size() - at_ < size) refuse(start, "an item is cut off");
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) value |= static_cast<std::uint32_t>(bytes_[at_ + i]) << 8 * i;
-    at_ += size;
-    const auto as_signed = static_cast<std::int32_t>(size == 1   ? static_cast<std::int8_t>(value)
-                                                     : size == 2 ? static_cast<std::int16_t>(value)
-                                                                 : static_cast<std::int32_t>(value));
-    switch (prefix & 0xfc) {
-      case 0x04:
-        now_.page = static_cast<std::uint16_t>(value);
+    item.size = (prefix & 3) == 3 ? 4 : prefix & 3;
+    if (bytes_.size() - at_ < item.size) refuse(item.start, "an item is cut off");
+    for (std::size_t i = 0; i < item.size; ++i) item.value |= static_cast<std::uint32_t>(bytes_[at_ + i]) << 8 * i;
+    at_ += item.size;
+    switch (static_cast<ItemType>(prefix & 0x0c)) {
+      case ItemType::main:
+        take_main(item);
         break;
-      case 0x14:
-        now_.least = as_signed;
+      case ItemType::global:
+        take_global(item);
         break;
-      case 0x24:
-        now_.most = as_signed;
-        now_.most_unsigned = value;
+      case ItemType::local:
+        take_local(item);
         break;
-      case 0x74:
-        if (value > k_most_report_bits) refuse(start, "a field of " + std::to_string(value) + " bits cannot be");
-        now_.size_bits = value;
+      case ItemType::reserved:
         break;
-      case 0x84:
-        if (value == 0 || value > 255) refuse(start, "report number " + std::to_string(value) + " is none of 1 to 255");
-        now_.report_id = static_cast<std::uint8_t>(value);
-        layout_.numbered = true;
-        break;
-      case 0x94:
-        if (value > k_most_report_bits) refuse(start, std::to_string(value) + " fields in one report cannot be");
-        now_.count = value;
-        break;
-      case 0xa4:
-        if (stack_.size() >= k_most_stacked) refuse(start, "items are pushed more than 16 deep");
-        stack_.push_back(now_);
-        break;
-      case 0xb4:
-        if (stack_.empty()) refuse(start, "items are popped that were never pushed");
-        now_ = stack_.back();
-        stack_.pop_back();
-        break;
-      case 0x08:
-        if (locals_.usages.size() < k_most_fields) locals_.usages.push_back(with_page(value, size));
-        break;
-      case 0x18:
-        locals_.usage_from = with_page(value, size);
-        break;
-      case 0x28:
-        locals_.usage_to = with_page(value, size);
-        break;
+    }
+  }
+
+  /// Nothing that 1.11 defines is long.
+  void skip_long_item(std::size_t start) {
+    if (bytes_.size() - at_ < 2 || bytes_.size() - at_ - 2 < bytes_[at_]) refuse(start, "a long item is cut off");
+    at_ += 2u + bytes_[at_];
+  }
+
+  void take_main(const Item& item) {
+    switch (item.tag) {
       case 0x80:
-        input(start, value);
-        locals_ = {};
+        input(item.start, item.value);
         break;
       case 0x90:
       case 0xb0:
-        locals_ = {};
         break;  // output and feature reports
       case 0xa0:
-        if (++depth_ > k_deepest) refuse(start, "collections are more than 64 deep");
-        locals_ = {};
+        if (++depth_ > k_deepest) refuse(item.start, "collections are more than 64 deep");
         break;
       case 0xc0:
-        if (depth_ == 0) refuse(start, "a collection is closed that was never opened");
+        if (depth_ == 0) refuse(item.start, "a collection is closed that was never opened");
         --depth_;
-        locals_ = {};
         break;
       default:
-        break;  // units, physical ranges, strings, designators, delimiters and what is reserved
+        return;  // reserved
+    }
+    locals_ = {};
+  }
+
+  void take_global(const Item& item) {
+    switch (item.tag) {
+      case 0x04:
+        now_.page = static_cast<std::uint16_t>(item.value);
+        break;
+      case 0x14:
+        now_.least = item.as_signed();
+        break;
+      case 0x24:
+        now_.most = item.as_signed();
+        now_.most_unsigned = item.value;
+        break;
+      case 0x74:
+        if (item.value > k_most_report_bits) refuse(item.start, "a field of " + std::to_string(item.value) + " bits cannot be");
+        now_.size_bits = item.value;
+        break;
+      case 0x84:
+        if (item.value == 0 || item.value > 255) refuse(item.start, "report number " + std::to_string(item.value) + " is none of 1 to 255");
+        now_.report_id = static_cast<std::uint8_t>(item.value);
+        layout_.numbered = true;
+        break;
+      case 0x94:
+        if (item.value > k_most_report_bits) refuse(item.start, std::to_string(item.value) + " fields in one report cannot be");
+        now_.count = item.value;
+        break;
+      case 0xa4:
+        if (stack_.size() >= k_most_stacked) refuse(item.start, "items are pushed more than 16 deep");
+        stack_.push_back(now_);
+        break;
+      case 0xb4:
+        if (stack_.empty()) refuse(item.start, "items are popped that were never pushed");
+        now_ = stack_.back();
+        stack_.pop_back();
+        break;
+      default:
+        break;  // units, physical ranges and what is reserved
+    }
+  }
+
+  void take_local(const Item& item) {
+    switch (item.tag) {
+      case 0x08:
+        if (locals_.usages.size() < k_most_fields) locals_.usages.push_back(with_page(item.value, item.size));
+        break;
+      case 0x18:
+        locals_.usage_from = with_page(item.value, item.size);
+        break;
+      case 0x28:
+        locals_.usage_to = with_page(item.value, item.size);
+        break;
+      default:
+        break;  // strings, designators, delimiters and what is reserved
     }
   }
 

@@ -1,10 +1,11 @@
 #include "engine/explain/inference/stiffness_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
-#include <sstream>
 
+#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/print.h"
 #include "engine/base/text.h"
@@ -15,22 +16,34 @@ namespace {
 constexpr double k_exact_n = 1e-3;
 constexpr double k_95 = 1.96;
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> out;
-  std::stringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) {
-    const auto from = cell.find_first_not_of(" \t\r\""), to = cell.find_last_not_of(" \t\r\"");
-    out.push_back(from == std::string::npos ? "" : cell.substr(from, to - from + 1));
-  }
-  return out;
-}
+constexpr CsvForm k_table{.most_fields = 200,
+                          .most_rows = 5000,  // each is left out in turn, which takes the square of their number
+                          .field_word = "cells",
+                          .plain_text = false};
 
-bool is_comment(const std::string& line) {
-  const auto at = line.find_first_not_of(" \t\r");
-  return at == std::string::npos || line[at] == '#';
-}
+/// A column that each table has, and the least of its values; with `above` they are greater than that.
+struct TableColumn {
+  const char* name;
+  std::vector<double> StiffnessTable::*values;
+  double least;
+  bool above;
+};
+constexpr std::array k_columns{TableColumn{"k_n_per_mm", &StiffnessTable::k_n_per_mm, 0.0, false},
+                               TableColumn{"f_n", &StiffnessTable::f_n, -1e9, false}, TableColumn{"v_mm_s", &StiffnessTable::v_mm_s, 0.0, true}};
 
-bool holds(const std::vector<std::string>& names, const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+/// Where a column stands; the number of columns when there is none of that name.
+std::size_t place_of(const CsvReader& heading, std::string_view name) {
+  return static_cast<std::size_t>(std::find(heading.fields().begin(), heading.fields().end(), name) - heading.fields().begin());
+}
+bool holds(const CsvReader& heading, std::string_view name) { return place_of(heading, name) < heading.fields().size(); }
+
+double value_in(const CsvReader& row, std::size_t place, const TableColumn& column) {
+  const std::string_view cell = row.fields()[place];
+  const std::optional<double> v = number_in_field(cell);
+  if (!v || *v < column.least || (column.above && *v == column.least))
+    row.fail("'" + one_line(cell) + "' in column " + column.name + " is no number in range", "correct the row");
+  return *v;
+}
 
 /// Least squares on the columns asked for, without row `left_out`.
 TableFit fitted(const StiffnessTable& t, bool root, bool intercept, std::ptrdiff_t left_out = -1) {
@@ -108,57 +121,26 @@ constexpr const char* k_next =
 
 double TableFit::at(double k_n_per_mm) const { return slope_mm * k_n_per_mm + root * std::sqrt(k_n_per_mm) + intercept_n; }
 
-bool is_stiffness_table(const std::string& csv) {
-  std::stringstream in(csv);
-  for (std::string line; std::getline(in, line);) {
-    if (is_comment(line)) continue;
-    const auto names = cells_of(line);
-    return holds(names, "k_n_per_mm") && holds(names, "f_n") && !holds(names, "t_s");
-  }
-  return false;
+bool is_stiffness_table(const std::string& csv, const std::string& where) {
+  CsvReader in(csv, where, k_table);
+  return in.next_row() && holds(in, "k_n_per_mm") && holds(in, "f_n") && !holds(in, "t_s");
 }
 
 StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& where) {
   StiffnessTable out;
-  std::vector<std::string> names;
-  std::stringstream in(csv);
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    const std::string at = where + ":" + std::to_string(++number);
-    if (is_comment(line)) {
-      const auto from = line.find_first_not_of("# \t\r");
-      if (names.empty() && from != std::string::npos) out.origin += (out.origin.empty() ? "" : " ") + one_line(line.substr(from));
-      continue;
-    }
-    const auto cells = cells_of(line);
-    if (names.empty()) {
-      names = cells;
-      for (const char* wanted : {"k_n_per_mm", "f_n", "v_mm_s"})
-        if (!holds(names, wanted)) throw Error(at, std::string("there is no column '") + wanted + "'", "a table has k_n_per_mm, f_n and v_mm_s");
-      continue;
-    }
-    if (cells.size() != names.size())
-      throw Error(at, "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(names.size()), "complete the row");
-    const auto value = [&](const char* name, double least, bool above) {
-      const std::string& cell = cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
-      double v = 0.0;
-      std::size_t used = 0;
-      try {
-        v = std::stod(cell, &used);
-      } catch (const std::exception&) {
-        used = 0;
-      }
-      if (used == 0 || used != cell.size() || !std::isfinite(v) || v < least || (above && v == least))
-        throw Error(at, "'" + one_line(cell) + "' in column " + name + " is no number in range", "correct the row");
-      return v;
-    };
-    constexpr std::size_t k_most_table_rows = 5000;  // each is left out in turn, which takes the square of their number
-    if (out.f_n.size() == k_most_table_rows)
-      throw Error(at, "is beyond the limit of " + std::to_string(k_most_table_rows) + " rows", "leave some out");
-    out.k_n_per_mm.push_back(value("k_n_per_mm", 0.0, false));
-    out.f_n.push_back(value("f_n", -1e9, false));
-    out.v_mm_s.push_back(value("v_mm_s", 0.0, true));
+  CsvReader in(csv, where, k_table);
+  CsvReader::Line line;
+  while ((line = in.next()) == CsvReader::Line::comment)
+    if (!in.comment().empty()) out.origin += (out.origin.empty() ? "" : " ") + one_line(in.comment());
+
+  std::array<std::size_t, k_columns.size()> places{};
+  for (std::size_t i = 0; line == CsvReader::Line::row && i < places.size(); ++i) {
+    if (!holds(in, k_columns[i].name))
+      in.fail(std::string("there is no column '") + k_columns[i].name + "'", "a table has k_n_per_mm, f_n and v_mm_s");
+    places[i] = place_of(in, k_columns[i].name);
   }
+  while (in.next_row())
+    for (std::size_t i = 0; i < places.size(); ++i) (out.*k_columns[i].values).push_back(value_in(in, places[i], k_columns[i]));
   if (out.f_n.empty()) throw Error(where, "has no rows", "give a table of k_n_per_mm, f_n and v_mm_s");
   return out;
 }
@@ -189,7 +171,7 @@ TableExplanation explain_table(const StiffnessTable& table) {
     c.term.mechanism = known_mechanism("bias");
     for (const char* other : {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"}) c.aliases.emplace_back(other);
     c.parameters.emplace_back("bias_n", interval(e.line.intercept_n, e.line.intercept_error_n));
-    c.p_value = 0.5 * std::erfc(z / std::sqrt(2.0));
+    c.p_value = normal_cdf(-z);
     c.effect_n = e.line.intercept_n;
     said.causes.push_back(c);
   }

@@ -37,8 +37,8 @@ struct TableExplanation {
   Explanation said;           ///< verdict, causes, what cannot be tested, notes, next experiment
 };
 
-/// True when the first line that is no comment names columns k_n_per_mm and f_n, and no t_s.
-[[nodiscard]] bool is_stiffness_table(const std::string& csv);
+/// True when the heading names columns k_n_per_mm and f_n, and no t_s. Throws Error(where:line, ...) on a heading that cannot be read.
+[[nodiscard]] bool is_stiffness_table(const std::string& csv, const std::string& where);
 /// Columns k_n_per_mm, f_n and v_mm_s. Throws Error(where:line, ...) on a missing column, a cell that is no number, k < 0 or v <= 0.
 [[nodiscard]] StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& where);
 /// Verdict `alias` when the table needs an intercept, else `not_testable`; `data_fault` below five rows or four stiffnesses.

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <set>
 
+#include "engine/statistics/order.h"
+
 namespace cavum::explain {
 namespace {
 
@@ -90,7 +92,7 @@ std::vector<Series> curve(const Series& u, const Series& where) {
   std::sort(sorted.begin(), sorted.end());
   std::vector<double> knots;
   for (int k = 0; k < k_knots; ++k) {
-    const double q = sorted[static_cast<std::size_t>(static_cast<double>(k) / (k_knots - 1) * static_cast<double>(sorted.size() - 1))];
+    const double q = quantile_of_sorted(sorted, static_cast<double>(k) / (k_knots - 1));
     if (knots.empty() || q > knots.back() + 1e-9 * (sorted.back() - sorted.front())) knots.push_back(q);
   }
   if (std::vector<double> few = sorted; few.erase(std::unique(few.begin(), few.end()), few.end()), few.size() <= k_knots)

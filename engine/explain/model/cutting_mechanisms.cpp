@@ -94,13 +94,8 @@ Columns chatter_columns(const Scene& s, const Shape& p) {
 
 std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{name, own[0]}}; }
 
-}  // namespace
-
-Series removed_since_new_mm3(const Scene& scene, bool carried) { return worn_mm3(scene, carried); }
-
-std::vector<Mechanism> cutting_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism edge_force() {
+  return {
       .name = "edge_force",
       .equation = "Fe while in contact and spinning",
       .words = "a constant force of the cutting edges",
@@ -117,9 +112,11 @@ std::vector<Mechanism> cutting_mechanisms() {
       },
       .own = k_positive,
       .one_way = OneWay::looks_like_offset,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism wear() {
+  return {
       .name = "wear",
       .equation = "F_sim w W, W removed volume since the point was new",
       .words = "a diamond point that wears",
@@ -144,9 +141,11 @@ std::vector<Mechanism> cutting_mechanisms() {
             out.emplace_back("carried", shape[0] < 0.5 ? 0.0 : 1.0);
             return true;
           },
-  });
+  };
+}
 
-  m.push_back({
+Mechanism run_out() {
+  return {
       .name = "run_out",
       .equation = "A sin(2 pi turns + phase) in contact and spinning",
       .words = "a diamond point that turns off its axis",
@@ -178,9 +177,11 @@ std::vector<Mechanism> cutting_mechanisms() {
             return true;
           },
       .by_session = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism chatter() {
+  return {
       .name = "chatter",
       .equation = "A sin(2 pi f t + phase) in contact",
       .words = "a vibration at a rate that is not the spindle's",
@@ -210,9 +211,11 @@ std::vector<Mechanism> cutting_mechanisms() {
           },
       .from_residual = true,
       .by_session = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism coolant() {
+  return {
       .name = "coolant",
       .equation = "F_sim w wet",
       .words = "water, which changes the cutting force",
@@ -228,9 +231,11 @@ std::vector<Mechanism> cutting_mechanisms() {
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
         return Numbers{{}, {value("fraction")}};
       },
-  });
+  };
+}
 
-  m.push_back({
+Mechanism thermal_softening() {
+  return {
       .name = "thermal_softening",
       .equation = "-F_sim h (T - T0), T0 of the first row",
       .words = "tissue that softens as it warms",
@@ -248,9 +253,17 @@ std::vector<Mechanism> cutting_mechanisms() {
         return Numbers{{}, {value("per_k")}};
       },
       .own = k_positive,
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+Series removed_since_new_mm3(const Scene& scene, bool carried) { return worn_mm3(scene, carried); }
+
+std::vector<Mechanism> cutting_mechanisms() {
+  return {
+      edge_force(), wear(), run_out(), chatter(), coolant(), thermal_softening(),
+  };
 }
 
 }  // namespace cavum::explain

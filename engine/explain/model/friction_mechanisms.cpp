@@ -6,6 +6,7 @@
 #include "engine/force/coulomb_friction.h"
 #include "engine/force/friction_terms.h"
 #include "engine/force/term_laws.h"
+#include "engine/statistics/order.h"
 
 namespace cavum::explain {
 namespace {
@@ -28,10 +29,10 @@ Series sign_of_motion(const Scene& s, double v0_mm_s) {
 std::vector<double> speeds(const Scene& s, std::initializer_list<double> parts) {
   std::vector<double> v;
   for (Eigen::Index i = 0; i < s.motion.v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion.v_mm_s[i]));
-  const auto at = v.begin() + static_cast<std::ptrdiff_t>(v.size() * 9 / 10);
-  std::nth_element(v.begin(), at, v.end());
+  const std::size_t fast = v.size() * 9 / 10;
+  const double fast_mm_s = in_order(std::move(v), fast);
   std::vector<double> out;
-  for (const double p : parts) out.push_back(std::max(1e-5, p * *at));
+  for (const double p : parts) out.push_back(std::max(1e-5, p * fast_mm_s));
   return out;
 }
 
@@ -41,11 +42,8 @@ Grid as_grid(const std::vector<double>& values) {
   return g;
 }
 
-}  // namespace
-
-std::vector<Mechanism> friction_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism coulomb_friction() {
+  return {
       .name = "coulomb_friction",
       .equation = "Fc tanh(V/v0), in air too",
       .words = "dry friction of joints or guides",
@@ -69,9 +67,11 @@ std::vector<Mechanism> friction_mechanisms() {
       },
       .own = k_positive,
       .one_way = OneWay::looks_like_offset,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism stribeck_friction() {
+  return {
       .name = "stribeck_friction",
       .equation = "[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too",
       .words = "friction that falls as the motion becomes faster",
@@ -103,9 +103,11 @@ std::vector<Mechanism> friction_mechanisms() {
       .own = k_positive,
       .variant_of = "coulomb_friction",
       .one_way = OneWay::needs_reversal,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism viscous_friction() {
+  return {
       .name = "viscous_friction",
       .equation = "b V, in air too",
       .words = "friction in proportion to speed",
@@ -125,9 +127,17 @@ std::vector<Mechanism> friction_mechanisms() {
       },
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+std::vector<Mechanism> friction_mechanisms() {
+  return {
+      coulomb_friction(),
+      stribeck_friction(),
+      viscous_friction(),
+  };
 }
 
 }  // namespace cavum::explain

@@ -85,11 +85,8 @@ std::vector<ShapeRange> contact_shape() {
   return out;
 }
 
-}  // namespace
-
-std::vector<Mechanism> offset_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism bias() {
+  return {
       .name = "bias",
       .equation = "B, in air too",
       .words = "a constant offset of the load cell",
@@ -104,9 +101,11 @@ std::vector<Mechanism> offset_mechanisms() {
             return std::vector<NamedValue>{{"bias_n", own[0]}};
           },
       .one_way = OneWay::is_offset,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism drift() {
+  return {
       .name = "drift",
       .equation = "R t, or A (1 - e^(-t/tau)), in air too",
       .words = "a load cell whose zero wanders with time",
@@ -119,9 +118,11 @@ std::vector<Mechanism> offset_mechanisms() {
             return p[1] > 0.5 ? std::vector<NamedValue>{{"amplitude_n", own[0]}, {"tau_s", p[2]}} : std::vector<NamedValue>{{"rate_n_per_s", own[0]}};
           },
       .one_way = OneWay::needs_reversal,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism contact_offset() {
+  return {
       .name = "contact_offset",
       .equation = "F_sim(X + delta) - F_sim(X), one delta for each session",
       .words = "the place of the surface, which lies nearer or further than the recording has it",
@@ -140,9 +141,17 @@ std::vector<Mechanism> offset_mechanisms() {
       .open = between_rows_mm,
       .one_way = OneWay::looks_like_offset,
       .from_residual = true,
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+std::vector<Mechanism> offset_mechanisms() {
+  return {
+      bias(),
+      drift(),
+      contact_offset(),
+  };
 }
 
 }  // namespace cavum::explain

@@ -58,11 +58,8 @@ Grid loop_grid(const Scene& s) {
   return g;
 }
 
-}  // namespace
-
-std::vector<Mechanism> play_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism backlash() {
+  return {
       .name = "backlash",
       .equation = "k (play(X, b) - X)",
       .words = "play between the measured position and the tip",
@@ -91,9 +88,11 @@ std::vector<Mechanism> play_mechanisms() {
           },
       .one_way = OneWay::needs_reversal,
       .inside = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism hysteresis() {
+  return {
       .name = "hysteresis",
       .equation = "alpha z, z' = V - (beta |V| z + gamma V |z|)/d in contact",
       .words = "a loop that does not depend on speed",
@@ -121,9 +120,16 @@ std::vector<Mechanism> play_mechanisms() {
           },
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+std::vector<Mechanism> play_mechanisms() {
+  return {
+      backlash(),
+      hysteresis(),
+  };
 }
 
 }  // namespace cavum::explain

@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "engine/force/voigt.h"
+#include "engine/statistics/statistics.h"
 
 namespace cavum::explain {
 namespace {
 
 constexpr double k_lasting_s = 0.2;  // how long an error of position lasts: a cell of 0.055 mm at 0.25 mm/s
-
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "engine/explain/model/lags.h"
 #include "engine/explain/model/mechanism.h"
+#include "engine/statistics/order.h"
 
 namespace cavum::explain {
 namespace {
@@ -53,8 +54,7 @@ Grid saturation_grid(const Scene& s) {
   if (pressed.size() < 100) return {};
   std::sort(pressed.begin(), pressed.end());
   Grid g;
-  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995})
-    g.push_back({pressed[static_cast<std::size_t>(part * static_cast<double>(pressed.size() - 1))]});
+  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995}) g.push_back({quantile_of_sorted(pressed, part)});
   return g;
 }
 
@@ -63,11 +63,8 @@ Columns saturation_columns(const Scene& s, const Shape& p) {
   return {{over * p[0]}, -s.spring_mm * over, -s.damper_mm_s * over};
 }
 
-}  // namespace
-
-std::vector<Mechanism> sensor_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism gravity_posture() {
+  return {
       .name = "gravity_posture",
       .equation = "w (sin theta - sin theta0), in air too",
       .words = "the weight of the handpiece, which changes with posture",
@@ -84,9 +81,11 @@ std::vector<Mechanism> sensor_mechanisms() {
           [](const Shape& p, const Shape& own, Base) {
             return std::vector<NamedValue>{{"weight_n", own[0]}, {"theta0_deg", p[0]}};
           },
-  });
+  };
+}
 
-  m.push_back({
+Mechanism inertia() {
+  return {
       .name = "inertia",
       .equation = "m a, in air too",
       .words = "the mass that is accelerated with the load cell",
@@ -101,9 +100,11 @@ std::vector<Mechanism> sensor_mechanisms() {
             return std::vector<NamedValue>{{"mass_kg", own[0] * 1000.0}};
           },
       .own = k_positive,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism gain_error() {
+  return {
       .name = "gain_error",
       .equation = "g F_sim",
       .words = "a load cell whose gain is off",
@@ -118,9 +119,11 @@ std::vector<Mechanism> sensor_mechanisms() {
             return std::vector<NamedValue>{{"gain", own[0]}};
           },
       .in_recordings = false,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism cross_talk() {
+  return {
       .name = "cross_talk",
       .equation = "a Fy + b Fz",
       .words = "lateral force that leaks into the feed's channel",
@@ -140,9 +143,11 @@ std::vector<Mechanism> sensor_mechanisms() {
             if (own.size() > 1) p.push_back({"b", own[1]});
             return p;
           },
-  });
+  };
+}
 
-  m.push_back({
+Mechanism delay() {
+  return {
       .name = "delay",
       .equation = "F_sim(t - tau) - F_sim(t)",
       .words = "a force channel that comes later than the position",
@@ -156,9 +161,11 @@ std::vector<Mechanism> sensor_mechanisms() {
           },
       .open = clock_s,
       .like_when_short = "low_pass",
-  });
+  };
+}
 
-  m.push_back({
+Mechanism low_pass() {
+  return {
       .name = "low_pass",
       .equation = "lag(F_sim, tau) - F_sim",
       .words = "a force channel that is smoothed by a filter",
@@ -173,9 +180,11 @@ std::vector<Mechanism> sensor_mechanisms() {
       .open = clock_s,
       .variant_of = "delay",
       .like_when_short = "delay",
-  });
+  };
+}
 
-  m.push_back({
+Mechanism saturation() {
+  return {
       .name = "saturation",
       .equation = "min(F_sim, Fmax) - F_sim",
       .words = "a force channel that saturates",
@@ -188,9 +197,15 @@ std::vector<Mechanism> sensor_mechanisms() {
             return std::vector<NamedValue>{{"f_max_n", p[0] * own[0]}};
           },
       .own = {0.8, 1.25},
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+std::vector<Mechanism> sensor_mechanisms() {
+  return {
+      gravity_posture(), inertia(), gain_error(), cross_talk(), delay(), low_pass(), saturation(),
+  };
 }
 
 }  // namespace cavum::explain

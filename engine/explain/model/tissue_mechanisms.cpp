@@ -74,11 +74,8 @@ Columns anisotropy_columns(const Scene& s, const Shape& p) {
           {}};
 }
 
-}  // namespace
-
-std::vector<Mechanism> tissue_mechanisms() {
-  std::vector<Mechanism> m;
-  m.push_back({
+Mechanism series_compliance() {
+  return {
       .name = "series_compliance",
       .equation = "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
       .words = "something elastic between the tool and the tooth",
@@ -113,9 +110,11 @@ std::vector<Mechanism> tissue_mechanisms() {
           },
       .variant_of = "nonlinear_stiffness",
       .inside = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism nonlinear_stiffness() {
+  return {
       .name = "nonlinear_stiffness",
       .equation = "k (X^m - X), X in mm",
       .words = "a stiffness that grows or falls as a power of the depth",
@@ -138,9 +137,11 @@ std::vector<Mechanism> tissue_mechanisms() {
         return Numbers{{value("m")}, {}};
       },
       .inside = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism hidden_layer() {
+  return {
       .name = "hidden_layer",
       .equation = "dk (X - d0)+",
       .words = "a layer below the surface with another stiffness",
@@ -166,9 +167,11 @@ std::vector<Mechanism> tissue_mechanisms() {
         return Numbers{{value("d0_mm")}, {value("dk_n_per_mm")}};
       },
       .inside = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism graded_stiffness() {
+  return {
       .name = "graded_stiffness",
       .equation = "-k alpha X^2",
       .words = "a stiffness that changes evenly with depth",
@@ -188,9 +191,11 @@ std::vector<Mechanism> tissue_mechanisms() {
       },
       .variant_of = "nonlinear_stiffness",
       .inside = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism anisotropy() {
+  return {
       .name = "anisotropy",
       .equation = "F_sim e cos 2(phi - phi0)",
       .words = "a stiffness that depends on the angle of approach",
@@ -214,9 +219,11 @@ std::vector<Mechanism> tissue_mechanisms() {
         const SinCos to = twice_angle(value("phi0_deg"));
         return Numbers{{value("epsilon") != 0.0 ? 0.0 : 1.0}, {size * to.cos, size * to.sin}};
       },
-  });
+  };
+}
 
-  m.push_back({
+Mechanism relaxation() {
+  return {
       .name = "relaxation",
       .equation = "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
       .words = "a force that decays while the tool is held still",
@@ -251,9 +258,11 @@ std::vector<Mechanism> tissue_mechanisms() {
             return p[1] > 0.0 ? Shape{std::sqrt(p[0] * p[1]), 0.0, p[2]} : Shape{};
           },
       .inside = true,
-  });
+  };
+}
 
-  m.push_back({
+Mechanism feed_power_law() {
+  return {
       .name = "feed_power_law",
       .equation = "c (|V|^n sign V - V), V in mm/s",
       .words = "a force that grows with another power of the speed",
@@ -279,9 +288,15 @@ std::vector<Mechanism> tissue_mechanisms() {
         return Numbers{{value("n")}, {}};
       },
       .inside = true,
-  });
+  };
+}
 
-  return m;
+}  // namespace
+
+std::vector<Mechanism> tissue_mechanisms() {
+  return {
+      series_compliance(), nonlinear_stiffness(), hidden_layer(), graded_stiffness(), anisotropy(), relaxation(), feed_power_law(),
+  };
 }
 
 }  // namespace cavum::explain

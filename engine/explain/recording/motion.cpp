@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/statistics/order.h"
+
 namespace cavum::explain {
 namespace {
 
@@ -45,13 +47,6 @@ struct Session {
   std::vector<double> walk;                // variance per second of the way from this row to the next
   std::vector<State> predicted, filtered, smoothed;
 };
-
-double median_of(std::vector<double> v) {
-  if (v.empty()) return 0.0;
-  const auto mid = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), mid, v.end());
-  return *mid;
-}
 
 void set_observations(Session& s) {
   const auto n = static_cast<std::size_t>(s.n);
@@ -187,7 +182,7 @@ double speed_scatter_mm_s(const Recording& r) {
   for (const auto& s : r.sessions)
     for (Eigen::Index i = s.begin + 3; i < s.end; ++i)
       d.push_back(std::fabs(r.v_mm_s[i] - 3 * r.v_mm_s[i - 1] + 3 * r.v_mm_s[i - 2] - r.v_mm_s[i - 3]));
-  return 1.4826 * median_of(std::move(d)) / std::sqrt(20.0);
+  return d.empty() ? 0.0 : 1.4826 * median(std::move(d)) / std::sqrt(20.0);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/statistics/order.h"
+
 namespace cavum::explain {
 namespace {
 
@@ -17,9 +19,8 @@ double clipped_mean_square(std::vector<double>& v) {
   if (v.empty()) return 0.0;
   std::vector<double> size(v.size());
   std::transform(v.begin(), v.end(), size.begin(), [](double d) { return std::fabs(d); });
-  const auto mid = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), mid, size.end());
-  const double limit = *mid > 0.0 ? 6.0 * 1.4826 * *mid : 1e300;
+  const double middle = median(std::move(size));
+  const double limit = middle > 0.0 ? 6.0 * 1.4826 * middle : 1e300;
   double sum = 0.0;
   for (const double d : v) sum += std::min(d * d, limit * limit);
   return sum / static_cast<double>(v.size());
@@ -94,9 +95,7 @@ void Whitening::apply(Series& z) const {
 Series robust_weights(const Series& z) {
   std::vector<double> size(static_cast<std::size_t>(z.size()));
   for (Eigen::Index i = 0; i < z.size(); ++i) size[static_cast<std::size_t>(i)] = std::fabs(z[i]);
-  const auto mid = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), mid, size.end());
-  const double scatter = std::max(1e-300, 1.4826 * *mid);
+  const double scatter = std::max(1e-300, 1.4826 * median(std::move(size)));
   return (z.abs() / scatter).max(k_huber).inverse() * k_huber;
 }
 

@@ -1,12 +1,11 @@
 #include "engine/explain/recording/recording.h"
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <filesystem>
-#include <limits>
-#include <set>
 #include <string_view>
 
+#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
@@ -16,56 +15,91 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t k_max_sessions = 1000, k_max_columns = 200;
-constexpr std::size_t k_max_rows = 5'000'000;  // 7 hours at 200 Hz; beyond that memory, not time, is the limit
-
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && (s.front() == ' ' || s.front() == '\t' || s.front() == '"')) s.remove_prefix(1);
-  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r' || s.back() == '"')) s.remove_suffix(1);
-  return s;
-}
-
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-  std::vector<std::string_view> out;
-  while (true) {
-    const std::size_t at = line.find(separator);
-    out.push_back(trimmed(line.substr(0, at)));
-    if (at == std::string_view::npos) return out;
-    line.remove_prefix(at + 1);
-  }
-}
-
-double number_in(std::string_view cell) {
-  if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
-  double v = k_nan;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), v);
-  return error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(v) ? v : k_nan;
-}
+constexpr std::size_t k_max_sessions = 1000;
+constexpr CsvForm k_recording{.most_fields = 200,
+                              .most_rows = 5'000'000,  // 7 hours at 200 Hz; beyond that memory, not time, is the limit
+                              .field_word = "cells",
+                              .plain_text = false};
+constexpr std::array k_required{"t_s", "x_mm", "f_n"};
 
 /// One column while it is read: numbers, or words numbered in order of appearance.
 struct Reading {
   std::string name;
-  std::vector<double> values;
-  std::map<std::string, double, std::less<>> words;
-  std::size_t missing = 0, numbers = 0;
+  bool all_numbers = false;  // whatever else a row holds, it must be a finite number
+  std::vector<double> values{};
+  std::map<std::string, double, std::less<>> words{};
+  std::size_t missing = 0;
 
-  void add(std::string_view cell) {
-    double v = number_in(cell);
-    const bool no_value = cell.empty() || cell == "nan" || cell == "NaN" || cell == "NA";
-    if (std::isfinite(v)) {
-      ++numbers;
-    } else if (no_value) {
-      ++missing;
-      v = values.empty() ? 0.0 : values.back();
-    } else {
-      v = words.emplace(std::string(cell), static_cast<double>(words.size())).first->second;
-    }
-    values.push_back(v);
+  void add(std::string_view cell, const CsvReader& in) {
+    const std::optional<double> number = number_in_field(cell);
+    if (!number && all_numbers) in.fail("'" + one_line(cell) + "' in column " + name + " is no finite number", "correct or remove the row");
+    values.push_back(number ? *number : is_missing(cell) ? last_after_missing() : word(cell));
   }
+
+ private:
+  static bool is_missing(std::string_view cell) { return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NA"; }
+  double last_after_missing() {
+    ++missing;
+    return values.empty() ? 0.0 : values.back();
+  }
+  double word(std::string_view cell) { return words.emplace(std::string(cell), static_cast<double>(words.size())).first->second; }
 };
 
-Series series_of(const std::vector<double>& v) { return Eigen::Map<const Series>(v.data(), static_cast<Eigen::Index>(v.size())); }
+/// A column for each field of the heading, under the name that we give it.
+std::vector<Reading> columns_of(const CsvReader& heading, const ColumnNames& names) {
+  std::vector<Reading> out;
+  for (const std::string_view theirs : heading.fields()) {
+    const auto mapped = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == theirs; });
+    const std::string name = mapped != names.end() ? mapped->first : std::string(theirs);
+    if (std::any_of(out.begin(), out.end(), [&](const Reading& c) { return c.name == name; }))
+      heading.fail("there are two columns '" + one_line(name) + "'", "rename one");
+    out.push_back({.name = name, .all_numbers = std::find(k_required.begin(), k_required.end(), name) != k_required.end()});
+  }
+  return out;
+}
+
+/// Throws Error unless the columns that --column names and those that every recording has are there.
+void require_columns(const CsvReader& heading, const std::vector<Reading>& columns, const ColumnNames& names, bool with_position) {
+  const auto there = [&](const std::string& name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const Reading& c) { return c.name == name; });
+  };
+  for (const auto& [contract, theirs] : names)
+    if (!there(contract)) heading.fail("there is no column '" + one_line(theirs) + "'", "name a column of the header with --column");
+  for (const std::string required : k_required)
+    if (!there(required) && (with_position || required != "x_mm"))
+      heading.fail("there is no column '" + required + "'", "rename it in the file, or use --column " + required + "=NAME");
+}
+
+/// The row of `in` belongs to the session of that name, which begins with it where the one before had another name.
+void add_row(std::vector<SessionRows>& sessions, std::string_view name, const CsvReader& in) {
+  const Eigen::Index row = sessions.empty() ? 0 : sessions.back().end;
+  if (sessions.empty() || sessions.back().name != name) {
+    if (std::any_of(sessions.begin(), sessions.end(), [&](const SessionRows& s) { return s.name == name; }))
+      in.fail("session '" + one_line(name) + "' is in two places", "sort the rows by session, then by time");
+    if (sessions.size() == k_max_sessions)
+      in.fail("has more than " + std::to_string(k_max_sessions) + " sessions", "give column 'session' a name for each run, not for each row");
+    sessions.push_back({std::string(name), row, row});
+  }
+  sessions.back().end = row + 1;
+}
+
+/// Puts a column that was read where it belongs.
+void keep(const Reading& column, Recording& out) {
+  const std::string shown = "column '" + one_line(column.name) + "'";
+  if (column.missing == column.values.size()) {
+    out.notes.push_back(shown + " is empty and left out");
+    return;
+  }
+  if (column.missing > 0) out.notes.push_back(shown + ": " + std::to_string(column.missing) + " missing values repeat the last one");
+  Series values = Eigen::Map<const Series>(column.values.data(), static_cast<Eigen::Index>(column.values.size()));
+  const std::array<std::pair<const char*, Series*>, 4> places{{{"t_s", &out.t_s}, {"x_mm", &out.x_mm}, {"f_n", &out.f_n}, {"v_mm_s", &out.v_mm_s}}};
+  for (const auto& [name, place] : places)
+    if (column.name == name) {
+      *place = std::move(values);
+      return;
+    }
+  out.columns.emplace_back(one_line(column.name), std::move(values));
+}
 
 }  // namespace
 
@@ -76,95 +110,24 @@ const Series* Recording::column(const std::string& name) const {
 }
 
 Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names, bool with_position) {
-  Recording out;
-  std::map<std::string, std::string> ours;  // name in the file → name of the contract
-  for (const auto& [contract, theirs] : names) ours[theirs] = contract;
-  std::vector<Reading> read;
-  std::vector<std::string> session_of_row;
-  std::ptrdiff_t session_at = -1;
-  std::size_t line_number = 0;
-  char separator = ',';
-  std::string_view rest = csv;
-  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
-  while (!rest.empty()) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    ++line_number;
-    const std::string_view content = trimmed(line);
-    if (content.empty() || content.front() == '#') continue;
-    const std::string at = where + ":" + std::to_string(line_number);
-    if (read.empty()) {
-      for (const char c : {';', '\t'})
-        if (line.find(',') == std::string_view::npos && line.find(c) != std::string_view::npos) separator = c;
-      std::set<std::string> seen;
-      for (const auto cell : cells_of(line, separator)) {
-        const auto it = ours.find(std::string(cell));
-        read.push_back({it == ours.end() ? std::string(cell) : it->second, {}, {}, 0, 0});
-        if (!seen.insert(read.back().name).second) throw Error(at, "there are two columns '" + one_line(read.back().name) + "'", "rename one");
-        if (read.size() > k_max_columns)
-          throw Error(at, "has more than " + std::to_string(k_max_columns) + " columns", "leave out those that say nothing of the force");
-        if (read.back().name == "session") session_at = static_cast<std::ptrdiff_t>(read.size()) - 1;
-      }
-      for (const auto& [contract, theirs] : names)
-        if (!seen.contains(contract)) throw Error(at, "there is no column '" + one_line(theirs) + "'", "name a column of the header with --column");
-      for (const char* required : {"t_s", "x_mm", "f_n"})
-        if (!seen.contains(required) && (with_position || required != std::string_view("x_mm")))
-          throw Error(at, std::string("there is no column '") + required + "'",
-                      std::string("rename it in the file, or use --column ") + required + "=NAME");
-      continue;
-    }
-    const auto cells = cells_of(line, separator);
-    if (cells.size() != read.size())
-      throw Error(at, "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(read.size()), "complete the row");
-    if (read.front().values.size() >= k_max_rows)
-      throw Error(at, "the recording is longer than 5 million rows", "split it, or sample it more slowly");
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      Reading& column = read[i];
-      if (column.name == "t_s" || column.name == "x_mm" || column.name == "f_n")
-        if (!std::isfinite(number_in(cells[i])))
-          throw Error(at, "'" + one_line(cells[i]) + "' in column " + column.name + " is no finite number", "correct or remove the row");
-      column.add(cells[i]);
-    }
-    session_of_row.emplace_back(session_at >= 0 ? std::string(cells[static_cast<std::size_t>(session_at)]) : std::string("1"));
-  }
-  if (read.empty()) throw Error(where, "is empty", "give a CSV with a header such as session,t_s,x_mm,f_n");
-  if (session_of_row.empty()) throw Error(where, "has a header and no rows", "give a recording");
+  CsvReader in(csv, where, k_recording);
+  if (!in.next_row()) throw Error(where, "is empty", "give a CSV with a header such as session,t_s,x_mm,f_n");
+  std::vector<Reading> columns = columns_of(in, names);
+  require_columns(in, columns, names, with_position);
+  const auto session =
+      static_cast<std::size_t>(std::find_if(columns.begin(), columns.end(), [](const Reading& c) { return c.name == "session"; }) - columns.begin());
+  const bool one_session = session == columns.size();
 
-  std::set<std::string> named;
-  for (std::size_t i = 0; i < session_of_row.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (i == 0 || session_of_row[i] != session_of_row[i - 1]) {
-      if (!named.insert(session_of_row[i]).second)
-        throw Error(where, "session '" + one_line(session_of_row[i]) + "' is in two places", "sort the rows by session, then by time");
-      if (named.size() > k_max_sessions)
-        throw Error(where, "has more than " + std::to_string(k_max_sessions) + " sessions",
-                    "give column 'session' a name for each run, not for each row");
-      out.sessions.push_back({session_of_row[i], row, row});
-    }
-    out.sessions.back().end = row + 1;
+  Recording out;
+  while (in.next_row()) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (i != session) columns[i].add(in.fields()[i], in);
+    add_row(out.sessions, one_session ? "1" : in.fields()[session], in);
   }
-  if (session_at < 0) out.notes.push_back("no column 'session': everything is taken for one session");
-  for (const auto& column : read) {
-    if (column.name == "session") continue;
-    Series values = series_of(column.values);
-    if (column.missing == column.values.size()) {
-      out.notes.push_back("column '" + one_line(column.name) + "' is empty and left out");
-      continue;
-    }
-    if (column.missing > 0)
-      out.notes.push_back("column '" + one_line(column.name) + "': " + std::to_string(column.missing) + " missing values repeat the last one");
-    if (column.name == "t_s")
-      out.t_s = std::move(values);
-    else if (column.name == "x_mm")
-      out.x_mm = std::move(values);
-    else if (column.name == "f_n")
-      out.f_n = std::move(values);
-    else if (column.name == "v_mm_s")
-      out.v_mm_s = std::move(values);
-    else
-      out.columns.emplace_back(one_line(column.name), std::move(values));
-  }
+  if (out.sessions.empty()) throw Error(where, "has a header and no rows", "give a recording");
+  if (one_session) out.notes.push_back("no column 'session': everything is taken for one session");
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (i != session) keep(columns[i], out);
   return out;
 }
 

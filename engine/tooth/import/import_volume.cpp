@@ -161,51 +161,72 @@ void require_few_gray(const Volume& volume, const std::string& path) {
                 "crop the volume to the tooth, or save it uncompressed");
 }
 
-}  // namespace
-
-VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options) {
-  Volume volume = read_volume(path, options.spacing_mm);
-  const bool map = !options.labels.empty();
+/// A volume's tissues, and in words how they were found.
+struct Reading {
+  Segmentation tissues;
   std::string how;
-  Segmentation s;
-  if (map) {
-    s = from_labels(volume, options.labels, path);
-    if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0)
-      require_layer_order(pulp_faces(s.size, s.tissue), path, "exchange enamel and dentin in --map");
-    how = "label map";
-  } else {
+};
+Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, const std::string& path) {
+  if (options.labels.empty()) {
     require_few_gray(volume, path);
     const auto levels = find_gray_levels(volume, options.thresholds, path);
-    s = segment(volume, levels, path);
-    how = "CT volume; " + levels.note + "; " + s.note;
+    Segmentation s = segment(volume, levels, path);
+    const std::string how = "CT volume; " + levels.note + "; " + s.note;
+    return {std::move(s), how};
   }
-  volume.gray = {};
+  Segmentation s = from_labels(volume, options.labels, path);
+  if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0)
+    require_layer_order(pulp_faces(s.size, s.tissue), path, "exchange enamel and dentin in --map");
+  return {std::move(s), "label map"};
+}
 
+/// Where the tooth stands in its own frame: z towards the occlusal surface, the middle of the crown at the origin.
+struct Placement {
+  ToothAxes frame;
+  Vec3 origin;  // of the tooth, in the turned frame of the volume, mm
+  Extent box;   // of the tooth, in its own frame, mm
+};
+Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOptions& options, const std::string& path) {
   Extent enamel, dentin;
   for_voxels(s, [&](Vec3 v, std::uint8_t t) {
     if (t == k_enamel) enamel.add(volume.place_mm(v));
     if (t == k_dentin) dentin.add(volume.place_mm(v));
   });
-  if ((enamel.n == 0 || dentin.n == 0) && !options.frame.occlusal_axis)
+  if ((enamel.n == 0 || dentin.n == 0) && !options.occlusal_axis)
     throw Error(path, std::string("holds no ") + (enamel.n == 0 ? "enamel" : "dentin") + ", so there is no occlusal direction",
                 "give --occlusal-axis x,y,z");
-  const ToothAxes frame = tooth_axes(dentin.centroid(), enamel.centroid(), options.frame);
-  Extent crown, all;
+  Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options), .origin = {}, .box = {}};
+  Extent crown;
   for_voxels(s, [&](Vec3 v, std::uint8_t t) {
-    const Vec3 p = frame.axes * volume.place_mm(v);
+    const Vec3 p = out.frame.axes * volume.place_mm(v);
     if (t == k_enamel) crown.add(p);
-    if (t != k_periodontium) all.add(p);
+    if (t != k_periodontium) out.box.add(p);
   });
-  const Vec3 origin = enamel.n > 0 ? (crown.low + crown.high) * 0.5 : (all.low + all.high) * 0.5;
-  all.low = all.low - origin;
-  all.high = all.high - origin;
-  const Vec3 extent = all.high - all.low;
+  out.origin = enamel.n > 0 ? (crown.low + crown.high) * 0.5 : (out.box.low + out.box.high) * 0.5;
+  out.box.low = out.box.low - out.origin;
+  out.box.high = out.box.high - out.origin;
+  return out;
+}
+
+/// Throws Error where a spacing that was assumed makes a tooth that nobody has.
+void require_size_of_a_tooth(const Volume& volume, const Extent& box, const std::string& path) {
+  const Vec3 extent = box.high - box.low;
   if (const double longest = std::max({extent.x, extent.y, extent.z}); volume.spacing_assumed && !(longest > 4 && longest < 45))
     throw Error(path, "the file gives no spacing, and the assumed 0.125 mm would make a tooth of " + std::to_string(longest) + " mm",
                 "give --spacing-mm");
+}
+
+}  // namespace
+
+VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options) {
+  Volume volume = read_volume(path, options.spacing_mm);
+  const auto [s, how] = read_tissues(volume, options, path);
+  volume.gray = {};
+  const Placement placed = place_tooth(volume, s, options.frame, path);
+  require_size_of_a_tooth(volume, placed.box, path);
 
   VolumeImport out;
-  TissueGrid grid = resample(volume, s, frame.axes, origin, all, options.leaf_mm, path);
+  TissueGrid grid = resample(volume, s, placed.frame.axes, placed.origin, placed.box, options.leaf_mm, path);
   const auto around = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
   out.spacing_assumed = volume.spacing_assumed;
@@ -218,7 +239,7 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   std::ostringstream source;
   const auto file = std::filesystem::path(path).filename().string();
   source << "import of " << (file.empty() ? path : file) << ", " << how << "; " << volume.spacing_note << "; leaf " << options.leaf_mm << " mm; "
-         << frame.note << "; ";
+         << placed.frame.note << "; ";
   if (around > 0)
     source << "periodontium " << options.periodontium_mm << " mm added around the roots";
   else

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
-#include "engine/tooth/distance.h"
+#include "engine/tooth/distance_transform.h"
 
 namespace cavum {
 namespace {
@@ -67,7 +67,7 @@ Bodies bodies_of(IVec3 size, const Mask& mask) {
 
 /// Rule 2: what a ball reaches from the border.
 Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
-  const auto nearest = nearest_marked(size, hard, radius_voxels);
+  const auto nearest = nearest_seed(size, hard, radius_voxels);
   Mask reached(hard.size(), 0);
   std::vector<std::size_t> front;
   const auto enter = [&](std::size_t i) {
@@ -82,7 +82,7 @@ Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
     front.pop_back();
     for_neighbours(size, i, enter);
   }
-  const auto to_reached = nearest_marked(size, reached, radius_voxels + 0.5);
+  const auto to_reached = nearest_seed(size, reached, radius_voxels + 0.5);
   Mask outside(hard.size());
   for (std::size_t i = 0; i < hard.size(); ++i) outside[i] = !hard[i] && to_reached[i] >= 0;
   return outside;
@@ -90,10 +90,10 @@ Mask outside_of(IVec3 size, const Mask& hard, double radius_voxels) {
 
 /// Rule 3, on voxels labelled by gray alone.
 void give_rim_to_what_lies_beneath(Segmentation& s, const Mask& outside) {
-  const auto to_outside = nearest_marked(s.size, outside, k_rim_voxels);
+  const auto to_outside = nearest_seed(s.size, outside, k_rim_voxels);
   Mask trusted(s.tissue.size());
   for (std::size_t i = 0; i < trusted.size(); ++i) trusted[i] = s.tissue[i] == k_enamel || (s.tissue[i] == k_dentin && to_outside[i] < 0);
-  const auto nearest = nearest_marked(s.size, trusted, 4 * k_rim_voxels);
+  const auto nearest = nearest_seed(s.size, trusted, 4 * k_rim_voxels);
   const auto before = s.tissue;
   for (std::size_t i = 0; i < trusted.size(); ++i)
     if (before[i] == k_dentin && !trusted[i] && nearest[i] >= 0) s.tissue[i] = before[static_cast<std::size_t>(nearest[i])];
@@ -144,13 +144,125 @@ void smooth(IVec3 size, std::vector<float>& f) {
   }
 }
 
-void count(Segmentation& s) {
-  Mask pulp(s.tissue.size());
-  for (std::size_t i = 0; i < pulp.size(); ++i) {
-    ++s.voxels[s.tissue[i]];
-    pulp[i] = s.tissue[i] == k_pulp;
+/// Rule 1: the tooth is the largest body of hard gray; the others are specks.
+struct HardBodies {
+  Bodies bodies;
+  std::uint32_t tooth = 0;  // number of its body
+  Mask in_tooth;
+  [[nodiscard]] bool is_speck(std::size_t i) const { return bodies.number[i] != 0 && bodies.number[i] != tooth; }
+  [[nodiscard]] std::size_t specks() const { return bodies.voxels.size() - 2; }
+};
+HardBodies find_tooth(const Volume& volume, double hard_gray, const std::string& where) {
+  HardBodies found;
+  Mask hard(volume.gray.size());
+  for (std::size_t i = 0; i < hard.size(); ++i) hard[i] = volume.gray[i] > hard_gray;
+  found.bodies = bodies_of(volume.size, hard);
+  if (found.bodies.voxels.size() < 2 || found.bodies.voxels[found.bodies.largest()] < 100)
+    throw Error(where, "no tooth found: nothing larger than 100 voxels is brighter than " + std::to_string(hard_gray),
+                "check the volume or --dentin-threshold");
+  found.tooth = found.bodies.largest();
+  found.in_tooth.resize(hard.size());
+  for (std::size_t i = 0; i < hard.size(); ++i) found.in_tooth[i] = found.bodies.number[i] == found.tooth;
+  return found;
+}
+
+/// What is neither hard nor outside: pulp, pores in hard tissue (which are filled), and clefts in the outer surface (which are outside).
+struct Hollows {
+  Bodies bodies;
+  std::vector<std::uint64_t> outer_faces, hard_faces;  // of each body
+  std::uint32_t pulp = 0;                              // number of the largest body that is mostly enclosed
+
+  [[nodiscard]] bool is_pulp(std::uint32_t b) const {
+    return b != 0 && (b == pulp || (outer_faces[b] == 0 && bodies.voxels[b] * 20 > bodies.voxels[pulp]));
   }
-  s.pulp_bodies = bodies_of(s.size, pulp).voxels.size() - 1;
+  [[nodiscard]] bool is_pore(std::uint32_t b) const { return b != 0 && !is_pulp(b) && outer_faces[b] == 0; }
+};
+Hollows find_hollows(IVec3 size, const Mask& hard, const Mask& outside, const std::string& where) {
+  Hollows found;
+  Mask enclosed(hard.size());
+  for (std::size_t i = 0; i < hard.size(); ++i) enclosed[i] = !hard[i] && !outside[i];
+  found.bodies = bodies_of(size, enclosed);
+  const std::size_t count = found.bodies.voxels.size();
+  if (count < 2) throw Error(where, "no pulp found: no hollow is enclosed by hard tissue", "check --dentin-threshold");
+  found.outer_faces.assign(count, 0);
+  found.hard_faces.assign(count, 0);
+  for (std::size_t i = 0; i < hard.size(); ++i)
+    if (enclosed[i])
+      for_neighbours(size, i, [&](std::size_t j) {
+        found.outer_faces[found.bodies.number[i]] += outside[j];
+        found.hard_faces[found.bodies.number[i]] += hard[j];
+      });
+  for (std::uint32_t b = 1; b < count; ++b)
+    if (found.outer_faces[b] * 5 < found.hard_faces[b] && (found.pulp == 0 || found.bodies.voxels[b] > found.bodies.voxels[found.pulp]))
+      found.pulp = b;
+  if (found.pulp == 0) throw Error(where, "no pulp found: every hollow is open to the outside", "check --dentin-threshold");
+  return found;
+}
+
+/// The tissue of every voxel by its gray. Returns how many voxels are of pores.
+std::uint64_t label_by_gray(Segmentation& s, const Volume& volume, double enamel_gray, const Mask& hard, const Hollows& hollows) {
+  s.tissue.assign(hard.size(), k_air);
+  std::uint64_t pores = 0;
+  for (std::size_t i = 0; i < hard.size(); ++i) {
+    const auto hollow = hollows.bodies.number[i];
+    const bool pore = hollows.is_pore(hollow);
+    pores += pore;
+    if (hollows.is_pulp(hollow))
+      s.tissue[i] = k_pulp;
+    else if (hard[i] || pore)
+      s.tissue[i] = volume.gray[i] > enamel_gray ? k_enamel : k_dentin;
+  }
+  return pores;
+}
+
+Mask voxels_of(const Segmentation& s, std::uint8_t tissue) {
+  Mask mask(s.tissue.size());
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = s.tissue[i] == tissue;
+  return mask;
+}
+
+/// Bright specks, smaller than a fiftieth of the crown, are dentin.
+void drop_specks_of_enamel(Segmentation& s, double enamel_gray, const std::string& where) {
+  const Bodies caps = bodies_of(s.size, voxels_of(s, k_enamel));
+  if (caps.voxels.size() < 2) throw Error(where, "no enamel found above gray " + std::to_string(enamel_gray), "check --enamel-threshold");
+  const auto crown = caps.voxels[caps.largest()];
+  for (std::size_t i = 0; i < s.tissue.size(); ++i)
+    if (caps.number[i] != 0 && caps.voxels[caps.number[i]] * 50 < crown) s.tissue[i] = k_dentin;
+}
+
+/// Gray of the surface at every voxel. It lies half way between the grays of the two sides, so it depends on who meets whom.
+std::vector<float> surface_gray(const Segmentation& s, const GrayLevels& levels) {
+  const auto enamel_share = smoothed_indicator(s, k_enamel), dentin_share = smoothed_indicator(s, k_dentin),
+             pulp_share = smoothed_indicator(s, k_pulp);
+  std::vector<float> level(s.tissue.size());
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    const double hard_share = enamel_share[i] + dentin_share[i];
+    const double e = hard_share > 0 ? enamel_share[i] / hard_share : 0.0, p = std::min(1.0, 3.0 * pulp_share[i]);
+    level[i] = static_cast<float>(p * levels.pulp_surface + (1 - p) * (e * levels.enamel_surface + (1 - e) * levels.hard));
+  }
+  smooth(s.size, level);
+  return level;
+}
+
+/// How far each voxel's gray is above that of the surface. Where the label was decided by more than the voxel's gray (specks, pores), the label wins.
+std::vector<float> solid_field(const Segmentation& s, const Volume& volume, const GrayLevels& levels, const HardBodies& hard) {
+  const std::vector<float> level = surface_gray(s, levels);
+  const double full = std::max(levels.enamel - levels.hard, 1e-9);
+  std::vector<float> solid(s.tissue.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    const double value = std::clamp((volume.gray[i] - level[i]) / full, -1.0, 1.0);
+    const bool is_hard = s.tissue[i] == k_enamel || s.tissue[i] == k_dentin;
+    if (is_hard)
+      solid[i] = static_cast<float>(hard.in_tooth[i] ? value : std::max(value, 0.3));
+    else
+      solid[i] = static_cast<float>(hard.is_speck(i) ? std::min(value, -0.3) : value);
+  }
+  return solid;
+}
+
+void count(Segmentation& s) {
+  for (const auto tissue : s.tissue) ++s.voxels[tissue];
+  s.pulp_bodies = bodies_of(s.size, voxels_of(s, k_pulp)).voxels.size() - 1;
 }
 
 }  // namespace
@@ -163,87 +275,21 @@ std::vector<float> smoothed_indicator(const Segmentation& s, std::uint8_t tissue
 }
 
 Segmentation segment(const Volume& volume, const GrayLevels& levels, const std::string& where) {
-  const std::size_t n = volume.gray.size();
   Segmentation s;
   s.size = volume.size;
-  Mask hard(n);
-  for (std::size_t i = 0; i < n; ++i) hard[i] = volume.gray[i] > levels.hard;
-  const Bodies found = bodies_of(volume.size, hard);
-  if (found.voxels.size() < 2 || found.voxels[found.largest()] < 100)
-    throw Error(where, "no tooth found: nothing larger than 100 voxels is brighter than " + std::to_string(levels.hard),
-                "check the volume or --dentin-threshold");
-  const auto tooth = found.largest();
-  for (std::size_t i = 0; i < n; ++i) hard[i] = found.number[i] == tooth;
-
-  const double mean_spacing = (volume.spacing_mm[0] + volume.spacing_mm[1] + volume.spacing_mm[2]) / 3;
-  const Mask outside = outside_of(volume.size, hard, std::clamp(k_cap_mm / mean_spacing, 2.0, 40.0));
-  Mask enclosed(n);
-  for (std::size_t i = 0; i < n; ++i) enclosed[i] = !hard[i] && !outside[i];
-  const Bodies hollow = bodies_of(volume.size, enclosed);
-  if (hollow.voxels.size() < 2) throw Error(where, "no pulp found: no hollow is enclosed by hard tissue", "check --dentin-threshold");
-  // A hollow counts as pulp when it is large and mostly enclosed; narrow clefts in the outer surface are outside.
-  std::vector<std::uint64_t> outer_faces(hollow.voxels.size(), 0), hard_faces(hollow.voxels.size(), 0);
-  for (std::size_t i = 0; i < n; ++i)
-    if (enclosed[i])
-      for_neighbours(volume.size, i, [&](std::size_t j) {
-        outer_faces[hollow.number[i]] += outside[j];
-        hard_faces[hollow.number[i]] += hard[j];
-      });
-  std::uint32_t pulp = 0;
-  for (std::uint32_t b = 1; b < hollow.voxels.size(); ++b)
-    if (outer_faces[b] * 5 < hard_faces[b] && (pulp == 0 || hollow.voxels[b] > hollow.voxels[pulp])) pulp = b;
-  if (pulp == 0) throw Error(where, "no pulp found: every hollow is open to the outside", "check --dentin-threshold");
-
-  // The tissue of every voxel. Hollows that are no pulp: pores in hard tissue are filled, clefts are outside.
-  s.tissue.assign(n, k_air);
-  std::uint64_t pores = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto b = hollow.number[i];
-    const bool is_pulp = b != 0 && (b == pulp || (outer_faces[b] == 0 && hollow.voxels[b] * 20 > hollow.voxels[pulp]));
-    const bool pore = b != 0 && !is_pulp && outer_faces[b] == 0;
-    pores += pore;
-    if (is_pulp)
-      s.tissue[i] = k_pulp;
-    else if (hard[i] || pore)
-      s.tissue[i] = volume.gray[i] > levels.enamel ? k_enamel : k_dentin;
-  }
-  Mask air(n), enamel(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    air[i] = s.tissue[i] == k_air;
-    enamel[i] = s.tissue[i] == k_enamel;
-  }
-  const Bodies caps = bodies_of(volume.size, enamel);
-  if (caps.voxels.size() < 2) throw Error(where, "no enamel found above gray " + std::to_string(levels.enamel), "check --enamel-threshold");
-  const auto crown = caps.voxels[caps.largest()];
-  for (std::size_t i = 0; i < n; ++i)
-    if (caps.number[i] != 0 && caps.voxels[caps.number[i]] * 50 < crown) s.tissue[i] = k_dentin;  // bright specks
+  const HardBodies hard = find_tooth(volume, levels.hard, where);
+  const double mean_spacing_mm = (volume.spacing_mm[0] + volume.spacing_mm[1] + volume.spacing_mm[2]) / 3;
+  const Mask outside = outside_of(s.size, hard.in_tooth, std::clamp(k_cap_mm / mean_spacing_mm, 2.0, 40.0));
+  const Hollows hollows = find_hollows(s.size, hard.in_tooth, outside, where);
+  const std::uint64_t pores = label_by_gray(s, volume, levels.enamel, hard.in_tooth, hollows);
+  drop_specks_of_enamel(s, levels.enamel, where);
+  const Mask air = voxels_of(s, k_air);
   give_rim_to_what_lies_beneath(s, air);
   s.rim_percent = measure_rim_percent(s, volume, air);
-
-  // The surface lies half way between the grays of the two sides, so the level depends on who meets whom.
-  const auto enamel_share = smoothed_indicator(s, k_enamel), dentin_share = smoothed_indicator(s, k_dentin),
-             pulp_share = smoothed_indicator(s, k_pulp);
-  std::vector<float> level(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double hard_share = enamel_share[i] + dentin_share[i];
-    const double e = hard_share > 0 ? enamel_share[i] / hard_share : 0.0, p = std::min(1.0, 3.0 * pulp_share[i]);
-    level[i] = static_cast<float>(p * levels.pulp_surface + (1 - p) * (e * levels.enamel_surface + (1 - e) * levels.hard));
-  }
-  smooth(volume.size, level);
-  const double full = std::max(levels.enamel - levels.hard, 1e-9);
-  s.solid.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double value = std::clamp((volume.gray[i] - level[i]) / full, -1.0, 1.0);
-    const bool is_hard = s.tissue[i] == k_enamel || s.tissue[i] == k_dentin;
-    // Where the label was decided by more than the voxel's gray (specks, pores), the label wins.
-    if (is_hard)
-      s.solid[i] = static_cast<float>(hard[i] ? value : std::max(value, 0.3));
-    else
-      s.solid[i] = static_cast<float>(found.number[i] != 0 && found.number[i] != tooth ? std::min(value, -0.3) : value);
-  }
+  s.solid = solid_field(s, volume, levels, hard);
   count(s);
   std::ostringstream note;
-  note << found.voxels.size() - 2 << " loose specks ignored, " << pores << " pore voxels filled, rim " << s.rim_percent << " %";
+  note << hard.specks() << " loose specks ignored, " << pores << " pore voxels filled, rim " << s.rim_percent << " %";
   s.note = note.str();
   return s;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/statistics/order.h"
 
 namespace cavum {
 namespace {
@@ -16,13 +17,6 @@ struct Peak {
   int bin;
   double height, mass;
 };
-
-/// Value below which `share` of the sorted values lie.
-double quantile(std::vector<float> v, double share) {
-  const auto at = v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
 
 std::vector<double> smoothed(std::vector<double> h) {
   for (int pass = 0; pass < 3; ++pass) {

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
+#include "engine/tooth/distance_transform.h"
 
 namespace cavum {
 namespace {
@@ -57,7 +58,7 @@ std::uint64_t add_periodontium(TissueGrid& grid, double thickness_mm) {
 
   std::vector<std::uint8_t> hard(grid.count());
   for (std::size_t i = 0; i < hard.size(); ++i) hard[i] = grid.tissue[i] == k_enamel || grid.tissue[i] == k_dentin;
-  const auto nearest = nearest_marked(grid.size, hard, radius);
+  const auto nearest = nearest_seed(grid.size, hard, radius);
   std::uint64_t added = 0;
   for (std::int32_t z = 0; z < grid.size.z && z < below; ++z)
     for (std::int32_t y = 0; y < grid.size.y; ++y)

@@ -17,6 +17,28 @@ TEST(Statistics, MeanAndScatterOfKnownNumbers) {
   EXPECT_EQ(mean_sd(std::vector<double>{3}).sd, 0.0);
 }
 
+TEST(Statistics, TooFewValuesHaveNoScatter) {
+  EXPECT_EQ(mean({}), 0.0);
+  EXPECT_EQ(variance(std::vector<double>{3}), 0.0);
+  EXPECT_EQ(mean_sd({}).sd, 0.0);
+}
+
+/// The American Statistician 27 (1973) 17: mean 9 and 7.50, variance 11, r = 0.816.
+TEST(Statistics, MomentsAreThoseOfAnscombe) {
+  const std::vector<double> x = {10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5}, y = {8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68};
+  EXPECT_EQ(mean(x), 9.0);
+  EXPECT_NEAR(mean(y), 7.50, 0.005);
+  EXPECT_DOUBLE_EQ(variance(x), 11.0);
+  EXPECT_NEAR(correlation(x, y), 0.816, 0.0005);
+  EXPECT_EQ(correlation(x, std::vector<double>(x.size(), 2.0)), 0.0) << "one that does not vary";
+}
+
+TEST(Statistics, TheNormalDistributionIsTheTables) {
+  EXPECT_DOUBLE_EQ(normal_cdf(0.0), 0.5);
+  EXPECT_NEAR(normal_cdf(1.959964), 0.975, 1e-6);
+  EXPECT_NEAR(normal_cdf(-2.575829), 0.005, 1e-6);
+}
+
 TEST(Statistics, FitFindsTheCoefficientsThatMadeTheData) {
   std::vector<std::vector<double>> columns(3);
   std::vector<double> y;

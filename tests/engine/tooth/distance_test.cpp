@@ -48,34 +48,6 @@ TEST(CheckLattice, RefusesWhatTheOctreeCannotHold) {
   EXPECT_THROW(check_lattice({1000, 1000, 100}, 0.05, "test"), Error) << "100 million leaves";
 }
 
-TEST(NearestMarked, AgreesWithBruteForce) {
-  Random random(testing_tooth::drawn_seed("NearestMarked.AgreesWithBruteForce"));
-  for (int round = 0; round < 20; ++round) {
-    const IVec3 size{static_cast<std::int32_t>(3 + random.below(30)), static_cast<std::int32_t>(3 + random.below(12)),
-                     static_cast<std::int32_t>(3 + random.below(12))};
-    std::vector<std::uint8_t> marked(static_cast<std::size_t>(size.x * size.y * size.z));
-    const auto rarity = 1 + random.below(200);
-    for (auto& m : marked) m = random.below(rarity) == 0;
-    const double radius = round % 2 ? 1e3 : random.uniform(1, 8);
-    const auto nearest = nearest_marked(size, marked, radius);
-    const auto place = [&](std::size_t i) {
-      const auto n = static_cast<std::int32_t>(i);
-      return IVec3{n % size.x, n / size.x % size.y, n / (size.x * size.y)};
-    };
-    const auto squared = [&](std::size_t a, std::size_t b) {
-      const IVec3 d = place(a) - place(b);
-      return d.x * d.x + d.y * d.y + d.z * d.z;
-    };
-    for (std::size_t i = 0; i < marked.size(); ++i) {
-      int best = -1;
-      for (std::size_t j = 0; j < marked.size(); ++j)
-        if (marked[j] && (best < 0 || squared(i, j) < best)) best = squared(i, j);
-      if (best > radius * radius) best = -1;
-      ASSERT_EQ(nearest[i] < 0 ? -1 : squared(i, static_cast<std::size_t>(nearest[i])), best);
-    }
-  }
-}
-
 // Thin plates of 10 mm on top of one another: a mesh of 10 MB that took minutes.
 TEST(Distance, ManyLargeTrianglesCloseTogetherAreRefused) {
   TissueGrid grid;

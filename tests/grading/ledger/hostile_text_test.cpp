@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "grading/ledger/csv.h"
+#include "engine/base/csv.h"
 #include "grading/ledger/exports.h"
 #include "tests/grading/ledger/school.h"
 

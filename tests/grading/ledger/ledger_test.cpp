@@ -6,8 +6,8 @@
 #include <iostream>
 #include <random>
 
+#include "engine/base/csv.h"
 #include "grading/ledger/candidate_id.h"
-#include "grading/ledger/csv.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/ledger_schema.h"
 #include "tests/grading/ledger/old_ledger.h"
@@ -488,19 +488,6 @@ TEST(Identities, ThatAreLostAreNotBegunAnew) {
   std::filesystem::remove(school.places().identities());
   EXPECT_THROW(Identities(school.places().identities()), Error);
   EXPECT_FALSE(std::filesystem::exists(school.places().identities()));
-}
-
-TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
-  const auto rows = parse_csv("\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
-  ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0].fields, (std::vector<std::string>{"id", "name"}));
-  EXPECT_EQ(rows[1].fields, (std::vector<std::string>{"1", "Lee; \"Ann\""}));
-  EXPECT_EQ(rows[2].fields, (std::vector<std::string>{"2", "Müller"}));
-  EXPECT_EQ(rows[2].line, 5);
-  EXPECT_EQ(parse_csv("id,name\n1,\"Meier, Hans\"\n", "c.csv")[1].fields[1], "Meier, Hans");
-  EXPECT_EQ(parse_csv("id,name\n1,O\"Neil\n", "c.csv")[1].fields[1], "O\"Neil");
-  for (const char* bad : {"id,name\n1\n", "id,name\n1,\"open\n", "id,name\n1,M\xfcller\n"})
-    EXPECT_THROW(static_cast<void>(parse_csv(bad, "c.csv")), Error) << bad;
 }
 
 TEST(ParseUtc, AgreesWithTheCalendar) {

@@ -6,8 +6,6 @@
 #include <ctime>
 #include <numbers>
 
-#include "engine/base/random.h"
-#include "scenarios/zones/distance_transform.h"
 #include "scenarios/zones/relief.h"
 #include "tests/scenarios/test_teeth.h"
 
@@ -29,35 +27,6 @@ ZoneMap zones_of(const Tooth& tooth, const std::string& target) { return build_z
 std::string cylinder(double radius, double depth) {
   return "[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0.011, -0.017, " + std::to_string(-depth) + "]\nradius_mm = " + std::to_string(radius) +
          "\nheight_mm = 5\n";
-}
-
-TEST(DistanceTransform, FindsTheNearestSeedLikeBruteForce) {
-  Random random(42);
-  for (int round = 0; round < 20; ++round) {
-    const IVec3 size{static_cast<int>(1 + random.below(9)), static_cast<int>(1 + random.below(9)), static_cast<int>(1 + random.below(9))};
-    std::vector<std::uint8_t> seed(static_cast<std::size_t>(size.x * size.y * size.z), 0);
-    for (auto& s : seed) s = random.below(12) == 0 ? 1 : 0;
-    const auto nearest = nearest_seed(size, seed);
-    const auto place = [&](std::int32_t i) { return IVec3{i % size.x, i / size.x % size.y, i / (size.x * size.y)}; };
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(seed.size()); ++i) {
-      long best = -1;
-      for (std::int32_t j = 0; j < static_cast<std::int32_t>(seed.size()); ++j) {
-        if (seed[static_cast<std::size_t>(j)] == 0) continue;
-        const IVec3 d = place(i) - place(j);
-        const long d2 = d.x * d.x + d.y * d.y + d.z * d.z;
-        if (best < 0 || d2 < best) best = d2;
-      }
-      const auto found = nearest[static_cast<std::size_t>(i)];
-      if (best < 0) {
-        EXPECT_EQ(found, -1);
-        continue;
-      }
-      ASSERT_GE(found, 0);
-      ASSERT_NE(seed[static_cast<std::size_t>(found)], 0);
-      const IVec3 d = place(i) - place(found);
-      EXPECT_EQ(d.x * d.x + d.y * d.y + d.z * d.z, best) << "round " << round << " cell " << i;
-    }
-  }
 }
 
 TEST(ZoneMap, VolumesOfKnownShapesAreWithinHalfAPercent) {

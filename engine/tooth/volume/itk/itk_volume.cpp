@@ -26,6 +26,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/statistics/order.h"
 #include "engine/tooth/volume/dicom_bytes.h"
 #include "engine/tooth/volume/volume_files.h"
 #include "engine/tooth/volume/volume_limits.h"
@@ -129,9 +130,7 @@ double slice_spacing_mm(const std::vector<std::string>& files, const std::string
   std::sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) { return a.at_mm < b.at_mm; });
   std::vector<double> gaps;
   for (std::size_t i = 1; i < slices.size(); ++i) gaps.push_back(slices[i].at_mm - slices[i - 1].at_mm);
-  auto sorted = gaps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double usual = median(gaps);
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (!(std::fabs(gaps[i] - usual) <= 0.02 * usual + 1e-4)) {
       std::ostringstream what;

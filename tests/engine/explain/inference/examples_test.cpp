@@ -19,7 +19,7 @@ const std::string k_data = std::string(CAVUM_SOURCE_DIR) + "/data/";
 
 TableExplanation fig6() {
   const std::string path = k_data + "measured/fig6/fig6.csv", text = read_text_file(path);
-  EXPECT_TRUE(is_stiffness_table(text));
+  EXPECT_TRUE(is_stiffness_table(text, path));
   return explain_table(parse_stiffness_table(text, path));
 }
 
@@ -102,7 +102,7 @@ TEST(StiffnessTable, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(error("k_n_per_mm,f_n\n0,1\n").find("t.csv:1"), std::string::npos);
   EXPECT_NE(error("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n-1,1,0.25\n").find("t.csv:3"), std::string::npos);
   EXPECT_NE(error("k_n_per_mm,f_n,v_mm_s\n0,x,0.25\n").find("f_n"), std::string::npos);
-  EXPECT_FALSE(is_stiffness_table("session,t_s,x_mm,f_n,k_n_per_mm\n"));
+  EXPECT_FALSE(is_stiffness_table("session,t_s,x_mm,f_n,k_n_per_mm\n", "r.csv"));
   EXPECT_EQ(explain_table(parse_stiffness_table("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n1,2,0.25\n", "t.csv")).said.verdict, "data_fault");
 }
 

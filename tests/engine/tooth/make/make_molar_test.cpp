@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "engine/tooth/distance.h"
+#include "engine/tooth/distance_transform.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
@@ -68,7 +68,7 @@ TEST(MakeMolar, OcclusalEnamelIsOneToTwoAndAHalfMillimetresThick) {
   const TissueGrid grid = molar().octree.to_grid();
   std::vector<std::uint8_t> dentin(grid.count());
   for (std::size_t i = 0; i < dentin.size(); ++i) dentin[i] = grid.tissue[i] == k_dentin;
-  const auto nearest = nearest_marked(grid.size, dentin, 60);
+  const auto nearest = nearest_seed(grid.size, dentin, 60);
   std::vector<double> thick;
   for (std::int32_t y = 0; y < grid.size.y; ++y)
     for (std::int32_t x = 0; x < grid.size.x; ++x)

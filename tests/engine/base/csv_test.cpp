@@ -1,0 +1,102 @@
+#include "engine/base/csv.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+using Fields = std::vector<std::string>;
+using testing_basics::error_of;
+
+constexpr CsvForm k_any_text{.plain_text = false};
+
+std::string error_in(const std::string& text, const CsvForm& form = {}) {
+  return error_of([&] { static_cast<void>(parse_csv(text, "c.csv", form)); });
+}
+
+TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
+  const auto rows = parse_csv("\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].fields, (Fields{"id", "name"}));
+  EXPECT_EQ(rows[1].fields, (Fields{"1", "Lee; \"Ann\""}));
+  EXPECT_EQ(rows[2].fields, (Fields{"2", "Müller"}));
+  EXPECT_EQ(rows[2].line, 5);
+  EXPECT_EQ(parse_csv("id,name\n1,\"Meier, Hans\"\n", "c.csv")[1].fields[1], "Meier, Hans");
+  EXPECT_EQ(parse_csv("id,name\n1,O\"Neil\n", "c.csv")[1].fields[1], "O\"Neil");
+  for (const char* bad : {"id,name\n1\n", "id,name\n1,\"open\n", "id,name\n1,M\xfcller\n"})
+    EXPECT_THROW(static_cast<void>(parse_csv(bad, "c.csv")), Error) << bad;
+}
+
+TEST(Csv, TheHeadingSaysWhatPartsTheFieldsNotTheCommentAboveIt) {
+  for (const char* part : {",", ";", "\t"}) {
+    const std::string p = part;
+    const auto rows = parse_csv("# a, comment; of, its, own\n\na" + p + "\"b,,;\t\"" + p + "c\n1" + p + p + "3\n", "c.csv", k_any_text);
+    ASSERT_EQ(rows.size(), 2u) << part;
+    EXPECT_EQ(rows[0].fields, (Fields{"a", "b,,;\t", "c"})) << part;
+    EXPECT_EQ(rows[1].fields, (Fields{"1", "", "3"})) << part;
+  }
+}
+
+TEST(Csv, EmptyFieldsAtTheEndsOfARowAreFields) {
+  EXPECT_EQ(parse_csv("a\tb\tc\n\t2\t\n", "c.csv")[1].fields, (Fields{"", "2", ""}));
+  EXPECT_EQ(parse_csv("a,b\n,\n\"\",\" \"", "c.csv")[2].fields, (Fields{"", " "}));
+}
+
+TEST(Csv, LinesAreCountedThroughQuotesAndAllLineEnds) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const auto rows = parse_csv("a,b" + end + "1,\"two\nlines\"" + end + end + "3,4" + end, "c.csv", k_any_text);
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[1].fields[1], "two\nlines");
+    EXPECT_EQ(rows[1].line, 2);
+    EXPECT_EQ(rows[2].line, 5);
+  }
+  EXPECT_EQ(error_in("a,b\n1,\"two\nlines\n3,4\n"), "c.csv:2: begins a quote that does not end; close it with \"");
+}
+
+TEST(Csv, CommentsAreGivenWhereTheyStand) {
+  CsvReader in("## first \na,b\n\"# with, comma\",\n1,2\n#\n", "c.csv");
+  ASSERT_EQ(in.next(), CsvReader::Line::comment);
+  EXPECT_EQ(in.comment(), "first");
+  ASSERT_EQ(in.next(), CsvReader::Line::row);
+  ASSERT_EQ(in.next(), CsvReader::Line::comment);
+  EXPECT_EQ(in.comment(), "with, comma");
+  EXPECT_EQ(in.at(), "c.csv:3");
+  ASSERT_EQ(in.next(), CsvReader::Line::row);
+  EXPECT_EQ(in.fields()[1], "2");
+  ASSERT_EQ(in.next(), CsvReader::Line::comment);
+  EXPECT_EQ(in.comment(), "");
+  EXPECT_EQ(in.next(), CsvReader::Line::end);
+  EXPECT_EQ(in.next(), CsvReader::Line::end);
+}
+
+TEST(Csv, ARowOfAnotherLengthIsRefusedInTheTablesOwnWords) {
+  EXPECT_EQ(error_in("a,b\n\n1,2\n1,2,3\n"), "c.csv:4: has 3 fields for 2 columns; complete the row");
+  EXPECT_EQ(error_in("a,b\n1\n", {.field_word = "cells"}), "c.csv:2: has 1 cells for 2 columns; complete the row");
+}
+
+TEST(Csv, WhereAQuoteIsACharacterItStaysOne) {
+  const auto rows = parse_csv("a,b\n\"1,2\"\n", "c.csv", {.quotes = false});
+  EXPECT_EQ(rows[1].fields, (Fields{"\"1", "2\""}));
+}
+
+TEST(CsvLimits, RowsAndFieldsBeyondAreRefusedWithTheLimitNamed) {
+  std::string rows = "id,name\n", fields = "id";
+  for (int i = 0; i < 20'000; ++i) rows += "1,a\n";
+  EXPECT_EQ(parse_csv(rows, "c.csv").size(), 20'001U);
+  EXPECT_EQ(error_in(rows + "1,a\n"), "c.csv:20002: is beyond the limit of 20000 rows; split the table");
+  for (int i = 1; i < 100; ++i) fields += ",x";
+  EXPECT_EQ(parse_csv(fields, "c.csv")[0].fields.size(), 100U);
+  EXPECT_EQ(error_in(fields + ",x"), "c.csv:1: has more than 100 fields; leave out what is not asked for");
+}
+
+TEST(CsvNumber, IsAllOfTheFieldAndFinite) {
+  EXPECT_EQ(number_in_field("-0.5e1"), -5.0);
+  EXPECT_EQ(number_in_field("+2"), 2.0);
+  for (const char* other : {"", "1,5", "1 ", "0x10", "nan", "inf", "1e999", "+-1", "one"}) EXPECT_EQ(number_in_field(other), std::nullopt) << other;
+}
+
+}  // namespace
+}  // namespace cavum
