@@ -35,46 +35,58 @@ double points_in(const json& result, double max_points) { return result.at("scor
 /// 0 fail, 1 borderline, 2 pass.
 std::size_t band_of(double points, double pass_points, double band) { return points < pass_points - band ? 0 : points > pass_points + band ? 2 : 1; }
 
-void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<HumanMark>& marks, double band,
-           double borderline) {
-  std::map<std::string, std::map<std::string, double>> by_candidate;
+/// The marks that people gave to those who sat the exam.
+struct GivenMarks {
+  std::map<std::string, std::map<std::string, double>> by_candidate;  // points, by judge
   std::set<std::string> judges, rated_candidates;
-  std::vector<double> ratings, rated;
+  std::vector<double> ratings, rated;  // each rating, and the program's points of the same candidate
+};
+
+GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<HumanMark>& marks) {
+  GivenMarks given;
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
     if (s == sat.end()) {
       f.to_look_at.push_back({0, m.candidate, "was marked by " + m.judge + ", and has no session of this exam"});
       continue;
     }
-    by_candidate[m.candidate][m.judge] = m.points;
-    judges.insert(m.judge);
+    given.by_candidate[m.candidate][m.judge] = m.points;
+    given.judges.insert(m.judge);
     if (m.rating) {
-      ratings.push_back(*m.rating);
-      rated_candidates.insert(m.candidate);
-      rated.push_back(points_in(s->second->result, f.max_points));
+      given.ratings.push_back(*m.rating);
+      given.rated_candidates.insert(m.candidate);
+      given.rated.push_back(points_in(s->second->result, f.max_points));
     }
   }
-  Agreement& a = f.agreement;
-  a.rated = rated_candidates.size();
-  a.n = by_candidate.size();
-  a.judges = judges.size();
-  Matrix table, bands(3, std::vector<double>(3));
-  std::vector<double> program, people;
-  for (const auto& [candidate, given] : by_candidate) {
+  return given;
+}
+
+/// Program and people beside each other, candidate by candidate.
+struct MarkPairs {
+  std::vector<double> program, people;               // the people's mean
+  Matrix bands = Matrix(3, std::vector<double>(3));  // how often which band of the program met which of the people
+  Matrix by_judge;                                   // the program and each judge, of those whom all judges marked
+  [[nodiscard]] std::size_t incomplete() const { return program.size() - by_judge.size(); }
+};
+
+MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const FiledSession*>& sat, const ClassFigures& f, double band) {
+  MarkPairs pairs;
+  for (const auto& [candidate, by_judge] : given.by_candidate) {
     const double own = points_in(sat.at(candidate)->result, f.max_points);
     double sum = 0;
-    for (const auto& [judge, points] : given) sum += points;
-    program.push_back(own);
-    people.push_back(sum / static_cast<double>(given.size()));
-    bands[band_of(own, f.pass_points, band)][band_of(people.back(), f.pass_points, band)] += 1;
-    if (given.size() < judges.size()) {
-      ++a.incomplete;
-      continue;
-    }
+    for (const auto& [judge, points] : by_judge) sum += points;
+    pairs.program.push_back(own);
+    pairs.people.push_back(sum / static_cast<double>(by_judge.size()));
+    pairs.bands[band_of(own, f.pass_points, band)][band_of(pairs.people.back(), f.pass_points, band)] += 1;
+    if (by_judge.size() < given.judges.size()) continue;
     std::vector<double> row = {own};
-    for (const auto& [judge, points] : given) row.push_back(points);
-    table.push_back(std::move(row));
+    for (const auto& [judge, points] : by_judge) row.push_back(points);
+    pairs.by_judge.push_back(std::move(row));
   }
+  return pairs;
+}
+
+void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs, double borderline) {
   const auto when_possible = [](auto& out, const auto& make) {
     try {
       out = make();
@@ -82,20 +94,29 @@ void agree(ClassFigures& f, const std::map<std::string, const FiledSession*>& sa
       out.reset();  // too few, or all alike
     }
   };
-  when_possible(a.icc, [&] { return intraclass_correlation(table); });
-  when_possible(a.limits, [&] { return limits_of_agreement(program, people); });
-  when_possible(a.kappa, [&] { return weighted_kappa(bands, quadratic_weights(3)); });
-  const auto [least, most] = std::minmax_element(ratings.begin(), ratings.end());
-  if (!ratings.empty() && borderline >= *least && borderline <= *most)  // beyond the ratings given the line says nothing
-    when_possible(a.cut, [&] { return borderline_cut(ratings, rated, borderline); });
-  if (!a.limits || a.limits->sd <= 0) return;
+  a.rated = given.rated_candidates.size();
+  a.n = given.by_candidate.size();
+  a.judges = given.judges.size();
+  a.incomplete = pairs.incomplete();
+  when_possible(a.icc, [&] { return intraclass_correlation(pairs.by_judge); });
+  when_possible(a.limits, [&] { return limits_of_agreement(pairs.program, pairs.people); });
+  when_possible(a.kappa, [&] { return weighted_kappa(pairs.bands, quadratic_weights(3)); });
+  const auto [least, most] = std::minmax_element(given.ratings.begin(), given.ratings.end());
+  if (!given.ratings.empty() && borderline >= *least && borderline <= *most)  // beyond the ratings given the line says nothing
+    when_possible(a.cut, [&] { return borderline_cut(given.ratings, given.rated, borderline); });
+}
+
+/// Candidates whom program and people see further apart than the others.
+void look_at_disagreements(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const GivenMarks& given, const MarkPairs& pairs) {
+  const auto& limits = f.agreement.limits;
+  if (!limits || limits->sd <= 0) return;
   std::size_t i = 0;
-  for (const auto& [candidate, given] : by_candidate) {
-    const double off = program[i] - people[i];
+  for (const auto& [candidate, by_judge] : given.by_candidate) {
+    const double program = pairs.program[i], off = program - pairs.people[i];
     ++i;
-    if (std::fabs(off - a.limits->bias) > k_far * a.limits->sd)
+    if (std::fabs(off - limits->bias) > k_far * limits->sd)
       f.to_look_at.push_back(
-          {sat.at(candidate)->seq, candidate, "people gave " + fixed(program[i - 1] - off, 1) + " points, the program " + fixed(program[i - 1], 1)});
+          {sat.at(candidate)->seq, candidate, "people gave " + fixed(program - off, 1) + " points, the program " + fixed(program, 1)});
   }
 }
 
@@ -148,6 +169,101 @@ void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<
 
 void note_few(ClassFigures& f, bool there, const char* figure, std::size_t n, std::size_t enough) {
   if (there && n < enough) f.few.push_back({figure, n, enough});
+}
+
+/// Ids of a result's criteria: equal where the same rubric marked.
+std::vector<std::string> criteria_ids(const json& result) {
+  std::vector<std::string> out;
+  for (const auto& c : result.at("criteria")) out.push_back(c.at("id"));
+  return out;
+}
+
+/// A result marked by the exam's own scale; the first one where there is none.
+const json& result_on(const ExamScale& scale, const std::map<std::string, const FiledSession*>& sat) {
+  const auto by_own = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return scale_in(s.second->result) == scale; });
+  return (by_own == sat.end() ? sat.begin() : by_own)->second->result;
+}
+
+/// The points of a class.
+struct ClassPoints {
+  std::vector<double> in_order;                           // by candidate
+  Matrix by_criterion;                                    // a row for each who was marked by the same criteria
+  std::map<std::string, std::vector<double>> by_station;  // by its key
+};
+
+/// Counts the verdicts, too. `any`: whose criteria are compared.
+ClassPoints points_of(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const json& any) {
+  ClassPoints all;
+  for (const auto& [candidate, s] : sat) {
+    const double points = points_in(s->result, f.max_points);
+    all.in_order.push_back(points);
+    const std::string verdict = s->result.value("verdict", "");
+    (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
+    all.by_station[s->station_key].push_back(points);
+    if (!s->simulated.empty()) ++f.simulated;
+    if (criteria_ids(s->result) != criteria_ids(any)) continue;  // regraded by another rubric
+    std::vector<double> row;
+    for (const auto& c : s->result.at("criteria")) row.push_back(c.at("points").get<double>());
+    all.by_criterion.push_back(std::move(row));
+  }
+  return all;
+}
+
+/// Mean and spread, and who lies far from them.
+void put_points(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<double>& in_order) {
+  f.n = in_order.size();
+  f.mean = cohort::mean(in_order);
+  if (f.n >= 2) f.sd = std::sqrt(variance(in_order));
+  std::size_t i = 0;
+  for (const auto& [candidate, s] : sat) {
+    if (f.sd > 0 && std::fabs(in_order[i] - f.mean) > k_far * f.sd)
+      f.to_look_at.push_back({s->seq, candidate, fixed(in_order[i], 1) + " points lie far from the class"});
+    ++i;
+  }
+  f.points = in_order;
+  std::sort(f.points.begin(), f.points.end());
+}
+
+/// With two candidates and two criteria something can be said of how they go together.
+bool enough_to_compare(const Matrix& by_criterion) { return by_criterion.size() >= 2 && by_criterion[0].size() >= 2; }
+
+/// How hard each criterion was and how well it tells candidates apart; how reliable all are together.
+void put_criteria(ClassFigures& f, const json& any, const Matrix& table) {
+  const bool enough = enough_to_compare(table);
+  const auto telling = enough ? discrimination(table) : std::vector<double>();
+  for (std::size_t c = 0; c < any.at("criteria").size(); ++c) {
+    const json& criterion = any["criteria"][c];
+    double sum = 0;
+    for (const auto& row : table) sum += row[c];
+    CriterionFigures one{
+        criterion.value("id", ""), criterion.value("metric", ""), sum / static_cast<double>(table.size()) / criterion.at("max").get<double>(), {}};
+    if (enough) one.discrimination = telling[c];
+    f.criteria.push_back(std::move(one));
+  }
+  if (enough && f.sd > 0) {
+    f.alpha = cronbach_alpha(table);
+    f.sem = standard_error(f.sd, *f.alpha);
+  }
+}
+
+void put_stations(ClassFigures& f, const std::map<std::string, std::vector<double>>& by_station) {
+  std::vector<std::vector<double>> groups;
+  for (const auto& [key, points] : by_station) {
+    f.stations.push_back({key, points.size(), cohort::mean(points)});
+    groups.push_back(points);
+  }
+  if (groups.size() >= 2 && f.n > groups.size()) f.station_effect = group_effect(groups, k_shuffles, 1);
+}
+
+/// Names the figures that rest on too few.
+void put_few(ClassFigures& f, const Matrix& by_criterion) {
+  note_few(f, f.alpha.has_value(), "alpha", by_criterion.size(), k_enough_for_alpha);
+  note_few(f, f.sem.has_value(), "standard_error", by_criterion.size(), k_enough_for_alpha);
+  note_few(f, enough_to_compare(by_criterion), "discrimination", by_criterion.size(), k_enough_for_alpha);
+  note_few(f, f.agreement.icc.has_value(), "icc", f.agreement.n - f.agreement.incomplete, k_enough_for_icc);
+  note_few(f, f.agreement.limits.has_value(), "limits", f.agreement.n, k_enough_for_limits);
+  note_few(f, f.agreement.kappa.has_value(), "weighted_kappa", f.agreement.n, k_enough_for_kappa);
+  note_few(f, f.agreement.cut.has_value(), "borderline_cut", f.agreement.rated, k_enough_for_cut);
 }
 
 }  // namespace
@@ -203,75 +319,21 @@ ClassFigures class_figures(const Registry& registry, const std::string& exam, co
   ClassFigures f;
   f.exam = exam;
   const auto sat = counting_sessions(registry, exam);
-  const auto ids = [](const json& result) {
-    std::vector<std::string> out;
-    for (const auto& c : result.at("criteria")) out.push_back(c.at("id"));
-    return out;
-  };
   const ExamScale scale = scale_of(registry, exam, sat);
   f.max_points = scale.max;
   f.pass_points = scale.max * scale.pass_percent / 100;
-  const double band = scale.max * scale.borderline_percent / 100;
-  const auto by_own = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return scale_in(s.second->result) == scale; });
-  const json& any = (by_own == sat.end() ? sat.begin() : by_own)->second->result;
-  Matrix table;
-  std::map<std::string, std::vector<double>> by_station;
-  std::vector<double> in_order;
-  for (const auto& [candidate, s] : sat) {
-    const double points = points_in(s->result, f.max_points);
-    in_order.push_back(points);
-    const std::string verdict = s->result.value("verdict", "");
-    (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
-    by_station[s->station_key].push_back(points);
-    if (!s->simulated.empty()) ++f.simulated;
-    if (ids(s->result) != ids(any)) continue;  // regraded by another rubric
-    std::vector<double> row;
-    for (const auto& c : s->result.at("criteria")) row.push_back(c.at("points").get<double>());
-    table.push_back(std::move(row));
-  }
-  f.n = in_order.size();
-  f.mean = cohort::mean(in_order);
-  if (f.n >= 2) f.sd = std::sqrt(variance(in_order));
-  std::size_t i = 0;
-  for (const auto& [candidate, s] : sat) {
-    if (f.sd > 0 && std::fabs(in_order[i] - f.mean) > k_far * f.sd)
-      f.to_look_at.push_back({s->seq, candidate, fixed(in_order[i], 1) + " points lie far from the class"});
-    ++i;
-  }
-  f.points = in_order;
-  std::sort(f.points.begin(), f.points.end());
-
-  const bool enough = table.size() >= 2 && table[0].size() >= 2;
-  const auto telling = enough ? discrimination(table) : std::vector<double>();
-  for (std::size_t c = 0; c < any.at("criteria").size(); ++c) {
-    const json& criterion = any["criteria"][c];
-    double sum = 0;
-    for (const auto& row : table) sum += row[c];
-    CriterionFigures one{
-        criterion.value("id", ""), criterion.value("metric", ""), sum / static_cast<double>(table.size()) / criterion.at("max").get<double>(), {}};
-    if (enough) one.discrimination = telling[c];
-    f.criteria.push_back(std::move(one));
-  }
-  if (enough && f.sd > 0) {
-    f.alpha = cronbach_alpha(table);
-    f.sem = standard_error(f.sd, *f.alpha);
-  }
-  std::vector<std::vector<double>> groups;
-  for (const auto& [key, points] : by_station) {
-    f.stations.push_back({key, points.size(), cohort::mean(points)});
-    groups.push_back(points);
-  }
-  if (groups.size() >= 2 && f.n > groups.size()) f.station_effect = group_effect(groups, k_shuffles, 1);
+  const json& any = result_on(scale, sat);
+  const ClassPoints points = points_of(f, sat, any);
+  put_points(f, sat, points.in_order);
+  put_criteria(f, any, points.by_criterion);
+  put_stations(f, points.by_station);
   f.walls = walls_of(sat);
   look_at_sessions(f, registry, sat);
-  agree(f, sat, marks, band, borderline);
-  note_few(f, f.alpha.has_value(), "alpha", table.size(), k_enough_for_alpha);
-  note_few(f, f.sem.has_value(), "standard_error", table.size(), k_enough_for_alpha);
-  note_few(f, enough, "discrimination", table.size(), k_enough_for_alpha);
-  note_few(f, f.agreement.icc.has_value(), "icc", f.agreement.n - f.agreement.incomplete, k_enough_for_icc);
-  note_few(f, f.agreement.limits.has_value(), "limits", f.agreement.n, k_enough_for_limits);
-  note_few(f, f.agreement.kappa.has_value(), "weighted_kappa", f.agreement.n, k_enough_for_kappa);
-  note_few(f, f.agreement.cut.has_value(), "borderline_cut", f.agreement.rated, k_enough_for_cut);
+  const GivenMarks given = marks_given(f, sat, marks);
+  const MarkPairs pairs = pair_marks(given, sat, f, scale.max * scale.borderline_percent / 100);
+  put_agreement(f.agreement, given, pairs, borderline);
+  look_at_disagreements(f, sat, given, pairs);
+  put_few(f, points.by_criterion);
   std::sort(f.to_look_at.begin(), f.to_look_at.end(),
             [](const ToLookAt& a, const ToLookAt& b) { return a.session != b.session ? a.session < b.session : a.why < b.why; });
   return f;

@@ -46,20 +46,9 @@ void check_times(const LedgerContent& content, std::vector<std::string>& remarks
                         "; the clock was ahead then, or is behind now");
 }
 
-}  // namespace
-
-LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
-  ExamGrounds grounds;
-  const LedgerContent content = read_ledger(places);
-  LedgerCheck out{content.findings, {}, content.remarks};
-  auto& findings = out.findings;
-  check_times(content, out.remarks);
-  const Registry registry = read_registry(content);
-  findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
-  for (const auto& r : restores_of(content)) out.remarks.push_back(in_words(r));
-  const bool has_id = !content.id.empty();
-  out.remarks.insert(out.remarks.end(), registry.remarks.begin(), registry.remarks.end());
-  if (!has_id)
+/// What can never be shown of this ledger here, and why.
+void say_not_checked(const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
+  if (content.id.empty())
     out.not_checked.emplace_back(
         "whether an older copy was put back, and which of the filed sessions belong to it: the ledger's id could not be read, so nothing could be "
         "compared");
@@ -68,35 +57,51 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   if (!replay && !registry.sessions.empty())
     out.not_checked.emplace_back(
         "whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each");
+}
+
+std::string name_of(const FiledSession& s) { return "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")"; }
+
+enum class Recording { there, erased };
+
+/// One filed recording: there and unchanged, or erased as an entry says. `gone`: hashes of the recordings that nothing needs any more.
+Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, bool replay, ExamGrounds& grounds,
+                          LedgerCheck& out) {
+  const std::string name = name_of(s), path = places.session(s.file_sha256);
+  if (s.motion_erased_by) {
+    if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
+      out.findings.push_back(name + ": its recording is erased by entry " + std::to_string(*s.motion_erased_by) + ", and is still there: " + path +
+                             "; `cavum ledger erase` without more removes it");
+    return Recording::erased;
+  }
+  if (!std::filesystem::exists(path)) {
+    if (erased_by(read_ledger(places).erased, s.seq, k_motion)) return Recording::erased;  // meanwhile
+    out.findings.push_back(name + ": its file is gone: " + path);
+  } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {
+    out.findings.push_back(name + ": its file was changed: " + path);
+  } else if (replay && s.findings.empty()) {
+    check_again(s, image, path, name, grounds, out);
+  }
+  return Recording::there;
+}
+
+/// All of them, and how many could not be shown again.
+void check_recordings(const LedgerPlaces& places, const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
+  ExamGrounds grounds;
   std::size_t filed_with_findings = 0, erased = 0;
   const auto gone = erased_recordings(content);
   for (const auto& s : registry.sessions) {
-    const std::string name = "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")", path = places.session(s.file_sha256);
     try {
-      if (s.motion_erased_by) {
-        erased += 1;
-        if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
-          findings.push_back(name + ": its recording is erased by entry " + std::to_string(*s.motion_erased_by) + ", and is still there: " + path +
-                             "; `cavum ledger erase` without more removes it");
-      } else if (!std::filesystem::exists(path) && erased_by(read_ledger(places).erased, s.seq, k_motion)) {
-        erased += 1;  // meanwhile
-      } else if (!std::filesystem::exists(path)) {
-        findings.push_back(name + ": its file is gone: " + path);
-      } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {
-        findings.push_back(name + ": its file was changed: " + path);
-      } else if (replay && s.findings.empty()) {
-        check_again(s, image, path, name, grounds, out);
-      }
+      erased += check_recording(s, places, gone, replay, grounds, out) == Recording::erased ? 1 : 0;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      findings.push_back(name + ": its file cannot be read: " + e.what());
+      out.findings.push_back(name_of(s) + ": its file cannot be read: " + e.what());
     }
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
         out.remarks.push_back(
-            name + ": is contested by entry " + std::to_string(other) + ", another ending of the same exam: " +
+            name_of(s) + ": is contested by entry " + std::to_string(other) + ", another ending of the same exam: " +
             (s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
   }
   if (replay && filed_with_findings > 0)
@@ -104,11 +109,30 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   if (erased > 0)
     out.not_checked.push_back(std::to_string(erased) + (erased == 1 ? " recording was" : " recordings were") +
                               " erased, as entries say: whether motion gives their marks can no longer be shown");
-  std::error_code none;
+}
+
+/// Files that no entry knows.
+void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerCheck& out) {
   std::set<std::string> filed;
   for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
+  std::error_code none;
   for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
-    if (has_id && !filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
+    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
+}
+
+}  // namespace
+
+LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
+  const LedgerContent content = read_ledger(places);
+  LedgerCheck out{content.findings, {}, content.remarks};
+  check_times(content, out.remarks);
+  const Registry registry = read_registry(content);
+  out.findings.insert(out.findings.end(), registry.findings.begin(), registry.findings.end());
+  for (const auto& r : restores_of(content)) out.remarks.push_back(in_words(r));
+  out.remarks.insert(out.remarks.end(), registry.remarks.begin(), registry.remarks.end());
+  say_not_checked(content, registry, replay, out);
+  check_recordings(places, content, registry, replay, out);
+  if (!content.id.empty()) say_strangers(places, registry, out);
   return out;
 }
 

@@ -16,14 +16,21 @@
 
 namespace cavum {
 
-SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed) {
-  SessionExplanation e;
-  e.file = path;
-  const SessionReader session(path);
-  ExamGrounds grounds;
-  const SchoolMark mark = session.closed() ? mark_again(session, grounds) : SchoolMark{verify_session(path), {}, {}, {}, {}};
+namespace {
+
+/// `say` may find the session too damaged to be asked: that is a finding, too.
+template <class Say>
+void or_damage(SessionExplanation& e, const Say& say) {
+  try {
+    say();
+  } catch (const Error& damage) {
+    e.findings.emplace_back(damage.what());
+  }
+}
+
+/// What the chain of the recording and the replay of its motion prove.
+void say_replay(SessionExplanation& e, const SessionReader& session, const SchoolMark& mark) {
   const VerifyReport& report = mark.replay;
-  e.findings = session.closed() ? mark.findings : report.findings;
   if (report.intact) {
     e.proved.push_back("nothing in the file was changed since " +
                        (report.closed ? "station " + report.station_key + " signed it" : "it was recorded") + ": " +
@@ -34,47 +41,42 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   if (report.intact && session.closed() && mark.findings.empty() && mark.result.is_object())
     e.proved.emplace_back(mark.sealed_otherwise.is_null() ? "the motion gives the recorded events and the sealed result again"
                                                           : "the motion gives the recorded events again");
-  for (const auto& r : mark.remarks) e.remarks.push_back(r);
-  try {
-    for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
-  } catch (const Error& damage) {
-    e.findings.emplace_back(damage.what());
-  }
+}
+
+/// When and by whom the recording was closed.
+void say_closing(SessionExplanation& e, const SessionReader& session, const VerifyReport& report) {
   if (report.closed && report.intact)
     e.proved.push_back("closed on " + utc_text(session.seal()->clocks.utc_ns) + " by station " + report.station_key +
                        (session.fact(k_station_fact) == report.station_key ? ", which signed its beginning, too" : ""));
+}
 
-  std::string ticket_text;
-  SessionSetup setup;
-  try {
-    setup = session.setup();
-    for (const auto& [key, value] : setup.notes)
-      if (key == k_ticket_note) ticket_text = value;
-  } catch (const Error& damage) {
-    e.findings.emplace_back(damage.what());
-  }
-  if (!ticket_text.empty()) {
-    try {
-      const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
-      auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
-      for (auto& f : check_servo(setup.servo_toml, scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
-      e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
-      if (wrong.empty())
-        e.proved.push_back("the school with key " + ticket.public_key + " promised this exam to candidate " + ticket.candidate +
-                           ": scenario, tooth, rubric and accommodations are those of the ticket, and it began within its time");
-      if (school_key.empty())
-        e.remarks.push_back("whether the key " + ticket.public_key.substr(0, 16) +
-                            "… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder");
-    } catch (const Error& damage) {
-      e.findings.emplace_back(damage.what());
-    }
-  } else if (!session.findings().empty()) {
+/// What the school promised, and whether this is it.
+void say_ticket(SessionExplanation& e, const SessionReader& session, const SessionSetup& setup, const std::string& ticket_text,
+                const std::string& school_key) {
+  const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
+  auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
+  for (auto& f : check_servo(setup.servo_toml, scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
+  e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
+  if (wrong.empty())
+    e.proved.push_back("the school with key " + ticket.public_key + " promised this exam to candidate " + ticket.candidate +
+                       ": scenario, tooth, rubric and accommodations are those of the ticket, and it began within its time");
+  if (school_key.empty())
+    e.remarks.push_back("whether the key " + ticket.public_key.substr(0, 16) +
+                        "… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder");
+}
+
+/// Of a session in which no ticket was found.
+void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
+  if (!readable)
     e.remarks.emplace_back("whether the session holds a ticket could not be read for certain");
-  } else if (!school_key.empty() && ticket_needed) {
+  else if (needed)
     e.findings.emplace_back("the session holds no ticket: nobody promised this exam");
-  } else {
+  else
     e.remarks.emplace_back("there is no ticket: that this exam was asked for, and of whom, is not shown");
-  }
+}
+
+/// Where it was recorded, how the clocks ran, and what lies beside the file.
+void say_circumstances(SessionExplanation& e, const SessionReader& session, const std::string& path) {
   for (const auto& event : session.events())
     if (event.kind == "moved")
       e.remarks.push_back("from " + fixed(static_cast<double>(event.tick) * 1e-3, 1) +
@@ -84,15 +86,50 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   if (std::error_code none; std::filesystem::exists(path + "-wal", none) && std::filesystem::file_size(path + "-wal", none) > 0)
     e.remarks.push_back("a log lies beside the file (" + path +
                         "-wal) and was read with it: when something does not hold, look at the file without it");
-  if (session.closed())
-    e.remarks.push_back("whether station " + report.station_key.substr(0, 16) +
+}
+
+/// What no file can show.
+void say_limits(SessionExplanation& e, bool closed, const std::string& station_key) {
+  if (closed)
+    e.remarks.push_back("whether station " + station_key.substr(0, 16) +
                         "… is one of the school's is known to its ledger only: anybody can sign a recording with a key of their own");
   e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");
   e.remarks.emplace_back(
       "not shown by any file: that it was not ended before, where the station's memory was put back as it was, or its key was used by another "
       "program");
   e.remarks.emplace_back("that no other exam was sat with the same ticket is known to the ledger only");
-  e.holds = report.verified && e.findings.empty();
+}
+
+}  // namespace
+
+SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed) {
+  SessionExplanation e;
+  e.file = path;
+  const SessionReader session(path);
+  ExamGrounds grounds;
+  const SchoolMark mark = session.closed() ? mark_again(session, grounds) : SchoolMark{verify_session(path), {}, {}, {}, {}};
+  e.findings = session.closed() ? mark.findings : mark.replay.findings;
+  say_replay(e, session, mark);
+  for (const auto& r : mark.remarks) e.remarks.push_back(r);
+  or_damage(e, [&] {
+    for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
+  });
+  say_closing(e, session, mark.replay);
+
+  std::string ticket_text;
+  SessionSetup setup;
+  or_damage(e, [&] {
+    setup = session.setup();
+    for (const auto& [key, value] : setup.notes)
+      if (key == k_ticket_note) ticket_text = value;
+  });
+  if (!ticket_text.empty())
+    or_damage(e, [&] { say_ticket(e, session, setup, ticket_text, school_key); });
+  else
+    say_no_ticket(e, session.findings().empty(), !school_key.empty() && ticket_needed);
+  say_circumstances(e, session, path);
+  say_limits(e, session.closed(), mark.replay.station_key);
+  e.holds = mark.replay.verified && e.findings.empty();
   return e;
 }
 

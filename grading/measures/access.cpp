@@ -156,16 +156,16 @@ void measure_floor(const GradeInput& input, const RemovedMap& removed, std::int6
   const ZoneMap& zones = input.zones;
   const auto below = [&](IVec3 leaf) { return zones.zone(leaf) != Zone::target && zones.wall(leaf) == Wall::floor; };
   std::uint64_t count = 0, border = 0;
-  for (const auto& r : input.removed) {
+  for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
-    if (r.tick > last_tick || removed.tick(leaf) != r.tick || !input.before.octree.is_solid(r.leaf.tissue) || !below(leaf)) continue;
+    if (!input.before.octree.is_solid(r.leaf.tissue) || !below(leaf)) return;
     if (count++ == 0) m.floor_first = {r.tick, zones.centre_mm(leaf)};
     for (const IVec3 step : k_six_neighbours)
       if (!removed.has(leaf + step) || !below(leaf + step)) {
         ++border;
         break;
       }
-  }
+  });
   m.floor_cut = {static_cast<double>(count) * zones.leaf_volume_mm3(), 0.5 * static_cast<double>(border) * zones.leaf_volume_mm3()};
 }
 

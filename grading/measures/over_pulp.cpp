@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "grading/measures/solid_surface.h"
+
 namespace cavum {
 namespace {
 
@@ -32,19 +34,6 @@ std::array<bool, 256> pulp_of(const Tooth& tooth) {
   return pulp;
 }
 
-bool beside_solid(const Octree& tree, IVec3 leaf) {
-  return std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours), [&](IVec3 step) { return tree.is_solid(tree.tissue(leaf + step)); });
-}
-
-/// Where the surface of the solid passes by a leaf.
-Vec3 surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {
-  const Vec3 centre = tree.centre_mm(leaf);
-  const SurfaceSample s = tree.sample(centre, cursor);
-  const double steep = length(s.gradient);
-  const Vec3 normal = steep > 0.1 ? s.gradient / steep : Vec3{0, 0, 0};
-  return centre - normal * std::clamp(s.distance_mm, -tree.leaf_mm(), tree.leaf_mm());
-}
-
 /// The pulp's wall, in an order that is the same everywhere.
 std::vector<WallBlock> wall_of_pulp(const Octree& before, const std::array<bool, 256>& pulp) {
   constexpr int k_block = 16;
@@ -58,7 +47,7 @@ std::vector<WallBlock> wall_of_pulp(const Octree& before, const std::array<bool,
           const bool at_face = x == 0 || y == 0 || z == 0 || x == edge - 1 || y == edge - 1 || z == edge - 1;
           const IVec3 leaf = at + IVec3{x, y, z};
           if (at_face && beside_solid(before, leaf))
-            blocks[{leaf.x / k_block, leaf.y / k_block, leaf.z / k_block}].add(surface_by(before, leaf, cursor));
+            blocks[{leaf.x / k_block, leaf.y / k_block, leaf.z / k_block}].add(surface_by(before, leaf, cursor).at_mm);
         }
   });
   std::vector<WallBlock> out;
@@ -88,7 +77,7 @@ OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& re
       return m;
     }
     if (!before.is_solid(r.leaf.tissue) || !beside_solid(input.after, leaf)) continue;
-    const Vec3 place = surface_by(input.after, leaf, cursor);
+    const Vec3 place = surface_by(input.after, leaf, cursor).at_mm;
     for (const auto& block : wall) {
       if (m.dentin_mm && block.at_least_mm(place) >= *m.dentin_mm) continue;
       for (const Vec3 p : block.places)

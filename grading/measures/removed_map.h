@@ -61,4 +61,11 @@ class RemovedMap {
   std::size_t count_ = 0;
 };
 
+/// Calls `visit(removed_at)` for each leaf of the list that was removed until `last_tick`, once: at the tick that the map has.
+template <class Visit>
+void for_each_removed(std::span<const RemovedAt> list, const RemovedMap& removed, std::int64_t last_tick, const Visit& visit) {
+  for (const auto& r : list)
+    if (r.tick <= last_tick && removed.tick(r.leaf.leaf()) == r.tick) visit(r);
+}
+
 }  // namespace cavum

@@ -25,12 +25,14 @@ struct Share {
 /// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
 class Shares {
  public:
-  Shares(const GradeInput& input, const RemovedMap& removed, bool by_parts)
-      : input_(input), removed_(removed), leaf_mm_(input.zones.leaf_mm()), by_parts_(by_parts) {}
+  Shares(const GradeInput& input, const RemovedMap& removed, bool late)
+      : input_(input), removed_(removed), leaf_mm_(input.zones.leaf_mm()), late_(late) {}
+  /// Leaves went after the end: everything counts whole.
+  [[nodiscard]] bool late() const { return late_; }
 
   [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
     const bool gone = removed_.has(leaf);
-    if (!by_parts_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
+    if (late_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
     const double centre = decode_distance(input_.after.distance_code(leaf));
     if (gone ? centre > k_parts_reach_leaves : centre < -k_parts_reach_leaves) return Share(gone);
     LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
@@ -53,7 +55,7 @@ class Shares {
   const GradeInput& input_;
   const RemovedMap& removed_;
   double leaf_mm_;
-  bool by_parts_;
+  bool late_;
 };
 
 double sum(const Share& share) {
@@ -78,7 +80,7 @@ struct Count {
 
 /// Gives each zone what of a leaf was removed in it, in leaves; returns the sum.
 template <class Give>
-double share_out(const GradeInput& input, const Shares& shares, bool late, IVec3 leaf, std::uint8_t held, const Give& give) {
+double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std::uint8_t held, const Give& give) {
   const ZoneMap& zones = input.zones;
   const Share gone = shares.removed(leaf, held);
   const double total = sum(gone);
@@ -87,7 +89,7 @@ double share_out(const GradeInput& input, const Shares& shares, bool late, IVec3
   const auto part = [&](Zone z, double share) {
     if (share > 0) give(z, share);
   };
-  if (late || !zones.in_box(leaf)) {
+  if (shares.late() || !zones.in_box(leaf)) {
     part(own, total);
     return total;
   }
@@ -114,16 +116,15 @@ template <class Visit>
 void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, bool late, RemovedMap::Marks& seen,
                       const Visit& visit) {
   std::vector<IVec3> beside;
-  for (const auto& r : input.removed) {
+  for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
-    if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
     visit(leaf, r.leaf.tissue, r.tick);
-    if (late) continue;
+    if (late) return;
     for (int i = 0; i < 27; ++i) {
       const IVec3 n = leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
       if (!removed.has(n) && seen.first_time(n)) beside.push_back(n);
     }
-  }
+  });
   const Octree& before = input.before.octree;
   for (const IVec3 leaf : beside)
     if (const std::uint8_t held = before.tissue(leaf); before.is_solid(held)) visit(leaf, held, std::int64_t{-1});
@@ -151,85 +152,94 @@ bool on_border(const ZoneMap& zones, const RemovedMap& removed, IVec3 leaf) {
                      [&](IVec3 step) { return !removed.has(leaf + step) || zones.zone(leaf + step) != zones.zone(leaf); });
 }
 
-void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
-                            const std::function<void(const RemovedShare&)>& visit) {
-  const bool late = removed_late(input, last_tick);
-  const Shares shares(input, removed, !late);
-  RemovedMap::Marks seen = removed.marks();
-  for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
-    const bool edge = beside_what_stayed(removed, leaf, tick);
-    const std::int64_t when = tick_of(removed, leaf, tick);
-    share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
-      visit({leaf, held, when, z, share * input.zones.leaf_volume_mm3(), edge || share < 1});
-    });
-  });
-}
+namespace {
 
-VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
-  const ZoneMap& zones = input.zones;
-  const Octree& before = input.before.octree;
-  const double leaf_mm3 = zones.leaf_volume_mm3();
-  const bool late = removed_late(input, last_tick);
-  const Shares shares(input, removed, !late);
-  VolumeMeasures v;
+/// What was removed, in leaves.
+struct RemovedCount {
   std::array<Count, k_zones> zone{};
   std::array<Count, 256> tissue{};
   Count all;
+};
 
-  RemovedMap::Marks seen = removed.marks();
-  for_each_touched(input, removed, last_tick, late, seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+/// Counts it by zone, wall and tissue; `v` gets the walls' parts and when each began. `seen` are the leaves that may be gone in part.
+RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, const Shares& shares, RemovedMap::Marks& seen,
+                           VolumeMeasures& v) {
+  const ZoneMap& zones = input.zones;
+  RemovedCount count;
+  for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
     const bool edge = beside_what_stayed(removed, leaf, tick);
     if (tick >= 0) {
-      tissue[held].leaves += 1;
-      tissue[held].border += on_border(zones, removed, leaf) ? 1 : 0;
+      count.tissue[held].leaves += 1;
+      count.tissue[held].border += on_border(zones, removed, leaf) ? 1 : 0;
       Trace& first = v.tissue_first[held];
       if (first.tick < 0 || tick < first.tick) first = {tick, zones.centre_mm(leaf)};
     }
     const std::int64_t when = tick_of(removed, leaf, tick);
     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
     if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == Zone::target) last = {tick, zones.centre_mm(leaf)};
-    const double total = share_out(input, shares, late, leaf, held, [&](Zone z, double share) {
+    const double total = share_out(input, shares, leaf, held, [&](Zone z, double share) {
       const auto i = static_cast<std::size_t>(z);
-      zone[i].leaves += share;
-      zone[i].border += edge || share < 1 ? 1 : 0;
-      v.zone[i].by_wall_mm3[wall] += share * leaf_mm3;
+      count.zone[i].leaves += share;
+      count.zone[i].border += edge || share < 1 ? 1 : 0;
+      v.zone[i].by_wall_mm3[wall] += share * zones.leaf_volume_mm3();
       Trace& first = v.zone[i].first;
       if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
     });
-    all.leaves += total;
-    if (total > 0) all.border += edge || total < 1 ? 1 : 0;
+    count.all.leaves += total;
+    if (total > 0) count.all.border += edge || total < 1 ? 1 : 0;
   });
+  return count;
+}
 
+/// The target in leaves, and what of it was left standing.
+struct TargetCount {
+  double leaves = 0;
   Count missed;
-  double target = 0;
-  const double reach_mm = k_parts_reach_leaves * zones.leaf_mm();
+};
+
+/// Counts both; `v` gets the walls' parts. `seen` are the leaves that may be gone in part.
+TargetCount count_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, VolumeMeasures& v) {
+  const ZoneMap& zones = input.zones;
+  const Octree& before = input.before.octree;
+  const double leaf_mm3 = zones.leaf_volume_mm3(), reach_mm = k_parts_reach_leaves * zones.leaf_mm();
+  TargetCount count;
   zones.for_each_leaf([&](IVec3 leaf, Zone z) {
     const double d = zones.distance_mm(leaf);
-    if (z != Zone::target && (late || d > reach_mm)) return;
+    if (z != Zone::target && (shares.late() || d > reach_mm)) return;
     if (z != Zone::target && before.tissue(leaf) == k_air) return;
-    const Share in = late || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
+    const Share in = shares.late() || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
     const double share = sum(in);
     if (share < k_code) return;
     const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
     const double left = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
-    target += share;
-    v.target_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += share * leaf_mm3;
+    const auto wall = static_cast<std::size_t>(zones.wall(leaf));
+    count.leaves += share;
+    v.target_by_wall_mm3[wall] += share * leaf_mm3;
     if (left < k_code) return;
-    missed.leaves += left;
-    v.missed_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += left * leaf_mm3;
+    count.missed.leaves += left;
+    v.missed_by_wall_mm3[wall] += left * leaf_mm3;
     bool edge = left < 1;
     for (const IVec3 step : k_six_neighbours) edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != Zone::target;
-    missed.border += edge ? 1 : 0;
-    if (edge) v.missed_bound_by_wall_mm3[static_cast<std::size_t>(zones.wall(leaf))] += 0.5 * leaf_mm3;
+    count.missed.border += edge ? 1 : 0;
+    if (edge) v.missed_bound_by_wall_mm3[wall] += 0.5 * leaf_mm3;
   });
+  return count;
+}
 
-  const auto volume = [&](const Count& c) { return Volume{c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; };
-  for (std::size_t z = 0; z < k_zones; ++z) v.zone[z].removed = volume(zone[z]);
-  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume(tissue[t]);
-  v.target = volume({target, zones.target_border_leaves()});
-  v.removed = volume(all);
-  v.missed = volume(missed);
-  v.target_removed_percent = 100.0 * (target - missed.leaves) / target;
+/// With the bound of half a leaf over its border.
+Volume volume_of(const Count& c, double leaf_mm3) { return {c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; }
+
+void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const ZoneMap& zones) {
+  const double leaf_mm3 = zones.leaf_volume_mm3();
+  for (std::size_t z = 0; z < k_zones; ++z) v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3);
+  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume_of(removed.tissue[t], leaf_mm3);
+  v.target = volume_of({target.leaves, zones.target_border_leaves()}, leaf_mm3);
+  v.removed = volume_of(removed.all, leaf_mm3);
+  v.missed = volume_of(target.missed, leaf_mm3);
+}
+
+/// The share of the target that was removed, and Dice.
+void put_shares(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target) {
   const Volume& in_target = v.zone[static_cast<std::size_t>(Zone::target)].removed;
   Volume beyond;
   for (std::size_t z = 0; z < k_zones; ++z)
@@ -237,9 +247,35 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
       beyond.mm3 += v.zone[z].removed.mm3;
       beyond.bound_mm3 += v.zone[z].removed.bound_mm3;
     }
+  v.target_removed_percent = 100.0 * (target.leaves - target.missed.leaves) / target.leaves;
   v.target_removed_bound_percent = share_bound_percent(in_target, v.missed);
+  v.dice = 2.0 * (target.leaves - target.missed.leaves) / (removed.all.leaves + target.leaves);
   v.dice_bound = dice_bound(in_target, v.missed, beyond);
-  v.dice = 2.0 * (target - missed.leaves) / (all.leaves + target);
+}
+
+}  // namespace
+
+void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                            const std::function<void(const RemovedShare&)>& visit) {
+  const Shares shares(input, removed, removed_late(input, last_tick));
+  RemovedMap::Marks seen = removed.marks();
+  for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+    const bool edge = beside_what_stayed(removed, leaf, tick);
+    const std::int64_t when = tick_of(removed, leaf, tick);
+    share_out(input, shares, leaf, held, [&](Zone z, double share) {
+      visit({leaf, held, when, z, share * input.zones.leaf_volume_mm3(), edge || share < 1});
+    });
+  });
+}
+
+VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+  const Shares shares(input, removed, removed_late(input, last_tick));
+  VolumeMeasures v;
+  RemovedMap::Marks seen = removed.marks();
+  const RemovedCount gone = count_removed(input, removed, last_tick, shares, seen, v);
+  const TargetCount target = count_target(input, removed, shares, seen, v);
+  put_volumes(v, gone, target, input.zones);
+  put_shares(v, gone, target);
   return v;
 }
 

@@ -64,6 +64,16 @@ std::vector<Zone> all_zones(bool with_target) {
 using R = const Result&;
 using A = const Asked&;
 
+/// What was removed in some zones. `json` null: it has no place of its own.
+MeasureMarking in_zones_row(const char* measure, std::vector<Zone> zones, const char* json = nullptr) {
+  return {.measure = measure,
+          .value = in_zones,
+          .reason = reason::removed_in_zones,
+          .zones = std::move(zones),
+          .json = json,
+          .bound_json = json != nullptr ? "/volumes/bounds/" : nullptr};
+}
+
 std::vector<MeasureMarking> volume_markings() {
   return {
       {.measure = "target_removed_percent",
@@ -84,47 +94,14 @@ std::vector<MeasureMarking> volume_markings() {
        .zones = all_zones(true),
        .json = "/volumes/",
        .bound_json = "/volumes/bounds/"},
-      {.measure = "outside_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::none, Zone::protected_},
-       .json = "/volumes/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "protected_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::protected_},
-       .json = "/volumes/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "leeway_sides_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::leeway_sides},
-       .json = "/volumes/overcut/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "leeway_bottom_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::leeway_bottom},
-       .json = "/volumes/overcut/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "container_sides_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::container_sides},
-       .json = "/volumes/overcut/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "container_bottom_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::container_bottom},
-       .json = "/volumes/overcut/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "container_mm3", .value = in_zones, .reason = reason::removed_in_zones, .zones = {Zone::container_sides, Zone::container_bottom}},
-      {.measure = "overcut_mm3",
-       .value = in_zones,
-       .reason = reason::removed_in_zones,
-       .zones = {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}},
+      in_zones_row("outside_mm3", {Zone::none, Zone::protected_}, "/volumes/"),
+      in_zones_row("protected_mm3", {Zone::protected_}, "/volumes/"),
+      in_zones_row("leeway_sides_mm3", {Zone::leeway_sides}, "/volumes/overcut/"),
+      in_zones_row("leeway_bottom_mm3", {Zone::leeway_bottom}, "/volumes/overcut/"),
+      in_zones_row("container_sides_mm3", {Zone::container_sides}, "/volumes/overcut/"),
+      in_zones_row("container_bottom_mm3", {Zone::container_bottom}, "/volumes/overcut/"),
+      in_zones_row("container_mm3", {Zone::container_sides, Zone::container_bottom}),
+      in_zones_row("overcut_mm3", {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}),
       {.measure = "dice",
        .value = [](R r, A) -> MetricValue {
          return {r.volumes.dice, r.volumes.dice_bound};
@@ -183,6 +160,11 @@ std::vector<MeasureMarking> shape_markings() {
        .json = "/shape/",
        .bound_json = "/shape/taper_bound_deg"},
       {.measure = "taper_error_deg", .value = taper_error, .reason = reason::taper_error},
+  };
+}
+
+std::vector<MeasureMarking> access_markings() {
+  return {
       {.measure = "overhang_mm3",
        .value = [](R r, A) { return r.access.overhang ? of_volume(*r.access.overhang) : MetricValue{}; },
        .reason = reason::overhang,
@@ -325,7 +307,7 @@ std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows) {
 const std::vector<MeasureMarking>& measure_markings() {
   static const std::vector<MeasureMarking> k_rows = [] {
     std::vector<MeasureMarking> all;
-    for (auto* some : {volume_markings, shape_markings, motion_markings, conduct_markings})
+    for (auto* some : {volume_markings, shape_markings, access_markings, motion_markings, conduct_markings})
       for (auto& row : some()) all.push_back(std::move(row));
     return checked_markings(std::move(all));
   }();

@@ -214,25 +214,40 @@ Json to_json(const Result& r) {
   return j;
 }
 
-std::string to_text(const Result& r) {
+namespace {
+
+std::string verdict_text(const Result& r) {
   std::string s = one_line(r.scenario_title + " (" + r.tooth_name + ")") + "\n";
   s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points (± " +
        fixed(r.points_bound, 1) + " if every figure were off by its whole bound)\n";
   for (const auto& reason : r.verdict_reasons) s += "  " + one_line(reason) + "\n";
-  s += "\n";
+  return s;
+}
+
+std::string criteria_text(const Result& r) {
+  std::string s = "\n";
   for (const auto& c : r.criteria)
     s += "  " + padded(one_line(c.id) + " ", 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) +
          padded("± " + fixed(c.points_bound, 1), 9) + one_line(c.reason) + "\n";
+  return s;
+}
+
+std::string volumes_text(const Result& r) {
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
   const auto volume = [&](const std::string& name, const Volume& v) {
     return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";
   };
-  s += "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) + fixed(r.volumes.target_removed_percent, 1) + " ± " +
-       fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" + volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
+  std::string s = "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) +
+                  fixed(r.volumes.target_removed_percent, 1) + " ± " + fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" +
+                  volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
   for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}) s += volume(zone_name(z), zone(z));
   s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(Zone::protected_));
-  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + " ± " + fixed(r.volumes.dice_bound, 3) +
-       "\n\nwalls, mm (+ = overcut)                       mean            p95   over  under (± " + fixed(r.shape.bound_mm, 2) + ")\n";
+  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + " ± " + fixed(r.volumes.dice_bound, 3) + "\n";
+  return s;
+}
+
+std::string walls_text(const Result& r) {
+  std::string s = "\nwalls, mm (+ = overcut)                       mean            p95   over  under (± " + fixed(r.shape.bound_mm, 2) + ")\n";
   for (std::size_t w = 0; w < k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
     s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
@@ -245,15 +260,23 @@ std::string to_text(const Result& r) {
       s += line;
     }
   }
+  return s;
+}
+
+std::string cavity_text(const Result& r) {
+  std::string s = "\ncavity\n";
   const auto shape = [&](const char* name, const std::optional<double>& v, double bound, const char* unit) {
     s += "  " + padded(name, 22) + (v ? fixed(*v, 2) + " ± " + fixed(bound, 2) + unit : std::string("not cut")) + "\n";
   };
-  s += "\ncavity\n";
   shape("length", r.shape.length_mm, r.shape.bound_mm, " mm");
   shape("width", r.shape.width_mm, r.shape.bound_mm, " mm");
   shape("depth", r.shape.depth_mm, r.shape.bound_mm, " mm");
   shape("wall taper", r.shape.taper_deg, r.shape.taper_bound_deg, " degrees");
-  s += "\nperforation\n";
+  return s;
+}
+
+std::string perforation_text(const Result& r) {
+  std::string s = "\nperforation\n";
   if (r.perforation.events.empty()) s += "  no breakthrough seen in the force\n";
   for (const auto& e : r.perforation.events)
     s += "  force: " + std::string(e.fault ? "fault" : "aim") + " at " + fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s, " +
@@ -268,10 +291,20 @@ std::string to_text(const Result& r) {
   truth("fault", r.perforation.fault);
   if (r.perforation.has_aims) truth("aim", r.perforation.aim);
   if (r.perforation.aim_unseen()) s += "  the breakthrough into the aim was not seen in the force, which costs nothing\n";
-  s += "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
-       " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
-       " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +
-       std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
+  return s;
+}
+
+std::string motion_text(const Result& r) {
+  return "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
+         " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
+         " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +
+         std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const Result& r) {
+  std::string s = verdict_text(r) + criteria_text(r) + volumes_text(r) + walls_text(r) + cavity_text(r) + perforation_text(r) + motion_text(r);
   for (const auto& note : r.notes) s += "note: " + one_line(note) + "\n";
   return s;
 }

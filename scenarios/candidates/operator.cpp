@@ -115,68 +115,93 @@ bool Operator::retreat(Vec3 from_mm) noexcept {
   return true;
 }
 
-Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
-  const Sight sight = delayed(seen, dt_s);
-  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, true};
-  const Waypoint* goal = &way_[next_];
-  // The eye sees the point where it is now; a free way is judged along it, a cut by how near the point came.
-  const Vec3 whole = goal->tip_mm - from_mm_;
-  const auto left_to = [&seen](const Waypoint& w, Vec3 along) {
-    const Vec3 rest = w.tip_mm - seen.proxy_mm;
-    return w.cut ? length(rest) : std::max(0.0, dot(rest, normalized(along)));
-  };
-  double left = left_to(*goal, whole);
-  stuck_s_ += dt_s;
-  if (left < best_mm_ - 0.01) {
-    best_mm_ = left;
-    stuck_s_ = 0;
-  }
-  const bool through = next_ + 1 < way_.size() && dot(normalized(way_[next_ + 1].tip_mm - goal->tip_mm), normalized(whole)) > k_gentle_bend;
-  const double arrived_mm = !goal->cut ? 0.2 : through ? 0.06 : k_arrived_mm;
-  if (stuck_s_ > k_give_up_s && goal->cut && retreat(seen.proxy_mm)) {
-    return {intended_mm_, pedal_, false};
-  }
-  if (left < arrived_mm || stuck_s_ > k_give_up_s) {
-    if (!through) lead_mm_ *= 0.5;  // into a corner the hand yields, along a gentle bend it goes on
-    from_mm_ = goal->tip_mm;
-    ++next_;
-    best_mm_ = 1e9;
-    stuck_s_ = 0;
-    if (next_ >= way_.size()) return {goal->tip_mm, 0.0, true};
-    goal = &way_[next_];
-    left = left_to(*goal, goal->tip_mm - from_mm_);
-  }
-  Vec3 direction = normalized(goal->tip_mm - seen.proxy_mm);
-  const Vec3 line = normalized(goal->tip_mm - from_mm_);
-  // Across the way the hand corrects more than it sees, or the friction of the joints would keep the error.
-  const Vec3 anchor = from_mm_ + line * std::clamp(dot(seen.proxy_mm - from_mm_, line), 0.0, length(goal->tip_mm - from_mm_));
-  const Vec3 off = anchor - seen.proxy_mm;
-  Vec3 correction = off * k_correction;
-  // A groove cut before leads the point astray: back to the way first, or the wall between them would be left standing.
-  if (const double astray = length(off); goal->cut && astray > k_astray_mm) direction = normalized(direction * (k_astray_mm / astray) + off / astray);
-  if (const double c = length(correction); c > k_most_correction_mm) correction = correction * (k_most_correction_mm / c);
+double Operator::left_to_goal(Vec3 proxy_mm) const noexcept {
+  const Waypoint& goal = way_[next_];
+  const Vec3 rest = goal.tip_mm - proxy_mm;
+  return goal.cut ? length(rest) : std::max(0.0, dot(rest, normalized(goal.tip_mm - from_mm_)));
+}
 
-  // Push until the penetration felt is the one aimed at; where nothing resists, move at a quiet speed.
-  const double wanted_mm = goal->cut ? (goal->careful ? skill_.careful_press_mm : skill_.press_mm) : 0.3;
-  const double slow_down = through ? 1.0 : std::clamp(left / 0.25, 0.4, 1.0);
-  const double free_n = k_free_speed_mm_s * (goal->careful ? 0.4 : 1.0) * skill_.hand.damping_n_s_per_mm + k_friction_n;
+void Operator::watch_progress(double left_mm, double dt_s) noexcept {
+  stuck_s_ += dt_s;
+  if (left_mm < best_mm_ - 0.01) {
+    best_mm_ = left_mm;
+    stuck_s_ = 0;
+  }
+}
+
+bool Operator::bends_gently() const noexcept {
+  if (next_ + 1 >= way_.size()) return false;
+  const Vec3 goal = way_[next_].tip_mm;
+  return dot(normalized(way_[next_ + 1].tip_mm - goal), normalized(goal - from_mm_)) > k_gentle_bend;
+}
+
+void Operator::go_on(bool through) noexcept {
+  if (!through) lead_mm_ *= 0.5;  // into a corner the hand yields, along a gentle bend it goes on
+  from_mm_ = way_[next_].tip_mm;
+  ++next_;
+  best_mm_ = 1e9;
+  stuck_s_ = 0;
+}
+
+Operator::Aim Operator::aim_at(const Waypoint& goal, Vec3 proxy_mm) const noexcept {
+  Aim aim{normalized(goal.tip_mm - proxy_mm), {}};
+  const Vec3 line = normalized(goal.tip_mm - from_mm_);
+  // Across the way the hand corrects more than it sees, or the friction of the joints would keep the error.
+  const Vec3 anchor = from_mm_ + line * std::clamp(dot(proxy_mm - from_mm_, line), 0.0, length(goal.tip_mm - from_mm_));
+  const Vec3 off = anchor - proxy_mm;
+  aim.correction_mm = off * k_correction;
+  // A groove cut before leads the point astray: back to the way first, or the wall between them would be left standing.
+  if (const double astray = length(off); goal.cut && astray > k_astray_mm)
+    aim.direction = normalized(aim.direction * (k_astray_mm / astray) + off / astray);
+  if (const double c = length(aim.correction_mm); c > k_most_correction_mm) aim.correction_mm = aim.correction_mm * (k_most_correction_mm / c);
+  return aim;
+}
+
+void Operator::push(const Waypoint& goal, const Sight& felt, double slow_down, double dt_s) noexcept {
+  const double wanted_mm = goal.cut ? (goal.careful ? skill_.careful_press_mm : skill_.press_mm) : 0.3;
+  const double free_n = k_free_speed_mm_s * (goal.careful ? 0.4 : 1.0) * skill_.hand.damping_n_s_per_mm + k_friction_n;
   const double free_lead = free_n / skill_.hand.stiffness_n_per_mm;
-  if (sight.contact && sight.penetration_mm > 0.02) {
-    const double error = std::clamp((wanted_mm * slow_down - sight.penetration_mm) / wanted_mm, -1.0, 1.0);
+  if (felt.contact && felt.penetration_mm > 0.02) {
+    const double error = std::clamp((wanted_mm * slow_down - felt.penetration_mm) / wanted_mm, -1.0, 1.0);
     lead_mm_ = std::clamp(lead_mm_ + k_lead_rate_mm_s * error * dt_s, 0.05, 4.0);
   } else {
     lead_mm_ = std::max(free_lead, lead_mm_ - 40.0 * dt_s);
     if (lead_mm_ < free_lead + 0.2) lead_mm_ = free_lead;
   }
+}
 
+void Operator::tremble(double dt_s) noexcept {
   constexpr double k_tremor_s = 0.05;
   const double kick = skill_.tremor_mm * std::sqrt(2 * dt_s / k_tremor_s);
   tremor_mm_ = tremor_mm_ * (1 - dt_s / k_tremor_s) + Vec3{random_.normal(), random_.normal(), random_.normal()} * kick;
+}
 
-  const double pedal = goal->cut || skill_.perforates ? 1.0 : 0.0;  // who perforates never lifts the foot, for the exam may end there
+void Operator::move_foot(bool cut, double dt_s) noexcept {
+  const double pedal = cut || skill_.perforates ? 1.0 : 0.0;        // who perforates never lifts the foot, for the exam may end there
   pedal_ += std::clamp(pedal - pedal_, -dt_s / 0.15, dt_s / 0.15);  // a foot takes 150 ms
-  Vec3 tip = seen.proxy_mm + correction + direction * lead_mm_ + tremor_mm_;
-  if (goal->cut && pedal_ < 0.95 && !sight.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
+}
+
+Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
+  const Sight felt = delayed(seen, dt_s);
+  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, true};
+  // The eye sees the point where it is now; a free way is judged along it, a cut by how near the point came.
+  double left = left_to_goal(seen.proxy_mm);
+  watch_progress(left, dt_s);
+  const bool through = bends_gently(), cutting = way_[next_].cut;
+  const double arrived_mm = !cutting ? 0.2 : through ? 0.06 : k_arrived_mm;
+  if (stuck_s_ > k_give_up_s && cutting && retreat(seen.proxy_mm)) return {intended_mm_, pedal_, false};
+  if (left < arrived_mm || stuck_s_ > k_give_up_s) {
+    go_on(through);
+    if (next_ >= way_.size()) return {from_mm_, 0.0, true};
+    left = left_to_goal(seen.proxy_mm);
+  }
+  const Waypoint& goal = way_[next_];
+  const Aim aim = aim_at(goal, seen.proxy_mm);
+  push(goal, felt, through ? 1.0 : std::clamp(left / 0.25, 0.4, 1.0), dt_s);
+  tremble(dt_s);
+  move_foot(goal.cut, dt_s);
+  Vec3 tip = seen.proxy_mm + aim.correction_mm + aim.direction * lead_mm_ + tremor_mm_;
+  if (goal.cut && pedal_ < 0.95 && !felt.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
   // an intention has no corners: the hand follows it within some 25 ms
   intended_mm_ += (tip - intended_mm_) * (dt_s / (k_intention_s + dt_s));
   return {intended_mm_, pedal_, false};

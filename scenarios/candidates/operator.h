@@ -63,6 +63,20 @@ class Operator {
   /// `p` lifted along the approach to the height of the ways through the air.
   [[nodiscard]] Vec3 in_air(Vec3 p) const noexcept { return p + approach_ * dot(start_mm() - p, approach_); }
   [[nodiscard]] Sight delayed(const TickOutput& seen, double dt_s) noexcept;
+  /// To the next waypoint, mm.
+  [[nodiscard]] double left_to_goal(Vec3 proxy_mm) const noexcept;
+  void watch_progress(double left_mm, double dt_s) noexcept;
+  /// The way beyond the next waypoint leads on in nearly the same direction.
+  [[nodiscard]] bool bends_gently() const noexcept;
+  void go_on(bool through) noexcept;
+  struct Aim {
+    Vec3 direction, correction_mm;  // unit, towards the goal; across the way, back to it
+  };
+  [[nodiscard]] Aim aim_at(const Waypoint& goal, Vec3 proxy_mm) const noexcept;
+  /// Until the penetration felt is the one aimed at; where nothing resists, at a quiet speed.
+  void push(const Waypoint& goal, const Sight& felt, double slow_down, double dt_s) noexcept;
+  void tremble(double dt_s) noexcept;
+  void move_foot(bool cut, double dt_s) noexcept;
 
   Skill skill_;
   std::vector<Waypoint> way_;

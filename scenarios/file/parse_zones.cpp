@@ -105,8 +105,114 @@ BottomSpec read_bottom(const toml::table& table, const std::string& name, Proble
   return b;
 }
 
-ShapeSpec read_shape(const toml::table& table, const std::string& name, const std::string& at, Places& places, ProblemList& problems) {
+void read_axis(CheckedTable& t, ShapeSpec& s) {
+  const Vec3 along = t.vector("axis", 3, {0, 0, 1});
+  if (length(along) < 1e-6) t.problem("axis", "'axis' has no direction", "write for example [0, 0, 1]");
+  s.axis = normalized(along);
+}
+
+void read_place(CheckedTable& t, ShapeSpec& s) {
+  s.at_mm = t.vector("at_mm", 3, {}, true);
+  read_axis(t, s);
+}
+
+void read_turned_place(CheckedTable& t, ShapeSpec& s) {
+  read_place(t, s);
+  s.turn_deg = t.number("turn_deg", -360, 360, 0);
+}
+
+double read_length(CheckedTable& t, const char* key) { return t.number(key, 0.05, k_largest_mm, 1, true); }
+
+void read_box(CheckedTable& t, ShapeSpec& s) {
+  read_turned_place(t, s);
+  s.size_mm = t.vector("size_mm", 3, {1, 1, 1}, true);
+  if (!(s.size_mm.x > 0 && s.size_mm.y > 0 && s.size_mm.z > 0)) t.problem("size_mm", "'size_mm' must be positive", "write three lengths in mm");
+}
+
+void read_cylinder(CheckedTable& t, ShapeSpec& s) {
+  read_place(t, s);
+  s.radius_mm = read_length(t, "radius_mm");
+  s.height_mm = read_length(t, "height_mm");
+}
+
+void read_cone(CheckedTable& t, ShapeSpec& s) {
+  read_place(t, s);
+  s.radius_mm = t.number("radius_mm", 0, k_largest_mm, 1, true);
+  s.top_radius_mm = t.number("top_radius_mm", 0, k_largest_mm, 1, true);
+  s.height_mm = read_length(t, "height_mm");
+}
+
+void read_ball(CheckedTable& t, ShapeSpec& s) {
+  s.at_mm = t.vector("at_mm", 3, {}, true);
+  s.radius_mm = read_length(t, "radius_mm");
+}
+
+void read_prism(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
+  read_turned_place(t, s);
+  s.height_mm = read_length(t, "height_mm");
+  if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
+  if (s.outline.kind == OutlineSpec::Kind::projection) t.problem("outline", "a prism cannot use a projection", "use shape = \"column\"");
+}
+
+void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
+  s.taper_deg = t.number("taper_deg", -30, 45, 0);
+  if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
+  if (const auto* b = t.table("bottom", true)) s.bottom = read_bottom(*b, name, problems);
+}
+
+void read_tissue(CheckedTable& t, ShapeSpec& s) {
+  s.tissue = t.text("tissue", "pulp", true);
+  s.part = read_part(t);
+  s.offset_mm = t.number("offset_mm", -5, 5, 0);
+}
+
+void read_stl(CheckedTable& t, ShapeSpec& s) {
+  s.file = t.text("file", "", true);
+  const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
+  if (!s.file.empty() && !named) t.problem("file", "'file' is no STL file", "name a closed surface in mm, in the tooth's frame, ending in .stl");
+}
+
+void read_canal_cone(CheckedTable& t, ShapeSpec& s) {
+  s.tissue = t.text("tissue", "pulp");
+  const std::size_t side =
+      t.word("canals", {"all", "mesial", "distal", "buccal", "lingual", "mesiobuccal", "mesiolingual", "distobuccal", "distolingual"}, 0);
+  constexpr std::array<std::array<int, 2>, 9> k_sides{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+  if (side != CheckedTable::k_wrong) {
+    s.canals_x = k_sides[side][0];
+    s.canals_y = k_sides[side][1];
+  }
+  s.radius_mm = t.number("radius_mm", 0.05, 5, 0);
+  s.taper_deg = t.number("taper_deg", 0, 45, 5);
+  s.deeper_mm = t.number("deeper_mm", -5, 5, 0);
+  read_axis(t, s);
+}
+
+/// What a body of its kind needs.
+void read_body(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
   using Kind = ShapeSpec::Kind;
+  switch (s.kind) {
+    case Kind::box:
+      return read_box(t, s);
+    case Kind::cylinder:
+      return read_cylinder(t, s);
+    case Kind::cone:
+      return read_cone(t, s);
+    case Kind::ball:
+      return read_ball(t, s);
+    case Kind::prism:
+      return read_prism(t, s, name, problems);
+    case Kind::column:
+      return read_column(t, s, name, problems);
+    case Kind::tissue:
+      return read_tissue(t, s);
+    case Kind::stl:
+      return read_stl(t, s);
+    case Kind::canal_cone:
+      return read_canal_cone(t, s);
+  }
+}
+
+ShapeSpec read_shape(const toml::table& table, const std::string& name, const std::string& at, Places& places, ProblemList& problems) {
   CheckedTable t(table, name, problems);
   ShapeSpec s;
   s.line = static_cast<int>(table.source().begin.line);
@@ -116,81 +222,9 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone"}, 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
-  s.kind = static_cast<Kind>(kind);
+  s.kind = static_cast<ShapeSpec::Kind>(kind);
   s.combine = static_cast<ShapeSpec::Combine>(combine);
-  const auto outline = [&] {
-    if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
-  };
-  const auto axis = [&] {
-    const Vec3 along = t.vector("axis", 3, {0, 0, 1});
-    if (length(along) < 1e-6) t.problem("axis", "'axis' has no direction", "write for example [0, 0, 1]");
-    s.axis = normalized(along);
-  };
-  const auto pose = [&](bool turnable) {
-    s.at_mm = t.vector("at_mm", 3, {}, true);
-    axis();
-    if (turnable) s.turn_deg = t.number("turn_deg", -360, 360, 0);
-  };
-  switch (s.kind) {
-    case Kind::box: {
-      pose(true);
-      s.size_mm = t.vector("size_mm", 3, {1, 1, 1}, true);
-      if (!(s.size_mm.x > 0 && s.size_mm.y > 0 && s.size_mm.z > 0)) t.problem("size_mm", "'size_mm' must be positive", "write three lengths in mm");
-      break;
-    }
-    case Kind::cylinder:
-      pose(false);
-      s.radius_mm = t.number("radius_mm", 0.05, k_largest_mm, 1, true);
-      s.height_mm = t.number("height_mm", 0.05, k_largest_mm, 1, true);
-      break;
-    case Kind::cone:
-      pose(false);
-      s.radius_mm = t.number("radius_mm", 0, k_largest_mm, 1, true);
-      s.top_radius_mm = t.number("top_radius_mm", 0, k_largest_mm, 1, true);
-      s.height_mm = t.number("height_mm", 0.05, k_largest_mm, 1, true);
-      break;
-    case Kind::ball:
-      s.at_mm = t.vector("at_mm", 3, {}, true);
-      s.radius_mm = t.number("radius_mm", 0.05, k_largest_mm, 1, true);
-      break;
-    case Kind::prism:
-      pose(true);
-      s.height_mm = t.number("height_mm", 0.05, k_largest_mm, 1, true);
-      outline();
-      if (s.outline.kind == OutlineSpec::Kind::projection) t.problem("outline", "a prism cannot use a projection", "use shape = \"column\"");
-      break;
-    case Kind::column:
-      s.taper_deg = t.number("taper_deg", -30, 45, 0);
-      outline();
-      if (const auto* b = t.table("bottom", true)) s.bottom = read_bottom(*b, name, problems);
-      break;
-    case Kind::tissue:
-      s.tissue = t.text("tissue", "pulp", true);
-      s.part = read_part(t);
-      s.offset_mm = t.number("offset_mm", -5, 5, 0);
-      break;
-    case Kind::stl: {
-      s.file = t.text("file", "", true);
-      const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
-      if (!s.file.empty() && !named) t.problem("file", "'file' is no STL file", "name a closed surface in mm, in the tooth's frame, ending in .stl");
-      break;
-    }
-    case Kind::canal_cone: {
-      s.tissue = t.text("tissue", "pulp");
-      const std::size_t side =
-          t.word("canals", {"all", "mesial", "distal", "buccal", "lingual", "mesiobuccal", "mesiolingual", "distobuccal", "distolingual"}, 0);
-      constexpr std::array<std::array<int, 2>, 9> k_sides{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
-      if (side != CheckedTable::k_wrong) {
-        s.canals_x = k_sides[side][0];
-        s.canals_y = k_sides[side][1];
-      }
-      s.radius_mm = t.number("radius_mm", 0.05, 5, 0);
-      s.taper_deg = t.number("taper_deg", 0, 45, 5);
-      s.deeper_mm = t.number("deeper_mm", -5, 5, 0);
-      axis();
-      break;
-    }
-  }
+  read_body(t, s, name, problems);
   t.finish();
   return s;
 }

@@ -242,6 +242,27 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
   return all;
 }
 
+/// Heights of the tooth's surface inside an outline.
+struct SurfaceHeights {
+  double lowest_mm = 1e9, mean_mm = 0;
+  int columns = 0;
+};
+SurfaceHeights surface_heights(const ColumnMap& top, const Outline& outline) {
+  SurfaceHeights heights;
+  double sum = 0;
+  for (int y = 0; y < top.ny; ++y)
+    for (int x = 0; x < top.nx; ++x) {
+      const double z = top.value[top.index(x, y)];
+      const Vec3 at = top.origin_mm + Vec3{x + 0.5, y + 0.5, 0} * top.leaf_mm;
+      if (z == k_no_tooth_mm || outline.distance_mm(at.x, at.y) >= 0) continue;
+      heights.lowest_mm = std::min(heights.lowest_mm, z);
+      sum += z;
+      ++heights.columns;
+    }
+  if (heights.columns > 0) heights.mean_mm = sum / heights.columns;
+  return heights;
+}
+
 }  // namespace
 
 ShapeFrame shape_frame(const ShapeSpec& s) {
@@ -280,14 +301,15 @@ std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
   return all;
 }
 
+const TissueRelief& ShapeMaker::relief(const std::string& tissue, TissuePart part, const std::string& where) {
+  const std::pair<std::string, bool> key{tissue, part == TissuePart::chamber};
+  auto found = cache_->relief.find(key);
+  if (found == cache_->relief.end()) found = cache_->relief.emplace(key, tissue_relief(tooth_, tissue, part, where)).first;
+  return found->second;
+}
+
 std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
   const std::string where = place_text(where_, spec);
-  const auto relief_of = [&](const std::string& tissue, TissuePart part) -> const TissueRelief& {
-    const std::pair<std::string, bool> key{tissue, part == TissuePart::chamber};
-    auto found = cache_->relief.find(key);
-    if (found == cache_->relief.end()) found = cache_->relief.emplace(key, tissue_relief(tooth_, tissue, part, where)).first;
-    return found->second;
-  };
   switch (spec.kind) {
     case ShapeSpec::Kind::box:
       return std::make_unique<Box>(spec);
@@ -300,8 +322,8 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
     case ShapeSpec::Kind::prism:
       return std::make_unique<Prism>(spec);
     case ShapeSpec::Kind::tissue: {
-      const TissueRelief& relief = relief_of(spec.tissue, spec.part);  // also tells whether the tissue is there at all
-      return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? relief.lowest_mm : -1e9,
+      const TissueRelief& part = relief(spec.tissue, spec.part, where);  // also tells whether the tissue is there at all
+      return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? part.lowest_mm : -1e9,
                                           spec.offset_mm, work_);
     }
     case ShapeSpec::Kind::stl:
@@ -309,51 +331,53 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
       count_mesh_body(tooth_, *spec.surface, work_);
       return std::make_unique<MeshBody>(tooth_, *spec.surface);
     case ShapeSpec::Kind::canal_cone:
-      return canal_cones(tooth_, spec, relief_of(spec.tissue, TissuePart::chamber).middle_mm, where);
+      return canal_cones(tooth_, spec, relief(spec.tissue, TissuePart::chamber, where).middle_mm, where);
     case ShapeSpec::Kind::column:
       break;
   }
+  return make_column(spec, where);
+}
+
+std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std::string& where) {
   const OutlineSpec& o = spec.outline;
   Vec3 centre = o.centre_mm;
   if (o.from_chamber) {
-    const Vec3 middle = relief_of("pulp", TissuePart::chamber).middle_mm;
+    const Vec3 middle = relief("pulp", TissuePart::chamber, where).middle_mm;
     centre += Vec3{middle.x, middle.y, 0};
   }
-  const TissueRelief* shadow = o.kind == OutlineSpec::Kind::projection ? &relief_of(o.tissue, o.part) : nullptr;
+  const TissueRelief* shadow = o.kind == OutlineSpec::Kind::projection ? &relief(o.tissue, o.part, where) : nullptr;
   auto outline = make_outline(o, centre, shadow);
+  ColumnBottom bottom = bottom_of(spec.bottom, *outline, where);
+  work_.steps(bottom.height_mm.value.size(), outline->pieces());
+  return std::make_unique<Column>(std::move(outline), std::move(bottom.height_mm), spec.taper_deg, bottom.outline_z_mm);
+}
 
-  const ColumnMap& top = surface();
-  ColumnMap bottom = top;
-  double outline_z = 0;
-  const BottomSpec& b = spec.bottom;
-  if (b.kind == BottomSpec::Kind::level) {
-    outline_z = b.z_mm;
-    std::fill(bottom.value.begin(), bottom.value.end(), b.z_mm);
-  } else if (b.kind == BottomSpec::Kind::tissue_roof || b.kind == BottomSpec::Kind::tissue_floor) {
-    const TissueRelief& relief = relief_of(b.tissue, b.part);
-    bottom = b.kind == BottomSpec::Kind::tissue_roof ? relief.roof_mm : relief.floor_mm;
-    outline_z = (b.kind == BottomSpec::Kind::tissue_roof ? relief.highest_mm : relief.lowest_mm) - b.deeper_mm;
-    for (double& z : bottom.value) z -= b.deeper_mm;
-  } else {
-    // heights of the surface inside the outline
-    double lowest = 1e9, sum = 0;
-    int count = 0;
-    for (int y = 0; y < top.ny; ++y)
-      for (int x = 0; x < top.nx; ++x) {
-        const double z = top.value[top.index(x, y)];
-        const Vec3 at = top.origin_mm + Vec3{x + 0.5, y + 0.5, 0} * top.leaf_mm;
-        if (z == k_no_tooth_mm || outline->distance_mm(at.x, at.y) >= 0) continue;
-        lowest = std::min(lowest, z);
-        sum += z;
-        ++count;
-      }
-    if (count == 0) throw Error(where, "the outline lies beside the tooth '" + tooth_.name + "'", "move it over the crown");
-    const double mean = sum / count, from = b.kind == BottomSpec::Kind::below_lowest ? lowest : mean;
-    outline_z = from - b.depth_mm;
-    for (double& z : bottom.value) z = b.kind == BottomSpec::Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : outline_z;
+ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outline& outline, const std::string& where) {
+  using Kind = BottomSpec::Kind;
+  switch (b.kind) {
+    case Kind::level: {
+      ColumnBottom level{surface(), b.z_mm};
+      std::fill(level.height_mm.value.begin(), level.height_mm.value.end(), b.z_mm);
+      return level;
+    }
+    case Kind::tissue_roof:
+    case Kind::tissue_floor: {
+      const TissueRelief& part = relief(b.tissue, b.part, where);
+      const bool roof = b.kind == Kind::tissue_roof;
+      ColumnBottom tissue{roof ? part.roof_mm : part.floor_mm, (roof ? part.highest_mm : part.lowest_mm) - b.deeper_mm};
+      for (double& z : tissue.height_mm.value) z -= b.deeper_mm;
+      return tissue;
+    }
+    case Kind::below_surface:
+    case Kind::below_lowest:
+    case Kind::below_mean:
+      break;
   }
-  work_.steps(bottom.value.size(), outline->pieces());
-  return std::make_unique<Column>(std::move(outline), std::move(bottom), spec.taper_deg, outline_z);
+  const SurfaceHeights inside = surface_heights(surface(), outline);
+  if (inside.columns == 0) throw Error(where, "the outline lies beside the tooth '" + tooth_.name + "'", "move it over the crown");
+  ColumnBottom below{surface(), (b.kind == Kind::below_lowest ? inside.lowest_mm : inside.mean_mm) - b.depth_mm};
+  for (double& z : below.height_mm.value) z = b.kind == Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : below.outline_z_mm;
+  return below;
 }
 
 }  // namespace cavum

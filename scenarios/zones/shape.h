@@ -13,6 +13,8 @@
 
 namespace cavum {
 
+class Outline;
+
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -45,7 +47,15 @@ class ShapeMaker {
   [[nodiscard]] ZoneWork& work() noexcept { return work_; }
 
  private:
+  /// Where a column ends: the height for each of the tooth's columns, and the one at which its outline is as drawn.
+  struct ColumnBottom {
+    ColumnMap height_mm;
+    double outline_z_mm = 0.0;
+  };
   [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
+  [[nodiscard]] std::unique_ptr<Shape> make_column(const ShapeSpec& spec, const std::string& where);
+  [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const std::string& where);
+  [[nodiscard]] const TissueRelief& relief(const std::string& tissue, TissuePart part, const std::string& where);
   struct Cache;
   const Tooth& tooth_;
   std::string where_;

@@ -32,8 +32,6 @@ inline constexpr double k_distance_bound_leaves = 0.6;
 /// From a leaf to those that share a face with it.
 inline constexpr IVec3 k_six_neighbours[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-class Shape;
-
 class ZoneMap {
  public:
   [[nodiscard]] double leaf_mm() const noexcept { return leaf_mm_; }
@@ -96,13 +94,12 @@ class ZoneMap {
   }
 
  private:
-  friend ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth);
+  friend class ZoneBuilder;  // of build_zones
   [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
     return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
            static_cast<std::size_t>(l.x);
   }
-  void guard_beyond(const Octree& tree, const Shape& guard);
   [[nodiscard]] bool guarded_beyond(IVec3 l) const noexcept {
     if (guarded_.empty() || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= tooth_size_.x || l.y >= tooth_size_.y || l.z >= tooth_size_.z) return false;
     return guarded_[tooth_index(l)];

@@ -184,7 +184,53 @@ struct SoundOutput::Shared {
   SoundReport report;
   bool ended = false;
   std::condition_variable changed;
+
+  [[nodiscard]] bool stopped() const noexcept { return stop.load(std::memory_order_acquire); }
+  template <class Change>
+  void tell(const Change& change) {
+    const std::lock_guard lock(mutex);
+    change(report);
+  }
+  void silent(const std::string& why) {
+    tell([&](SoundReport& r) {
+      r.playing = false;
+      r.silent_why = why;
+    });
+  }
+  /// What is to be heard now: nothing when muted or about to end.
+  [[nodiscard]] SoundParameters wanted() const noexcept {
+    SoundParameters now = unpack(parameters.load(std::memory_order_acquire));
+    const bool quiet = stopped() || muted.load(std::memory_order_acquire);
+    now.volume = quiet ? 0.0 : volume.load(std::memory_order_acquire);
+    return now;
+  }
+  void play(Player& player, HandpieceSound& sound);
 };
+
+/// Until the sound has faded after `stop`, or the device is gone.
+void SoundOutput::Shared::play(Player& player, HandpieceSound& sound) {
+  constexpr int k_blocks_to_fade = 20;
+  std::array<float, k_block_samples> block;
+  int faded = 0;  // blocks since `stop`
+  const auto silence = [&] { return stopped() && faded > k_blocks_to_fade; };
+  while (player.connected() && !silence()) {
+    std::int64_t made = 0;
+    player.take_back();
+    while (player.wants_block() && !silence()) {
+      sound.render(wanted(), block);
+      player.queue(block);
+      ++made;
+      faded += stopped();
+    }
+    const bool dropout = player.play_on();
+    tell([&](SoundReport& r) {
+      r.blocks += made;
+      r.dropouts += dropout;
+      r.latency_ms = 1000.0 * (static_cast<double>(player.blocks()) * k_block_samples / k_sample_rate_hz + player.device_latency_s());
+    });
+    std::this_thread::sleep_for(2ms);
+  }
+}
 
 SoundOutput::SoundOutput() : shared_(std::make_shared<Shared>()) {
   ask_for_short_periods();
@@ -220,64 +266,28 @@ SoundReport SoundOutput::report() const {
 }
 
 void SoundOutput::run(const std::shared_ptr<Shared>& shared) noexcept {
-  const auto tell = [&](const auto& change) {
-    const std::lock_guard lock(shared->mutex);
-    change(shared->report);
-  };
-  const auto stopped = [&] { return shared->stop.load(std::memory_order_acquire); };
   try {
     HandpieceSound sound(k_sample_rate_hz);
-    std::array<float, k_block_samples> block;
     bool unplugged = false;  // a device that was there may come back; one that never was is not asked for again
     do {
       Player player;
       if (!player.failed().empty()) {
-        tell([&](SoundReport& r) {
-          r.playing = false;
-          r.silent_why = player.failed();
-        });
+        shared->silent(player.failed());
       } else {
-        tell([&](SoundReport& r) {
+        shared->tell([&](SoundReport& r) {
           r.playing = true;
           r.device = player.name();
           r.silent_why.clear();
         });
-        int blocks_to_fade = 0;  // the last ones, after `stop`
-        while (player.connected() && !(stopped() && blocks_to_fade > 20)) {
-          std::int64_t made = 0;
-          player.take_back();
-          while (player.wants_block() && !(stopped() && blocks_to_fade > 20)) {
-            SoundParameters now = unpack(shared->parameters.load(std::memory_order_acquire));
-            const bool silent = stopped() || shared->muted.load(std::memory_order_acquire);
-            now.volume = silent ? 0.0 : shared->volume.load(std::memory_order_acquire);
-            sound.render(now, block);
-            player.queue(block);
-            ++made;
-            blocks_to_fade += stopped();
-          }
-          const bool dropout = player.play_on();
-          tell([&](SoundReport& r) {
-            r.blocks += made;
-            r.dropouts += dropout;
-            r.latency_ms = 1000.0 * (static_cast<double>(player.blocks()) * k_block_samples / k_sample_rate_hz + player.device_latency_s());
-          });
-          std::this_thread::sleep_for(2ms);
-        }
-        unplugged = !stopped();
-        if (unplugged)
-          tell([](SoundReport& r) {
-            r.playing = false;
-            r.silent_why = "the sound device is gone; plug it in again, or go on without sound";
-          });
+        shared->play(player, sound);
+        unplugged = !shared->stopped();
+        if (unplugged) shared->silent("the sound device is gone; plug it in again, or go on without sound");
       }
       std::unique_lock lock(shared->mutex);
-      shared->changed.wait_for(lock, unplugged ? 5s : 0s, stopped);
-    } while (unplugged && !stopped());
+      shared->changed.wait_for(lock, unplugged ? 5s : 0s, [&] { return shared->stopped(); });
+    } while (unplugged && !shared->stopped());
   } catch (const std::exception& e) {
-    tell([&](SoundReport& r) {
-      r.playing = false;
-      r.silent_why = std::string("sound failed: ") + e.what();
-    });
+    shared->silent(std::string("sound failed: ") + e.what());
   }
   const std::lock_guard lock(shared->mutex);
   shared->ended = true;

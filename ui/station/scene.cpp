@@ -102,6 +102,13 @@ glm::mat4 to_glm(const Pose& pose) {
   return m;
 }
 
+/// The head would hide the work from whoever looks along the handpiece.
+float handpiece_opacity(const SceneView& view, int eye) {
+  const glm::vec3 sight_line = glm::normalize(view.camera.target_mm - view.camera.position_mm(eye));
+  const float along = std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2]))));
+  return 0.24F * (1.0F - glm::smoothstep(0.55F, 0.85F, along));
+}
+
 std::vector<GpuMesh> meshes_of(const std::vector<DiamondPoint>& tray) {
   std::vector<GpuMesh> meshes(tray.size());
   for (std::size_t i = 0; i < tray.size(); ++i) {
@@ -165,10 +172,10 @@ std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
   return table;
 }
 
-void Scene::light(const ShaderProgram& program, const SceneView& view, const glm::mat4& look, const glm::mat4& projection) const {
+void Scene::light(const ShaderProgram& program, const SceneView& view, const Lens& lens) const {
   program.use();
-  program.set("look", look);
-  program.set("projection", projection);
+  program.set("look", lens.look);
+  program.set("projection", lens.projection);
   program.set("model", glm::mat4(1.0F));
   program.set("opacity", 1.0F);
   program.set("background", view.high_contrast ? glm::vec3(0) : glm::vec3(0.085F, 0.105F, 0.130F));
@@ -178,71 +185,80 @@ void Scene::light(const ShaderProgram& program, const SceneView& view, const glm
   program.set("glass", 0.0F);
 }
 
+void Scene::draw_point(const SceneView& view) {
+  plain_program_.set("model", to_glm(view.tool));
+  points_[static_cast<std::size_t>(view.point)].draw();
+}
+
+void Scene::draw_clear_tissue(const SceneView& view, const Lens& lens) {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  light(plain_program_, view, lens);
+  plain_program_.set("opacity", 0.45F);
+  plain_program_.set("flat_light", 1.0F);
+  target_.draw();
+  glDepthMask(GL_TRUE);
+  // the nearest surface alone, so that walls behind walls do not add up to white
+  tissue_program_.use();
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  tooth_.draw_hard_tissue(lens.sight);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  tissue_program_.set("opacity", 0.55F);
+  tissue_program_.set("glass", 1.0F);
+  tissue_program_.set("flat_light", 0.6F);
+  tooth_.draw_hard_tissue(lens.sight);
+  glDepthFunc(GL_LESS);
+}
+
+void Scene::draw_bodies(const SceneView& view, const Lens& lens) {
+  // over all tissue, so that their colours stay what the key says
+  light(plain_program_, view, lens);
+  plain_program_.set("glass", 0.5F);
+  plain_program_.set("flat_light", 1.0F);
+  glDisable(GL_DEPTH_TEST);
+  for (const GpuMesh& body : bodies_) body.draw();
+  glEnable(GL_DEPTH_TEST);
+}
+
+void Scene::draw_handpiece(const SceneView& view, const Lens& lens, float opacity) {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  light(plain_program_, view, lens);
+  plain_program_.set("model", to_glm(view.tool));
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  handpiece_.draw();
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  plain_program_.set("opacity", opacity);
+  handpiece_.draw();
+  glDepthFunc(GL_LESS);
+}
+
 void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int height) {
   glViewport(x, 0, width, height);
   const glm::mat4 look = view.camera.view(eye), projection = view.camera.projection(static_cast<float>(width) / static_cast<float>(height));
-  const ToothDrawing::Sight sight{view.camera.position_mm(eye), projection * look};
+  const Lens lens{look, projection, {view.camera.position_mm(eye), projection * look}};
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glEnable(GL_CULL_FACE);
   glFrontFace(view.camera.mirror ? GL_CW : GL_CCW);
 
-  light(plain_program_, view, look, projection);
+  light(plain_program_, view, lens);
   const bool tool = view.point >= 0 && static_cast<std::size_t>(view.point) < points_.size();
-  if (tool) {
-    plain_program_.set("model", to_glm(view.tool));
-    points_[static_cast<std::size_t>(view.point)].draw();
-  }
-  light(tissue_program_, view, look, projection);
+  if (tool) draw_point(view);
+  light(tissue_program_, view, lens);
   tissue_program_.set("colours", colours(view.high_contrast));
-  tooth_.draw_pulp(sight);
+  tooth_.draw_pulp(lens.sight);
   if (view.clear) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glDepthMask(GL_FALSE);
-    light(plain_program_, view, look, projection);
-    plain_program_.set("opacity", 0.45F);
-    plain_program_.set("flat_light", 1.0F);
-    target_.draw();
-    glDepthMask(GL_TRUE);
-    // the nearest surface alone, so that walls behind walls do not add up to white
-    tissue_program_.use();
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    tooth_.draw_hard_tissue(sight);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthFunc(GL_LEQUAL);
-    tissue_program_.set("opacity", 0.55F);
-    tissue_program_.set("glass", 1.0F);
-    tissue_program_.set("flat_light", 0.6F);
-    tooth_.draw_hard_tissue(sight);
-    glDepthFunc(GL_LESS);
-    // over all tissue, so that their colours stay what the key says
-    light(plain_program_, view, look, projection);
-    plain_program_.set("glass", 0.5F);
-    plain_program_.set("flat_light", 1.0F);
-    glDisable(GL_DEPTH_TEST);
-    for (const GpuMesh& body : bodies_) body.draw();
-    glEnable(GL_DEPTH_TEST);
+    draw_clear_tissue(view, lens);
+    draw_bodies(view, lens);
   } else {
-    tooth_.draw_hard_tissue(sight);
+    tooth_.draw_hard_tissue(lens.sight);
   }
-  // the head would hide the work from whoever looks along the handpiece
-  const glm::vec3 sight_line = glm::normalize(view.camera.target_mm - view.camera.position_mm(eye));
-  const float along = tool ? std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2])))) : 0.0F;
-  const float opacity = 0.24F * (1.0F - glm::smoothstep(0.55F, 0.85F, along));
-  if (tool && view.handpiece && opacity > 0.01F) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    light(plain_program_, view, look, projection);
-    plain_program_.set("model", to_glm(view.tool));
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    handpiece_.draw();
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthFunc(GL_LEQUAL);
-    plain_program_.set("opacity", opacity);
-    handpiece_.draw();
-    glDepthFunc(GL_LESS);
-  }
+  const float opacity = tool && view.handpiece ? handpiece_opacity(view, eye) : 0.0F;
+  if (opacity > 0.01F) draw_handpiece(view, lens, opacity);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);

@@ -40,8 +40,18 @@ class Scene {
   [[nodiscard]] std::uint64_t drawn() const noexcept { return drawn_; }
 
  private:
+  /// How one eye looks.
+  struct Lens {
+    glm::mat4 look, projection;
+    ToothDrawing::Sight sight;
+  };
   void draw_eye(const SceneView& view, int eye, int x, int width, int height);
-  void light(const ShaderProgram& program, const SceneView& view, const glm::mat4& look, const glm::mat4& projection) const;
+  void draw_point(const SceneView& view);
+  /// The target through hard tissue that is clear as glass.
+  void draw_clear_tissue(const SceneView& view, const Lens& lens);
+  void draw_bodies(const SceneView& view, const Lens& lens);
+  void draw_handpiece(const SceneView& view, const Lens& lens, float opacity);
+  void light(const ShaderProgram& program, const SceneView& view, const Lens& lens) const;
   [[nodiscard]] std::vector<glm::vec3> colours(bool high_contrast) const;
 
   ToothDrawing tooth_;

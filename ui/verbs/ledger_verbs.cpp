@@ -7,39 +7,60 @@
 #include "ui/verbs/verbs.h"
 
 namespace cavum {
+namespace {
 
-void add_ledger_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<LedgerOptions>();
-  auto* ledger = app.add_subcommand("ledger", "Tickets, filed exams, results and their release, kept so that no change goes unseen");
-  ledger->require_subcommand(1);
-  const auto keyless = [&](const char* name, const char* what, const char* folder, const std::function<int(const LedgerOptions&)>& run) {
-    auto* v = ledger->add_subcommand(name, what);
-    v->add_option("folder", o->folder, folder)->required();
-    v->callback([o, run, name, &exit_code] {
+using LedgerRun = std::function<int(const LedgerOptions&)>;
+
+/// Of a verb that either does its work or throws Error.
+LedgerRun done(void (*run)(const LedgerOptions&)) {
+  return [run](const LedgerOptions& options) {
+    run(options);
+    return 0;
+  };
+}
+
+/// `cavum ledger` while its verbs are added: they all fill the same options.
+class LedgerCommand {
+ public:
+  LedgerCommand(CLI::App& app, int& exit_code)
+      : app_(app.add_subcommand("ledger", "Tickets, filed exams, results and their release, kept so that no change goes unseen")),
+        exit_code_(exit_code) {
+    app_->require_subcommand(1);
+  }
+  /// A verb that signs nothing with the school's key; `folder` says what its first argument is.
+  CLI::App* keyless(const char* name, const char* what, const char* folder, const LedgerRun& run) {
+    auto* v = app_->add_subcommand(name, what);
+    v->add_option("folder", options->folder, folder)->required();
+    v->callback([o = options, run, name, &exit_code = exit_code_] {
       if (o->folder.empty()) throw Error(std::string("cavum ledger ") + name, "no folder named", "name the ledger's folder");
       exit_code = run(*o);
     });
     return v;
-  };
-  const auto verb = [&](const char* name, const char* what, const std::function<int(const LedgerOptions&)>& run,
-                        const char* folder = "the ledger's folder") {
+  }
+  CLI::App* verb(const char* name, const char* what, const LedgerRun& run, const char* folder = "the ledger's folder") {
     auto* v = keyless(name, what, folder, run);
-    v->add_option("--key", o->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
+    v->add_option("--key", options->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
     return v;
-  };
-  const auto done = [](void (*run)(const LedgerOptions&)) {
-    return [run](const LedgerOptions& options) {
-      run(options);
-      return 0;
-    };
-  };
-  const auto json_flag = [&](CLI::App* v) { v->add_flag("--json", o->as_json, "one JSON object on stdout"); };
+  }
+  void json_flag(CLI::App* v) { v->add_flag("--json", options->as_json, "one JSON object on stdout"); }
 
-  auto* v = verb("init", "Make a new ledger", done(ledger_init));
+  const std::shared_ptr<LedgerOptions> options = std::make_shared<LedgerOptions>();
+
+ private:
+  CLI::App* app_;
+  int& exit_code_;
+};
+
+void add_init(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("init", "Make a new ledger", done(ledger_init));
   v->add_option("--school", o->school, "name of the school, entered first")->capture_default_str();
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("station", "List the stations whose exams count; invite, enrol or revoke one", done(ledger_station));
+void add_station(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("station", "List the stations whose exams count; invite, enrol or revoke one", done(ledger_station));
   auto* invite = v->add_option("--invite", o->invite, "make a one-time code for a station of this name");
   auto* enrol = v->add_option("--enrol", o->enrol, "enter the station whose request this file is (`cavum station --enrol | --replace-key` wrote it)")
                     ->excludes(invite);
@@ -49,9 +70,12 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--until", o->until,
                 "with --invite: until when the code is good (else a week); with --enrol: until when the key is (else without end)");
   v->add_option("--reason", o->reason, "with --revoke: why, in one line; it is kept for ever");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("ticket", "Promise an exam to a candidate, or to a list of them", ledger_ticket);
+void add_ticket(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("ticket", "Promise an exam to a candidate, or to a list of them", ledger_ticket);
   v->add_option("scenario", o->scenario, "scenario file (.toml)")->required();
   v->add_option("--candidate", o->candidate, "matriculation number or mail address; kept with the identities only");
   v->add_option("--name", o->name, "for people; kept with the identities only");
@@ -66,31 +90,45 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_flag("--begin-at-ledger", o->begin_at_ledger, "the exam counts only when the ledger let it begin (`cavum ledger begin`)");
   v->add_option("--out", o->out, "ticket to write, or the folder for a class")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = keyless("tickets", "List the tickets and what became of them", "the ledger's folder", done(ledger_tickets));
-  json_flag(v);
+void add_tickets(LedgerCommand& ledger) {
+  auto* v = ledger.keyless("tickets", "List the tickets and what became of them", "the ledger's folder", done(ledger_tickets));
+  ledger.json_flag(v);
+}
 
-  v = verb("cancel", "Cancel a ticket that was not used", done(ledger_cancel));
+void add_cancel(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("cancel", "Cancel a ticket that was not used", done(ledger_cancel));
   v->add_option("--ticket", o->session_seq, "its entry")->required();
   v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names")->required();
+}
 
-  v = verb("begin", "Let the exam of a ticket begin now: by the ledger's clock, and once", done(ledger_begin));
+void add_begin(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("begin", "Let the exam of a ticket begin now: by the ledger's clock, and once", done(ledger_begin));
   v->add_option("--ticket", o->scenario, "the ticket's file")->required();
   v->add_option("--again", o->again, "why an exam that was let begin before begins anew, in one line; only the last one counts");
   v->add_option("--out", o->out, "file to write (default: beside the ticket, NAME.begin)");
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+}
 
-  v = verb("add", "File finished exams: verified tick by tick, checked against their tickets, counter-signed", ledger_add);
+void add_add(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("add", "File finished exams: verified tick by tick, checked against their tickets, counter-signed", ledger_add);
   v->add_option("sessions", o->sessions, ".cavum files, or folders of them")->required();
   v->add_flag("--without-ticket", o->without_ticket, "also exams that nobody promised");
   v->add_flag("--simulated", o->simulated,
               "also what no candidate's hand moved: simulated operators, motion files, practice; it stays marked as that");
   v->add_flag("--with-findings", o->with_findings, "also what does not hold, with what was found: for an appeal");
   v->add_option("--receipts", o->out, "folder for receipts: what a candidate can show without the ledger");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("release", "Let results go to candidates and exports", done(ledger_release));
+void add_release(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("release", "Let results go to candidates and exports", done(ledger_release));
   v->add_flag("--all", o->all,
               "all that are filed without findings and not contested, what simulated operators sat, too: that is never written under a "
               "student's number");
@@ -98,25 +136,34 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--session", o->chosen_sessions, "its entry: chooses one of several endings of an exam, which then alone counts; may be repeated");
   v->add_flag("--with-findings", o->with_findings,
               "with --candidate or --session: also one that was filed with findings, with --session also one that is contested, after an appeal");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("regrade", "Mark a filed exam by another rubric or a corrected scenario: a new result beside the old", done(ledger_regrade));
+void add_regrade(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("regrade", "Mark a filed exam by another rubric or a corrected scenario: a new result beside the old", done(ledger_regrade));
   v->add_option("--session", o->session_seq, "its entry")->required();
   v->add_option("--rubric", o->rubric, "rubric (TOML)");
   v->add_option("--scenario", o->scenario, "corrected scenario (TOML)");
   v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names and nothing personal")->required();
   v->add_flag("--another-task", o->another_task, "let --scenario be that of another task than the session's");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("verify", "Check every entry, signature, ticket and filed session", ledger_verify);
+void add_verify(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("verify", "Check every entry, signature, ticket and filed session", ledger_verify);
   v->add_flag("--replay", o->replay, "simulate every session again, too");
   v->add_option("--receipt", o->receipts, "check this receipt, and that the ledger still begins with what it saw; may be repeated");
   v->add_option("--cosigned", o->cosigned, "check this note of a cosigner, and that the ledger still begins with what it saw; may be repeated");
   v->add_option("--cosigners", o->cosigners, "key lines of the cosigners whose word counts (default: $CAVUM_HOME/cosigners)");
   v->add_option("--results", o->results, "check this file of `export --format json`: signed by this school and unchanged");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("export", "Write results for other systems", done(ledger_export));
+void add_export(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("export", "Write results for other systems", done(ledger_export));
   v->add_option("--format", o->format,
                 "moodle (gradebook CSV), lti (scores of LTI Advantage), json (all results, signed), csv (a row for each criterion)")
       ->required()
@@ -124,42 +171,65 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--out", o->out, "file to write")->required();
   v->add_flag("--with-simulated", o->with_simulated, "moodle and lti: also what simulated operators sat, marked, under no student's number");
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+}
 
-  v = verb("receipt", "Write an entry's receipt again: it proves without the ledger that the entry is in it", done(ledger_receipt));
+void add_receipt(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("receipt", "Write an entry's receipt again: it proves without the ledger that the entry is in it", done(ledger_receipt));
   v->add_option("--entry", o->session_seq, "its number")->required();
   v->add_option("--from-size", o->from_size, "prove also that the ledger's first entries, this many, are the beginning of it");
   v->add_option("--out", o->out, "file to write")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+}
 
-  v = verb("candidates", "List who is behind which pseudonym", done(ledger_candidates));
-  json_flag(v);
+void add_candidates(LedgerCommand& ledger) {
+  auto* v = ledger.verb("candidates", "List who is behind which pseudonym", done(ledger_candidates));
+  ledger.json_flag(v);
+}
 
-  v = verb("forget", "Remove a candidate's identity and erase recordings and results; all proofs stay valid", done(ledger_forget));
+void add_forget(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("forget", "Remove a candidate's identity and erase recordings and results; all proofs stay valid", done(ledger_forget));
   v->add_option("--candidate", o->candidate, "one of the pseudonyms, or the school's own number")->required();
   v->add_flag("--keep-motion", o->keep_motion, "keep the recordings, under pseudonyms that lead to nobody; they hold the accommodations");
   v->add_flag("--keep-results", o->keep_results, "keep the results likewise; they tell of accommodations, too");
+}
 
-  v = verb("erase", "Erase recordings or results; all proofs stay valid. Without more: remove what a crash left of it", done(ledger_erase));
+void add_erase(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v =
+      ledger.verb("erase", "Erase recordings or results; all proofs stay valid. Without more: remove what a crash left of it", done(ledger_erase));
   v->add_option("--session", o->chosen_sessions, "its entry; may be repeated");
   v->add_option("--before", o->before, "all that came in before this time, UTC: 2026-11-21T09:00Z");
   v->add_flag("--motion", o->erase_motion, "the recording: motion, forces, ticket, accommodations");
   v->add_flag("--results", o->erase_results, "the school's mark, all regrades, and what the station sealed");
   v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("key", "List the school's keys; replace the present one, or say until when it is good", done(ledger_key));
+void add_key(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("key", "List the school's keys; replace the present one, or say until when it is good", done(ledger_key));
   v->add_flag("--replace", o->replace, "draw a new one, which signs from now on; the old one is kept beside it");
   v->add_option("--until", o->until, "until when the new one, or without --replace the present one, is good, UTC");
   v->add_option("--reason", o->reason, "why, in one line; it is kept for ever");
+}
 
-  v = verb("checkpoint", "Write what the school signs of the ledger, for a cosigner: with the proof that it goes on from what he signed before",
-           done(ledger_checkpoint));
+void add_checkpoint(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("checkpoint",
+                        "Write what the school signs of the ledger, for a cosigner: with the proof that it goes on from what he signed before",
+                        done(ledger_checkpoint));
   v->add_option("--since", o->since, "entries that the cosigner signed before (default: those of the last cosignature in the ledger)");
   v->add_option("--out", o->out, "file to write")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
+}
 
-  v = keyless("cosign", "For another party, on another computer: sign a ledger's checkpoint, if it goes on from the one that was signed before",
-              "what `cavum ledger checkpoint` wrote", ledger_cosign);
+void add_cosign(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.keyless("cosign",
+                           "For another party, on another computer: sign a ledger's checkpoint, if it goes on from the one that was signed before",
+                           "what `cavum ledger checkpoint` wrote", ledger_cosign);
   v->add_option("--key", o->key, "the cosigner's own key, made when there is none (default: $CAVUM_HOME/cosigner.key)");
   v->add_option("--name", o->name_of_cosigner, "name that stands in the signature (default: cavum.cosigner/ and the key's first digits)");
   v->add_option("--school-key", o->school_key, "the school's public key, the first time: 64 hexadecimal digits, from the school itself");
@@ -167,28 +237,49 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--state", o->state, "folder that remembers what was signed (default: $CAVUM_HOME/cosigned)");
   v->add_option("--out", o->out, "the note with the cosignature, to write")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("add-cosignature", "Keep what a cosigner has signed, so that receipts show it", ledger_add_cosignature);
+void add_add_cosignature(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("add-cosignature", "Keep what a cosigner has signed, so that receipts show it", ledger_add_cosignature);
   v->add_option("note", o->cosigned, "what `cavum ledger cosign` wrote")->required();
   v->add_option("--cosigners", o->cosigners, "key lines of the cosigners whose word counts (default: $CAVUM_HOME/cosigners)");
+}
 
-  v = keyless("backup", "Copy the ledger while it is in use: its entries at one moment, their checkpoint, the filed sessions", "the ledger's folder",
-              ledger_backup);
+void add_backup(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.keyless("backup", "Copy the ledger while it is in use: its entries at one moment, their checkpoint, the filed sessions",
+                           "the ledger's folder", ledger_backup);
   v->add_option("--out", o->out, "folder: a new one, or an earlier backup of the ledger, which is brought up to date")->required();
   v->add_flag("--with-identities", o->with_identities, "also who is behind the pseudonyms: then keep the backup as you keep names");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("restore", "Go on from a backup: checks it, says what is missing, and enters that", ledger_restore, "the backup's folder");
+void add_restore(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("restore", "Go on from a backup: checks it, says what is missing, and enters that", ledger_restore, "the backup's folder");
   v->add_option("--out", o->out, "folder of the ledger to make")->required();
   v->add_option("--receipt", o->receipts, "a receipt at hand: shows entries that the backup lacks; may be repeated");
   v->add_option("--cosigned", o->cosigned, "a cosigned note at hand, for the same; may be repeated");
   v->add_option("--accept-loss", o->accept_loss,
                 "why the school goes on without entries that are lost, in one line; it is kept for ever, so no names");
-  json_flag(v);
+  ledger.json_flag(v);
+}
 
-  v = verb("show", "List what is filed", ledger_show);
-  json_flag(v);
+void add_show(LedgerCommand& ledger) {
+  auto* v = ledger.verb("show", "List what is filed", ledger_show);
+  ledger.json_flag(v);
+}
+
+}  // namespace
+
+void add_ledger_verbs(CLI::App& app, int& exit_code) {
+  LedgerCommand ledger(app, exit_code);
+  for (auto* add : {add_init,       add_station, add_ticket,          add_tickets, add_cancel,     add_begin,  add_add,   add_release,
+                    add_regrade,    add_verify,  add_export,          add_receipt, add_candidates, add_forget, add_erase, add_key,
+                    add_checkpoint, add_cosign,  add_add_cosignature, add_backup,  add_restore,    add_show})
+    add(ledger);
 }
 
 }  // namespace cavum

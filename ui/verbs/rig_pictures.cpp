@@ -49,6 +49,55 @@ std::string field(double x, double y, double w, double h, const std::string& col
          "'/>" + svg_text(x + w / 2, y + h / 2 + 3.5, words, 10, "middle", bold ? "font-weight='bold'" : "");
 }
 
+/// The straight line of a fit, over all stiffnesses.
+std::vector<ChartPoint> fitted_line(const Fit& line, double largest_k) {
+  return curve(largest_k, [&](double k) { return line.value[0] * k + line.value[1]; });
+}
+
+/// What a fit with a root of k says beside the straight one, mN.
+std::vector<ChartPoint> root_beside_line(const Fit& root, const Fit& line, double largest_k) {
+  return curve(largest_k,
+               [&](double k) { return 1000 * ((root.value[0] - line.value[0]) * k + root.value[1] - line.value[1] + root.value[2] * std::sqrt(k)); });
+}
+
+/// The forces of one model, and what its straight line leaves over.
+void add_cube_set(const CubeSet& set, const std::string& colour, double largest_k, Chart& force, Chart& rest) {
+  ChartSeries with{set.name + ", with friction", colour, Style::dots, {}, 1.8},
+      without{set.name + ", without friction", colour, Style::rings, {}, 1.8}, left{set.name, colour, Style::dots, {}, 1.8};
+  const Fit& line = set.with.line;
+  for (const auto& row : set.rows) {
+    with.points.push_back({row.k_n_per_mm, row.with.mean, row.with.sd});
+    without.points.push_back({row.k_n_per_mm, row.without.mean, row.without.sd});
+    if (line.solved)
+      left.points.push_back({row.k_n_per_mm, 1000 * (row.with.mean - line.value[0] * row.k_n_per_mm - line.value[1]), 1000 * row.with.sd});
+  }
+  if (line.solved) {
+    force.series.push_back({set.name + ": " + equation(line), colour, Style::line, fitted_line(line, largest_k), 1.4});
+    force.series.push_back({"", colour, Style::line, fitted_line(set.without.line, largest_k), 0.7});
+  }
+  if (set.with.with_root.solved && line.solved)
+    rest.series.push_back({set.name + ", fit with a root of k", colour, Style::dashed, root_beside_line(set.with.with_root, line, largest_k), 1.4});
+  force.series.push_back(with);
+  force.series.push_back(without);
+  rest.series.push_back(left);
+}
+
+/// Room for the legend over all that is drawn.
+void scale_cube_charts(Chart& force, Chart& rest, double largest_k) {
+  double top = 0;
+  for (const auto& s : force.series)
+    for (const auto& p : s.points) top = std::max(top, p.y);
+  force.y_range = {{-0.05, 1.55 * top}};
+  double low = -1, high = 1;
+  for (const auto& s : rest.series)
+    for (const auto& p : s.points) {
+      low = std::min(low, p.y - p.error);
+      high = std::max(high, p.y + p.error);
+    }
+  rest.y_range = {{1.1 * low, high + 0.4 * (high - low)}};
+  force.x_range = rest.x_range = {{-0.03 * largest_k, 1.03 * largest_k}};
+}
+
 }  // namespace
 
 std::string cube_svg(const CubeResult& r) {
@@ -65,50 +114,8 @@ std::string cube_svg(const CubeResult& r) {
   for (const double k : r.options.k_n_per_mm) largest = std::max(largest, k);
   force.series.push_back({"paper, eq. 6: F = " + fixed(k_paper_slope_mm, 3) + " k + " + fixed(k_paper_intercept_n, 3), k_paper_colour, Style::line,
                           curve(largest, paper_force_n), 2.4});
-  for (std::size_t i = 0; i < r.sets.size(); ++i) {
-    const CubeSet& set = r.sets[i];
-    const std::string colour = k_colours[i % k_colours.size()];
-    ChartSeries with{set.name + ", with friction", colour, Style::dots, {}, 1.8},
-        without{set.name + ", without friction", colour, Style::rings, {}, 1.8}, left{set.name, colour, Style::dots, {}, 1.8};
-    for (const auto& row : set.rows) {
-      with.points.push_back({row.k_n_per_mm, row.with.mean, row.with.sd});
-      without.points.push_back({row.k_n_per_mm, row.without.mean, row.without.sd});
-      if (set.with.line.solved)
-        left.points.push_back(
-            {row.k_n_per_mm, 1000 * (row.with.mean - set.with.line.value[0] * row.k_n_per_mm - set.with.line.value[1]), 1000 * row.with.sd});
-    }
-    if (set.with.line.solved) {
-      const Fit line = set.with.line, other = set.without.line;
-      force.series.push_back(
-          {set.name + ": " + equation(line), colour, Style::line, curve(largest, [=](double k) { return line.value[0] * k + line.value[1]; }), 1.4});
-      force.series.push_back({"", colour, Style::line, curve(largest, [=](double k) { return other.value[0] * k + other.value[1]; }), 0.7});
-    }
-    if (set.with.with_root.solved && set.with.line.solved) {
-      const Fit line = set.with.line, root = set.with.with_root;
-      rest.series.push_back({set.name + ", fit with a root of k", colour, Style::dashed,
-                             curve(largest,
-                                   [=](double k) {
-                                     return 1000 *
-                                            ((root.value[0] - line.value[0]) * k + root.value[1] - line.value[1] + root.value[2] * std::sqrt(k));
-                                   }),
-                             1.4});
-    }
-    force.series.push_back(with);
-    force.series.push_back(without);
-    rest.series.push_back(left);
-  }
-  double top = 0;
-  for (const auto& s : force.series)
-    for (const auto& p : s.points) top = std::max(top, p.y);
-  force.y_range = {{-0.05, 1.55 * top}};
-  double low = -1, high = 1;
-  for (const auto& s : rest.series)
-    for (const auto& p : s.points) {
-      low = std::min(low, p.y - p.error);
-      high = std::max(high, p.y + p.error);
-    }
-  rest.y_range = {{1.1 * low, high + 0.4 * (high - low)}};  // room for the legend
-  force.x_range = rest.x_range = {{-0.03 * largest, 1.03 * largest}};
+  for (std::size_t i = 0; i < r.sets.size(); ++i) add_cube_set(r.sets[i], k_colours[i % k_colours.size()], largest, force, rest);
+  scale_cube_charts(force, rest, largest);
   const auto& m = r.options.machine;
   return charts_page(
       "Virtual cubes on the testing machine, " + plain_number(m.speed_mm_s) + " mm/s, " + runs_text(r.options.runs) + " each", {force, rest},
@@ -173,67 +180,88 @@ std::string tooth_svg(const ToothRigResult& r) {
                      words);
 }
 
-std::string press_svg(const PressResult& r) {
-  const auto& o = r.options;
-  constexpr double k_label_w = 186, k_w = 42, k_h = 19, k_gap = 18, k_top = 104, k_bounce_w = 32;
-  const auto columns = static_cast<double>(o.hand_n_per_mm.size() * o.press_n.size()), speeds = static_cast<double>(o.contact_mm_s.size());
-  const std::array block_x{k_label_w, k_label_w + columns * k_w + k_gap};
-  const std::array bounce_x{block_x[1] + columns * k_w + k_gap, block_x[1] + columns * k_w + 2 * k_gap + speeds * k_bounce_w};
-  const double width = bounce_x[1] + speeds * k_bounce_w + 16;
+namespace {
+
+/// Where the cells of the press's picture stand, px: for both renderings a block of presses by hand and load, then one of bounces by speed.
+struct PressTable {
+  static constexpr double k_label_w = 186, k_w = 42, k_h = 19, k_gap = 18, k_top = 104, k_bounce_w = 32;
+  std::array<double, 2> press_x, bounce_x;  // ours, explicit
+  double width;
+
+  explicit PressTable(const PressOptions& o) {
+    const auto columns = static_cast<double>(o.hand_n_per_mm.size() * o.press_n.size()), speeds = static_cast<double>(o.contact_mm_s.size());
+    press_x = {k_label_w, k_label_w + columns * k_w + k_gap};
+    bounce_x = {press_x[1] + columns * k_w + k_gap, press_x[1] + columns * k_w + 2 * k_gap + speeds * k_bounce_w};
+    width = bounce_x[1] + speeds * k_bounce_w + 16;
+  }
+};
+
+std::string press_heading(const PressTable& table, const PressOptions& o) {
   std::string body =
       svg_text(16, 24, "Closed-loop press on the simulated Omni: sd of the force in the last half second, N", 15, "start", "font-weight='bold'");
   const std::array titles{"ours", "explicit k X + c V"};
   for (std::size_t b = 0; b < 2; ++b) {
-    body += svg_text(block_x[b], 52, titles[b], 13, "start", "font-weight='bold'");
+    body += svg_text(table.press_x[b], 52, titles[b], 13, "start", "font-weight='bold'");
     for (std::size_t h = 0; h < o.hand_n_per_mm.size(); ++h) {
-      const double x = block_x[b] + static_cast<double>(h * o.press_n.size()) * k_w;
-      body +=
-          svg_text(x + static_cast<double>(o.press_n.size()) * k_w / 2, 74, "hand " + plain_number(1000 * o.hand_n_per_mm[h]) + " N/m", 11, "middle");
+      const double x = table.press_x[b] + static_cast<double>(h * o.press_n.size()) * PressTable::k_w;
+      body += svg_text(x + static_cast<double>(o.press_n.size()) * PressTable::k_w / 2, 74,
+                       "hand " + plain_number(1000 * o.hand_n_per_mm[h]) + " N/m", 11, "middle");
       for (std::size_t p = 0; p < o.press_n.size(); ++p)
-        body += svg_text(x + (static_cast<double>(p) + 0.5) * k_w, 92, plain_number(o.press_n[p]) + " N", 10, "middle", "fill='#555555'");
+        body += svg_text(x + (static_cast<double>(p) + 0.5) * PressTable::k_w, 92, plain_number(o.press_n[p]) + " N", 10, "middle", "fill='#555555'");
     }
     if (o.contact_mm_s.empty()) continue;
-    body += svg_text(bounce_x[b], 52, "bounces", 13, "start", "font-weight='bold'") +
-            svg_text(bounce_x[b], 68, b == 0 ? "ours, at mm/s" : "explicit, at mm/s", 11, "start");
+    body += svg_text(table.bounce_x[b], 52, "bounces", 13, "start", "font-weight='bold'") +
+            svg_text(table.bounce_x[b], 68, b == 0 ? "ours, at mm/s" : "explicit, at mm/s", 11, "start");
     for (std::size_t v = 0; v < o.contact_mm_s.size(); ++v)
-      body +=
-          svg_text(bounce_x[b] + (static_cast<double>(v) + 0.5) * k_bounce_w, 92, plain_number(o.contact_mm_s[v]), 10, "middle", "fill='#555555'");
+      body += svg_text(table.bounce_x[b] + (static_cast<double>(v) + 0.5) * PressTable::k_bounce_w, 92, plain_number(o.contact_mm_s[v]), 10, "middle",
+                       "fill='#555555'");
   }
-  double y = k_top;
-  double last_k = -1;
-  for (const double k : o.k_n_per_mm)
-    for (const DampingRule damping : o.damping)
-      for (const int delay : o.delay_ticks) {
-        if (last_k >= 0 && k != last_k) y += 6;
-        last_k = k;
-        body += svg_text(16, y + 13, "k " + plain_number(k) + ",  c " + damping_name(damping) + ",  delay " + std::to_string(delay), 11);
-        std::size_t column = 0;
-        for (const auto& row : r.presses) {
-          if (row.cell.k_n_per_mm != k || row.cell.damping != damping || row.cell.delay_ticks != delay) continue;
-          for (std::size_t b = 0; b < 2; ++b) {
-            const PressOutcome& out = b == 0 ? row.ours : row.explicit_voigt;
-            const double x = block_x[b] + static_cast<double>(column) * k_w;
-            body += field(x, y, k_w, k_h, heat_colour(out.sd_n, o.limit_sd_n), fixed(out.sd_n, 3) + (out.passive ? "" : "*"), !out.steady);
-          }
-          ++column;
-        }
-        for (std::size_t v = 0; v < o.contact_mm_s.size(); ++v) {
-          std::array<int, 2> worst{};
-          for (const auto& c : r.contacts)
-            if (c.cell.k_n_per_mm == k && c.cell.damping == damping && c.cell.delay_ticks == delay && c.speed_mm_s == o.contact_mm_s[v]) {
-              worst[0] = std::max(worst[0], c.ours.bounces);
-              worst[1] = std::max(worst[1], c.explicit_voigt.bounces);
-            }
-          for (std::size_t b = 0; b < 2; ++b)
-            body += field(bounce_x[b] + static_cast<double>(v) * k_bounce_w, y, k_bounce_w, k_h,
-                          worst[b] == 0 ? "#bfe3c5" : heat_colour(worst[b], 0.5), std::to_string(worst[b]), worst[b] > 0);
-        }
-        body += "\n";
-        y += k_h;
+  return body;
+}
+
+/// Of the same stiffness, damping and delay: one row of the table.
+bool same_row(const PressCell& a, const PressCell& b) {
+  return a.k_n_per_mm == b.k_n_per_mm && a.damping == b.damping && a.delay_ticks == b.delay_ticks;
+}
+
+std::string press_cells(const PressTable& table, const PressResult& r, const PressCell& of_row, double y) {
+  std::string body;
+  std::size_t column = 0;
+  for (const auto& row : r.presses) {
+    if (!same_row(row.cell, of_row)) continue;
+    for (std::size_t b = 0; b < 2; ++b) {
+      const PressOutcome& out = b == 0 ? row.ours : row.explicit_voigt;
+      const double x = table.press_x[b] + static_cast<double>(column) * PressTable::k_w;
+      body += field(x, y, PressTable::k_w, PressTable::k_h, heat_colour(out.sd_n, r.options.limit_sd_n),
+                    fixed(out.sd_n, 3) + (out.passive ? "" : "*"), !out.steady);
+    }
+    ++column;
+  }
+  return body;
+}
+
+/// The most bounces of all hands at each speed.
+std::string bounce_cells(const PressTable& table, const PressResult& r, const PressCell& of_row, double y) {
+  std::string body;
+  for (std::size_t v = 0; v < r.options.contact_mm_s.size(); ++v) {
+    std::array<int, 2> worst{};
+    for (const auto& c : r.contacts)
+      if (same_row(c.cell, of_row) && c.speed_mm_s == r.options.contact_mm_s[v]) {
+        worst[0] = std::max(worst[0], c.ours.bounces);
+        worst[1] = std::max(worst[1], c.explicit_voigt.bounces);
       }
-  y += 22;
+    for (std::size_t b = 0; b < 2; ++b)
+      body += field(table.bounce_x[b] + static_cast<double>(v) * PressTable::k_bounce_w, y, PressTable::k_bounce_w, PressTable::k_h,
+                    worst[b] == 0 ? "#bfe3c5" : heat_colour(worst[b], 0.5), std::to_string(worst[b]), worst[b] > 0);
+  }
+  return body;
+}
+
+/// The colours at `y`, and below them what was held constant.
+std::string press_legend(const PressOptions& o, double y) {
   const std::array<std::pair<double, const char*>, 5> scale{
       {{0.1, "under a quarter of the limit"}, {0.9, "within the limit"}, {1.5, "over it"}, {10, "ten times"}, {100, "a hundred times"}}};
+  std::string body;
   double x = 16;
   for (const auto& [times, words] : scale) {
     body += "<rect x='" + fixed(x, 1) + "' y='" + fixed(y - 10, 1) + "' width='16' height='12' fill='" + heat_colour(times, 1.0) + "'/>" +
@@ -245,7 +273,30 @@ std::string press_svg(const PressResult& r) {
                        plain_number(o.limit_energy_mj) + " mJ). Hand " + plain_number(1000 * o.hand_mass_kg) + " g, damping ratio " +
                        plain_number(o.hand_damping_ratio) + " (assumed). Bounces: most of all hands at " + plain_number(o.contact_press_n) + " N.",
                    11, "start", "fill='#555555'");
-  return svg_page(std::max(width, 700.0), y + 32, body);
+  return body;
+}
+
+}  // namespace
+
+std::string press_svg(const PressResult& r) {
+  const auto& o = r.options;
+  const PressTable table(o);
+  std::string body = press_heading(table, o);
+  double y = PressTable::k_top;
+  double last_k = -1;
+  for (const double k : o.k_n_per_mm)
+    for (const DampingRule damping : o.damping)
+      for (const int delay : o.delay_ticks) {
+        if (last_k >= 0 && k != last_k) y += 6;
+        last_k = k;
+        const PressCell row{.k_n_per_mm = k, .damping = damping, .delay_ticks = delay};
+        body += svg_text(16, y + 13, "k " + plain_number(k) + ",  c " + damping_name(damping) + ",  delay " + std::to_string(delay), 11);
+        body += press_cells(table, r, row, y) + bounce_cells(table, r, row, y) + "\n";
+        y += PressTable::k_h;
+      }
+  y += 22;
+  body += press_legend(o, y);
+  return svg_page(std::max(table.width, 700.0), y + 32, body);
 }
 
 }  // namespace cavum

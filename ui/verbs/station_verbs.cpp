@@ -79,19 +79,29 @@ void require_sound(const StationOptions& o, const std::string& author) {
   static_cast<void>(prepare_exam(o.sitting.scenario, trial));
 }
 
-}  // namespace
+int run(const Options& o) {
+  if (!o.enrol.code.empty() || o.enrol.replace_key) {
+    EnrolOptions enrol = o.enrol;
+    enrol.out = o.station.sitting.out;
+    enrol_station(enrol);
+    return 0;
+  }
+  require_sound(o.station, o.author);
+  if (!o.author.empty()) return run_author(o.station, o.author);
+  if (o.frame_times == 0) return run_station(o.station);
+  print_frame_times(o.station, o.frame_times);
+  return 0;
+}
 
-void add_station_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
-  StationOptions& s = o->station;
-  s.sitting.out = ".";
-  auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
+void add_places(CLI::App* station, StationOptions& s) {
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
   station->add_option("--out-if-full", s.sitting.out_if_full, "the same on another disk: begins or goes on there when --out cannot be written");
   station->add_option("--replay", s.replay, "look at a recorded exam instead");
   station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
-  station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");
+}
+
+void add_device(CLI::App* station, StationOptions& s) {
   station
       ->add_option("--device", s.sitting.device.name,
                    "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}))
@@ -99,6 +109,9 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
+}
+
+void add_candidate(CLI::App* station, StationOptions& s) {
   auto* practice = station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
   station->add_option("--tickets", s.sitting.tickets, "folder of tickets: only who has one sits, and as it promises (see `cavum ledger ticket`)")
       ->check(CLI::ExistingDirectory)
@@ -109,39 +122,47 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->add_option("--rubric", s.sitting.rubric, "mark by this rubric (TOML) instead of the scenario's own");
   station->add_option("--extra-time-percent", s.sitting.grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
   station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
+}
+
+void add_window(CLI::App* station, StationOptions& s) {
   station->add_flag("--left-handed", s.left_handed, "layout for the left hand; can be chosen at sign-in, too");
   station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
   station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(between(0.8, 1.8))->capture_default_str();
   station->add_option("--width", s.width, "of the window, pixels")->check(CLI::Range(640, 7680))->capture_default_str();
   station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
+}
+
+void add_script(CLI::App* station, StationOptions& s, int& frame_times) {
   station->add_option("--script", s.script, "press the keys that this file lists (for demonstrations and tests)");
   station->add_option("--pictures", s.pictures, "folder for the pictures that the script takes");
-  station->add_option("--frame-times", o->frame_times, "only draw the tooth so many times, and print how long it takes")
-      ->check(CLI::Range(1, 100000));
-  station->add_option("--enrol", o->enrol.code,
+  station->add_option("--frame-times", frame_times, "only draw the tooth so many times, and print how long it takes")->check(CLI::Range(1, 100000));
+}
+
+void add_enrolment(CLI::App* station, EnrolOptions& enrol) {
+  station->add_option("--enrol", enrol.code,
                       "ask the school to enrol this station, with the one-time code that it gave; --out is the request to write");
-  station->add_flag("--replace-key", o->enrol.replace_key,
+  station->add_flag("--replace-key", enrol.replace_key,
                     "make a new key for this enrolled station, and ask for it to take the old one's place; --out as above");
   station->add_option(
-      "--stylus", o->enrol.styluses,
+      "--stylus", enrol.styluses,
       "with --enrol or --replace-key: " + stylus_kinds().ids({StylusHand::person}) + "; only recordings of it count then; may be repeated");
-  station->callback([o, &exit_code] {
-    if (!o->enrol.code.empty() || o->enrol.replace_key) {
-      o->enrol.out = o->station.sitting.out;
-      enrol_station(o->enrol);
-      exit_code = 0;
-      return;
-    }
-    require_sound(o->station, o->author);
-    if (!o->author.empty()) {
-      exit_code = run_author(o->station, o->author);
-    } else if (o->frame_times > 0) {
-      print_frame_times(o->station, o->frame_times);
-      exit_code = 0;
-    } else {
-      exit_code = run_station(o->station);
-    }
-  });
+}
+
+}  // namespace
+
+void add_station_verbs(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<Options>();
+  StationOptions& s = o->station;
+  s.sitting.out = ".";
+  auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
+  add_places(station, s);
+  station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");
+  add_device(station, s);
+  add_candidate(station, s);
+  add_window(station, s);
+  add_script(station, s, o->frame_times);
+  add_enrolment(station, o->enrol);
+  station->callback([o, &exit_code] { exit_code = run(*o); });
 }
 
 }  // namespace cavum

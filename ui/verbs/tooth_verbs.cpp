@@ -119,31 +119,31 @@ Tooth with_lesion(Tooth tooth, const std::string& text) {
   return plant_lesion(std::move(tooth), {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
 }
 
-void add_make(CLI::App& tooth) {
-  auto* make = tooth.add_subcommand("make", "Build a tooth from formulae");
-  make->require_subcommand(1);
+/// What all of `tooth make` have.
+struct MakeArgs {
+  std::string out, lesion;
+  bool json = false;
+};
 
-  struct Common {
-    std::string out, lesion;
-    bool json = false;
-  };
-  const auto common = [](CLI::App* app) {
-    auto c = std::make_shared<Common>();
-    app->add_option("--out", c->out, "Tooth file to write (.cvt)")->required();
-    app->add_option("--lesion", c->lesion, "x,y,z,rx,ry,rz, mm: softened dentin in an ellipsoid, hidden under a sound surface");
-    app->add_flag("--json", c->json, "One JSON object on stdout");
-    return c;
-  };
+std::shared_ptr<MakeArgs> add_make_args(CLI::App* app) {
+  auto c = std::make_shared<MakeArgs>();
+  app->add_option("--out", c->out, "Tooth file to write (.cvt)")->required();
+  app->add_option("--lesion", c->lesion, "x,y,z,rx,ry,rz, mm: softened dentin in an ellipsoid, hidden under a sound surface");
+  app->add_flag("--json", c->json, "One JSON object on stdout");
+  return c;
+}
 
-  // Without a place for it nothing is made.
-  const auto made = [](const Common& c, const auto& maker) {
-    require_own_places({{"--out " + c.out, c.out}}, {});
-    finish(with_lesion(maker(), c.lesion), c.out, c.json);
-  };
+/// Without a place for it nothing is made.
+template <class Maker>
+void make_tooth(const MakeArgs& c, const Maker& maker) {
+  require_own_places({{"--out " + c.out, c.out}}, {});
+  finish(with_lesion(maker(), c.lesion), c.out, c.json);
+}
 
-  auto* molar = make->add_subcommand("molar", "A parametric lower first molar");
+void add_make_molar(CLI::App& make) {
+  auto* molar = make.add_subcommand("molar", "A parametric lower first molar");
   auto shape = std::make_shared<MolarShape>();
-  auto mc = common(molar);
+  auto args = add_make_args(molar);
   molar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str();
   molar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
@@ -151,69 +151,84 @@ void add_make(CLI::App& tooth) {
   molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
   molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
   molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
-  molar->callback([=] { made(*mc, [&] { return make_molar(*shape); }); });
+  molar->callback([=] { make_tooth(*args, [&] { return make_molar(*shape); }); });
+}
 
-  auto* premolar = make->add_subcommand("premolar", "A parametric upper second premolar");
-  auto premolar_shape = std::make_shared<PremolarShape>();
-  auto pc = common(premolar);
-  premolar->add_option("--leaf-mm", premolar_shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  premolar->add_option("--periodontium-mm", premolar_shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")
-      ->capture_default_str();
-  premolar->add_option("--occlusal-enamel-mm", premolar_shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
-  premolar->add_option("--lateral-enamel-mm", premolar_shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
-  premolar->add_option("--chamber-roof-mm", premolar_shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
-  premolar->callback([=] { made(*pc, [&] { return make_premolar(*premolar_shape); }); });
+void add_make_premolar(CLI::App& make) {
+  auto* premolar = make.add_subcommand("premolar", "A parametric upper second premolar");
+  auto shape = std::make_shared<PremolarShape>();
+  auto args = add_make_args(premolar);
+  premolar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  premolar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
+  premolar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
+  premolar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
+  premolar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
+  premolar->callback([=] { make_tooth(*args, [&] { return make_premolar(*shape); }); });
+}
 
-  auto* incisor = make->add_subcommand("incisor", "A parametric upper central incisor");
-  auto incisor_shape = std::make_shared<IncisorShape>();
-  auto ic = common(incisor);
-  incisor->add_option("--leaf-mm", incisor_shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  incisor->add_option("--periodontium-mm", incisor_shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
-  incisor->add_option("--incisal-enamel-mm", incisor_shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
-  incisor->add_option("--lateral-enamel-mm", incisor_shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
-  incisor->add_option("--chamber-top-mm", incisor_shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
-  incisor->callback([=] { made(*ic, [&] { return make_incisor(*incisor_shape); }); });
+void add_make_incisor(CLI::App& make) {
+  auto* incisor = make.add_subcommand("incisor", "A parametric upper central incisor");
+  auto shape = std::make_shared<IncisorShape>();
+  auto args = add_make_args(incisor);
+  incisor->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  incisor->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
+  incisor->add_option("--incisal-enamel-mm", shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
+  incisor->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
+  incisor->add_option("--chamber-top-mm", shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
+  incisor->callback([=] { make_tooth(*args, [&] { return make_incisor(*shape); }); });
+}
 
-  auto* block = make->add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
-  struct BlockArgs {
-    std::string size = "10,10,6", layers = "enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3";
-    double leaf_mm = 0.05;
-  };
-  auto ba = std::make_shared<BlockArgs>();
-  auto bc = common(block);
-  block->add_option("--size-mm", ba->size, "x,y,z, mm")->capture_default_str();
-  block->add_option("--layers", ba->layers, "name:thickness_mm from top to bottom")->capture_default_str();
-  block->add_option("--leaf-mm", ba->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  block->callback([=] {
-    made(*bc, [&] {
-      const Vec3 size = parse_vec(ba->size, "--size-mm");
-      const std::vector<Layer> layers = parse_layers(ba->layers);
-      Tooth layered = make_block(size, layers, ba->leaf_mm);
-      notice_unknown_tissues(layered);
-      notice_part_leaves({size.x, size.y, size.z}, ba->leaf_mm, "a side");
-      for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, ba->leaf_mm, ("layer '" + layer.tissue + "'").c_str());
-      return layered;
-    });
-  });
+struct BlockArgs {
+  std::string size = "10,10,6", layers = "enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3";
+  double leaf_mm = 0.05;
+};
 
-  auto* cube = make->add_subcommand("cube", "A cube of one tissue; origin at the centre of its top face");
-  struct CubeArgs {
-    double edge_mm = 10, leaf_mm = 0.05;
-    std::string tissue = "dentin";
-  };
-  auto ca = std::make_shared<CubeArgs>();
-  auto cc = common(cube);
-  cube->add_option("--edge-mm", ca->edge_mm, "Edge, mm")->capture_default_str();
-  cube->add_option("--tissue", ca->tissue, "Tissue")->capture_default_str();
-  cube->add_option("--leaf-mm", ca->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  cube->callback([=] {
-    made(*cc, [&] {
-      Tooth plain = make_cube(ca->edge_mm, ca->tissue, ca->leaf_mm);
-      notice_unknown_tissues(plain);
-      notice_part_leaves({ca->edge_mm}, ca->leaf_mm, "an edge");
-      return plain;
-    });
-  });
+Tooth make_layered(const BlockArgs& args) {
+  const Vec3 size = parse_vec(args.size, "--size-mm");
+  const std::vector<Layer> layers = parse_layers(args.layers);
+  Tooth layered = make_block(size, layers, args.leaf_mm);
+  notice_unknown_tissues(layered);
+  notice_part_leaves({size.x, size.y, size.z}, args.leaf_mm, "a side");
+  for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, args.leaf_mm, ("layer '" + layer.tissue + "'").c_str());
+  return layered;
+}
+
+void add_make_block(CLI::App& make) {
+  auto* block = make.add_subcommand("block", "A block of flat layers; origin at the centre of its top face");
+  auto shape = std::make_shared<BlockArgs>();
+  auto args = add_make_args(block);
+  block->add_option("--size-mm", shape->size, "x,y,z, mm")->capture_default_str();
+  block->add_option("--layers", shape->layers, "name:thickness_mm from top to bottom")->capture_default_str();
+  block->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  block->callback([=] { make_tooth(*args, [&] { return make_layered(*shape); }); });
+}
+
+struct CubeArgs {
+  double edge_mm = 10, leaf_mm = 0.05;
+  std::string tissue = "dentin";
+};
+
+Tooth make_plain(const CubeArgs& args) {
+  Tooth plain = make_cube(args.edge_mm, args.tissue, args.leaf_mm);
+  notice_unknown_tissues(plain);
+  notice_part_leaves({args.edge_mm}, args.leaf_mm, "an edge");
+  return plain;
+}
+
+void add_make_cube(CLI::App& make) {
+  auto* cube = make.add_subcommand("cube", "A cube of one tissue; origin at the centre of its top face");
+  auto shape = std::make_shared<CubeArgs>();
+  auto args = add_make_args(cube);
+  cube->add_option("--edge-mm", shape->edge_mm, "Edge, mm")->capture_default_str();
+  cube->add_option("--tissue", shape->tissue, "Tissue")->capture_default_str();
+  cube->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
+  cube->callback([=] { make_tooth(*args, [&] { return make_plain(*shape); }); });
+}
+
+void add_make(CLI::App& tooth) {
+  auto* make = tooth.add_subcommand("make", "Build a tooth from formulae");
+  make->require_subcommand(1);
+  for (auto* add : {add_make_molar, add_make_premolar, add_make_incisor, add_make_block, add_make_cube}) add(*make);
 }
 
 struct ImportArgs {

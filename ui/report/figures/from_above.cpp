@@ -19,7 +19,8 @@ constexpr double k_colours_end_mm = 0.5, k_wanted_px = 560;
 struct Colour {
   double r, g, b;
 };
-constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76};
+constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76},
+    k_cut_through{0.15, 0.15, 0.15};
 
 Colour mix(Colour a, Colour b, double share) { return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share}; }
 Colour of_deviation(double mm) { return mix(k_planned, mm < 0 ? k_left : k_beyond, std::min(1.0, std::fabs(mm) / k_colours_end_mm)); }
@@ -69,15 +70,53 @@ Bytes png_of(cairo_surface_t* surface) {
   return bytes;
 }
 
-}  // namespace
+/// The tooth before and after, column by column.
+struct Columns {
+  explicit Columns(const GradeInput& graded)
+      : input(graded), size(graded.before.octree.size()), was(tops(graded.before.octree)), is(tops(graded.after)) {}
+  const GradeInput& input;
+  IVec3 size;
+  std::vector<int> was, is;
+  /// Columns beyond the tooth's are those at its edge.
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(std::clamp(y, 0, size.y - 1)) * static_cast<std::size_t>(size.x) +
+           static_cast<std::size_t>(std::clamp(x, 0, size.x - 1));
+  }
+};
 
-Picture picture_from_above(const GradeInput& input) {
-  const Octree& before = input.before.octree;
-  const IVec3 n = before.size();
-  const std::vector<int> was = tops(before), is = tops(input.after);
-  const auto index = [&](int x, int y) {
-    return static_cast<std::size_t>(std::clamp(y, 0, n.y - 1)) * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(std::clamp(x, 0, n.x - 1));
+/// Of a column that still has a top: by its distance from the target where it was cut or should have been.
+Colour colour_of_top(const Columns& columns, int x, int y) {
+  const Octree& before = columns.input.before.octree;
+  const ZoneMap& zones = columns.input.zones;
+  const int top = columns.is[columns.index(x, y)], was = columns.was[columns.index(x, y)];
+  // the natural wall of a hollow is no cut
+  const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = zones.zone({x, y, top}) == Zone::target;
+  if (cut || left) return of_deviation(zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()}));
+  return top < was ? of_deviation(through_mm(columns.input, x, y, top, was)) : k_tooth;
+}
+
+/// Light from the upper left: slopes that face away from it are darker.
+Colour lit(Colour c, const Columns& columns, int x, int y) {
+  const auto height = [&](int dx, int dy) {
+    const int z = columns.is[columns.index(x + dx, y + dy)];
+    return z < 0 ? columns.is[columns.index(x, y)] : z;
   };
+  const double slope = (height(2, -2) - height(-2, 2)) / 8.0;
+  const double light = std::clamp(1.0 + 0.22 * std::clamp(slope, -2.0, 1.0), 0.55, 1.12);
+  return {std::min(1.0, c.r * light), std::min(1.0, c.g * light), std::min(1.0, c.b * light)};
+}
+
+/// ARGB; 0 where there was no tooth.
+std::uint32_t pixel_at(const Columns& columns, int x, int y) {
+  if (columns.was[columns.index(x, y)] < 0) return 0;
+  const Colour c = columns.is[columns.index(x, y)] < 0 ? k_cut_through : lit(colour_of_top(columns, x, y), columns, x, y);
+  const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(v * 255)); };
+  return 0xff000000u | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+}
+
+/// A pixel for each column, as PNG.
+Bytes columns_png(const Columns& columns) {
+  const IVec3 n = columns.size;
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, n.x, n.y),
                                                                            cairo_surface_destroy);
   cairo_surface_flush(image.get());
@@ -86,57 +125,52 @@ Picture picture_from_above(const GradeInput& input) {
   const int stride = cairo_image_surface_get_stride(image.get());
   for (int y = 0; y < n.y; ++y)
     for (int x = 0; x < n.x; ++x) {
-      const int top = is[index(x, y)];
-      std::uint32_t pixel = 0;
-      if (was[index(x, y)] >= 0) {
-        Colour c{0.15, 0.15, 0.15};  // cut right through
-        if (top >= 0) {
-          // the natural wall of a hollow is no cut
-          const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = input.zones.zone({x, y, top}) == Zone::target;
-          if (cut || left)
-            c = of_deviation(input.zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()}));
-          else
-            c = top < was[index(x, y)] ? of_deviation(through_mm(input, x, y, top, was[index(x, y)])) : k_tooth;
-          // light from the upper left: slopes that face away from it are darker
-          const auto height = [&](int dx, int dy) {
-            const int z = is[index(x + dx, y + dy)];
-            return z < 0 ? top : z;
-          };
-          const double slope = (height(2, -2) - height(-2, 2)) / 8.0;
-          const double light = std::clamp(1.0 + 0.22 * std::clamp(slope, -2.0, 1.0), 0.55, 1.12);
-          c = {std::min(1.0, c.r * light), std::min(1.0, c.g * light), std::min(1.0, c.b * light)};
-        }
-        const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(v * 255)); };
-        pixel = 0xff000000u | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
-      }
+      const std::uint32_t pixel = pixel_at(columns, x, y);
       std::memcpy(rows + static_cast<std::ptrdiff_t>(n.y - 1 - y) * stride + 4 * static_cast<std::ptrdiff_t>(x), &pixel, 4);
     }
   cairo_surface_mark_dirty(image.get());
+  return png_of(image.get());
+}
 
-  const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
-  constexpr double k_font_px = 16, k_top_px = 24, k_key_px = 190, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
-  const double all_width = width + k_key_px, all_height = k_top_px + std::max(height, k_bar_height_px + 60);
-  const auto text = [](double x, double y, const std::string& words, const char* anchor = "start") {
-    return "<text x='" + fixed(x, 0) + "' y='" + fixed(y, 0) + "' text-anchor='" + anchor + "'>" + words + "</text>";
-  };
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
-                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' font-size='" +
-                    fixed(k_font_px, 0) + "' fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n" + text(4, 17, "&#8593; buccal") +
-                    text(width - 4, 17, "mesial &#8594;", "end") + "\n";
-  svg += "<image x='0' y='" + fixed(k_top_px, 0) + "' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
-         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(png_of(image.get())) + "'/>\n";
-  const double left = width + 20, top = k_top_px + 10, words = left + k_bar_px + 8;
+constexpr double k_top_px = 24, k_key_px = 190, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
+
+std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") {
+  return "<text x='" + fixed(x, 0) + "' y='" + fixed(y, 0) + "' text-anchor='" + anchor + "'>" + words + "</text>";
+}
+
+/// The bar of colours with its corner at `left` and `top`, and a millimetre of `mm_px` below it.
+std::string key_svg(double left, double top, double mm_px) {
+  const double words = left + k_bar_px + 8;
   constexpr int k_steps = 20;
   constexpr double k_step_px = k_bar_height_px / k_steps;
+  std::string svg;
   for (int i = 0; i < k_steps; ++i)
     svg += "<rect x='" + fixed(left, 0) + "' y='" + fixed(top + i * k_step_px, 0) + "' width='" + fixed(k_bar_px, 0) + "' height='" +
            fixed(k_step_px + 0.5, 1) + "' fill='" + hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))) + "'/>";
   svg += "<rect x='" + fixed(left, 0) + "' y='" + fixed(top, 0) + "' width='" + fixed(k_bar_px, 0) + "' height='" + fixed(k_bar_height_px, 0) +
          "' fill='none' stroke='#666666'/>\n";
-  svg += text(words, top + 14, fixed(k_colours_end_mm, 1) + " mm beyond") + text(words, top + k_bar_height_px / 2 + 5, "as planned") +
-         text(words, top + k_bar_height_px - 4, fixed(k_colours_end_mm, 1) + " mm left");
-  svg += "\n<path d='M" + fixed(left, 0) + " " + fixed(top + k_bar_height_px + 34, 0) + "h" + fixed(px / before.leaf_mm(), 1) +
-         "' stroke='#222222' stroke-width='2'/>" + text(left + px / before.leaf_mm() + 8, top + k_bar_height_px + 40, "1 mm") + "\n</svg>\n";
+  svg += text_at(words, top + 14, fixed(k_colours_end_mm, 1) + " mm beyond") + text_at(words, top + k_bar_height_px / 2 + 5, "as planned") +
+         text_at(words, top + k_bar_height_px - 4, fixed(k_colours_end_mm, 1) + " mm left");
+  svg += "\n<path d='M" + fixed(left, 0) + " " + fixed(top + k_bar_height_px + 34, 0) + "h" + fixed(mm_px, 1) +
+         "' stroke='#222222' stroke-width='2'/>" + text_at(left + mm_px + 8, top + k_bar_height_px + 40, "1 mm");
+  return svg;
+}
+
+}  // namespace
+
+Picture picture_from_above(const GradeInput& input) {
+  const Columns columns(input);
+  const IVec3 n = columns.size;
+  const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
+  constexpr double k_font_px = 16;
+  const double all_width = width + k_key_px, all_height = k_top_px + std::max(height, k_bar_height_px + 60);
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
+                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' font-size='" +
+                    fixed(k_font_px, 0) + "' fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n" +
+                    text_at(4, 17, "&#8593; buccal") + text_at(width - 4, 17, "mesial &#8594;", "end") + "\n";
+  svg += "<image x='0' y='" + fixed(k_top_px, 0) + "' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
+         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(columns_png(columns)) + "'/>\n";
+  svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n</svg>\n";
   return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut"};
 }
 

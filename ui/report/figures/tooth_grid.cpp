@@ -22,26 +22,32 @@ std::size_t volume(IVec3 n) { return static_cast<std::size_t>(n.x) * static_cast
 /// Cells from a multiple of the edge, so that the same tooth gives the same cells wherever its tissue begins.
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
-}  // namespace
+/// What a tooth is made of, and the box of leaves around it.
+struct ToothContent {
+  IVec3 low, high;                // inclusive, exclusive
+  std::vector<std::uint8_t> ids;  // of its tissues
+  std::array<int, 256> column{};  // of a tissue among them, -1 = none of it
+};
 
-ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
-  const Octree& tree = tooth.octree;
+ToothContent content_of(const Tooth& tooth) {
   constexpr int k_far = std::numeric_limits<int>::max();
-  IVec3 low{k_far, k_far, k_far}, high{-1, -1, -1};
-  std::array<int, 256> column;
-  column.fill(-1);
-  std::vector<std::uint8_t> ids;
-  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    low = min_of(low, at);
-    high = max_of(high, at + IVec3{edge, edge, edge});
-    if (column[t] >= 0) return;
-    column[t] = static_cast<int>(ids.size());
-    ids.push_back(t);
+  ToothContent content{{k_far, k_far, k_far}, {-1, -1, -1}, {}, {}};
+  content.column.fill(-1);
+  tooth.octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    content.low = min_of(content.low, at);
+    content.high = max_of(content.high, at + IVec3{edge, edge, edge});
+    if (content.column[t] >= 0) return;
+    content.column[t] = static_cast<int>(content.ids.size());
+    content.ids.push_back(t);
   });
-  if (ids.empty()) throw Error(tooth.name, "this tooth holds no tissue", "use another one");
+  if (content.ids.empty()) throw Error(tooth.name, "this tooth holds no tissue", "use another one");
+  return content;
+}
 
+/// A grid without content: cells as small as is wanted, or as there may be of them.
+ToothGrid empty_grid(const Octree& tree, const ToothContent& content, std::size_t most_cells) {
+  const IVec3 low = content.low, high = content.high;
   ToothGrid g;
-  most_cells = std::min(most_cells, k_most_counts / ids.size());
   IVec3 from;
   for (g.edge_leaves = std::max(1, static_cast<int>(k_wanted_cell_mm / tree.leaf_mm() + 0.5));; ++g.edge_leaves) {
     const int e = g.edge_leaves;
@@ -55,11 +61,16 @@ ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
   g.cell_mm = e * tree.leaf_mm();
   g.low_leaf = {from.x * e, from.y * e, from.z * e};
   g.origin_mm = tree.origin_mm() + Vec3{g.low_leaf.x + 0.5 * e, g.low_leaf.y + 0.5 * e, g.low_leaf.z + 0.5 * e} * tree.leaf_mm();
+  return g;
+}
 
-  const std::size_t kinds = ids.size();
+/// Leaves of each tissue in each cell: for a cell one number after the other, in the order of `content.ids`.
+std::vector<std::uint16_t> count_tissues(const Octree& tree, const ToothGrid& g, const ToothContent& content) {
+  const int e = g.edge_leaves;
+  const std::size_t kinds = content.ids.size();
   std::vector<std::uint16_t> count(volume(g.size) * kinds, 0);
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    const auto kind = static_cast<std::size_t>(column[t]);
+    const auto kind = static_cast<std::size_t>(content.column[t]);
     const IVec3 a = at - g.low_leaf, b = a + IVec3{edge, edge, edge};
     const auto shared = [e](int cell, int from_leaf, int to_leaf) { return std::min(to_leaf, (cell + 1) * e) - std::max(from_leaf, cell * e); };
     for (int z = a.z / e; z * e < b.z; ++z)
@@ -71,6 +82,12 @@ ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
         }
       }
   });
+  return count;
+}
+
+/// Solid leaves of each cell, and the tissue that fills most of it.
+void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t>& ids, const std::vector<std::uint16_t>& count) {
+  const std::size_t kinds = ids.size();
   g.solid.resize(volume(g.size));
   g.tissue.resize(volume(g.size));
   for (std::size_t i = 0; i < g.solid.size(); ++i) {
@@ -90,6 +107,14 @@ ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
     g.solid[i] = static_cast<std::uint16_t>(solid);
     g.tissue[i] = solid > 0 ? of_solid : most_other > air ? of_other : static_cast<std::uint8_t>(k_air);
   }
+}
+
+}  // namespace
+
+ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
+  const ToothContent content = content_of(tooth);
+  ToothGrid g = empty_grid(tooth.octree, content, std::min(most_cells, k_most_counts / content.ids.size()));
+  fill_cells(g, tooth.octree, content.ids, count_tissues(tooth.octree, g, content));
   return g;
 }
 

@@ -1,0 +1,280 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "scenarios/zones/leaf_parts.h"
+#include "scenarios/zones/shape.h"
+#include "scenarios/zones/target_surface.h"
+#include "scenarios/zones/zone_map.h"
+
+namespace cavum {
+namespace {
+
+struct TargetBox {
+  IVec3 low, high;  // inclusive, exclusive
+};
+
+/// Leaves around the part of the target that lies in the tooth.
+TargetBox find_target(const Shape& target, const Tooth& tooth, const std::string& where, ZoneWork& work) {
+  const Octree& tree = tooth.octree;
+  const IVec3 n = tree.size();
+  TargetBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
+  const auto see = [&](IVec3 leaf) {
+    const bool seen =
+        leaf.x >= box.low.x && leaf.y >= box.low.y && leaf.z >= box.low.z && leaf.x < box.high.x && leaf.y < box.high.y && leaf.z < box.high.z;
+    if (seen || target.distance_mm(tree.centre_mm(leaf)) >= 0) return;
+    box.low = {std::min(box.low.x, leaf.x), std::min(box.low.y, leaf.y), std::min(box.low.z, leaf.z)};
+    box.high = {std::max(box.high.x, leaf.x + 1), std::max(box.high.y, leaf.y + 1), std::max(box.high.z, leaf.z + 1)};
+  };
+  // every second leaf of large cubes, every small one: a target thinner than two leaves is none
+  const auto step_in = [](int edge) { return edge >= 4 ? 2 : 1; };
+  std::uint64_t leaves = 0;
+  tree.for_each_cube([&](IVec3, int edge, std::uint8_t) {
+    const auto along = static_cast<std::uint64_t>(edge / step_in(edge));
+    leaves += along * along * along;
+  });
+  work.steps(leaves, target.pieces());
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t) {
+    const int step = step_in(edge);
+    for (int z = 0; z < edge; z += step)
+      for (int y = 0; y < edge; y += step)
+        for (int x = 0; x < edge; x += step) see(at + IVec3{x, y, z});
+  });
+  if (box.high.x < 0)
+    throw Error(where, "no part of the target lies in the tooth '" + tooth.name + "'", "move or enlarge [[zones.target]], or choose another tooth");
+  return box;
+}
+
+std::uint64_t leaves_with_tissue(const Octree& tree) {
+  std::uint64_t leaves = 0;
+  tree.for_each_cube([&](IVec3, int edge, std::uint8_t tissue) {
+    if (tissue != k_air) leaves += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge);
+  });
+  return leaves;
+}
+
+std::size_t cells_of(IVec3 size) { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z); }
+
+/// The widest margin around the target that has a zone, and a little more.
+double margin_mm(const ZoneSpec& spec) {
+  return std::max({spec.leeway.sides_mm, spec.leeway.bottom_mm, spec.container.sides_mm, spec.container.bottom_mm}) + 0.25;
+}
+
+/// The axis of the target's first body where a handpiece comes in that way; else +z.
+Vec3 approach_of(const ZoneSpec& spec) {
+  constexpr double k_steep = 0.5;  // cosine: flatter ways in are no way for a handpiece
+  const Vec3 axis = spec.target.empty() ? Vec3{0, 0, 1} : spec.target[0].axis;
+  return axis.z >= k_steep ? axis : Vec3{0, 0, 1};
+}
+
+/// Of a leaf outside the target that is not protected: by its distance, towards the sides or the bottom.
+Zone zone_at(double distance_mm, bool bottom, const ZoneSpec& spec) {
+  if (distance_mm <= (bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm)) return bottom ? Zone::leeway_bottom : Zone::leeway_sides;
+  if (distance_mm <= (bottom ? spec.container.bottom_mm : spec.container.sides_mm)) return bottom ? Zone::container_bottom : Zone::container_sides;
+  return Zone::none;
+}
+
+}  // namespace
+
+/// Makes a map step by step, each from what the ones before it found.
+class ZoneBuilder {
+ public:
+  ZoneBuilder(const Scenario& scenario, const Tooth& tooth);
+  ZoneMap build();
+
+ private:
+  void place_box();
+  void count_work();
+  [[nodiscard]] ShapeField shape_field() const;
+  void lay_distances(const ShapeField& shape);
+  void lay_tissues();
+  void lay_zones(const ShapeField& shape);
+  void require_target() const;
+  void measure_target(const ShapeField& shape);
+  void lay_guard_beyond();
+  void lay_shares();
+  [[nodiscard]] bool guarded(IVec3 leaf) const { return guard_ != nullptr && guard_->distance_mm(map_.centre_mm(leaf)) < 0; }
+
+  const Octree& tree_;
+  const ZoneSpec& spec_;
+  const Tooth& tooth_;
+  ShapeMaker maker_;
+  std::unique_ptr<Shape> target_, guard_;  // no guard where nothing is protected
+  std::string where_;                      // of the target's first body
+  ZoneMap map_;
+  std::vector<std::uint8_t> tissue_;  // of the leaves of the map's box
+};
+
+ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth)
+    : tree_(tooth.octree),
+      spec_(scenario.zones),
+      tooth_(tooth),
+      maker_(tooth, scenario.path),
+      target_(maker_.make(spec_.target)),
+      where_(spec_.target.empty() ? scenario.path : place_text(scenario.path, spec_.target[0])) {}
+
+ZoneMap ZoneBuilder::build() {
+  place_box();
+  count_work();
+  const ShapeField shape = shape_field();
+  lay_distances(shape);
+  lay_tissues();
+  lay_zones(shape);
+  require_target();
+  measure_target(shape);
+  lay_guard_beyond();
+  lay_shares();
+  return std::move(map_);
+}
+
+/// The target's box with its margins, as far as the tooth goes.
+void ZoneBuilder::place_box() {
+  const TargetBox box = find_target(*target_, tooth_, where_, maker_.work());
+  map_.leaf_mm_ = tree_.leaf_mm();
+  map_.origin_mm_ = tree_.origin_mm();
+  map_.approach_ = approach_of(spec_);
+  const int margin = static_cast<int>(margin_mm(spec_) / map_.leaf_mm_) + 2;
+  const IVec3 n = tree_.size();
+  const IVec3 high{std::min(n.x, box.high.x + margin), std::min(n.y, box.high.y + margin), std::min(n.z, box.high.z + margin)};
+  map_.low_ = {std::max(0, box.low.x - margin), std::max(0, box.low.y - margin), std::max(0, box.low.z - margin)};
+  map_.size_ = high - map_.low_;
+}
+
+/// Throws Error before the work is done when it is too much.
+void ZoneBuilder::count_work() {
+  const std::size_t cells = cells_of(map_.size_);
+  maker_.work().zone_leaves(cells);
+  if (!spec_.protected_shapes.empty()) guard_ = maker_.make(spec_.protected_shapes);
+  maker_.work().steps(cells, target_->pieces());
+  if (guard_ != nullptr) maker_.work().steps(cells + leaves_with_tissue(tree_), guard_->pieces());
+}
+
+/// The target at every leaf's centre, without what is protected.
+ShapeField ZoneBuilder::shape_field() const {
+  const std::size_t cells = cells_of(map_.size_);
+  ShapeField shape{map_.size_, std::vector<float>(cells), std::vector<std::uint8_t>(cells)};
+  for_each_cell(shape.size, [&](std::size_t i, IVec3 cell) {
+    const Vec3 centre = map_.centre_mm(map_.low_ + cell);
+    double d = target_->distance_mm(centre);
+    if (guard_ != nullptr) d = std::max(d, -guard_->distance_mm(centre));
+    shape.level_mm[i] = static_cast<float>(d);
+    shape.inside[i] = d < 0 ? 1 : 0;
+  });
+  return shape;
+}
+
+/// True distances to the target's surface, and the wall that each leaf belongs to.
+void ZoneBuilder::lay_distances(const ShapeField& shape) {
+  const std::vector<NearestPlace> nearest = nearest_places(shape);
+  map_.wall_.assign(nearest.size(), 0);
+  map_.distance_mm_.assign(nearest.size(), 0);
+  for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
+    const NearestPlace& near = nearest[i];
+    const bool in = shape.inside[i] != 0;
+    const Vec3 way = Vec3{double(cell.x), double(cell.y), double(cell.z)} - near.at();
+    const double d = near.found ? length(way) * map_.leaf_mm_ : margin_mm(spec_);
+    map_.distance_mm_[i] = static_cast<float>(in ? -d : d);
+    map_.wall_[i] = static_cast<std::uint8_t>(!near.found || length(way) < 1.5 ? near.wall : wall_of(in ? -way : way));
+  });
+}
+
+void ZoneBuilder::lay_tissues() {
+  tissue_.assign(cells_of(map_.size_), k_air);
+  const IVec3 low = map_.low_, high = map_.low_ + map_.size_;
+  tree_.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    const IVec3 a{std::max(at.x, low.x), std::max(at.y, low.y), std::max(at.z, low.z)};
+    const IVec3 b{std::min(at.x + edge, high.x), std::min(at.y + edge, high.y), std::min(at.z + edge, high.z)};
+    for (int z = a.z; z < b.z; ++z)
+      for (int y = a.y; y < b.y; ++y)
+        for (int x = a.x; x < b.x; ++x) tissue_[map_.index({x, y, z})] = t;
+  });
+}
+
+/// The zone of each leaf that holds tissue, and how many leaves each zone has.
+void ZoneBuilder::lay_zones(const ShapeField& shape) {
+  map_.zone_.assign(tissue_.size(), 0);
+  for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
+    if (tissue_[i] == k_air) return;
+    const IVec3 at = map_.low_ + cell;
+    Zone zone = Zone::target;
+    if (shape.inside[i] == 0)
+      zone =
+          guarded(at) ? Zone::protected_ : zone_at(static_cast<double>(map_.distance_mm_[i]), static_cast<Wall>(map_.wall_[i]) == Wall::floor, spec_);
+    map_.zone_[i] = static_cast<std::uint8_t>(zone);
+    ++map_.counts_[static_cast<std::size_t>(zone)];
+    if (zone == Zone::protected_ && target_->distance_mm(map_.centre_mm(at)) < 0) ++map_.guarded_in_target_;
+  });
+}
+
+void ZoneBuilder::require_target() const {
+  if (map_.count(Zone::target) > 0) return;
+  if (map_.guarded_in_target_ > 0)
+    throw Error(where_, "all of the target is protected", "move the target, or protect less under [[zones.protected]]");
+  throw Error(where_, "the target holds no leaf of the tooth '" + tooth_.name + "'", "make it larger");
+}
+
+/// Of the target's leaves: their box, how many lie at its border, whether there is a way to them, and how high the tooth's surface lies over them.
+void ZoneBuilder::measure_target(const ShapeField& shape) {
+  const IVec3 size = map_.size_;
+  const std::size_t row = shape.row(), layer = shape.layer();
+  IVec3 first{1 << 20, 1 << 20, 1 << 20}, last{-1, -1, -1};
+  double opening_sum = 0;
+  std::uint64_t openings = 0;
+  for_each_cell(size, [&](std::size_t i, IVec3 cell) {
+    if (static_cast<Zone>(map_.zone_[i]) != Zone::target) return;
+    const IVec3 at = map_.low_ + cell;
+    first = {std::min(first.x, at.x), std::min(first.y, at.y), std::min(first.z, at.z)};
+    last = {std::max(last.x, at.x), std::max(last.y, at.y), std::max(last.z, at.z)};
+    const auto ends_along = [&](int place, int count, std::size_t stride) {
+      return (place > 0 && shape.inside[i - stride] == 0) || (place + 1 < count && shape.inside[i + stride] == 0);
+    };
+    if (ends_along(cell.x, size.x, 1) || ends_along(cell.y, size.y, row) || ends_along(cell.z, size.z, layer)) ++map_.target_border_;
+    for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || tree_.tissue(at + step) == k_air;
+    if (cell.z + 1 != size.z && tissue_[i + layer] != k_air) return;
+    const double surface = maker_.surface().value[maker_.surface().index(at.x, at.y)];
+    if (std::fabs(surface - map_.centre_mm(at).z) > map_.leaf_mm_) return;
+    opening_sum += surface;
+    ++openings;
+  });
+  map_.target_low_mm_ = map_.centre_mm(first) - Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
+  map_.target_high_mm_ = map_.centre_mm(last) + Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
+  map_.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map_.target_high_mm_.z;
+}
+
+/// What is protected beyond the box, anywhere in the tooth.
+void ZoneBuilder::lay_guard_beyond() {
+  if (guard_ == nullptr) return;
+  map_.tooth_size_ = tree_.size();
+  map_.guarded_.assign(cells_of(map_.tooth_size_), false);
+  tree_.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
+    if (tissue == k_air) return;
+    for_each_cell({edge, edge, edge}, [&](std::size_t, IVec3 in_cube) {
+      const IVec3 leaf = at + in_cube;
+      if (map_.in_box(leaf) || !guarded(leaf)) return;
+      map_.guarded_[map_.tooth_index(leaf)] = true;
+      ++map_.counts_[static_cast<std::size_t>(Zone::protected_)];
+    });
+  });
+}
+
+/// What of each leaf lies in the target: on its border, part by part.
+void ZoneBuilder::lay_shares() {
+  const double leaf_mm = map_.leaf_mm_;
+  map_.target_share_.assign(tissue_.size(), 0);
+  for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
+    const double depth = -static_cast<double>(map_.distance_mm_[i]) / leaf_mm;
+    if (tissue_[i] == k_air || depth < -k_parts_reach_leaves) return;
+    double share = 1;
+    if (depth < k_parts_reach_leaves) {
+      const LeafParts parts = leaf_parts(map_.low_ + cell, [&](IVec3 l) { return -map_.distance_mm(l) / leaf_mm; });
+      share = 0;
+      for (const double p : parts) share += share_beyond(p) / k_parts;
+    }
+    map_.target_share_[i] = static_cast<std::uint16_t>(share * ZoneMap::k_share_units + 0.5);
+    map_.target_shares_ += map_.target_share_[i];
+  });
+}
+
+ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) { return ZoneBuilder(scenario, tooth).build(); }
+
+}  // namespace cavum
