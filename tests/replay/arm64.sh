@@ -4,15 +4,15 @@
 set -euo pipefail
 source=$1 build=$2
 root=$build/root
-libraries=libc6-dev,libstdc++-12-dev,libsodium-dev,libzstd-dev,libxxhash-dev,libtomlplusplus-dev,libsqlite3-dev,libmuparser-dev,libopenmesh-dev,nlohmann-json3-dev
+libraries=libc6-dev,libstdc++-12-dev,libsodium-dev,libzstd-dev,libxxhash-dev,libtomlplusplus-dev,libsqlite3-dev,libmuparser-dev,libopenmesh-dev,nlohmann-json3-dev,libfmt-dev
 {
-  if [ ! -e "$root.whole" ]; then
+  if [ "$(cat "$root.whole" 2>/dev/null)" != "$libraries" ]; then
     rm -rf "$root"
     debootstrap --foreign --arch=arm64 --variant=minbase --include="$libraries" bookworm "$root"
     for package in "$root"/var/cache/apt/archives/*.deb; do dpkg -x "$package" "$root"; done
     rm -rf "$root"/var/cache/apt/archives
     find "$root/usr/lib" -lname '/*' | while read -r link; do ln -sfn "$root$(readlink "$link")" "$link"; done  # they would lead to this machine's own
-    touch "$root.whole"
+    echo "$libraries" >"$root.whole"
   fi
   cat >"$build/toolchain.cmake" <<EOF
 set(CMAKE_SYSTEM_NAME Linux)

@@ -18,6 +18,6 @@ function(add_replayer name)
   # at other levels and for other machines g++ 12 mistakes std::string, std::vector and OpenMesh for full, overlapping or unset memory (GCC bug 105651 and others)
   target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds;-Wno-stringop-overread;-Wno-maybe-uninitialized>")
   target_link_libraries(${name} PRIVATE cavum_flags PkgConfig::SODIUM PkgConfig::ZSTD PkgConfig::XXHASH PkgConfig::TOMLPP SQLite::SQLite3
-                                        nlohmann_json::nlohmann_json muparser::muparser OpenMeshCore)
+                                        nlohmann_json::nlohmann_json fmt::fmt muparser::muparser OpenMeshCore)
   target_include_directories(${name} SYSTEM PRIVATE ${OPENMESH_INCLUDE_DIRS})
 endfunction()
