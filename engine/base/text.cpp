@@ -1,9 +1,10 @@
 #include "engine/base/text.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace cavum {
 namespace {
@@ -53,11 +54,7 @@ std::string rewritten(std::string_view text, const Control& control, const Plain
   return out;
 }
 
-std::string json_escape(char32_t code) {
-  char escape[8];
-  std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(code) & 0xffffu);
-  return escape;
-}
+std::string json_escape(char32_t code) { return fmt::format("\\u{:04x}", static_cast<unsigned>(code) & 0xffffu); }
 
 bool is_number(std::string_view text) noexcept {
   double value = 0;
@@ -110,7 +107,7 @@ std::string xml_text(std::string_view text) {
   const auto control = [](char32_t c) -> std::string { return c == '\n' ? "&#10;" : c == '\r' ? "&#13;" : c == '\t' ? "&#9;" : "?"; };
   std::string out = rewritten(text, control, xml_character);
   for (const std::string_view unknown : {"\xef\xbf\xbe", "\xef\xbf\xbf"})  // U+FFFE and U+FFFF
-    for (auto at = out.find(unknown); at != std::string::npos; at = out.find(unknown, at)) out.replace(at, unknown.size(), "?");
+    for (auto at = out.find(unknown); at != std::string::npos; at = out.find(unknown, at)) out.replace(at, unknown.size(), 1, '?');
   return out;
 }
 
@@ -149,17 +146,11 @@ std::string terminal_json(std::string_view json) {
       json, [](char32_t c) { return c == '\n' ? std::string("\n") : json_escape(c); }, [](char c) { return c; });
 }
 
-std::string plain_number(double v) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.6g", v);
-  return buffer;
-}
+std::string plain_number(double v) { return fmt::format("{:.6g}", v); }
 
 std::string fixed(double v, int digits) {
-  char buffer[400];  // the largest number has 309 digits before the point
-  std::snprintf(buffer, sizeof buffer, "%.*f", digits, v);
-  const std::string_view text = buffer;
-  return std::string(text.find_first_not_of("-0.") == std::string_view::npos && text.front() == '-' ? text.substr(1) : text);  // no zero below zero
+  const std::string text = fmt::format("{:.{}f}", v, digits);
+  return text.find_first_not_of("-0.") == std::string::npos && text.front() == '-' ? text.substr(1) : text;  // no zero below zero
 }
 
 }  // namespace cavum

@@ -1,8 +1,9 @@
 #include "engine/session/clock_check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -16,11 +17,7 @@ constexpr double k_suspend_s = 0.5, k_set_s = 2.0, k_slow_s = 0.5, k_slow = 1.25
 constexpr double k_ahead_s = 1.0, k_ahead = 0.02;  // a writer that waits for its disk makes ticks late, never early
 constexpr double k_lost_s = 2.0;
 
-std::string seconds(double s) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f s", s);
-  return text;
-}
+std::string seconds(double s) { return fmt::format("{:.1f} s", s); }
 
 /// From one reading to another; whatever a file says, the difference wraps around instead of overflowing.
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {

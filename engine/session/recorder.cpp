@@ -1,5 +1,6 @@
 #include "engine/session/recorder.h"
 
+#include <fmt/core.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,8 +27,7 @@ constexpr char k_insert_chunk[] = "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?
 constexpr char k_insert_event[] = "INSERT INTO event VALUES (?, ?, ?, ?, ?)";
 
 std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Clocks& now) {
-  char tick[32];
-  std::snprintf(tick, sizeof tick, "%.17g", parse_servo_config(setup.servo_toml, "servo settings").tick_s);
+  const std::string tick = fmt::format("{:.17g}", parse_servo_config(setup.servo_toml, "servo settings").tick_s);
   std::map<std::string, std::string> meta{
       {"format", std::to_string(k_session_format)},
       {"engine_version", CAVUM_VERSION},

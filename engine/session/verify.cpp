@@ -1,7 +1,8 @@
 #include "engine/session/verify.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
-#include <cstdio>
 
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
@@ -10,11 +11,7 @@
 namespace cavum {
 namespace {
 
-std::string scaled(std::int64_t value, double scale, const char* unit) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.6f %s", static_cast<double>(value) * scale, unit);
-  return text;
-}
+std::string scaled(std::int64_t value, double scale, const char* unit) { return fmt::format("{:.6f} {}", static_cast<double>(value) * scale, unit); }
 
 std::string leaf_text(const RemovedLeaf& l) {
   return "(" + std::to_string(l.x) + ", " + std::to_string(l.y) + ", " + std::to_string(l.z) + ") tissue " + std::to_string(l.tissue);

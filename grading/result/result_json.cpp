@@ -1,8 +1,9 @@
 #include "grading/result/result_json.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
@@ -253,12 +254,9 @@ std::string walls_text(const Result& r) {
     s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
     if (m.samples == 0)
       s += "not cut\n";
-    else {
-      char line[80];
-      std::snprintf(line, sizeof line, "%6.2f ± %.2f  %6.2f ± %.2f %6.2f %6.2f\n", m.mean_mm, m.mean_bound_mm, m.p95_mm, m.p95_bound_mm,
-                    m.max_over_mm, m.max_under_mm);
-      s += line;
-    }
+    else
+      s += fmt::format("{:>6.2f} ± {:.2f}  {:>6.2f} ± {:.2f} {:>6.2f} {:>6.2f}\n", m.mean_mm, m.mean_bound_mm, m.p95_mm, m.p95_bound_mm,
+                       m.max_over_mm, m.max_under_mm);
   }
   return s;
 }

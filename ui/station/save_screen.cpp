@@ -1,8 +1,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 #include <imgui.h>
-
-#include <cstdio>
 
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
@@ -37,10 +36,9 @@ void save_screen(const ScreenContext& c) {
   begin_card(t, "The disk is full", 680);
   wrapped_text("Your work is safe as long as this window stays open: do not close it, do not switch the computer off. Call the supervisor.");
   ImGui::Dummy({0, t.px(6)});
-  char waiting[96] = "The end of the exam, tooth and result, is in memory only.";
-  if (const double s_waiting = c.sitting->unwritten_s(); s_waiting > 0)
-    std::snprintf(waiting, sizeof waiting, "%.1f s of the exam and its end are in memory only.", s_waiting);
-  wrapped_text(waiting);
+  const double s_waiting = c.sitting->unwritten_s();
+  wrapped_text(s_waiting > 0 ? fmt::format("{:.1f} s of the exam and its end are in memory only.", s_waiting)
+                             : "The end of the exam, tooth and result, is in memory only.");
   quiet_text(t, c.sitting->trouble());
   ImGui::Dummy({0, t.px(8)});
   wrapped_text("Supervisor: make room, and it is saved by itself; or type another folder or file (.cavum), on another disk:");

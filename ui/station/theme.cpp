@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <cmath>
@@ -199,9 +200,7 @@ bool key_held(int key) { return ImGui::IsKeyDown(key); }
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long>(std::ceil(std::fmax(0.0, seconds)));
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%ld:%02ld", whole / 60, whole % 60);
-  return text.data();
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 std::string number_text(const char* format, double value) {

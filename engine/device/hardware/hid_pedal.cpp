@@ -1,12 +1,12 @@
 #include "engine/device/hardware/hid_pedal.h"
 
+#include <fmt/core.h>
 #include <hidapi/hidapi.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -53,10 +53,7 @@ std::string file_of(const std::string& path) {
   if (path.starts_with("/dev/")) return path;
   const std::string device = "/sys/bus/usb/devices/" + path.substr(0, path.find(':')) + "/";
   try {
-    char file[64];
-    std::snprintf(file, sizeof file, "/dev/bus/usb/%03d/%03d", std::stoi(read_text_file(device + "busnum")),
-                  std::stoi(read_text_file(device + "devnum")));
-    return file;
+    return fmt::format("/dev/bus/usb/{:03}/{:03}", std::stoi(read_text_file(device + "busnum")), std::stoi(read_text_file(device + "devnum")));
   } catch (const std::exception&) {  // no such device, or no number: opening it will say
     return {};
   }

@@ -1,9 +1,9 @@
 #include "engine/device/hardware/openhaptics_stylus.h"
 
 #include <dlfcn.h>
+#include <fmt/core.h>
 
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <mutex>
 
@@ -39,11 +39,7 @@ struct ErrorInfo {
   unsigned handle;
 };
 
-std::string code_text(unsigned code) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%04x", code);
-  return text;
-}
+std::string code_text(unsigned code) { return fmt::format("0x{:04x}", code); }
 
 StylusFacts touch_facts() {
   return {.id = "touch",

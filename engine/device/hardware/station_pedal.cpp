@@ -1,10 +1,10 @@
 #include "engine/device/hardware/station_pedal.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
 
 #include "engine/base/error.h"
@@ -24,11 +24,7 @@ void parse_usb_id(const std::string& text, const std::string& where, std::uint16
     throw Error(where, "'" + text + "' is no USB device", "write vendor and product as `cavum devices` shows them, for example 068e:00f2");
 }
 
-std::string usb_id(std::uint16_t vendor, std::uint16_t product) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%04x:%04x", vendor, product);
-  return text;
-}
+std::string usb_id(std::uint16_t vendor, std::uint16_t product) { return fmt::format("{:04x}:{:04x}", vendor, product); }
 
 std::string station_pedal_path() { return station_path("pedal.toml"); }
 

@@ -1,7 +1,8 @@
 #include "engine/device/hardware/usb_serial.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -18,11 +19,7 @@ std::string first_line(const std::filesystem::path& file) {
   return line;
 }
 
-std::string four_digits(std::uint16_t number) {
-  char text[8];
-  std::snprintf(text, sizeof text, "%04x", number);
-  return text;
-}
+std::string four_digits(std::uint16_t number) { return fmt::format("{:04x}", number); }
 
 }  // namespace
 

@@ -1,9 +1,10 @@
 #include "engine/explain/inference/explain.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 
 #include "engine/base/text.h"
 #include "engine/explain/inference/causes.h"
@@ -97,9 +98,8 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
   const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
   const bool off = std::fabs(c - 1.0) > k_known && (e.c.low > (1.0 + k_known) * *rig.c_n_s_per_mm || e.c.high < (1.0 - k_known) * *rig.c_n_s_per_mm);
-  char text[200];
-  std::snprintf(text, sizeof text, "fitted k is %.3g times, c is %.3g times that of rig.toml", k, c);
-  if (std::fabs(k - 1.0) > k_known || off) e.notes.emplace_back(text);
+  const std::string text = fmt::format("fitted k is {:.3g} times, c is {:.3g} times that of rig.toml", k, c);
+  if (std::fabs(k - 1.0) > k_known || off) e.notes.push_back(text);
   if (e.verdict != "clean" || !off || std::fabs(k - 1.0) > 0.5 * k_known) return;
   if (speed_known || c <= 0.0) {  // no clock does that
     e.verdict = "unexplained";

@@ -1,5 +1,7 @@
 #include "engine/explain/inference/stiffness_table.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
