@@ -1,5 +1,7 @@
 #include "grading/grade.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -35,7 +37,7 @@ ProgressMeasures measure_progress(const GradeInput& input) {
     }
     if (!is_kind(e, ExamEventKind::finished)) continue;
     for (const Finish f : {Finish::completed, Finish::failed, Finish::time, Finish::ended})
-      if (e.detail_json.find(std::string("\"") + finish_name(f) + "\"") != std::string::npos) p.finish = finish_name(f);
+      if (e.detail_json.find(fmt::format("\"{}\"", finish_name(f))) != std::string::npos) p.finish = finish_name(f);
   }
   return p;
 }
@@ -70,10 +72,10 @@ void note_steps(const GradeInput& input, Result& r) {
       const StepSpec& s = input.scenario.steps[step];
       const std::string at = " at " + when({e.tick, {}});
       if (failed)
-        r.notes.push_back("step '" + s.id + "' failed" + at + ": " + s.fail_when);
+        r.notes.push_back(fmt::format("step '{}' failed{}: {}", s.id, at, s.fail_when));
       else
-        r.notes.push_back("step '" + s.id + "' ran out of its time" + at +
-                          (s.time_limit_s ? ": its limit was " + seconds(step_limit_ticks(input.scenario, s)) : ""));
+        r.notes.push_back(fmt::format("step '{}' ran out of its time{}{}", s.id, at,
+                                      s.time_limit_s ? ": its limit was " + seconds(step_limit_ticks(input.scenario, s)) : ""));
     }
     step += late || failed || is_kind(e, ExamEventKind::step_completed) ? 1 : 0;
   }
@@ -95,32 +97,32 @@ void note_time(const GradeInput& input, Result& r) {
     if (!is_kind(e, ExamEventKind::pause_refused)) continue;
     const bool turned =
         e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) && input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
-    refused += (refused.empty() ? "" : ", ") + ("tick " + std::to_string(e.tick)) + (turned ? ": the handpiece turned" : ": none was left");
+    refused += fmt::format("{}tick {}{}", refused.empty() ? "" : ", ", e.tick, turned ? ": the handpiece turned" : ": none was left");
   }
   if (const auto text = accommodations_text(r.accommodations); !text.empty())
-    r.notes.push_back("accommodations: " + text + "; the limit was " + seconds(r.limit_ticks));
+    r.notes.push_back(fmt::format("accommodations: {}; the limit was {}", text, seconds(r.limit_ticks)));
   if (!r.pauses.empty()) {
     std::string list;
     std::int64_t sum = 0;
     for (const auto& p : r.pauses) {
-      list += (list.empty() ? "" : ", ") + seconds(p.end - p.begin) + " from tick " + std::to_string(p.begin);
+      list += fmt::format("{}{} from tick {}", list.empty() ? "" : ", ", seconds(p.end - p.begin), p.begin);
       sum += p.end - p.begin;
     }
-    r.notes.push_back("pauses: " + std::to_string(r.pauses.size()) + ", " + seconds(sum) + " in all, which do not count (" + list + ")");
+    r.notes.push_back(fmt::format("pauses: {}, {} in all, which do not count ({})", r.pauses.size(), seconds(sum), list));
   }
   if (r.pauses_refused > 0)
-    r.notes.push_back(std::to_string(r.pauses_refused) + (r.pauses_refused == 1 ? " pause" : " pauses") + " asked for and not given (" + refused +
-                      ")");
+    r.notes.push_back(fmt::format("{}{} asked for and not given ({})", r.pauses_refused, r.pauses_refused == 1 ? " pause" : " pauses", refused));
   if (r.motion.lost_s > 0)
     r.notes.push_back(fixed(r.motion.lost_s, 3) +
                       " s were lost while the station's program stood still: the exam's clock does not show them, and the " + "candidate had them");
   if (r.motion.late_ticks > 0)
-    r.notes.push_back(std::to_string(r.motion.late_ticks) + " ticks were recorded after the exam was over, " + fixed(r.motion.late_removed_mm3, 2) +
-                      " mm3 removed in them; they do not count");
+    r.notes.push_back(fmt::format("{} ticks were recorded after the exam was over, {} mm3 removed in them; they do not count", r.motion.late_ticks,
+                                  fixed(r.motion.late_removed_mm3, 2)));
   if (r.late_work.ticks > 0)
-    r.notes.push_back("the candidate went on for " + seconds(r.late_work.ticks) +
-                      (r.progress.finish == "time" ? " after time was up" : " after the exam was over") + ", with the pedal pressed for " +
-                      seconds(r.late_work.pedal_ticks) + "; the tooth stayed as it was, and nothing of it counts");
+    r.notes.push_back(
+        fmt::format("the candidate went on for {}{}, with the pedal pressed for {}; the tooth stayed as it was, and nothing of it counts",
+                    seconds(r.late_work.ticks), r.progress.finish == "time" ? " after time was up" : " after the exam was over",
+                    seconds(r.late_work.pedal_ticks)));
 }
 
 /// The list of removed leaves and the tooth as it was left must tell the same story.
@@ -151,8 +153,8 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.accommodations = input.scenario.accommodations;
   r.limit_ticks = input.sat_under_ticks >= 0 ? input.sat_under_ticks : exam_limit_ticks(input.scenario);
   if (const auto limit = exam_limit_ticks(input.scenario); limit != r.limit_ticks)
-    r.notes.push_back("the exam ran under a limit of " + seconds(r.limit_ticks) + "; the scenario it is marked by has " + seconds(limit) +
-                      ", which was not applied");
+    r.notes.push_back(fmt::format("the exam ran under a limit of {}; the scenario it is marked by has {}, which was not applied",
+                                  seconds(r.limit_ticks), seconds(limit)));
   const std::int64_t ticks = counted_ticks(static_cast<std::int64_t>(input.inputs.size()), input.events);
   // without motion (a cavity handed in for marking) every removed leaf counts
   const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;
@@ -175,8 +177,8 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
       if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
   r.progress = measure_progress(input);
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
-    r.notes.push_back(std::to_string(r.progress.steps - r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) +
-                      " steps were not completed; the verdict comes from the rubric alone");
+    r.notes.push_back(fmt::format("{} of {} steps were not completed; the verdict comes from the rubric alone",
+                                  r.progress.steps - r.progress.steps_completed, r.progress.steps));
   note_steps(input, r);
   note_time(input, r);
   compare_with_final_tooth(input, removed, r);

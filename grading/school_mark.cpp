@@ -1,5 +1,7 @@
 #include "grading/school_mark.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -56,16 +58,15 @@ class EventsAgain {
   [[nodiscard]] std::vector<std::string> differences(std::int64_t ticks) {
     std::vector<std::string> findings;
     if (ended_ >= 0 && ended_ < ticks)
-      findings.push_back("events: the exam is said to have been ended at tick " + std::to_string(ended_) + ", and it was recorded on to tick " +
-                         std::to_string(ticks));
+      findings.push_back(fmt::format("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
     if (ended_ == ticks) runner_.end(*state_);
     take();
     std::vector<SessionEvent> was;
     std::copy_if(recorded_.begin(), recorded_.end(), std::back_inserter(was), [](const SessionEvent& e) { return is_runners(e.kind); });
     for (std::size_t i = 0; i < std::max(was.size(), again_.size()) && findings.size() < k_most_named; ++i) {
       if (i < was.size() && i < again_.size() && was[i] == again_[i]) continue;
-      findings.push_back("event " + std::to_string(i) + " of the exam: recorded " + (i < was.size() ? text_of(was[i]) : "none") +
-                         ", the motion gives " + (i < again_.size() ? text_of(again_[i]) : "none"));
+      findings.push_back(fmt::format("event {} of the exam: recorded {}, the motion gives {}", i, i < was.size() ? text_of(was[i]) : "none",
+                                     i < again_.size() ? text_of(again_[i]) : "none"));
     }
     return findings;
   }
@@ -86,7 +87,9 @@ class EventsAgain {
     for (const auto& text : setup.points_toml) names.push_back(parse_diamond_point(text, where + ": diamond point").name);
     return names;
   }
-  static std::string text_of(const SessionEvent& e) { return "'" + one_line(e.kind + " " + e.detail_json) + "' at tick " + std::to_string(e.tick); }
+  static std::string text_of(const SessionEvent& e) {
+    return fmt::format("'{}' at tick {}", one_line(fmt::format("{} {}", e.kind, e.detail_json)), e.tick);
+  }
   /// As an exam records them: each once, from the runner's list.
   void take() {
     for (; taken_ < state_->event_count; ++taken_) {
@@ -125,7 +128,7 @@ std::map<std::string, const json*> criteria_of(const json& result) {
 std::vector<std::string> result_differences(const json& sealed, const json& marked) {
   std::vector<std::string> out;
   const auto compare = [&](const std::string& name, const json& was, const json& is) {
-    if (was != is) out.push_back(name + " " + shown(was) + ", marked " + shown(is));
+    if (was != is) out.push_back(fmt::format("{} {}, marked {}", name, shown(was), shown(is)));
   };
   compare("verdict", member_of(sealed, "verdict"), member_of(marked, "verdict"));
   for (const char* part : {"points", "max"}) compare(part, member_of(member_of(sealed, "score"), part), member_of(member_of(marked, "score"), part));
@@ -133,13 +136,14 @@ std::vector<std::string> result_differences(const json& sealed, const json& mark
   for (const auto& [id, c] : is) {
     const auto found = was.find(id);
     if (found == was.end()) {
-      out.push_back("criterion " + one_line(id) + " missing");
+      out.push_back(fmt::format("criterion {} missing", one_line(id)));
       continue;
     }
-    for (const auto& [key, value] : c->items()) compare("criterion " + one_line(id) + ": " + key, member_of(*found->second, key.c_str()), value);
+    for (const auto& [key, value] : c->items())
+      compare(fmt::format("criterion {}: {}", one_line(id), key), member_of(*found->second, key.c_str()), value);
   }
   for (const auto& [id, c] : was)
-    if (!is.contains(id)) out.push_back("criterion " + one_line(id) + " that the exam does not have");
+    if (!is.contains(id)) out.push_back(fmt::format("criterion {} that the exam does not have", one_line(id)));
   if (marked.is_object())
     for (const auto& [key, value] : marked.items())
       if (key != "verdict" && key != "score" && key != "criteria") compare(key, member_of(sealed, key.c_str()), value);
@@ -158,7 +162,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(std::string("scenario: ") + e.what());
+    out.findings.push_back(fmt::format("scenario: {}", e.what()));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
@@ -180,7 +184,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(std::string("cannot be marked: ") + e.what());
+    out.findings.push_back(fmt::format("cannot be marked: {}", e.what()));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);
@@ -190,16 +194,18 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   std::string all;
   const std::size_t named = std::min(differ.size(), k_most_named);
   for (std::size_t i = 0; i < named; ++i) all += (i == 0 ? "" : "; ") + differ[i];
-  if (differ.size() > named) all += "; and " + std::to_string(differ.size() - named) + " more";
+  if (differ.size() > named) all += fmt::format("; and {} more", differ.size() - named);
   const auto version = whole_in(sealed, "grading_version");
   if (version < 1)
     out.findings.push_back("the sealed result names no version of grading, and is not what marking gives. Sealed " + all);
   else if (version == k_grading_version)
-    out.findings.push_back("the sealed result was tampered with, or its station's program was: it is said to come from grading version " +
-                           std::to_string(version) + ", which gives another one. Sealed " + all);
+    out.findings.push_back(
+        fmt::format("the sealed result was tampered with, or its station's program was: it is said to come from grading version {}, which gives "
+                    "another one. Sealed {}",
+                    version, all));
   else
-    out.remarks.push_back("the sealed result comes from grading version " + std::to_string(version) + ", and the school's mark by version " +
-                          std::to_string(k_grading_version) + " counts. Sealed " + all);
+    out.remarks.push_back(fmt::format("the sealed result comes from grading version {}, and the school's mark by version {} counts. Sealed {}",
+                                      version, k_grading_version, all));
   return out;
 }
 

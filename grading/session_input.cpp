@@ -1,5 +1,7 @@
 #include "grading/session_input.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/error.h"
 #include "engine/session/chain_check.h"
 #include "scenarios/file/accommodations.h"
@@ -14,7 +16,7 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   reader.require_readable();
   if (!reader.closed())
     throw Error(path, "this exam was not closed",
-                "close it as it stands with `cavum exam --resume --end --out " + path + "`, or let it go on with --motion or --operator");
+                fmt::format("close it as it stands with `cavum exam --resume --end --out {}`, or let it go on with --motion or --operator", path));
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
     throw Error(path, "damaged or altered: " + without_advice(findings.front()), "run `cavum replay --verify` on it and use an intact copy");
@@ -58,7 +60,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
 void use_scenario(GradedSession& session, Scenario scenario, bool another_task) {
   if (!another_task && scenario.id != session.scenario.id)
     throw Error(scenario.path,
-                "this is the task '" + scenario.id + "', and " + session.facts.session_file + " was an exam in '" + session.scenario.id + "'",
+                fmt::format("this is the task '{}', and {} was an exam in '{}'", scenario.id, session.facts.session_file, session.scenario.id),
                 "name its corrected scenario, or add --another-task to mark the work by this one all the same");
   require_tissues(scenario, *session.before);
   require_same_surfaces(scenario, session.scenario);

@@ -2,6 +2,8 @@
 // command line prints it as `cavum: where: what; what to do` and exits with 2.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,7 +14,7 @@ namespace cavum {
 class Error : public std::runtime_error {
  public:
   Error(const std::string& where, const std::string& what_happened, const std::string& what_to_do)
-      : std::runtime_error(where + ": " + what_happened + "; " + what_to_do) {}
+      : std::runtime_error(fmt::format("{}: {}; {}", where, what_happened, what_to_do)) {}
 };
 
 /// The text of an Error, or of a finding made of one, without its `; what to do`: for one that is told inside another, which says that itself.

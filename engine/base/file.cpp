@@ -1,6 +1,7 @@
 #include "engine/base/file.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,14 +29,14 @@ template <class Content>
 Content read_as(const std::string& path, std::uint64_t largest) {
   if (path.empty()) throw Error("file", "its name is empty", "name a file");
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};  // a pipe that nobody writes to must not hold us
-  if (file.fd < 0) throw Error(path, "cannot be opened (" + reason() + ")", "check the path and its permissions");
+  if (file.fd < 0) throw Error(path, fmt::format("cannot be opened ({})", reason()), "check the path and its permissions");
   struct stat info {};
-  if (::fstat(file.fd, &info) != 0) throw Error(path, "cannot be read (" + reason() + ")", "check the disk and the permissions");
+  if (::fstat(file.fd, &info) != 0) throw Error(path, fmt::format("cannot be read ({})", reason()), "check the disk and the permissions");
   if (S_ISDIR(info.st_mode)) throw Error(path, "is a folder", "name a file");
   if (!S_ISREG(info.st_mode)) throw Error(path, "is no ordinary file but a device, a pipe or a socket", "name a file");
   const auto require_size = [&](std::uint64_t size) {
     if (size > largest)
-      throw Error(path, "is larger than " + std::to_string(largest) + " bytes, the most that is read of such a file", "name an intact file");
+      throw Error(path, fmt::format("is larger than {} bytes, the most that is read of such a file", largest), "name an intact file");
   };
   require_size(static_cast<std::uint64_t>(info.st_size));
   Content content;
@@ -44,7 +45,7 @@ Content read_as(const std::string& path, std::uint64_t largest) {
   for (;;) {
     const auto n = ::read(file.fd, block, sizeof block);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(path, "cannot be read (" + reason() + ")", "check the disk and the permissions");
+    if (n < 0) throw Error(path, fmt::format("cannot be read ({})", reason()), "check the disk and the permissions");
     if (n == 0) return content;
     require_size(content.size() + static_cast<std::uint64_t>(n));
     content.insert(content.end(), block, block + n);
@@ -54,8 +55,8 @@ Content read_as(const std::string& path, std::uint64_t largest) {
 }  // namespace
 
 std::string station_path(const std::string& name) {
-  if (const char* home = std::getenv("CAVUM_HOME"); home != nullptr && *home != 0) return std::string(home) + "/" + name;
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return std::string(home) + "/.config/cavum/" + name;
+  if (const char* home = std::getenv("CAVUM_HOME"); home != nullptr && *home != 0) return fmt::format("{}/{}", home, name);
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return fmt::format("{}/.config/cavum/{}", home, name);
   throw Error(name, "neither CAVUM_HOME nor HOME is set", "set CAVUM_HOME to the station's own folder");
 }
 

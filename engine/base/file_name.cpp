@@ -1,5 +1,7 @@
 #include "engine/base/file_name.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/hash.h"
 
 namespace cavum {
@@ -14,7 +16,7 @@ std::string file_name_of(std::string_view text) {
   if (name.front() == '.' || name.front() == '-') name.front() = '_';
   if (name == text) return name;
   if (name.size() > k_longest - k_mark) name.resize(k_longest - k_mark);
-  return name + "-" + to_hex(sha256(std::string(text))).substr(0, k_mark - 1);
+  return fmt::format("{}-{}", name, to_hex(sha256(std::string(text))).substr(0, k_mark - 1));
 }
 
 }  // namespace cavum

@@ -1,5 +1,7 @@
 #include "engine/base/json_reader.h"
 
+#include <fmt/core.h>
+
 #include <functional>
 
 #include "engine/base/error.h"
@@ -41,11 +43,11 @@ class Count {
 
  private:
   bool value() {
-    if (++values_ > limits_.values) refuse_("of more than " + std::to_string(limits_.values) + " values");
+    if (++values_ > limits_.values) refuse_(fmt::format("of more than {} values", limits_.values));
     return true;
   }
   bool open() {
-    if (depth_++ >= limits_.depth) refuse_("that is nested deeper than " + std::to_string(limits_.depth));
+    if (depth_++ >= limits_.depth) refuse_(fmt::format("that is nested deeper than {}", limits_.depth));
     return value();
   }
   bool close() {
@@ -63,13 +65,13 @@ json parse_json(std::string_view text, const std::string& where, const JsonLimit
   const auto refuse = [&where](const std::string& what) {
     throw Error(where, "holds JSON " + what, "use an intact file: nothing that Cavum writes is like that");
   };
-  if (text.size() > limits.bytes) refuse("of " + std::to_string(text.size()) + " bytes, more than " + std::to_string(limits.bytes));
+  if (text.size() > limits.bytes) refuse(fmt::format("of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
   static_cast<void>(json::sax_parse(text, &counted));
   try {
     return json::parse(text);
   } catch (const json::exception& e) {
-    throw Error(where, "is no JSON (" + said(e) + ")", "correct it, or use an intact copy");
+    throw Error(where, fmt::format("is no JSON ({})", said(e)), "correct it, or use an intact copy");
   }
 }
 

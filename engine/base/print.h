@@ -1,6 +1,8 @@
 // Printing for the rigs' tables: printf into a string, and text broken into lines.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -28,7 +30,7 @@ template <class... Args>
     line += (line.empty() ? "" : " ") + word;
     at = end + 1;
   }
-  return line.empty() ? out : out + line + "\n";
+  return line.empty() ? out : fmt::format("{}{}\n", out, line);
 }
 
 }  // namespace cavum

@@ -1,5 +1,7 @@
 #include "engine/base/toml_reader.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "engine/base/text.h"
@@ -9,13 +11,13 @@ namespace cavum {
 namespace {
 
 std::string place(const std::string& where, const toml::source_region& source) {
-  return where + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
+  return fmt::format("{}:{}:{}", where, source.begin.line, source.begin.column);
 }
 
 }  // namespace
 
 toml::table parse_toml(const std::string& text, const std::string& where) {
-  if (const auto beyond = beyond_toml_limits(text)) throw Error(where + ":" + std::to_string(beyond->line) + ":1", beyond->what, beyond->what_to_do);
+  if (const auto beyond = beyond_toml_limits(text)) throw Error(fmt::format("{}:{}:1", where, beyond->line), beyond->what, beyond->what_to_do);
   try {
     return toml::parse(text, where);
   } catch (const toml::parse_error& e) {
@@ -30,7 +32,7 @@ const toml::node* TomlReader::find(std::string_view key) {
 
 void TomlReader::fail(std::string_view key, const std::string& what, const std::string& todo) const {
   const toml::node* node = table_.get(key);
-  throw Error(place(where_, node != nullptr ? node->source() : table_.source()), "'" + std::string(key) + "' " + what, todo);
+  throw Error(place(where_, node != nullptr ? node->source() : table_.source()), fmt::format("'{}' {}", key, what), todo);
 }
 
 double TomlReader::number(std::string_view key, double low, double high) {
@@ -39,7 +41,7 @@ double TomlReader::number(std::string_view key, double low, double high) {
   const auto value = node->value<double>();
   if (!value || !node->is_number()) fail(key, "is not a number", "write a number");
   if (!(*value >= low && *value <= high))
-    fail(key, "is " + plain_number(*value) + ", outside " + plain_number(low) + " .. " + plain_number(high), "choose a value in that range");
+    fail(key, fmt::format("is {}, outside {} .. {}", plain_number(*value), plain_number(low), plain_number(high)), "choose a value in that range");
   return *value;
 }
 
@@ -68,7 +70,7 @@ bool TomlReader::truth_or(std::string_view key, bool otherwise) {
 const toml::table* TomlReader::table(std::string_view key) {
   const toml::node* node = find(key);
   if (node == nullptr) return nullptr;
-  if (!node->is_table()) fail(key, "is not a table", "write [" + std::string(key) + "]");
+  if (!node->is_table()) fail(key, "is not a table", fmt::format("write [{}]", key));
   return node->as_table();
 }
 
@@ -82,7 +84,7 @@ const toml::array* TomlReader::array(std::string_view key) {
 void TomlReader::finish() const {
   for (const auto& [key, node] : table_)
     if (!known_.contains(key.str()))
-      throw Error(place(where_, node.source()), "'" + std::string(key.str()) + "' is not known here", "remove it or correct its spelling");
+      throw Error(place(where_, node.source()), fmt::format("'{}' is not known here", key.str()), "remove it or correct its spelling");
 }
 
 }  // namespace cavum

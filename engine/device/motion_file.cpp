@@ -1,5 +1,7 @@
 #include "engine/device/motion_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -31,18 +33,18 @@ std::vector<std::size_t> read_header(const CsvReader& in) {
     const auto found = std::find(k_columns.begin(), k_columns.end(), name);
     if (found == k_columns.end()) {
       for (const std::string_view axis : {"t", "x", "y", "z"})
-        if (name == axis || name.starts_with(std::string(axis) + "_"))
-          in.fail("column '" + one_line(name) + "' has another unit or none",
-                  "convert it to '" + std::string(axis) + (axis == "t" ? "_s" : "_mm") + "'");
-      in.fail("column '" + one_line(name) + "' is not known", "use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point");
+        if (name == axis || name.starts_with(fmt::format("{}_", axis)))
+          in.fail(fmt::format("column '{}' has another unit or none", one_line(name)),
+                  fmt::format("convert it to '{}{}'", axis, axis == "t" ? "_s" : "_mm"));
+      in.fail(fmt::format("column '{}' is not known", one_line(name)), "use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point");
     }
     const auto c = static_cast<std::size_t>(found - k_columns.begin());
-    if (std::find(column_of.begin(), column_of.end(), c) != column_of.end()) in.fail("column '" + std::string(name) + "' stands twice", "remove one");
+    if (std::find(column_of.begin(), column_of.end(), c) != column_of.end()) in.fail(fmt::format("column '{}' stands twice", name), "remove one");
     column_of.push_back(c);
   }
   for (std::size_t c = 0; c < k_required; ++c)
     if (std::find(column_of.begin(), column_of.end(), c) == column_of.end())
-      in.fail("column '" + std::string(k_columns[c]) + "' is missing", "add it to header and rows");
+      in.fail(fmt::format("column '{}' is missing", k_columns[c]), "add it to header and rows");
   return column_of;
 }
 
@@ -55,24 +57,25 @@ MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& colum
     const auto name = std::string(k_columns[column_of[i]]);
     const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), value);
     if (error != std::errc{} || end != cells[i].data() + cells[i].size())
-      in.fail("'" + std::string(cells[i]) + "' in column " + name + " is not a number", "write a number with a point");
-    if (!std::isfinite(value)) in.fail("column " + name + " is " + std::string(cells[i]), "repair or cut out this row");
+      in.fail(fmt::format("'{}' in column {} is not a number", cells[i], name), "write a number with a point");
+    if (!std::isfinite(value)) in.fail(fmt::format("column {} is {}", name, cells[i]), "repair or cut out this row");
   }
-  if (v[0] < 0) in.fail("t_s is " + plain_number(v[0]) + ", before the start of time", "shift all times so that the first row is at 0 s");
-  if (v[0] > k_latest_s) in.fail("t_s is " + plain_number(v[0]) + ", which cannot be seconds", "convert it to seconds, the first row at 0 s");
-  if (v[8] < 0 || v[8] > 1) in.fail("pedal is " + std::to_string(v[8]) + ", outside 0 .. 1", "scale it: 0 released, 1 pressed to the floor");
+  if (v[0] < 0) in.fail(fmt::format("t_s is {}, before the start of time", plain_number(v[0])), "shift all times so that the first row is at 0 s");
+  if (v[0] > k_latest_s)
+    in.fail(fmt::format("t_s is {}, which cannot be seconds", plain_number(v[0])), "convert it to seconds, the first row at 0 s");
+  if (v[8] < 0 || v[8] > 1) in.fail(fmt::format("pedal is {:f}, outside 0 .. 1", v[8]), "scale it: 0 released, 1 pressed to the floor");
   for (int axis = 1; axis <= 3; ++axis)
     if (std::fabs(v[static_cast<std::size_t>(axis)]) > 500)
-      in.fail(std::string(k_columns[static_cast<std::size_t>(axis)]) + " is further than 500 mm from the tooth",
+      in.fail(fmt::format("{} is further than 500 mm from the tooth", k_columns[static_cast<std::size_t>(axis)]),
               "give millimetres in the tooth frame");
   const double n2 = v[4] * v[4] + v[5] * v[5] + v[6] * v[6] + v[7] * v[7];
   if (n2 < 0.5 || n2 > 2) in.fail("the rotation qw,qx,qy,qz is not of unit length", "give a unit quaternion, 1,0,0,0 for an upright handpiece");
   const bool has_point = std::find(column_of.begin(), column_of.end(), std::size_t{11}) != column_of.end();
   if (has_point && (v[11] != std::floor(v[11]) || v[11] < 0 || v[11] > 255))
-    in.fail("point is " + plain_number(v[11]) + ", not a number of the tray", "write 0 for the first diamond point");
+    in.fail(fmt::format("point is {}, not a number of the tray", plain_number(v[11])), "write 0 for the first diamond point");
   for (const std::size_t button : {9u, 10u})
     if (v[button] != 0 && v[button] != 1)
-      in.fail(std::string(k_columns[button]) + " is " + plain_number(v[button]) + ", neither 0 nor 1", "write 1 while the button is pressed, else 0");
+      in.fail(fmt::format("{} is {}, neither 0 nor 1", k_columns[button], plain_number(v[button])), "write 1 while the button is pressed, else 0");
   return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
 }
 

@@ -1,5 +1,7 @@
 #include "engine/device/placement.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
@@ -107,8 +109,7 @@ Placement upright_device(Vec3 middle_mm) noexcept {
 
 PlacementFit fit_placement(const std::vector<Vec3>& device_mm, const std::vector<Vec3>& tooth_mm) {
   if (device_mm.size() != tooth_mm.size() || device_mm.size() < 3)
-    throw Error("placement",
-                "there are " + std::to_string(device_mm.size()) + " marks of the device for " + std::to_string(tooth_mm.size()) + " of the tooth",
+    throw Error("placement", fmt::format("there are {} marks of the device for {} of the tooth", device_mm.size(), tooth_mm.size()),
                 "touch at least three, each once");
   require_a_plane(device_mm);
   require_a_plane(tooth_mm);

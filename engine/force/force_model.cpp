@@ -1,5 +1,7 @@
 #include "engine/force/force_model.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/toml_reader.h"
 
 namespace cavum {
@@ -43,7 +45,7 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
   const auto* materials = in.table("materials");
   if (materials == nullptr) in.fail("materials", "is missing", "add [materials.NAME] for each tissue");
   for (const auto& [name, node] : *materials) {
-    if (!node.is_table()) in.fail("materials", "holds '" + std::string(name.str()) + "', which is not a table", "write [materials.NAME]");
+    if (!node.is_table()) in.fail("materials", fmt::format("holds '{}', which is not a table", name.str()), "write [materials.NAME]");
     TomlReader m(*node.as_table(), where);
     Material material;
     material.voigt = {m.number("k_n_per_mm", 0, 100), m.number("c_n_s_per_mm", 0, 100)};
@@ -52,7 +54,7 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     model.materials.emplace(name.str(), material);
   }
   if (const auto* terms = in.array("terms")) {
-    if (terms->size() > k_max_terms) in.fail("terms", "are more than " + std::to_string(k_max_terms), "leave out the smallest");
+    if (terms->size() > k_max_terms) in.fail("terms", fmt::format("are more than {}", k_max_terms), "leave out the smallest");
     for (const auto& node : *terms) {
       if (!node.is_table()) in.fail("terms", "hold something that is not a table", "write [[terms]] with kind = \"…\" for each");
       model.terms.push_back(read_force_term(*node.as_table(), where));

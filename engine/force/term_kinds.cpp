@@ -1,5 +1,7 @@
 #include "engine/force/term_kinds.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -62,7 +64,7 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   TomlReader in(table, where);
   const std::string name = in.text("kind");
   const TermKind* kind = find_term_kind(name);
-  if (kind == nullptr) in.fail("kind", "is '" + name + "', which is no force term", "use one of: " + all_kinds());
+  if (kind == nullptr) in.fail("kind", fmt::format("is '{}', which is no force term", name), "use one of: " + all_kinds());
   std::vector<std::string> known{"kind"};
   std::vector<double> values;
   for (const auto& p : kind->parameters) {

@@ -1,5 +1,7 @@
 #include "engine/instrument/diamond_point.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/toml_reader.h"
 
 namespace cavum {
@@ -14,8 +16,7 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   const toml::array* pieces = in.array("profile");
   if (pieces == nullptr) in.fail("profile", "is missing", "list {r_mm, z_mm} from the tip upwards");
   constexpr std::size_t k_most_pieces = 64;  // the distance to each is taken at each node of the head's table
-  if (pieces->size() > k_most_pieces)
-    in.fail("profile", "has " + std::to_string(pieces->size()) + " pieces", "list at most " + std::to_string(k_most_pieces));
+  if (pieces->size() > k_most_pieces) in.fail("profile", fmt::format("has {} pieces", pieces->size()), fmt::format("list at most {}", k_most_pieces));
   std::vector<ProfileSegment> segments;
   for (const auto& node : *pieces) {
     if (!node.is_table()) in.fail("profile", "has an entry that is not a table", "write {r_mm = .., z_mm = ..}");
@@ -43,7 +44,7 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm)) {
     // carving relies on it: see carve_head
     if (facing.r_mm * p.normal.z_mm - facing.z_mm * p.normal.r_mm < -1e-6)
-      in.fail("profile", "is hollow at a height of " + std::to_string(p.at.z_mm) + " mm", "make it convex up to cutting_length_mm");
+      in.fail("profile", fmt::format("is hollow at a height of {:f} mm", p.at.z_mm), "make it convex up to cutting_length_mm");
     facing = p.normal;
     point.head_radius_mm = std::max(point.head_radius_mm, p.at.r_mm);
     if (p.normal.z_mm < -1e-9) point.widest_from_mm = p.at.z_mm;  // still facing down

@@ -1,5 +1,7 @@
 #include "engine/rig/cube_rig.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -126,9 +128,8 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint
       row.seconds = k_time_constants * std::max(material.tau_s, branch_s);
       row.depth_mm = row.seconds * options.machine.speed_mm_s;
       if (row.depth_mm > k_cube_mm)
-        throw Error("force model '" + m.name + "'",
-                    "needs " + std::to_string(row.depth_mm) + " mm of feed until the force is steady, the cube has 10",
-                    "lower tau_s or c_n_s_per_mm");
+        throw Error(fmt::format("force model '{}'", m.name),
+                    fmt::format("needs {:f} mm of feed until the force is steady, the cube has 10", row.depth_mm), "lower tau_s or c_n_s_per_mm");
       row.expected_n = (k * material.tau_s + row.c_n_s_per_mm) * options.machine.speed_mm_s;
       row.runs.resize(static_cast<std::size_t>(options.runs));
       for (std::size_t i = 0; i < row.runs.size(); ++i) jobs.push_back({result.sets.size(), set.rows.size(), i});

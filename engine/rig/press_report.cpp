@@ -1,4 +1,6 @@
 // The closed-loop press in words, tables and JSON.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -38,7 +40,8 @@ std::string wall_lines(const PressResult& r) {
   for (const double v : o.contact_mm_s) head += printed(" %5.0f", v);
   std::string out =
       "                          |      ours: worst of all hands and loads  |    explicit k X + c V                   | bounces at mm/s, ours";
-  out += "\n    k  c           delay  |   sd N   given out mJ  peak N  out of  |   sd N   given out mJ  peak N  out of  |" + head + " / explicit\n";
+  out += fmt::format("\n    k  c           delay  |   sd N   given out mJ  peak N  out of  |   sd N   given out mJ  peak N  out of  |{} / explicit\n",
+                     head);
   for (auto row = r.presses.begin(); row != r.presses.end();) {
     const PressCell wall = row->cell;
     Worst ours, other;
@@ -147,12 +150,12 @@ std::string to_text(const PressResult& r, bool every_cell) {
   std::string failing;
   for (const auto& row : r.presses) {
     if (row.ours.steady && row.ours.passive) continue;
-    failing += "  " + name(row.cell) + printed(": sd %.4f N", row.ours.sd_n);
+    failing += fmt::format("  {}{}", name(row.cell), printed(": sd %.4f N", row.ours.sd_n));
     if (!row.ours.passive) failing += printed(", gives out %.4f mJ", std::max(row.ours.generated_mj, row.ours.late_mj));
     failing += printed("; %d encoder steps; with an exact encoder sd %.4f N\n", row.ours.encoder_steps, row.exact ? row.exact->sd_n : 0.0);
   }
   if (!failing.empty()) out += "\nOurs out of the limits:\n" + failing;
-  return out + "\n" + summary(r);
+  return fmt::format("{}\n{}", out, summary(r));
 }
 
 json to_json(const PressResult& r) {

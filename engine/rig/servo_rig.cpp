@@ -1,5 +1,7 @@
 #include "engine/rig/servo_rig.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -102,8 +104,8 @@ std::string to_text(const ServoRigResult& r) {
   std::string out;
   line(out, "%lld ticks of %g ms in %.2f s: %s\n", static_cast<long long>(s.ticks), r.tick_s * 1e3, r.seconds,
        r.on_time() ? "on time" : "NOT always on time");
-  line(out, "  SCHED_FIFO: %s\n", s.fifo ? "yes" : ("refused (" + s.fifo_refused + ")").c_str());
-  line(out, "  memory locked: %s\n", s.memory_locked ? "yes" : ("refused (" + s.memory_refused + ")").c_str());
+  line(out, "  SCHED_FIFO: %s\n", s.fifo ? "yes" : fmt::format("refused ({})", s.fifo_refused).c_str());
+  line(out, "  memory locked: %s\n", s.memory_locked ? "yes" : fmt::format("refused ({})", s.memory_refused).c_str());
   line(out, "  overruns (more than a period late) %lld, made up for %lld, skipped %lld late and %lld without room, cut by the guard %lld\n",
        static_cast<long long>(s.overruns), static_cast<long long>(s.made_up), static_cast<long long>(s.skipped_late),
        static_cast<long long>(s.skipped_full), static_cast<long long>(s.guard_cuts));
@@ -113,8 +115,8 @@ std::string to_text(const ServoRigResult& r) {
        static_cast<long long>(r.removed_leaves));
   line(out, "  recorded %lld ticks, at most %lld waiting, slowest write %.1f ms\n\n", static_cast<long long>(r.writer.ticks),
        static_cast<long long>(r.writer.most_waiting), r.slowest_write_s * 1e3);
-  if (!s.error.empty()) out += "  device: " + s.error + "\n";
-  if (!r.writer.error.empty()) out += "  recording: " + r.writer.error + "\n";
+  if (!s.error.empty()) out += fmt::format("  device: {}\n", s.error);
+  if (!r.writer.error.empty()) out += fmt::format("  recording: {}\n", r.writer.error);
   out += "  late by up to      ticks\n";
   for (std::size_t i = 0; i < s.lateness.counts.size(); ++i) {
     const auto n = s.lateness.counts[i];

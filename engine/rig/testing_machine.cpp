@@ -1,5 +1,7 @@
 #include "engine/rig/testing_machine.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,10 +46,11 @@ const MachineReading& TestingMachine::tick() noexcept {
 ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm) {
   const auto found = model.materials.find(tissue);
   if (found == model.materials.end())
-    throw Error("force model '" + model.name + "'", "has no material for '" + tissue + "'", "add [materials." + tissue + "]");
+    throw Error(fmt::format("force model '{}'", model.name), fmt::format("has no material for '{}'", tissue),
+                fmt::format("add [materials.{}]", tissue));
   Viscoelastic& v = found->second.voigt;
   if (!(v.stiffness_n_per_mm > 0))
-    throw Error("force model '" + model.name + "'", "gives '" + tissue + "' no stiffness, so its damping ratio is not known",
+    throw Error(fmt::format("force model '{}'", model.name), fmt::format("gives '{}' no stiffness, so its damping ratio is not known", tissue),
                 "give it a k_n_per_mm above 0");
   v.damping_n_s_per_mm *= std::sqrt(k_n_per_mm / v.stiffness_n_per_mm);
   v.stiffness_n_per_mm = k_n_per_mm;

@@ -1,5 +1,7 @@
 #include "engine/servo/real_time.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <exception>
 #include <string>
@@ -181,7 +183,7 @@ void RealTimeServo::start() {
     if (loop->guard.joinable()) loop->guard.join();
     loop->device.cut_force();
     loop->stream.close("device_failed", e.what());  // who empties it must not wait
-    throw Error("servo", std::string("cannot have its two threads (") + e.what() + ")",
+    throw Error("servo", fmt::format("cannot have its two threads ({})", e.what()),
                 "close other programs, or raise the limits of memory and processes");
   }
 }

@@ -1,5 +1,7 @@
 #include "engine/servo/servo.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/servo/stages.h"
@@ -15,7 +17,7 @@ constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick: a ball of 2.5
 
 ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force, const ServoConfig& config) {
   if (tray.empty() || tray.size() > k_most_points)
-    throw Error("tray", "holds " + std::to_string(tray.size()) + " diamond points", "allow between 1 and 255");
+    throw Error("tray", fmt::format("holds {} diamond points", tray.size()), "allow between 1 and 255");
   ServoModel model;
   model.config = config;
   model.force = force;
@@ -25,10 +27,12 @@ ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>&
     const auto found = force.materials.find(t.name);
     if (found == force.materials.end()) {
       if (!t.solid) continue;  // a void without entry resists nothing
-      throw Error("force model '" + force.name + "'", "has no material for tissue '" + t.name + "'", "add [materials." + t.name + "]");
+      throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no material for tissue '{}'", t.name),
+                  fmt::format("add [materials.{}]", t.name));
     }
     const Material& m = found->second;
-    if (t.solid && !(m.tau_s > 0)) throw Error("force model '" + force.name + "'", "has no tau_s for solid tissue '" + t.name + "'", "add tau_s");
+    if (t.solid && !(m.tau_s > 0))
+      throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no tau_s for solid tissue '{}'", t.name), "add tau_s");
     model.tissue[t.id] = {m.voigt.stiffness_n_per_mm, m.voigt.damping_n_s_per_mm, t.solid ? 1.0 / m.tau_s : 0.0};
   }
   return model;

@@ -1,5 +1,7 @@
 #include "engine/session/chain_check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -20,42 +22,42 @@ std::vector<std::vector<EventRow>> events_by_chunk(const SessionReader& session,
     if (e.chunk >= 0 && e.chunk < static_cast<std::int64_t>(by_chunk.size()))
       by_chunk[static_cast<std::size_t>(e.chunk)].push_back(e);
     else
-      findings.push_back("table event, row " + std::to_string(e.seq) + " (tick " + std::to_string(e.event.tick) + "): belongs to no chunk");
+      findings.push_back(fmt::format("table event, row {} (tick {}): belongs to no chunk", e.seq, e.event.tick));
   }
   return by_chunk;
 }
 
 std::string name_of(const ChunkRow& c) {
-  if (c.ticks == 0) return "chunk " + std::to_string(c.seq) + " (events at tick " + std::to_string(c.first_tick) + ")";
-  return "chunk " + std::to_string(c.seq) + " (ticks " + std::to_string(c.first_tick) + " to " + std::to_string(c.first_tick + c.ticks - 1) + ")";
+  if (c.ticks == 0) return fmt::format("chunk {} (events at tick {})", c.seq, c.first_tick);
+  return fmt::format("chunk {} (ticks {} to {})", c.seq, c.first_tick, c.first_tick + c.ticks - 1);
 }
 
 void check_artifacts(const SessionReader& session, Findings& findings) {
   for (const auto& a : session.artifacts())
-    if (sha256(a.bytes) != a.sha256) findings.push_back("table artifact: '" + a.name + "' was changed after it was recorded");
+    if (sha256(a.bytes) != a.sha256) findings.push_back(fmt::format("table artifact: '{}' was changed after it was recorded", a.name));
   for (const char* name : {"scenario.toml", "start_tooth.cvt", "point_000.toml", "force_model.toml", "servo.toml"})
-    if (session.artifact(name) == nullptr) findings.push_back(std::string("table artifact: '") + name + "' is missing");
+    if (session.artifact(name) == nullptr) findings.push_back(fmt::format("table artifact: '{}' is missing", name));
 }
 
 /// Facts that say what a file of the recording says, too: neither may say otherwise.
 void check_facts(const SessionReader& session, Findings& findings) {
   if (session.fact("format") != std::to_string(k_session_format))
-    findings.push_back("table meta: the format is said to be '" + one_line(session.fact("format")) + "', and this is format " +
-                       std::to_string(k_session_format));
+    findings.push_back(
+        fmt::format("table meta: the format is said to be '{}', and this is format {}", one_line(session.fact("format")), k_session_format));
   for (const char* key :
        {"physics_version", "first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm", "created_utc_ns", "created_boot_ns", "created_monotonic_ns"})
     if (const std::string fact = session.fact(key); !fact.empty() && fact != std::to_string(session.number(key, 0)))
-      findings.push_back("table meta: " + std::string(key) + " is '" + one_line(fact) + "', which is no whole number in its range");
+      findings.push_back(fmt::format("table meta: {} is '{}', which is no whole number in its range", key, one_line(fact)));
   for (const char* key : {"first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm"})
     if (const auto nm = session.number(key, 0); nm != static_cast<std::int32_t>(nm))
-      findings.push_back("table meta: " + std::string(key) + " lies outside every tooth");
+      findings.push_back(fmt::format("table meta: {} lies outside every tooth", key));
   const auto* servo = session.artifact("servo.toml");
   if (servo == nullptr) return;
   try {
     const double tick_s = parse_servo_config({servo->bytes.begin(), servo->bytes.end()}, "servo.toml").tick_s;
     if (std::strtod(session.fact("tick_s").c_str(), nullptr) != tick_s)
-      findings.push_back("table meta: a tick is said to last '" + one_line(session.fact("tick_s")) + "' s, and by servo.toml it lasts " +
-                         plain_number(tick_s) + " s");
+      findings.push_back(fmt::format("table meta: a tick is said to last '{}' s, and by servo.toml it lasts {} s", one_line(session.fact("tick_s")),
+                                     plain_number(tick_s)));
   } catch (const Error& e) {
     findings.push_back(without_advice(e.what()));
   }
@@ -66,7 +68,7 @@ void check_chunks(const SessionReader& session, Findings& findings) {
   const auto events = events_by_chunk(session, findings);
   for (std::size_t i = 0; i < session.chunks().size(); ++i) {
     const ChunkRow& c = session.chunks()[i];
-    const auto say = [&](const std::string& what) { findings.push_back(name_of(c) + ": " + what); };
+    const auto say = [&](const std::string& what) { findings.push_back(fmt::format("{}: {}", name_of(c), what)); };
     if (c.prev_sha256 != before) {
       if (i == 0)
         findings.push_back("table meta or artifact: not what the chain of this session began with (a fact, a file or a hash was changed)");
@@ -111,10 +113,10 @@ void check_seal(const SessionReader& session, Findings& findings) {
       "table seal: the signature does not hold (hash, count, clock or key was changed)");
   say(seal.chain_sha256 == end, "table seal: the chain does not end where the session was closed");
   say(seal.chunks == static_cast<std::int64_t>(session.chunks().size()),
-      "table chunk: " + std::to_string(session.chunks().size()) + " chunks, closed with " + std::to_string(seal.chunks));
-  say(seal.ticks == session.ticks(), "table chunk: " + std::to_string(session.ticks()) + " ticks, closed with " + std::to_string(seal.ticks));
+      fmt::format("table chunk: {} chunks, closed with {}", session.chunks().size(), seal.chunks));
+  say(seal.ticks == session.ticks(), fmt::format("table chunk: {} ticks, closed with {}", session.ticks(), seal.ticks));
   say(seal.events == static_cast<std::int64_t>(session.event_rows().size()),
-      "table event: " + std::to_string(session.event_rows().size()) + " events, closed with " + std::to_string(seal.events));
+      fmt::format("table event: {} events, closed with {}", session.event_rows().size(), seal.events));
   say(has_result && sha256(session.result_json()) == seal.result_sha256, "table result: the result was changed or removed after closing");
   say(has_tooth && sha256(session.final_tooth()) == seal.final_tooth_sha256, "table artifact: the final tooth was changed or removed after closing");
 }

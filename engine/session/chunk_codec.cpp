@@ -1,5 +1,6 @@
 #include "engine/session/chunk_codec.h"
 
+#include <fmt/core.h>
 #include <zstd.h>
 
 #include <array>
@@ -94,7 +95,7 @@ Bytes compress(const Bytes& raw) {
 Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std::uint64_t most, const std::string& where) {
   const auto size = ZSTD_getFrameContentSize(packed.data(), packed.size());
   if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) damaged(where, "the packed data have no valid beginning");
-  if (size < least || size > most) damaged(where, "the packed data claim " + std::to_string(size) + " bytes, which does not fit the ticks");
+  if (size < least || size > most) damaged(where, fmt::format("the packed data claim {} bytes, which does not fit the ticks", size));
   if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) damaged(where, "the packed data are not one frame");
   Bytes raw(size);
   const auto n = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
@@ -123,7 +124,7 @@ Bytes pack_columns(std::span<const T> ticks) {
 template <class T, class Words>
 std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
   constexpr std::size_t columns = std::tuple_size_v<Words>;
-  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, std::to_string(ticks) + " ticks in one chunk");
+  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, fmt::format("{} ticks in one chunk", ticks));
   const auto n = static_cast<std::size_t>(ticks);
   const Bytes raw = decompress(packed, n * columns * 4, n * columns * 4, where);
   std::vector<T> out;
@@ -173,7 +174,7 @@ std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std
 }
 
 RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
-  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, std::to_string(ticks) + " ticks in one chunk");
+  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, fmt::format("{} ticks in one chunk", ticks));
   const Bytes raw = decompress(packed, static_cast<std::uint64_t>(ticks), k_largest_removed, where);
   ByteReader in(raw, where);
   RemovedTicks removed;

@@ -39,8 +39,8 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     const bool told = gap_s.is_number();
     const std::string source = told ? text_in(member_of(detail, "source"), "device") : "";
     out.push_back({e.tick, 0,
-                   "interrupted" + (told ? " for " + seconds(gap_s.get<double>()) : std::string()) + " and taken up again" +
-                       (source.empty() ? "" : " with " + source),
+                   fmt::format("interrupted{} and taken up again{}", told ? " for " + seconds(gap_s.get<double>()) : std::string(),
+                               source.empty() ? "" : " with " + source),
                    false});
   }
   Clocks before = session.created();
@@ -72,14 +72,16 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     if (monotonic_s < 0 || boot_s < 0) say("the computer's own clock ran backwards", true);
     if (boot_s - monotonic_s > k_suspend_s) say("the computer slept for " + seconds(boot_s - monotonic_s), true);
     if (std::fabs(utc_s - boot_s) > k_set_s)
-      say("the wall clock was set " + std::string(utc_s > boot_s ? "forward" : "back") + " by " + seconds(std::fabs(utc_s - boot_s)), true);
+      say(fmt::format("the wall clock was set {} by {}", utc_s > boot_s ? "forward" : "back", seconds(std::fabs(utc_s - boot_s))), true);
     if (monotonic_s > k_slow * ticks_s + k_slow_s)
-      say(seconds(ticks_s) + " of the exam took " + seconds(monotonic_s) + ": the candidate had more time than the exam's clock shows", false);
+      say(fmt::format("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)),
+          false);
   }
   end_stretch();
   if (first_ahead >= 0)
     out.push_back({first_ahead, 0,
-                   "the exam is " + seconds(ahead_s) + " ahead of the station's clock: recorded faster than real time, no hand moved it", true});
+                   fmt::format("the exam is {} ahead of the station's clock: recorded faster than real time, no hand moved it", seconds(ahead_s)),
+                   true});
   if (lost_s - admitted_lost_s(session) > k_lost_s)
     out.push_back(
         {0, 0, seconds(lost_s) + " passed that the recording does not account for: its program stood still, or its clocks were changed", true});

@@ -1,5 +1,6 @@
 #include "engine/session/lock_holder.h"
 
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 bool has_open(long process, const struct stat& file) {
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(process) + "/fd", none)) {
+  for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/fd", process), none)) {
     struct stat info {};
     if (::stat(entry.path().c_str(), &info) == 0 && info.st_dev == file.st_dev && info.st_ino == file.st_ino) return true;
   }
@@ -48,10 +49,10 @@ void add_writers(const std::string& path, std::vector<long>& out) {
 }
 
 std::string name_of(long process) {
-  std::ifstream in("/proc/" + std::to_string(process) + "/comm");
+  std::ifstream in(fmt::format("/proc/{}/comm", process));
   std::string name;
   std::getline(in, name);
-  return (name.empty() ? "" : one_line(name) + " ") + "(process " + std::to_string(process) + ")";
+  return fmt::format("{}(process {})", name.empty() ? "" : one_line(name) + " ", process);
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ void write_setup(const std::string& path, const std::map<std::string, std::strin
   Database database = Database::open(path, true);
   // Small pages: a chunk fills its last page by half on average.
   database.run("PRAGMA page_size = 1024; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
-  database.run(("PRAGMA application_id = " + std::to_string(k_session_application_id)).c_str());
-  database.run(("PRAGMA user_version = " + std::to_string(k_session_format)).c_str());
+  database.run(fmt::format("PRAGMA application_id = {}", k_session_application_id).c_str());
+  database.run(fmt::format("PRAGMA user_version = {}", k_session_format).c_str());
   Transaction transaction(database);
   for (const char* sql : k_session_schema) database.run(sql);
   {
@@ -138,7 +138,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
   need(is_source_kind(setup.source.kind), "what moves the stylus");
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
-    if (!attached.insert(name).second) throw Error(path, "two attachments are named '" + name + "'", "give each its own name");
+    if (!attached.insert(name).second) throw Error(path, fmt::format("two attachments are named '{}'", name), "give each its own name");
   require_free(path);
 
   Recorder recorder(path, load_station_key(station_key_path()), clocks);
@@ -201,9 +201,7 @@ void Recorder::require_open() const {
 void Recorder::append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
   require_open();
   if (record.removed != removed.size())
-    throw Error(path_,
-                "tick " + std::to_string(ticks_) + " lists " + std::to_string(removed.size()) + " removed leaves, its record says " +
-                    std::to_string(record.removed),
+    throw Error(path_, fmt::format("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(), record.removed),
                 "hand over state.removed of the same tick");
   Pending& now = pending_.back();
   now.inputs.push_back(input);

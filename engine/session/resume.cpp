@@ -1,5 +1,7 @@
 #include "engine/session/resume.h"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
@@ -39,8 +41,7 @@ void require_intact(const SessionReader& session) {
   const auto findings = check_chain(session);
   if (!findings.empty()) throw Error(session.path(), findings.front(), "it is evidence now: keep it, and start a new exam");
   if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(session.path(),
-                "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
+    throw Error(session.path(), fmt::format("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
                 "resume it with the program that recorded it");
 }
 
@@ -53,7 +54,7 @@ void simulate(const SessionReader& session, Simulation& simulation, const TickVi
       if (visit) visit(c.first_tick + static_cast<std::int64_t>(t), motion.inputs[t], output, simulation.state);
     }
     if (c.ticks > 0 && state_hash(simulation.state) != c.state_hash)
-      throw Error(session.path(), "replays differently by tick " + std::to_string(c.first_tick + c.ticks), "run `cavum replay --verify` on it");
+      throw Error(session.path(), fmt::format("replays differently by tick {}", c.first_tick + c.ticks), "run `cavum replay --verify` on it");
   }
 }
 

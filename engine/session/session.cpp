@@ -1,5 +1,7 @@
 #include "engine/session/session.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <ctime>
 #include <fstream>
@@ -46,7 +48,8 @@ std::vector<Artifact> artifacts_of(const SessionSetup& setup) {
   all.push_back(artifact("start_tooth.cvt", setup.tooth));
   for (std::size_t i = 0; i < setup.points_toml.size(); ++i) {
     const std::string number = std::to_string(i);
-    all.push_back(artifact("point_" + std::string(3 - std::min<std::size_t>(3, number.size()), '0') + number + ".toml", setup.points_toml[i]));
+    all.push_back(
+        artifact(fmt::format("point_{}{}.toml", std::string(3 - std::min<std::size_t>(3, number.size()), '0'), number), setup.points_toml[i]));
   }
   all.push_back(artifact("force_model.toml", setup.force_model_toml));
   all.push_back(artifact("servo.toml", setup.servo_toml));

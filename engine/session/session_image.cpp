@@ -1,5 +1,6 @@
 #include "engine/session/session_image.h"
 
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ constexpr char k_magic[] = "SQLite format 3";  // 16 bytes with its zero
 
 void check_file(const std::string& path) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) throw Error(path, std::string("cannot be opened (") + std::strerror(errno) + ")", "check the path");
+  if (::stat(path.c_str(), &info) != 0) throw Error(path, fmt::format("cannot be opened ({})", std::strerror(errno)), "check the path");
   if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file", "name a session file");
   if (info.st_size > k_largest_file) throw Error(path, "is larger than any session", "name a session file");
 }
@@ -85,7 +86,7 @@ Bytes read_session_image(const std::string& path, std::vector<std::string>& find
   try {
     return apply(file, log, journal);
   } catch (const DatabaseError& e) {
-    findings.push_back(std::string("file: the log beside it cannot be applied, and was left out: ") + e.what());
+    findings.push_back(fmt::format("file: the log beside it cannot be applied, and was left out: {}", e.what()));
     return file;
   }
 }

@@ -1,5 +1,7 @@
 #include "engine/session/session_reader.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cstring>
 #include <set>
@@ -24,20 +26,19 @@ template <class Row>
 void read_table(Database& database, const char* table, const std::string& columns, std::vector<std::string>& findings, const Row& row) {
   std::size_t rows = 0;
   try {
-    Statement s = database.prepare(("SELECT " + columns + " FROM " + table + " ORDER BY 1").c_str());
+    Statement s = database.prepare(fmt::format("SELECT {} FROM {} ORDER BY 1", columns, table).c_str());
     for (; s.step(); ++rows) {
       if (rows == k_most_rows) throw Error(table, "has more rows than any session", "use an intact copy");
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back(std::string("table ") + table + ", row " + std::to_string(rows) + ": " + e.what());
+    findings.push_back(fmt::format("table {}, row {}: {}", table, rows, e.what()));
   }
 }
 
 std::int64_t rising(const Statement& s, std::int64_t expected, const char* table) {
   const std::int64_t seq = s.integer(0);
-  if (seq != expected)
-    throw Error(table, "number " + std::to_string(expected) + " is missing or moved (found " + std::to_string(seq) + ")", "use an intact copy");
+  if (seq != expected) throw Error(table, fmt::format("number {} is missing or moved (found {})", expected, seq), "use an intact copy");
   return seq;
 }
 
@@ -46,10 +47,10 @@ void check_schema(Database& database, std::vector<std::string>& findings) {
   Statement s = database.prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
   for (; s.step(); ++i)
     if (i >= k_session_schema.size() || s.text(0) != "table" || s.text(2) != k_session_schema[i])
-      throw Error("schema", "'" + s.text(1) + "' is not a table of a session of format " + std::to_string(k_session_format), "use an intact copy");
+      throw Error("schema", fmt::format("'{}' is not a table of a session of format {}", s.text(1), k_session_format), "use an intact copy");
   if (i != k_session_schema.size()) throw Error("schema", "a table is missing", "use an intact copy");
   if (const auto v = database.integer("PRAGMA user_version"); v != k_session_format)
-    findings.push_back("file: user_version is " + std::to_string(v) + ", this program reads format " + std::to_string(k_session_format));
+    findings.push_back(fmt::format("file: user_version is {}, this program reads format {}", v, k_session_format));
   if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back("file: application_id is not Cavum's");
 }
 
@@ -59,7 +60,7 @@ void quick_check(Database& database, std::vector<std::string>& findings) {
     while (s.step())
       if (const std::string line = s.text(0); line != "ok") findings.push_back("file: " + line);
   } catch (const DatabaseError& e) {
-    findings.push_back(std::string("file: ") + e.what());
+    findings.push_back(fmt::format("file: {}", e.what()));
   }
 }
 
@@ -218,13 +219,13 @@ std::vector<SessionEvent> SessionReader::events() const {
 
 ChunkMotion SessionReader::motion(std::size_t index) const {
   const ChunkRow& c = chunks_.at(index);
-  const std::string where = path_ + ": chunk " + std::to_string(c.seq) + ", ";
+  const std::string where = fmt::format("{}: chunk {}, ", path_, c.seq);
   ChunkMotion m{unpack_inputs(c.inputs, c.ticks, where + "inputs"), unpack_records(c.records, c.ticks, where + "records"),
                 unpack_removed(c.removed, c.ticks, where + "removed")};
   for (std::size_t i = 0; i < m.records.size(); ++i)
     if (m.records[i].removed != m.removed.counts[i])
-      throw Error(where + "tick " + std::to_string(c.first_tick + static_cast<std::int64_t>(i)),
-                  std::to_string(m.records[i].removed) + " leaves removed by the records, " + std::to_string(m.removed.counts[i]) + " listed",
+      throw Error(fmt::format("{}tick {}", where, c.first_tick + static_cast<std::int64_t>(i)),
+                  fmt::format("{} leaves removed by the records, {} listed", m.records[i].removed, m.removed.counts[i]),
                   "the recording is damaged here: use an intact copy");
   return m;
 }
@@ -232,7 +233,7 @@ ChunkMotion SessionReader::motion(std::size_t index) const {
 std::vector<TickInput> SessionReader::inputs() const {
   std::vector<TickInput> all;
   for (const auto& c : chunks_) {
-    const auto part = unpack_inputs(c.inputs, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", inputs");
+    const auto part = unpack_inputs(c.inputs, c.ticks, fmt::format("{}: chunk {}, inputs", path_, c.seq));
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -241,7 +242,7 @@ std::vector<TickInput> SessionReader::inputs() const {
 std::vector<TickRecord> SessionReader::records() const {
   std::vector<TickRecord> all;
   for (const auto& c : chunks_) {
-    const auto part = unpack_records(c.records, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", records");
+    const auto part = unpack_records(c.records, c.ticks, fmt::format("{}: chunk {}, records", path_, c.seq));
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -250,10 +251,10 @@ std::vector<TickRecord> SessionReader::records() const {
 std::vector<RemovedAt> SessionReader::removed() const {
   std::vector<RemovedAt> all;
   for (const auto& c : chunks_) {
-    const auto part = unpack_removed(c.removed, c.ticks, path_ + ": chunk " + std::to_string(c.seq) + ", removed");
+    const auto part = unpack_removed(c.removed, c.ticks, fmt::format("{}: chunk {}, removed", path_, c.seq));
     std::size_t at = 0;
     if (all.size() + part.leaves.size() > k_most_removed_leaves)
-      throw Error(path_, "says that more than " + std::to_string(k_most_removed_leaves) + " leaves were removed",
+      throw Error(path_, fmt::format("says that more than {} leaves were removed", k_most_removed_leaves),
                   "use an intact copy: no tooth has as many");
     for (std::size_t i = 0; i < part.counts.size(); ++i)
       for (std::uint32_t k = 0; k < part.counts[i]; ++k) all.push_back({c.first_tick + static_cast<std::int64_t>(i), part.leaves[at++]});

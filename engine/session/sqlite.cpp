@@ -1,5 +1,7 @@
 #include "engine/session/sqlite.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +29,7 @@ constexpr int k_most_calls = 2000;
       to_do = "make room on the disk and try again: nothing recorded so far is lost";
       break;
     case SQLITE_IOERR:
-      if (system_error != 0) detail += std::string(" (") + std::strerror(system_error) + ")";
+      if (system_error != 0) detail += fmt::format(" ({})", std::strerror(system_error));
       to_do = "make room on the disk, check that it is still there, and try again: nothing recorded so far is lost";
       break;
     case SQLITE_BUSY:
@@ -93,7 +95,7 @@ void Statement::run() {
 void Statement::wrong_type(int column, const std::string& wanted) const {
   const char* name = sqlite3_column_name(statement_.get(), column);
   if (name == nullptr) throw std::bad_alloc();
-  throw DatabaseError(where_, std::string("column ") + name + " does not hold " + wanted, "the file was damaged or edited: use an intact copy",
+  throw DatabaseError(where_, fmt::format("column {} does not hold {}", name, wanted), "the file was damaged or edited: use an intact copy",
                       SQLITE_CORRUPT);
 }
 

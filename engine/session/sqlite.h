@@ -2,6 +2,7 @@
 // memory that can change nothing, and statements whose columns must have the type the schema promises.
 #pragma once
 
+#include <fmt/core.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ class Statement {
   template <std::size_t N>
   [[nodiscard]] std::array<std::uint8_t, N> fixed_blob(int column) const {
     const Bytes b = blob(column);
-    if (b.size() != N) wrong_type(column, std::to_string(N) + " bytes");
+    if (b.size() != N) wrong_type(column, fmt::format("{} bytes", N));
     std::array<std::uint8_t, N> out{};
     std::copy(b.begin(), b.end(), out.begin());
     return out;

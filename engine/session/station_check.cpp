@@ -1,5 +1,7 @@
 #include "engine/session/station_check.h"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
@@ -14,16 +16,17 @@ std::vector<std::string> check_stations(const SessionReader& session) {
   for (const auto& e : session.events()) {
     if (e.kind != "gap") continue;
     const auto detail = parse_json_or_null(e.detail_json);
-    const std::string by = text_in(detail, "station_key"), when = "the exam was taken up again at tick " + std::to_string(e.tick);
+    const std::string by = text_in(detail, "station_key"), when = fmt::format("the exam was taken up again at tick {}", e.tick);
     if (begun.empty())
       findings.push_back(when + ", and the recording does not say which station began it");
     else if (by != begun)
-      findings.push_back(when + " by another station than began it: " + (by.empty() ? "one that is not named" : by) + ", begun by " + begun);
+      findings.push_back(fmt::format("{} by another station than began it: {}, begun by {}", when, by.empty() ? "one that is not named" : by, begun));
     else if (text_in(member_of(detail, "source"), k_memory_note) == k_not_remembered)
       findings.push_back(when + " at a station that did not remember beginning it: its memory of used tickets was removed");
   }
   if (session.seal() && !begun.empty() && to_hex(session.seal()->public_key) != begun)
-    findings.push_back("the exam was ended by another station than began it: ended by " + to_hex(session.seal()->public_key) + ", begun by " + begun);
+    findings.push_back(
+        fmt::format("the exam was ended by another station than began it: ended by {}, begun by {}", to_hex(session.seal()->public_key), begun));
   return findings;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/session/station_key.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sodium.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,7 +17,7 @@
 namespace cavum {
 namespace {
 
-std::string heading_of(const std::string& owner) { return "cavum " + owner + " key 1 (Ed25519 seed; keep secret): "; }
+std::string heading_of(const std::string& owner) { return fmt::format("cavum {} key 1 (Ed25519 seed; keep secret): ", owner); }
 
 void start_sodium() {
   if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");
@@ -25,22 +26,22 @@ void start_sodium() {
 // link() makes the complete file appear in one step and never replaces a key that another process just made.
 void make_key(const std::string& path, const std::string& owner) {
   const auto fail = [&](const std::string& what) {
-    throw Error(path, what + " (" + std::strerror(errno) + ")", "make its folder writable, or set CAVUM_HOME to a folder that is");
+    throw Error(path, fmt::format("{} ({})", what, std::strerror(errno)), "make its folder writable, or set CAVUM_HOME to a folder that is");
   };
   make_private_folder(std::filesystem::path(path).parent_path().string());
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
   randombytes_buf(seed.data(), seed.size());
-  const std::string text = heading_of(owner) + to_hex(seed) + "\n";
+  const std::string text = fmt::format("{}{}\n", heading_of(owner), to_hex(seed));
   const std::string temporary = temporary_name_beside(path);
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-  if (fd < 0) fail("the " + owner + "'s key cannot be made");
+  if (fd < 0) fail(fmt::format("the {}'s key cannot be made", owner));
   const bool written = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
   ::close(fd);
   const bool placed = written && (::link(temporary.c_str(), path.c_str()) == 0 || errno == EEXIST);
   const int why = errno;
   ::unlink(temporary.c_str());
   errno = why;
-  if (!placed) fail("the " + owner + "'s key cannot be written");
+  if (!placed) fail(fmt::format("the {}'s key cannot be written", owner));
   sync_folder_of(path);
 }
 
@@ -59,7 +60,7 @@ SigningKey load_signing_key(const std::string& path, const std::string& owner) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) make_key(path, owner);
   if (::stat(path.c_str(), &info) == 0 && (info.st_mode & 077) != 0)
-    throw Error(path, "the " + owner + "'s key may be read by others", "chmod 600 it, and replace it if someone may have copied it");
+    throw Error(path, fmt::format("the {}'s key may be read by others", owner), "chmod 600 it, and replace it if someone may have copied it");
   const std::string text = read_text_file(path);
   const std::string heading = heading_of(owner);
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
@@ -67,7 +68,7 @@ SigningKey load_signing_key(const std::string& path, const std::string& owner) {
   const bool whole = text.size() == heading.size() + 2 * seed.size() + 1 && text.starts_with(heading) && text.back() == '\n' &&
                      sodium_hex2bin(seed.data(), seed.size(), text.data() + heading.size(), 2 * seed.size(), nullptr, &read, nullptr) == 0 &&
                      read == seed.size();
-  if (!whole) throw Error(path, "the " + owner + "'s key is damaged", "restore it from a backup, or remove it and let a new one be made");
+  if (!whole) throw Error(path, fmt::format("the {}'s key is damaged", owner), "restore it from a backup, or remove it and let a new one be made");
   SigningKey key;
   crypto_sign_seed_keypair(key.public_key.data(), key.secret_key.data(), seed.data());
   return key;
@@ -82,8 +83,8 @@ std::string enrolled_path(const std::string& path) { return path + ".enrolled"; 
 SigningKey load_station_key(const std::string& path) {
   const std::string enrolled = enrolled_path(path);
   if (!std::filesystem::exists(enrolled)) return load_signing_key(path, "station");
-  const std::string advice =
-      "restore the key from its backup, or have the station enrolled anew: remove " + enrolled + " and ask with `cavum station --enrol CODE`";
+  const std::string advice = fmt::format(
+      "restore the key from its backup, or have the station enrolled anew: remove {} and ask with `cavum station --enrol CODE`", enrolled);
   if (!std::filesystem::exists(path)) throw Error(path, "the key that this station was enrolled with is gone", advice);
   const SigningKey key = load_signing_key(path, "station");
   if (read_text_file(enrolled) != to_hex(key.public_key) + "\n") throw Error(path, "is not the key that this station was enrolled with", advice);

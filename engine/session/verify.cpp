@@ -13,9 +13,7 @@ namespace {
 
 std::string scaled(std::int64_t value, double scale, const char* unit) { return fmt::format("{:.6f} {}", static_cast<double>(value) * scale, unit); }
 
-std::string leaf_text(const RemovedLeaf& l) {
-  return "(" + std::to_string(l.x) + ", " + std::to_string(l.y) + ", " + std::to_string(l.z) + ") tissue " + std::to_string(l.tissue);
-}
+std::string leaf_text(const RemovedLeaf& l) { return fmt::format("({}, {}, {}) tissue {}", l.x, l.y, l.z, l.tissue); }
 
 /// First field in which two records differ, or nothing.
 std::optional<Divergence> compare(std::int64_t tick, const TickRecord& was, const TickRecord& is) {
@@ -32,7 +30,7 @@ std::optional<Divergence> compare(std::int64_t tick, const TickRecord& was, cons
   for (std::size_t i = 0; i < 3; ++i)
     if (was.rendered_un[i] != is.rendered_un[i]) return differ(k_force[i], was.rendered_un[i], is.rendered_un[i], 1e-6, "N");
   if (was.rpm != is.rpm) return differ("rpm", was.rpm, is.rpm, 1, "rpm");
-  if (was.removed != is.removed) return Divergence{tick, "removed", std::to_string(was.removed) + " leaves", std::to_string(is.removed) + " leaves"};
+  if (was.removed != is.removed) return Divergence{tick, "removed", fmt::format("{} leaves", was.removed), fmt::format("{} leaves", is.removed)};
   return Divergence{tick, "notices", std::to_string(was.notices), std::to_string(is.notices)};
 }
 
@@ -60,12 +58,12 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
     try {
       motion = session.motion(i);
     } catch (const Error& e) {
-      report.findings.push_back(std::string(e.what()) + " (replay stops here)");
+      report.findings.push_back(fmt::format("{} (replay stops here)", e.what()));
       return;
     }
     if ((leaves += motion.removed.leaves.size()) > k_most_removed_leaves) {
-      report.findings.push_back("more than " + std::to_string(k_most_removed_leaves) +
-                                " leaves are said to be removed, and no tooth has as many (replay stops here)");
+      report.findings.push_back(
+          fmt::format("more than {} leaves are said to be removed, and no tooth has as many (replay stops here)", k_most_removed_leaves));
       return;
     }
     std::span<const RemovedLeaf> listed = motion.removed.leaves;
@@ -84,7 +82,7 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
     const std::uint64_t expected = report.ticks_replayed == 0 ? 0 : state_hash(simulation.state);
     if (expected == c.state_hash) continue;
     const auto last = c.first_tick + c.ticks - 1;
-    report.findings.push_back("chunk " + std::to_string(c.seq) + ": state hash after tick " + std::to_string(last) + " differs from the replay");
+    report.findings.push_back(fmt::format("chunk {}: state hash after tick {} differs from the replay", c.seq, last));
     if (!report.first_divergence) report.first_divergence = Divergence{last, "state_hash", std::to_string(c.state_hash), std::to_string(expected)};
   }
 }
@@ -105,8 +103,9 @@ void compare_final_tooth(const SessionReader& session, const Simulation& simulat
 void simulate_and_compare(const SessionReader& session, const TickVisitor& visit, const VerifyTeeth& teeth, VerifyReport& report) {
   const auto recorded_physics = session.number("physics_version", 0);
   if (recorded_physics != k_physics_version) {
-    report.findings.push_back("table meta: recorded under physics " + std::to_string(recorded_physics) + ", this program has " +
-                              std::to_string(k_physics_version) + ": chain and signature were checked, the motion cannot be replayed");
+    report.findings.push_back(
+        fmt::format("table meta: recorded under physics {}, this program has {}: chain and signature were checked, the motion cannot be replayed",
+                    recorded_physics, k_physics_version));
     return;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -119,14 +118,14 @@ void simulate_and_compare(const SessionReader& session, const TickVisitor& visit
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.push_back(std::string(e.what()) + " (not replayed)");
+    report.findings.push_back(fmt::format("{} (not replayed)", e.what()));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (seconds > 0) report.speed_x_realtime = static_cast<double>(report.ticks_replayed) * tick_s / seconds;
   if (report.ticks_different == 0) return;
   const Divergence& d = *report.first_divergence;
-  report.findings.push_back("tick " + std::to_string(d.tick) + ": " + d.what + " recorded " + d.recorded + ", replayed " + d.replayed + "; " +
-                            std::to_string(report.ticks_different) + " of " + std::to_string(report.ticks_replayed) + " ticks differ");
+  report.findings.push_back(fmt::format("tick {}: {} recorded {}, replayed {}; {} of {} ticks differ", d.tick, d.what, d.recorded, d.replayed,
+                                        report.ticks_different, report.ticks_replayed));
 }
 
 }  // namespace
@@ -149,12 +148,12 @@ VerifyReport verify_session(const SessionReader& session, const std::string& exp
   for (auto& f : check_chain(session)) report.findings.push_back(std::move(f));
   if (session.seal()) report.station_key = to_hex(session.seal()->public_key);
   if (!expected_station_key.empty() && session.seal() && report.station_key != expected_station_key)
-    report.findings.push_back("table seal: closed by station " + report.station_key + ", not by the one expected");
+    report.findings.push_back(fmt::format("table seal: closed by station {}, not by the one expected", report.station_key));
   simulate_and_compare(session, visit, teeth, report);
   report.intact = report.findings.empty() && !report.first_divergence;
   if (!report.closed)
-    report.findings.push_back("table seal: none, the session was never closed; " + std::to_string(report.ticks) +
-                              (report.intact ? " ticks are intact and can be resumed" : " ticks are there"));
+    report.findings.push_back(fmt::format("table seal: none, the session was never closed; {}{}", report.ticks,
+                                          report.intact ? " ticks are intact and can be resumed" : " ticks are there"));
   report.verified = report.intact && report.closed;
   return report;
 }

@@ -1,5 +1,7 @@
 #include "engine/tooth/distance.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,10 +70,10 @@ void check_lattice(IVec3 size, double leaf_mm, const std::string& where) {
   if (size.x < 1 || size.y < 1 || size.z < 1) throw Error(where, "nothing to build", "check the size of the input");
   const int widest = std::max({size.x, size.y, size.z});
   if (widest > Octree::k_max_edge_leaves)
-    throw Error(where, std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger --leaf-mm, or check that the unit is mm");
+    throw Error(where, fmt::format("{} leaves along one edge, 1024 is the most", widest), "use a larger --leaf-mm, or check that the unit is mm");
   const std::uint64_t leaves = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
   if (leaves > k_most_lattice_leaves)
-    throw Error(where, std::to_string(leaves) + " leaves, " + std::to_string(k_most_lattice_leaves) + " is the most",
+    throw Error(where, fmt::format("{} leaves, {} is the most", leaves, k_most_lattice_leaves),
                 "use a larger --leaf-mm, or check that the unit is mm");
 }
 
@@ -87,7 +89,7 @@ void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, co
     const auto leaves = [&](double mm) { return static_cast<std::uint64_t>(std::min(mm / lattice.leaf_mm, 1024.0)) + 5; };  // and the band
     near += leaves(high.x - low.x) * leaves(high.y - low.y) * leaves(high.z - low.z);
     if (near > k_most_near_triangles)
-      throw Error(where, "its triangles have more than " + std::to_string(k_most_near_triangles) + " leaves near them, the most",
+      throw Error(where, fmt::format("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
                   "use a larger --leaf-mm, or a mesh of fewer large triangles");
   }
 }

@@ -1,6 +1,8 @@
 // Template of the marching tetrahedra. Included by surface_mesh.h only.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/tooth/surface_mesh.h"

@@ -1,5 +1,7 @@
 #include "engine/tooth/octree.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -14,7 +16,7 @@ Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
   const int thinnest = std::min({grid.size.x, grid.size.y, grid.size.z});
   if (thinnest < 1 || grid.tissue.size() != grid.count() || grid.distance.size() != grid.count() || !(grid.leaf_mm > 0))
     throw Error("tooth", "the tissue grid is empty", "check size and leaf of the input");
-  if (widest > k_max_edge_leaves) throw Error("tooth", std::to_string(widest) + " leaves along one edge, 1024 is the most", "use a larger leaf");
+  if (widest > k_max_edge_leaves) throw Error("tooth", fmt::format("{} leaves along one edge, 1024 is the most", widest), "use a larger leaf");
   for (const auto& t : tissues) solid_[t.id] = t.solid;
   while ((k_brick_edge << levels_) < widest) ++levels_;
   root_ = build(grid, {0, 0, 0}, levels_);
@@ -294,8 +296,8 @@ Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   constexpr double k_least_leaf_mm = 0.005, k_largest_leaf_mm = 2.0;
   if (!(tree.leaf_mm_ >= k_least_leaf_mm && tree.leaf_mm_ <= k_largest_leaf_mm) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) ||
       !usable(tree.size_.y) || !usable(tree.size_.z))
-    in.fail("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and " + std::to_string(k_max_edge_leaves) +
-            " leaves a side");
+    in.fail(
+        fmt::format("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and {} leaves a side", k_max_edge_leaves));
   for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
   while ((k_brick_edge << tree.levels_) < std::max({tree.size_.x, tree.size_.y, tree.size_.z})) ++tree.levels_;
   const auto part = [&in] { return ByteReader(in.get_bytes(in.get<std::uint64_t>()), "tooth"); };
@@ -316,7 +318,7 @@ std::uint32_t Octree::read_ref(ByteReader& shape, ByteReader& tissue, ByteReader
   }
   if (level != 0) shape.fail("a brick in the wrong place");
   if (labels_.items.size() + bricks_.items.size() >= k_most_bricks_read)
-    shape.fail("has more bricks than the limit of " + std::to_string(k_most_bricks_read));
+    shape.fail(fmt::format("has more bricks than the limit of {}", k_most_bricks_read));
   FullBrick brick;
   const auto labels = tissue.get_bytes(k_brick_leaves);
   std::copy(labels.begin(), labels.end(), brick.tissue.begin());

@@ -10,6 +10,8 @@
 //               known on both sides when the leaves farther off follow: code minus what `fit_surface` expects
 #include "engine/tooth/packed_octree.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -300,7 +302,7 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   for (std::size_t i = 0; i < streams.distance.size(); ++i)
     if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] + streams.distance[i - 1]);
   const std::size_t bricks = streams.tissue.size() / k_leaves, full = streams.distance.size() / k_leaves;
-  if (bricks > k_most_bricks) throw Error("tooth", "too much detail for a tooth file: " + std::to_string(bricks) + " bricks", "use a larger leaf");
+  if (bricks > k_most_bricks) throw Error("tooth", fmt::format("too much detail for a tooth file: {} bricks", bricks), "use a larger leaf");
   RangeEncoder coder;
   Walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
   const Bytes bits = coder.finish();
@@ -316,8 +318,7 @@ Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues) {
   ByteWriter out;
   const int levels = copy_head(in, out);
   const auto bricks = in.get<std::uint32_t>(), full = in.get<std::uint32_t>();
-  if (bricks > k_most_bricks || full > bricks)
-    in.fail("has " + std::to_string(bricks) + " bricks, more than the limit of " + std::to_string(k_most_bricks));
+  if (bricks > k_most_bricks || full > bricks) in.fail(fmt::format("has {} bricks, more than the limit of {}", bricks, k_most_bricks));
   ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), "tooth");
   RangeDecoder coder(bits);
   Streams streams;

@@ -1,5 +1,7 @@
 #include "engine/tooth/surface_mesh.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "engine/base/error.h"
@@ -74,7 +76,7 @@ TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue) {
   }
   const Body body = body_of(tooth.octree, wanted);
   if (body.inside.empty())
-    throw Error("tooth '" + tooth.name + "'", "holds no " + tissue, "choose a tissue that `cavum tooth info` shows a volume for");
+    throw Error(fmt::format("tooth '{}'", tooth.name), "holds no " + tissue, "choose a tissue that `cavum tooth info` shows a volume for");
   const auto fraction = [&](IVec3 a, IVec3 b) {
     const auto ia = body.grid.index(a), ib = body.grid.index(b);
     const double da = body.grid.distance[ia], db = body.grid.distance[ib];
@@ -102,9 +104,10 @@ Bytes to_stl(const TriangleMesh& mesh) {
 
 Bytes to_ply(const TriangleMesh& mesh) {
   ByteWriter out;
-  const std::string header = "ply\nformat binary_little_endian 1.0\ncomment Cavum surface, mm\nelement vertex " +
-                             std::to_string(mesh.vertices_mm.size()) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                             std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string header = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment Cavum surface, mm\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      mesh.vertices_mm.size(), mesh.triangles.size());
   for (const char c : header) out.put(c);
   for (const Vec3 v : mesh.vertices_mm) put_vec(out, v);
   for (const auto& t : mesh.triangles) {

@@ -7,6 +7,7 @@
 // Version 1 is read, too:
 //   "CVTOOTH1", u64 size of the body, u64 packed size, zstd frame of that size, SHA-256 as above
 //   with name, source and tissues as above in the body, then the octree as Octree::write writes it
+#include <fmt/core.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -44,7 +45,7 @@ Tooth read_all_but_octree(ByteReader& in) {
     t.id = in.get<std::uint8_t>();
     t.solid = in.get<std::uint8_t>() != 0;
     t.name = in.get_string();
-    if (!is_plain_text(t.name)) in.fail("the name of tissue " + std::to_string(t.id) + " cannot be read");
+    if (!is_plain_text(t.name)) in.fail(fmt::format("the name of tissue {} cannot be read", t.id));
   }
   return tooth;
 }
@@ -84,13 +85,13 @@ std::string Tooth::tissue_name(std::uint8_t id) const {
   if (id == k_air) return "air";
   for (const auto& t : tissues)
     if (t.id == id) return t.name;
-  return "tissue " + std::to_string(id);
+  return fmt::format("tissue {}", id);
 }
 
 std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
   for (const auto& t : tissues)
     if (t.name == wanted) return t.id;
-  throw Error("tooth '" + name + "'", "has no tissue named '" + wanted + "'", "use one that `cavum tooth info` lists");
+  throw Error(fmt::format("tooth '{}'", name), fmt::format("has no tissue named '{}'", wanted), "use one that `cavum tooth info` lists");
 }
 
 Bytes save_tooth(const Tooth& tooth) {

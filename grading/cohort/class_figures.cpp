@@ -1,5 +1,7 @@
 #include "grading/cohort/class_figures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -47,7 +49,7 @@ GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const FiledS
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
     if (s == sat.end()) {
-      f.to_look_at.push_back({0, m.candidate, "was marked by " + m.judge + ", and has no session of this exam"});
+      f.to_look_at.push_back({0, m.candidate, fmt::format("was marked by {}, and has no session of this exam", m.judge)});
       continue;
     }
     given.by_candidate[m.candidate][m.judge] = m.points;
@@ -148,22 +150,21 @@ void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<
     const char* const counts = s.chosen ? "counts, for a person chose it" : "does not count";
     if (!s.findings.empty())
       f.to_look_at.push_back({s.seq, s.candidate,
-                              std::string("was filed with findings and ") + counts + ": " + s.findings.front() +
-                                  (s.findings.size() > 1 ? ", and " + std::to_string(s.findings.size() - 1) + " more" : "")});
+                              fmt::format("was filed with findings and {}: {}{}", counts, s.findings.front(),
+                                          s.findings.size() > 1 ? fmt::format(", and {} more", s.findings.size() - 1) : "")});
     for (const auto other : s.contested_by)
-      f.to_look_at.push_back({s.seq, s.candidate, std::string(counts) + ": entry " + std::to_string(other) + " ends the same exam otherwise"});
+      f.to_look_at.push_back({s.seq, s.candidate, fmt::format("{}: entry {} ends the same exam otherwise", counts, other)});
   }
   if (f.simulated > 0 && f.simulated < f.n)
-    f.to_look_at.push_back(
-        {0, "", std::to_string(f.simulated) + " of the " + std::to_string(f.n) + " are simulated operators, and count among people"});
+    f.to_look_at.push_back({0, "", fmt::format("{} of the {} are simulated operators, and count among people", f.simulated, f.n)});
   for (const auto& [candidate, s] : sat) {
     if (s->result.value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
     const json truth = s->result.value("perforation", json::object()).value("truth", json::object());
     if (!truth.is_object() || !truth.value("perforated", false)) continue;
     const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());
     f.to_look_at.push_back({s->seq, candidate,
-                            "perforated the " + (tissue.is_string() ? tissue.get<std::string>() : std::string("pulp")) +
-                                (first_s.is_number() ? " at " + fixed(first_s.get<double>(), 1) + " s" : "")});
+                            fmt::format("perforated the {}{}", tissue.is_string() ? tissue.get<std::string>() : std::string("pulp"),
+                                        first_s.is_number() ? fmt::format(" at {} s", fixed(first_s.get<double>(), 1)) : "")});
   }
 }
 
@@ -271,7 +272,7 @@ void put_few(ClassFigures& f, const Matrix& by_criterion) {
 std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& exam, const std::string& where,
                                    double max_points) {
   const auto rows = parse_csv(text, where);
-  const auto at = [&](const CsvRow& row) { return where + ":" + std::to_string(row.line); };
+  const auto at = [&](const CsvRow& row) { return fmt::format("{}:{}", where, row.line); };
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
                      rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
   if (!known) throw Error(where + ":1", "is no heading of marks", "begin with candidate,judge,points or candidate,judge,points,rating");
@@ -283,22 +284,23 @@ std::vector<HumanMark> parse_marks(const std::string& text, Identities& identiti
       double v = 0;
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
       if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
-        throw Error(at(rows[i]) + ": column " + column, "'" + one_line(field) + "' is no number of " + what, "write it with a decimal point");
+        throw Error(fmt::format("{}: column {}", at(rows[i]), column), fmt::format("'{}' is no number of {}", one_line(field), what),
+                    "write it with a decimal point");
       return v;
     };
     HumanMark m{f[0], f[1], number_in(f[2], "3 (points)", "points"), {}};
     if (m.judge.empty()) throw Error(at(rows[i]), "names no judge", "give each judge a name or number");
     if (m.points < 0 || m.points > max_points)
-      throw Error(
-          at(rows[i]) + ": column 3 (points)",
-          plain_number(m.points) + (m.points < 0 ? " is less than no points" : " is more than the exam's " + plain_number(max_points) + " points"),
-          "write points of the exam's own scale, 0 to " + plain_number(max_points) + "; nothing of the file was taken");
+      throw Error(at(rows[i]) + ": column 3 (points)",
+                  plain_number(m.points) +
+                      (m.points < 0 ? " is less than no points" : fmt::format(" is more than the exam's {} points", plain_number(max_points))),
+                  fmt::format("write points of the exam's own scale, 0 to {}; nothing of the file was taken", plain_number(max_points)));
     const auto enrolled = identities.of_id(m.candidate);
     for (const auto& e : enrolled)
       if (e.exam == exam || e.exam.empty()) m.candidate = e.pseudonym;
     if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "4 (rating)", "a rating");
     if (!given.emplace(m.candidate, m.judge).second)
-      throw Error(at(rows[i]), "is a second mark by judge " + m.judge + " for one candidate", "leave one of them");
+      throw Error(at(rows[i]), fmt::format("is a second mark by judge {} for one candidate", m.judge), "leave one of them");
     out.push_back(std::move(m));
   }
   if (out.empty()) throw Error(where, "holds no mark", "write a row for each candidate and judge");
@@ -309,7 +311,7 @@ std::map<std::string, const FiledSession*> counting_sessions(const Registry& reg
   std::map<std::string, const FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
     if (s.scenario_id == exam && !s.doubtful() && s.result.is_object()) sat[s.candidate] = &s;
-  if (sat.empty()) throw Error("exam '" + one_line(exam) + "'", "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
+  if (sat.empty()) throw Error(fmt::format("exam '{}'", one_line(exam)), "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
   return sat;
 }
 

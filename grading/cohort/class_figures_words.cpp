@@ -1,4 +1,6 @@
 // The figures of a class in JSON and in words.
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/text.h"
@@ -16,8 +18,7 @@ json optional(const std::optional<double>& v) { return v ? json(*v) : json(); }
 std::string few_words(const ClassFigures& figures, const std::string& figure) {
   for (const Few& few : figures.few)
     if (few.figure == figure)
-      return "few: " + std::to_string(few.n) + (few.n == 1 ? " candidate" : " candidates") + ", under " + std::to_string(few.enough) +
-             " it is a rough guess";
+      return fmt::format("few: {}{}, under {} it is a rough guess", few.n, few.n == 1 ? " candidate" : " candidates", few.enough);
   return "";
 }
 
@@ -66,37 +67,36 @@ std::string to_text(const ClassFigures& f) {
   };
   const auto few = [&f](const char* figure) {
     const std::string words = few_words(f, figure);
-    return words.empty() ? std::string() : " (" + words + ")";
+    return words.empty() ? std::string() : fmt::format(" ({})", words);
   };
   std::string s = f.exam + ": " + std::to_string(f.n) + (f.n == 1 ? " candidate" : " candidates") +
-                  (f.simulated > 0 ? ", " + std::to_string(f.simulated) + " of them simulated" : "") + "\n" + std::to_string(f.pass) + " pass, " +
+                  (f.simulated > 0 ? fmt::format(", {} of them simulated", f.simulated) : "") + "\n" + std::to_string(f.pass) + " pass, " +
                   std::to_string(f.review) + " review, " + std::to_string(f.fail) + " fail\npoints " + fixed(f.mean, 1) + " on average of " +
                   plain_number(f.max_points) + ", standard deviation " + fixed(f.sd, 1) + ", pass mark " + fixed(f.pass_points, 1) +
                   "\nCronbach's alpha " + number(f.alpha, 2) + ", standard error " + number(f.sem, 1) + " points" + few("alpha") + "\n\n" +
                   padded("criterion", 28) + "share of points  discrimination" + few("discrimination") + "\n";
-  for (const auto& c : f.criteria) s += padded(c.id, 28) + padded(fixed(c.difficulty, 2), 17) + number(c.discrimination, 2) + "\n";
-  if (!f.walls.empty()) s += "\n" + padded("wall, mm (+ = overcut)", 28) + "mean   p95    largest of all\n";
+  for (const auto& c : f.criteria) s += fmt::format("{}{}{}\n", padded(c.id, 28), padded(fixed(c.difficulty, 2), 17), number(c.discrimination, 2));
+  if (!f.walls.empty()) s += fmt::format("\n{}mean   p95    largest of all\n", padded("wall, mm (+ = overcut)", 28));
   for (const auto& w : f.walls)
-    s += padded(w.wall, 28) + padded(fixed(w.mean_mm, 2), 7) + padded(fixed(w.p95_mm, 2), 7) + fixed(w.worst_mm, 2) + "\n";
+    s += fmt::format("{}{}{}{}\n", padded(w.wall, 28), padded(fixed(w.mean_mm, 2), 7), padded(fixed(w.p95_mm, 2), 7), fixed(w.worst_mm, 2));
   if (f.station_effect)
-    s += "\nstations " + std::to_string(f.stations.size()) + ": they hold " + fixed(100 * f.station_effect->share, 1) +
-         " % of the variance; as much by chance in a share of " + fixed(f.station_effect->chance, 3) + " of shuffles\n";
+    s += fmt::format("\nstations {}: they hold {} % of the variance; as much by chance in a share of {} of shuffles\n", f.stations.size(),
+                     fixed(100 * f.station_effect->share, 1), fixed(f.station_effect->chance, 3));
   const Agreement& a = f.agreement;
   if (a.n > 0) {
-    s +=
-        "\nmarked by people too: " + std::to_string(a.n) + " candidates, " + std::to_string(a.judges) + (a.judges == 1 ? " judge" : " judges") + "\n";
+    s += fmt::format("\nmarked by people too: {} candidates, {}{}\n", a.n, a.judges, a.judges == 1 ? " judge" : " judges");
     if (a.icc)
-      s += "ICC(2,1) " + fixed(a.icc->single_random, 2) + ", ICC(3,1) " + fixed(a.icc->single_fixed, 2) + ", the program counted as a judge" +
-           few("icc") + "\n";
+      s += fmt::format("ICC(2,1) {}, ICC(3,1) {}, the program counted as a judge{}\n", fixed(a.icc->single_random, 2), fixed(a.icc->single_fixed, 2),
+                       few("icc"));
     if (a.limits)
-      s += "program less people " + fixed(a.limits->bias, 1) + " points, " + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) +
-           few("limits") + "\n";
-    s += "weighted kappa " + number(a.kappa, 2) + few("weighted_kappa") + "\n";
-    if (a.cut) s += "cut by borderline regression " + fixed(*a.cut, 1) + " points" + few("borderline_cut") + "\n";
+      s += fmt::format("program less people {} points, {} to {}{}\n", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1),
+                       few("limits"));
+    s += fmt::format("weighted kappa {}{}\n", number(a.kappa, 2), few("weighted_kappa"));
+    if (a.cut) s += fmt::format("cut by borderline regression {} points{}\n", fixed(*a.cut, 1), few("borderline_cut"));
   }
   if (!f.to_look_at.empty()) s += "\nto look at\n";
   for (const auto& t : f.to_look_at)
-    s += padded(t.session > 0 ? "  entry " + std::to_string(t.session) : "  no entry", 14) + padded(t.candidate, 18) + t.why + "\n";
+    s += fmt::format("{}{}{}\n", padded(t.session > 0 ? fmt::format("  entry {}", t.session) : "  no entry", 14), padded(t.candidate, 18), t.why);
   return s;
 }
 

@@ -1,5 +1,7 @@
 #include "grading/cohort/class_map.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 
@@ -98,15 +100,16 @@ std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPl
       task.path = path;
       task.cavities.push_back(counted_leaves(reader));
     } catch (const Error& e) {
-      out->findings.push_back("entry " + std::to_string(session->seq) + ": " + e.what());
+      out->findings.push_back(fmt::format("entry {}: {}", session->seq, e.what()));
     }
   }
   const auto most =
       std::max_element(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) { return a.second.cavities.size() < b.second.cavities.size(); });
   if (most == tasks.end())
-    throw Error(places.folder,
-                "no session of '" + one_line(exam) + "' can be read" + (out->findings.empty() ? "" : " (" + out->findings.front() + ")"),
-                "see `cavum ledger verify " + places.folder + "`");
+    throw Error(
+        places.folder,
+        fmt::format("no session of '{}' can be read{}", one_line(exam), out->findings.empty() ? "" : fmt::format(" ({})", out->findings.front())),
+        fmt::format("see `cavum ledger verify {}`", places.folder));
   const SessionReader reader(most->second.path);
   const SessionSetup setup = reader.setup();
   out->scenario = parse_scenario(setup.scenario_toml, most->second.path + ": scenario", Reading::recorded);

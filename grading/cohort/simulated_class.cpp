@@ -1,5 +1,7 @@
 #include "grading/cohort/simulated_class.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -55,9 +57,9 @@ ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities
   for (int i = 0; i < wanted.n; ++i) {
     Student s;
     s.seed = random.next() >> 1;
-    s.skill = "student-" + std::to_string(level[static_cast<std::size_t>(i)]);
-    s.candidate = identities.enrol("simulated-" + std::to_string(wanted.seed) + "-" + std::to_string(i + 1), "", ticket.exam, ledger.key());
-    s.path = wanted.sessions + "/" + file_name_of(s.candidate) + ".cavum";
+    s.skill = fmt::format("student-{}", level[static_cast<std::size_t>(i)]);
+    s.candidate = identities.enrol(fmt::format("simulated-{}-{}", wanted.seed, i + 1), "", ticket.exam, ledger.key());
+    s.path = fmt::format("{}/{}.cavum", wanted.sessions, file_name_of(s.candidate));
     if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
     s.ticket = issue(ledger, ticket, s.candidate);
     students.push_back(std::move(s));

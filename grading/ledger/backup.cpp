@@ -1,5 +1,6 @@
 #include "grading/ledger/backup.h"
 
+#include <fmt/core.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -148,8 +149,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     if (!is_signed_by_school(c.id, key_then, p))
       plan.findings.push_back(path + ": the school's signature on the backup's checkpoint does not hold");
     else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
-      plan.findings.push_back("the backup was taken of " + std::to_string(p.size) + " entries, and holds " + std::to_string(own.size) +
-                              ": it was changed since");
+      plan.findings.push_back(fmt::format("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size));
   } catch (const Error& e) {
     plan.findings.push_back(without_advice(e.what()));
   }
@@ -165,7 +165,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     throw Error(folder, "is the ledger itself", "name another folder");
   const LedgerContent now = read_ledger(from);
   if (!now.findings.empty())
-    throw Error(from.folder, "the ledger does not hold (" + now.findings[0] + "), and a backup of it would be taken for one that does",
+    throw Error(from.folder, fmt::format("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0]),
                 "see `cavum ledger verify`; to keep it as evidence, copy the folder");
   make_private_folder(folder);
   const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
@@ -175,7 +175,8 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   for (bool erased_meanwhile = true; erased_meanwhile;) {  // then the entry that erases belongs to the backup too
     copy_database(from.database(), to.database());
     copy = read_ledger(to, AskWitness::no);
-    if (!copy.findings.empty()) throw Error(to.database(), "the copy does not hold (" + copy.findings[0] + ")", "check the disk, and take it again");
+    if (!copy.findings.empty())
+      throw Error(to.database(), fmt::format("the copy does not hold ({})", copy.findings[0]), "check the disk, and take it again");
     out.missing = copy_sessions(copy, from, to, out.copied);
     const auto gone = out.missing.empty() ? std::set<std::string>() : erased_recordings(read_ledger(from));
     erased_meanwhile = std::any_of(out.missing.begin(), out.missing.end(), [&](const std::string& hash) { return gone.contains(hash); });
@@ -211,7 +212,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   std::vector<std::string> changed;
   for (const auto& w : read_witness(c.id, changed)) {
     if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w))
-      changed.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size));
+      changed.push_back(fmt::format("{}: the witness was changed at entry {}", witness_path(c.id), w.size));
     else
       compare(plan, history, c.id, w, "the witness", "");
   }
@@ -226,9 +227,9 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     const auto seq = receipt.at("seq").get<std::uint64_t>();
     const std::string candidate = text_in(body, "candidate"), file = text_in(body, "file_sha256");
     const std::string told = seq < c.entries.size() ? ""
-                                                    : "entry " + std::to_string(seq) + ": " + one_line(text_in(entry, "kind")) +
-                                                          (candidate.empty() ? "" : " of " + one_line(candidate)) +
-                                                          (file.empty() ? "" : ", file " + one_line(file)) + " (" + path + ")";
+                                                    : fmt::format("entry {}: {}{}{} ({})", seq, one_line(text_in(entry, "kind")),
+                                                                  candidate.empty() ? "" : " of " + one_line(candidate),
+                                                                  file.empty() ? "" : ", file " + one_line(file), path);
     compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path), path, told);
   }
   for (const auto& path : notes) {
@@ -241,9 +242,8 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   if (plan.last_seen) {
     const auto first = c.entries.size(), last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);
     plan.lost_entries.insert(plan.lost_entries.begin(),
-                             "entr" +
-                                 (first == last ? "y " + std::to_string(first) : "ies " + std::to_string(first) + " to " + std::to_string(last)) +
-                                 ": seen by " + plan.last_seen->what);
+                             fmt::format("entr{}: seen by {}", first == last ? fmt::format("y {}", first) : fmt::format("ies {} to {}", first, last),
+                                         plan.last_seen->what));
   }
   return plan;
 }

@@ -1,5 +1,7 @@
 #include "grading/ledger/begin.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -43,12 +45,13 @@ std::string let_begin(Ledger& ledger, const std::string& nonce, const std::strin
         std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.ticket.nonce == nonce; });
     const auto refuse = [](const std::string& why, const std::string& advice) { throw Error("the ticket", why, advice); };
     if (t == registry.tickets.end()) refuse("was not issued by this ledger", "name a ticket of it");
-    if (t->cancelled_by) refuse("was cancelled by entry " + std::to_string(*t->cancelled_by), "give the candidate another");
-    if (t->used_by) refuse("was used: its exam is filed as entry " + std::to_string(*t->used_by), "give the candidate another");
+    if (t->cancelled_by) refuse(fmt::format("was cancelled by entry {}", *t->cancelled_by), "give the candidate another");
+    if (t->used_by) refuse(fmt::format("was used: its exam is filed as entry {}", *t->used_by), "give the candidate another");
     if (utc_ns < t->ticket.not_before_utc_ns || utc_ns > t->ticket.not_after_utc_ns)
-      refuse("is good from " + utc_text(t->ticket.not_before_utc_ns) + " to " + utc_text(t->ticket.not_after_utc_ns), "wait, or give another");
+      refuse(fmt::format("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
+             "wait, or give another");
     if (!t->begins.empty() && again.empty())
-      refuse("was let begin before, by entry " + std::to_string(t->begins.back().seq),
+      refuse(fmt::format("was let begin before, by entry {}", t->begins.back().seq),
              "only the exam that bears the last word counts: say with --again why it begins anew");
     const json facts = {{"format", k_format},      {"ledger", now.id}, {"ticket", nonce},
                         {"nonce", random_hex(16)}, {"utc_ns", utc_ns}, {"public_key", now.public_key}};

@@ -1,6 +1,8 @@
 // What may stand for a candidate on a command line or in a table: a pseudonym, a matriculation number, a mail address.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <string>
 
 #include "engine/base/error.h"
@@ -17,9 +19,9 @@ inline bool is_pseudonym(const std::string& name) { return name.size() == 16 && 
 /// Throws Error(`where`, ...) unless `id` is one line of UTF-8 of at most k_longest_candidate bytes.
 inline void require_candidate_id(const std::string& where, const std::string& id) {
   if (id.size() > k_longest_candidate)
-    throw Error(where + " " + one_line(id.substr(0, 20)) + "…",
-                "is longer than a candidate's number or address (" + std::to_string(id.size()) + " bytes)",
-                "use " + std::to_string(k_longest_candidate) + " at most");
+    throw Error(fmt::format("{} {}…", where, one_line(id.substr(0, 20))),
+                fmt::format("is longer than a candidate's number or address ({} bytes)", id.size()),
+                fmt::format("use {} at most", k_longest_candidate));
   if (!is_plain_text(id)) throw Error(where, "holds a control character or bytes that are no UTF-8", "use letters and digits");
 }
 

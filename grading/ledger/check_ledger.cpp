@@ -1,5 +1,7 @@
 #include "grading/ledger/check_ledger.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -25,15 +27,15 @@ namespace {
 void check_again(const FiledSession& s, const Bytes& image, const std::string& path, const std::string& name, ExamGrounds& grounds,
                  LedgerCheck& out) {
   const SchoolMark mark = mark_again(SessionReader(image, path), grounds);
-  for (const auto& f : mark.findings) out.findings.push_back(name + ": " + f);
+  for (const auto& f : mark.findings) out.findings.push_back(fmt::format("{}: {}", name, f));
   const auto differ = s.filed.is_object() && mark.result.is_object() ? result_differences(s.filed, mark.result) : std::vector<std::string>();
   if (differ.empty()) return;
-  const std::string more = differ.size() > 1 ? "; and " + std::to_string(differ.size() - 1) + " more" : "";
+  const std::string more = differ.size() > 1 ? fmt::format("; and {} more", differ.size() - 1) : "";
   if (s.grading_version == k_grading_version)
-    out.findings.push_back(name + ": the result that was filed is not what marking it gives: filed " + differ[0] + more);
+    out.findings.push_back(fmt::format("{}: the result that was filed is not what marking it gives: filed {}{}", name, differ[0], more));
   else
-    out.remarks.push_back(name + ": was marked by grading version " + std::to_string(s.grading_version) + "; version " +
-                          std::to_string(k_grading_version) + " gives another result: filed " + differ[0] + more);
+    out.remarks.push_back(fmt::format("{}: was marked by grading version {}; version {} gives another result: filed {}{}", name, s.grading_version,
+                                      k_grading_version, differ[0], more));
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.
@@ -42,8 +44,8 @@ void check_times(const LedgerContent& content, std::vector<std::string>& remarks
   const std::int64_t now_ns = read_clocks().utc_ns;
   for (const auto& e : content.entries)
     if (e.utc_ns > now_ns + k_patience_ns)
-      remarks.push_back("entry " + std::to_string(e.seq) + ": bears a time that has not come yet, " + utc_text(e.utc_ns) +
-                        "; the clock was ahead then, or is behind now");
+      remarks.push_back(
+          fmt::format("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)));
 }
 
 /// What can never be shown of this ledger here, and why.
@@ -105,7 +107,7 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
             (s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
   }
   if (replay && filed_with_findings > 0)
-    out.not_checked.push_back(std::to_string(filed_with_findings) + " sessions that were filed with findings are not simulated again");
+    out.not_checked.push_back(fmt::format("{} sessions that were filed with findings are not simulated again", filed_with_findings));
   if (erased > 0)
     out.not_checked.push_back(std::to_string(erased) + (erased == 1 ? " recording was" : " recordings were") +
                               " erased, as entries say: whether motion gives their marks can no longer be shown");
@@ -141,11 +143,12 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
   const bool unread = content.public_key.empty();
   bool known = false;
   if (std::filesystem::exists(next_key_path(key_path)))
-    check.findings.push_back("replacing the school's key was cut off: " + next_key_path(key_path) +
-                             " is still there; `cavum ledger key LEDGER --replace` goes on with it");
+    check.findings.push_back(fmt::format(
+        "replacing the school's key was cut off: {} is still there; `cavum ledger key LEDGER --replace` goes on with it", next_key_path(key_path)));
   const auto must_be_ours = [&](const std::string& key, const std::string& path) {
     if (!unread && key != content.public_key)
-      check.findings.push_back("the ledger is of another school than " + path + " names: signed by " + content.public_key + ", expected " + key);
+      check.findings.push_back(
+          fmt::format("the ledger is of another school than {} names: signed by {}, expected {}", path, content.public_key, key));
   };
   if (std::filesystem::exists(public_key_path)) {
     known = true;
@@ -165,18 +168,20 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       key = load_school_key(key_path);
       must_be_ours(to_hex(key->public_key), key_path);
     } catch (const Error& e) {
-      check.not_checked.push_back("the school's key cannot be used: " + std::string(e.what()));
+      check.not_checked.push_back(fmt::format("the school's key cannot be used: {}", e.what()));
     }
   }
   if (unread) {
-    check.not_checked.push_back("whether the ledger is this school's, and " + of_identities +
-                                "the ledger's id and key could not be read, so nothing could be compared");
+    check.not_checked.push_back(fmt::format(
+        "whether the ledger is this school's, and {}the ledger's id and key could not be read, so nothing could be compared", of_identities));
     return;
   }
   if (!known)
-    check.not_checked.push_back("whether the ledger is this school's: neither " + key_path + " nor " + public_key_path + " is here to compare with");
+    check.not_checked.push_back(
+        fmt::format("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path));
   if (!std::filesystem::exists(places.identities())) {
-    check.not_checked.push_back(of_identities + places.identities() + " is not there; restore it from its backup if this is the school's own copy");
+    check.not_checked.push_back(
+        fmt::format("{}{} is not there; restore it from its backup if this is the school's own copy", of_identities, places.identities()));
   } else if (!key || to_hex(key->public_key) != content.public_key) {
     check.not_checked.push_back(of_identities + "the key that made the pseudonyms is not here");
   } else {
@@ -185,8 +190,8 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       for (auto& f : identities.check(*key)) check.findings.push_back(std::move(f));
       for (const auto& e : content.entries)
         if (const std::string who = text_in(e.body, "candidate"); e.kind == "forget" && identities.of_pseudonym(who))
-          check.findings.push_back("identities: " + one_line(who) + " was forgotten by entry " + std::to_string(e.seq) +
-                                   ", and is still named; `cavum ledger erase` without more removes it");
+          check.findings.push_back(fmt::format(
+              "identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it", one_line(who), e.seq));
     } catch (const Error& e) {
       check.findings.emplace_back(e.what());
     }

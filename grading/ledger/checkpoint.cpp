@@ -1,5 +1,7 @@
 #include "grading/ledger/checkpoint.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <vector>
 
@@ -34,7 +36,7 @@ NoteKey checkpoint_key(const std::string& id, const std::string& public_key) {
 }
 
 std::string checkpoint_text(const std::string& id, const Checkpoint& p) {
-  return ledger_origin(id) + "\n" + std::to_string(p.size) + "\n" + to_base64(p.root) + "\n" + std::string(k_time) + std::to_string(p.utc_ns) + "\n";
+  return fmt::format("{}\n{}\n{}\n{}{}\n", ledger_origin(id), p.size, to_base64(p.root), k_time, p.utc_ns);
 }
 
 Bytes checkpoint_message(const std::string& id, const Checkpoint& p) {

@@ -1,5 +1,7 @@
 #include "grading/ledger/claims.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -32,24 +34,25 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
   std::vector<std::string> findings;
   const std::int64_t begun = session.created().utc_ns, closed = session.seal()->clocks.utc_ns;
   if (closed > received_utc_ns + k_patience_ns)
-    findings.push_back("by the station's clock the exam ended on " + utc_text(closed) + ", after it was handed in");
-  if (closed < begun) findings.push_back("by the station's clock the exam ended on " + utc_text(closed) + ", before it began");
+    findings.push_back(fmt::format("by the station's clock the exam ended on {}, after it was handed in", utc_text(closed)));
+  if (closed < begun) findings.push_back(fmt::format("by the station's clock the exam ended on {}, before it began", utc_text(closed)));
   if (ticket && begun < issued_utc_ns - k_patience_ns)
-    findings.push_back("by the station's clock the exam began on " + utc_text(begun) + ", before its ticket was issued");
+    findings.push_back(fmt::format("by the station's clock the exam began on {}, before its ticket was issued", utc_text(begun)));
   // A clock that was set back puts an exam into its window; that it reaches the ledger late is what is left to see.
   if (ticket && received_utc_ns > std::max(closed, ticket->ticket.not_after_utc_ns) + k_hand_in_ns)
-    findings.push_back("it was handed in on " + utc_text(received_utc_ns) +
-                       ", more than a day after its ticket's time and after it ended by the station's clock (" + utc_text(closed) +
-                       "): nothing but that clock shows when it was sat");
+    findings.push_back(
+        fmt::format("it was handed in on {}, more than a day after its ticket's time and after it ended by the station's clock ({}): nothing but "
+                    "that clock shows when it was sat",
+                    utc_text(received_utc_ns), utc_text(closed)));
   for (const auto& e : session.events()) {
     const json detail = e.kind == "gap" ? parse_json_or_null(e.detail_json) : json();
     if (!detail.is_object()) continue;
     const std::int64_t resumed = whole_in(detail, "resumed_utc_ns");
     if (ticket && resumed > ticket->ticket.not_after_utc_ns)
-      findings.push_back("the exam was taken up again on " + utc_text(resumed) + ", when its ticket was no longer good");
+      findings.push_back(fmt::format("the exam was taken up again on {}, when its ticket was no longer good", utc_text(resumed)));
     const std::string source = text_in(member_of(detail, "source"), "device");
     if (!source.empty() && source != setup.device)
-      findings.push_back("the exam was begun with " + setup.device + ", and taken up again with " + source);
+      findings.push_back(fmt::format("the exam was begun with {}, and taken up again with {}", setup.device, source));
   }
   return findings;
 }
@@ -63,8 +66,9 @@ std::vector<std::string> check_begin(const LedgerContent& content, const Session
     if (key == k_begin_note) text = value;
   if (text.empty()) {
     if (!ticket.begins.empty())
-      findings.push_back("the ledger let this exam begin on " + utc_text(ticket.begins.back().utc_ns) + " (entry " +
-                         std::to_string(ticket.begins.back().seq) + "), and the recording does not bear its word: it was begun without it");
+      findings.push_back(
+          fmt::format("the ledger let this exam begin on {} (entry {}), and the recording does not bear its word: it was begun without it",
+                      utc_text(ticket.begins.back().utc_ns), ticket.begins.back().seq));
     else if (ticket.ticket.begun_at_ledger)
       findings.emplace_back("its ticket asks for the ledger's word to begin, and nobody asked the ledger");
     return findings;
@@ -75,11 +79,12 @@ std::vector<std::string> check_begin(const LedgerContent& content, const Session
   const auto found = std::find_if(ticket.begins.begin(), ticket.begins.end(), [&](const LetBegin& l) { return l.nonce == b.nonce; });
   if (found == ticket.begins.end()) return {"the ledger has not given the word to begin that is in it"};
   if (found + 1 != ticket.begins.end())
-    findings.push_back("it was begun with the ledger's word of " + utc_text(b.utc_ns) + ", and the ledger let the exam begin again on " +
-                       utc_text(ticket.begins.back().utc_ns) + ": only the recording with the last word counts");
+    findings.push_back(fmt::format(
+        "it was begun with the ledger's word of {}, and the ledger let the exam begin again on {}: only the recording with the last word counts",
+        utc_text(b.utc_ns), utc_text(ticket.begins.back().utc_ns)));
   if (session.created().utc_ns < b.utc_ns - k_patience_ns)
-    findings.push_back("by the station's clock the exam began on " + utc_text(session.created().utc_ns) + ", and the ledger let it begin on " +
-                       utc_text(b.utc_ns) + ": the station's clock was set back");
+    findings.push_back(fmt::format("by the station's clock the exam began on {}, and the ledger let it begin on {}: the station's clock was set back",
+                                   utc_text(session.created().utc_ns), utc_text(b.utc_ns)));
   return findings;
 }
 
@@ -88,7 +93,7 @@ std::vector<std::string> check_hand(const Registry& registry, const SessionReade
                                     const FilingOptions& options) {
   std::vector<std::string> findings;
   if (const std::string by = simulated_by(session, setup); !by.empty()) {
-    if (!options.simulated) findings.push_back("no candidate's hand moved this exam, but '" + by + "' (--simulated files it as that)");
+    if (!options.simulated) findings.push_back(fmt::format("no candidate's hand moved this exam, but '{}' (--simulated files it as that)", by));
     return findings;
   }
   if (session.fact(k_station_fact).empty())
@@ -99,23 +104,23 @@ std::vector<std::string> check_hand(const Registry& registry, const SessionReade
   } else if (const auto& known = registry.stations.of(key)->devices; !known.empty()) {
     for (const auto& [tick, source] : sources_of(session))
       if (std::find(known.begin(), known.end(), source) == known.end())
-        findings.push_back("the stylus " + source.name + " (serial number '" + source.serial + "') is none that the station was enrolled with");
+        findings.push_back(fmt::format("the stylus {} (serial number '{}') is none that the station was enrolled with", source.name, source.serial));
   }
   for (const auto& remark : check_clocks(session))
-    if (remark.doubtful) findings.push_back("clocks, from tick " + std::to_string(remark.first_tick) + ": " + remark.what);
+    if (remark.doubtful) findings.push_back(fmt::format("clocks, from tick {}: {}", remark.first_tick, remark.what));
   return findings;
 }
 
 /// Where a recording was taken up again at or after this tick: "taken up again at tick N", or nothing.
 std::string resumed_from(const SessionReader& session, std::int64_t tick) {
   for (const auto& e : session.events())
-    if (e.kind == "gap" && e.tick >= tick) return ", taken up again at tick " + std::to_string(e.tick);
+    if (e.kind == "gap" && e.tick >= tick) return fmt::format(", taken up again at tick {}", e.tick);
   return {};
 }
 
 /// How far a session and one that was filed with the same ticket are one recording: an exam that was ended twice is so up to where one was cut back.
 std::string other_ending(const SessionReader& session, std::uint64_t seq, const std::string& filed_path) {
-  const std::string entry = "entry " + std::to_string(seq);
+  const std::string entry = fmt::format("entry {}", seq);
   try {
     const SessionReader filed(filed_path);
     const auto &mine = session.chunks(), &theirs = filed.chunks();
@@ -123,13 +128,12 @@ std::string other_ending(const SessionReader& session, std::uint64_t seq, const 
     while (same < std::min(mine.size(), theirs.size()) && mine[same].sha256 == theirs[same].sha256) ++same;
     if (same == 0) return entry + " holds another recording";
     const std::int64_t tick = mine[same - 1].first_tick + mine[same - 1].ticks;
-    return entry + " holds another ending of the same recording: both are the same up to tick " + std::to_string(tick) + "; " + entry +
-           " ends at tick " + std::to_string(filed.ticks()) + resumed_from(filed, tick) + ", this one at tick " + std::to_string(session.ticks()) +
-           resumed_from(session, tick);
+    return fmt::format("{} holds another ending of the same recording: both are the same up to tick {}; {} ends at tick {}{}, this one at tick {}{}",
+                       entry, tick, entry, filed.ticks(), resumed_from(filed, tick), session.ticks(), resumed_from(session, tick));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    return entry + ", whose file cannot be compared: " + e.what();
+    return fmt::format("{}, whose file cannot be compared: {}", entry, e.what());
   }
 }
 
@@ -156,7 +160,8 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
     if (!source.is_hand()) return source.in_words();
   }
   for (const auto& [key, value] : setup.notes)  // beside a source that says otherwise
-    if (key == "operator" || key == "practice" || key == "motion_file") return key == "operator" && !value.empty() ? value : key + " " + value;
+    if (key == "operator" || key == "practice" || key == "motion_file")
+      return key == "operator" && !value.empty() ? value : fmt::format("{} {}", key, value);
   return {};
 }
 
@@ -167,10 +172,11 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   std::vector<std::string> findings;
   for (const auto& [what, text] : texts_of(setup))
-    if (!is_plain_text(text)) findings.push_back("the " + what + " holds a control character or bytes that are no UTF-8: '" + one_line(text) + "'");
+    if (!is_plain_text(text))
+      findings.push_back(fmt::format("the {} holds a control character or bytes that are no UTF-8: '{}'", what, one_line(text)));
   for (auto& f : check_stations(session)) findings.push_back(std::move(f));
   for (const auto& s : registry.sessions)
-    if (s.chain_sha256 == chain_sha256) findings.push_back("this session was submitted before: entry " + std::to_string(s.seq));
+    if (s.chain_sha256 == chain_sha256) findings.push_back(fmt::format("this session was submitted before: entry {}", s.seq));
   const std::string text = ticket_text_in(setup);
   for (auto& f : check_hand(registry, session, setup, received_utc_ns, options)) findings.push_back(std::move(f));
   if (text.empty()) {
@@ -189,8 +195,8 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
       if (t.ticket.nonce != nonce) continue;
       issued = true;
       if (t.cancelled_by)
-        findings.push_back("its ticket was cancelled on " + utc_text(content.entries.at(*t.cancelled_by).utc_ns) + " (entry " +
-                           std::to_string(*t.cancelled_by) + ")");
+        findings.push_back(
+            fmt::format("its ticket was cancelled on {} (entry {})", utc_text(content.entries.at(*t.cancelled_by).utc_ns), *t.cancelled_by));
       for (auto& f : check_begin(content, session, setup, t)) findings.push_back(std::move(f));
       for (auto& f : check_course(session, setup, t, content.entries.at(t.seq).utc_ns, received_utc_ns)) findings.push_back(std::move(f));
       if (t.used_by) {
@@ -198,7 +204,7 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
             std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == *t.used_by; });
         findings.push_back("the ticket was used before: " +
                            (filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
-                                ? "entry " + std::to_string(*t.used_by)
+                                ? fmt::format("entry {}", *t.used_by)
                                 : other_ending(session, *t.used_by, filed->session(other->file_sha256))));
       }
     }

@@ -1,5 +1,7 @@
 #include "grading/ledger/cosign.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -80,14 +82,15 @@ std::string entries(std::uint64_t n) { return std::to_string(n) + (n == 1 ? " en
 
 /// Why the checkpoint does not go on from what is remembered.
 std::vector<std::string> fork_of(const Memory& m, const Checkpoint& p, const Request& r, const std::string& path) {
-  const std::string evidence = "; keep this file and " + path + ": both bear the school's signature";
+  const std::string evidence = fmt::format("; keep this file and {}: both bear the school's signature", path);
   if (p.size < m.last.size)
-    return {"the ledger was put back to an older copy, or this is an older file: it has " + entries(p.size) + ", and " + entries(m.last.size) +
-            " were cosigned" + evidence};
+    return {fmt::format("the ledger was put back to an older copy, or this is an older file: it has {}, and {} were cosigned{}", entries(p.size),
+                        entries(m.last.size), evidence)};
   if (!is_consistent(m.last.size, m.last.root, p.size, p.root, r.proof))
-    return {(p.size == m.last.size ? "the ledger has other entries than those that were cosigned: history was rewritten"
-                                   : "the proof does not lead from the " + entries(m.last.size) +
-                                         " that were cosigned to these: history was rewritten, or the file was damaged") +
+    return {(p.size == m.last.size
+                 ? "the ledger has other entries than those that were cosigned: history was rewritten"
+                 : fmt::format("the proof does not lead from the {} that were cosigned to these: history was rewritten, or the file was damaged",
+                               entries(m.last.size))) +
             evidence};
   return {};
 }
@@ -102,11 +105,11 @@ std::uint64_t last_cosigned(const LedgerContent& c) {
 
 std::string cosign_request(const LedgerContent& c, std::uint64_t since) {
   const Checkpoint& p = c.checkpoints.back();
-  if (since > p.size) throw Error("--since " + std::to_string(since), "the ledger has " + entries(p.size), "name a size that it has had");
-  std::string out = std::string(k_old) + std::to_string(since) + "\n";
+  if (since > p.size) throw Error(fmt::format("--since {}", since), "the ledger has " + entries(p.size), "name a size that it has had");
+  std::string out = fmt::format("{}{}\n", k_old, since);
   if (since > 0)
     for (const auto& h : consistency_proof(leaves_of(c), since)) out += to_base64(h) + "\n";
-  return out + "\n" + checkpoint_note(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size));
+  return fmt::format("{}\n{}", out, checkpoint_note(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size)));
 }
 
 std::string cosigner_memory_path() { return station_path("cosigned"); }
@@ -115,7 +118,7 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   require_note_name(cosigner.name, "--name");
   const Request request = parse_request(text, where);
   const std::string no_key(64, '0');
-  const std::string id = parse_checkpoint(request.note, no_key, where).ledger_id, path = cosigner.memory + "/" + id;
+  const std::string id = parse_checkpoint(request.note, no_key, where).ledger_id, path = fmt::format("{}/{}", cosigner.memory, id);
   make_private_folder(cosigner.memory);
   const FolderLock lock(cosigner.memory, "the cosigner's memory cannot be kept there", "name a folder with --state");
   const auto memory = remembered(path, id);
@@ -129,8 +132,8 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const Checkpoint& p = read.checkpoint;
   Cosigned out{{}, id, p.size, {}};
   if (!is_signed_by_school(id, school, p)) {
-    out.findings.emplace_back("the school's signature does not hold: the checkpoint was changed, or is signed by another key" +
-                              std::string(memory ? "; where the school replaced its key, the receipt of that entry shows it (--key-receipt)" : ""));
+    out.findings.emplace_back(fmt::format("the school's signature does not hold: the checkpoint was changed, or is signed by another key{}",
+                                          memory ? "; where the school replaced its key, the receipt of that entry shows it (--key-receipt)" : ""));
     return out;
   }
   const std::uint64_t last = memory ? memory->last.size : 0;
@@ -139,8 +142,8 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
     return out;
   }
   if (request.since != last)
-    throw Error(where, "proves what was added since " + entries(request.since) + ", and this cosigner has signed " + entries(last),
-                "ask for `cavum ledger checkpoint LEDGER --since " + std::to_string(last) + "`");
+    throw Error(where, fmt::format("proves what was added since {}, and this cosigner has signed {}", entries(request.since), entries(last)),
+                fmt::format("ask for `cavum ledger checkpoint LEDGER --since {}`", last));
   if (memory) out.findings = fork_of(*memory, p, request, path);
   if (!memory && !request.proof.empty()) no_request(where, "it proves something of no earlier entries");
   if (!out.findings.empty()) return out;
@@ -150,7 +153,7 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
                [&](const NoteSignature& s) { return !is_of(s, own); });
   note.signatures.push_back(cosign_note(note.text, cosigner.name, cosigner.key, utc_s));
   out.note = write_note(note);
-  write_text_file(path, key_line(checkpoint_key(id, school)) + "\n" + out.note);
+  write_text_file(path, fmt::format("{}\n{}", key_line(checkpoint_key(id, school)), out.note));
   sync_folder_of(cosigner.memory);
   return out;
 }
@@ -165,7 +168,7 @@ std::vector<NoteKey> read_cosigners(const std::string& path) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (line.empty() || line[0] == '#') continue;
-    const std::string where = path + ":" + std::to_string(number);
+    const std::string where = fmt::format("{}:{}", path, number);
     out.push_back(parse_key_line(line, where));
     if (out.back().kind != NoteKind::cosignature) throw Error(where, "is no cosigner's key", "copy the line that `cavum ledger cosign` shows");
   }
@@ -184,7 +187,7 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
       out.checkpoint = read.checkpoint;
     for (const auto& key : known) {
       const auto verdict = check_note(read.note, key);
-      if (verdict == NoteVerdict::broken) out.findings.push_back("the cosignature of " + key.name + " does not hold");
+      if (verdict == NoteVerdict::broken) out.findings.push_back(fmt::format("the cosignature of {} does not hold", key.name));
       if (verdict != NoteVerdict::holds) continue;
       std::copy_if(read.note.signatures.begin(), read.note.signatures.end(), std::back_inserter(out.cosignatures),
                    [&](const NoteSignature& s) { return is_of(s, key); });
@@ -202,7 +205,7 @@ void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>&
                         std::vector<std::string>& not_checked) {
   std::size_t strange = 0;
   for (const auto& s : ledger.cosignatures) {
-    const std::string name = "cosignature of " + one_line(s.by.name) + " under " + entries(s.size);
+    const std::string name = fmt::format("cosignature of {} under {}", one_line(s.by.name), entries(s.size));
     const auto p = std::find_if(ledger.checkpoints.rbegin(), ledger.checkpoints.rend(), [&](const Checkpoint& c) { return c.size == s.size; });
     const auto key = std::find_if(known.begin(), known.end(), [&](const NoteKey& k) { return is_of(s.by, k); });
     if (p == ledger.checkpoints.rend() || !p->is_note)
@@ -213,8 +216,8 @@ void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>&
       findings.push_back(name + ": does not hold");
   }
   if (strange > 0)
-    not_checked.push_back(std::to_string(strange) + (strange == 1 ? " cosignature is of a cosigner" : " cosignatures are of cosigners") +
-                          " not known here: put the key lines into " + known_cosigners_path());
+    not_checked.push_back(fmt::format("{}{} not known here: put the key lines into {}", strange,
+                                      strange == 1 ? " cosignature is of a cosigner" : " cosignatures are of cosigners", known_cosigners_path()));
 }
 
 }  // namespace cavum

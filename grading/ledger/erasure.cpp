@@ -1,5 +1,7 @@
 #include "grading/ledger/erasure.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -46,7 +48,7 @@ Erased read_erased(const std::vector<LedgerEntry>& entries, std::vector<std::str
       const std::int64_t seq = whole_in(one, "entry");
       const std::string what = text_in(one, "what");
       if (seq <= 0 || seq >= static_cast<std::int64_t>(e.seq) || !erasable_of(entries.at(static_cast<std::size_t>(seq))).contains(what))
-        findings.push_back("entry " + std::to_string(e.seq) + ": erases what is not there: '" + one_line(what) + "' of entry " + std::to_string(seq));
+        findings.push_back(fmt::format("entry {}: erases what is not there: '{}' of entry {}", e.seq, one_line(what), seq));
       else
         out[static_cast<std::uint64_t>(seq)].emplace(what, e.seq);
     }
@@ -80,7 +82,7 @@ json select_erasures(const LedgerContent& c, const ErasureWish& wish) {
   std::set<std::uint64_t> sessions(wish.sessions.begin(), wish.sessions.end());
   for (const auto seq : sessions)
     if (seq >= c.entries.size() || c.entries[seq].kind != "session")
-      throw Error("--session " + std::to_string(seq), "is no session's entry", "see `cavum ledger show`");
+      throw Error(fmt::format("--session {}", seq), "is no session's entry", "see `cavum ledger show`");
   if (wish.received_before)
     for (const auto& e : c.entries)
       if (e.kind == "session" && e.utc_ns < *wish.received_before) sessions.insert(e.seq);

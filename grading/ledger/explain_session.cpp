@@ -1,5 +1,7 @@
 #include "grading/ledger/explain_session.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "engine/base/file.h"
@@ -32,11 +34,11 @@ void or_damage(SessionExplanation& e, const Say& say) {
 void say_replay(SessionExplanation& e, const SessionReader& session, const SchoolMark& mark) {
   const VerifyReport& report = mark.replay;
   if (report.intact) {
-    e.proved.push_back("nothing in the file was changed since " +
-                       (report.closed ? "station " + report.station_key + " signed it" : "it was recorded") + ": " +
-                       std::to_string(session.chunks().size()) + " seconds linked by SHA-256, each with its motion, forces, events and clocks");
-    e.proved.push_back("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: " + std::to_string(report.ticks_replayed) +
-                       " ticks simulated");
+    e.proved.push_back(
+        fmt::format("nothing in the file was changed since {}: {} seconds linked by SHA-256, each with its motion, forces, events and clocks",
+                    report.closed ? fmt::format("station {} signed it", report.station_key) : "it was recorded", session.chunks().size()));
+    e.proved.push_back(
+        fmt::format("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: {} ticks simulated", report.ticks_replayed));
   }
   if (report.intact && session.closed() && mark.findings.empty() && mark.result.is_object())
     e.proved.emplace_back(mark.sealed_otherwise.is_null() ? "the motion gives the recorded events and the sealed result again"
@@ -79,10 +81,11 @@ void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
 void say_circumstances(SessionExplanation& e, const SessionReader& session, const std::string& path) {
   for (const auto& event : session.events())
     if (event.kind == "moved")
-      e.remarks.push_back("from " + fixed(static_cast<double>(event.tick) * 1e-3, 1) +
-                          " s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam");
+      e.remarks.push_back(
+          fmt::format("from {} s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam",
+                      fixed(static_cast<double>(event.tick) * 1e-3, 1)));
   for (const auto& r : check_clocks(session))
-    e.remarks.push_back("from tick " + std::to_string(r.first_tick) + " (" + fixed(static_cast<double>(r.first_tick) * 1e-3, 1) + " s): " + r.what);
+    e.remarks.push_back(fmt::format("from tick {} ({} s): {}", r.first_tick, fixed(static_cast<double>(r.first_tick) * 1e-3, 1), r.what));
   if (std::error_code none; std::filesystem::exists(path + "-wal", none) && std::filesystem::file_size(path + "-wal", none) > 0)
     e.remarks.push_back("a log lies beside the file (" + path +
                         "-wal) and was read with it: when something does not hold, look at the file without it");
@@ -134,11 +137,11 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
 }
 
 std::string to_text(const SessionExplanation& e) {
-  std::string out = one_line(e.file) + ": " + (e.holds ? "holds" : "DOES NOT HOLD") + "\n";
+  std::string out = fmt::format("{}: {}\n", one_line(e.file), e.holds ? "holds" : "DOES NOT HOLD");
   const auto list = [&](const char* title, const std::vector<std::string>& lines) {
     if (lines.empty()) return;
-    out += std::string(title) + "\n";
-    for (const auto& l : lines) out += "  - " + one_line(l) + "\n";
+    out += fmt::format("{}\n", title);
+    for (const auto& l : lines) out += fmt::format("  - {}\n", one_line(l));
   };
   list("what does not hold", e.findings);
   list("what is proved", e.proved);

@@ -1,5 +1,7 @@
 #include "grading/ledger/exported_grade.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +16,9 @@ using nlohmann::json;
 constexpr double k_rounding = 1e-6;  // of the JSON
 
 /// "80.8 of 100"
-std::string points_of(const json& points, const json& max) { return fixed(points.get<double>(), 1) + " of " + plain_number(max.get<double>()); }
+std::string points_of(const json& points, const json& max) {
+  return fmt::format("{} of {}", fixed(points.get<double>(), 1), plain_number(max.get<double>()));
+}
 
 /// Criteria that fail the exam by themselves, whatever the sum.
 std::string critical_in(const json& result) {
@@ -30,11 +34,11 @@ std::string doubts_of(const FiledSession& s) {
   if (!s.contested_by.empty()) {
     std::string others;
     for (const auto other : s.contested_by) others += (others.empty() ? "" : ", ") + std::to_string(other);
-    out += s.chosen ? "Several endings of this exam were filed (also entry " + others + "), and this one was chosen by a person. "
-                    : "Contested since its release by another ending of this exam (entry " + others + "). ";
+    out += s.chosen ? fmt::format("Several endings of this exam were filed (also entry {}), and this one was chosen by a person. ", others)
+                    : fmt::format("Contested since its release by another ending of this exam (entry {}). ", others);
   }
   if (!s.findings.empty())
-    out += "Filed with " + std::to_string(s.findings.size()) + (s.findings.size() == 1 ? " finding" : " findings") + ", and released by a person. ";
+    out += fmt::format("Filed with {}{}, and released by a person. ", s.findings.size(), s.findings.size() == 1 ? " finding" : " findings");
   return out;
 }
 
@@ -47,32 +51,32 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   const json &points = result.at("score").at("points"), &max = result.at("score").at("max");
   const ExamScale by = scale_in(result);
   const std::string verdict = result.value("verdict", ""), critical = critical_in(result);
-  ExportedGrade g{points, points, max, false, verdict + (critical.empty() ? "" : " (critical: " + critical + ")"), {}};
+  ExportedGrade g{points, points, max, false, verdict + (critical.empty() ? "" : fmt::format(" (critical: {})", critical)), {}};
   if (own.max > 0 && by.max > 0 && std::fabs(own.max - by.max) > k_rounding) {
     g.by_another_rubric = true;
     g.points = std::round(points.get<double>() / by.max * own.max * 1e6) / 1e6;
     g.max = own.max;
   }
   g.grade = g.points;
-  g.feedback = doubts_of(session) + "Verdict: " + g.verdict + ".";
-  if (g.by_another_rubric) g.feedback += " Marked by another rubric: " + points_of(points, max) + ".";
+  g.feedback = fmt::format("{}Verdict: {}.", doubts_of(session), g.verdict);
+  if (g.by_another_rubric) g.feedback += fmt::format(" Marked by another rubric: {}.", points_of(points, max));
 
   const auto reaches = [&](double percent) { return g.points.get<double>() >= 0.01 * percent * g.max.get<double>() - k_rounding; };
   const double own_percent = own.max > 0 ? own.pass_percent : by.pass_percent;
-  const std::string marks = "(" + plain_number(by.pass_percent) + " %, the exam's own is " + plain_number(own_percent) + " %)";
+  const std::string marks = fmt::format("({} %, the exam's own is {} %)", plain_number(by.pass_percent), plain_number(own_percent));
   if (verdict == "fail" && (!critical.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
     g.grade = 0;
-    g.feedback += std::string(" Failed by ") +
-                  (!critical.empty()          ? "what is critical"
-                   : reaches(by.pass_percent) ? "a criterion below the pass mark"
-                                              : "another pass mark " + marks) +
-                  ": the " + points_of(points, max) + " points do not count.";
+    g.feedback += fmt::format(" Failed by {}: the {} points do not count.",
+                              !critical.empty()          ? "what is critical"
+                              : reaches(by.pass_percent) ? "a criterion below the pass mark"
+                                                         : "another pass mark " + marks,
+                              points_of(points, max));
   } else if (verdict == "pass" && !reaches(own_percent)) {
-    g.feedback += " Passed by another pass mark " + marks + ".";
+    g.feedback += fmt::format(" Passed by another pass mark {}.", marks);
   }
   for (const auto& c : result.at("criteria"))
     if (c.at("points").get<double>() < c.at("max").get<double>())
-      g.feedback += " " + c.value("id", "") + " " + points_of(c.at("points"), c.at("max")) + ": " + c.value("reason", "") + ".";
+      g.feedback += fmt::format(" {} {}: {}.", c.value("id", ""), points_of(c.at("points"), c.at("max")), c.value("reason", ""));
   g.feedback = one_line(g.feedback);
   return g;
 }

@@ -1,5 +1,7 @@
 #include "grading/ledger/exports.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -24,12 +26,12 @@ constexpr char k_simulated[] = "SIMULATED";
 
 /// What stands before verdict and feedback of a result that no student sat.
 std::string simulated_mark(const FiledSession& s) {
-  return s.simulated.empty() ? "" : std::string(k_simulated) + " (operator " + one_line(s.simulated) + ", no student sat this): ";
+  return s.simulated.empty() ? "" : fmt::format("{} (operator {}, no student sat this): ", k_simulated, one_line(s.simulated));
 }
 
 /// Whose row it is: the school's own number, or a simulated operator's, whom no gradebook knows. Empty when nobody knows who sat.
 std::string number_of(const FiledSession& s, Identities& identities) {
-  if (!s.simulated.empty()) return std::string(k_simulated) + " " + s.candidate;
+  if (!s.simulated.empty()) return fmt::format("{} {}", k_simulated, s.candidate);
   const auto identity = identities.of_pseudonym(s.candidate);
   return identity ? identity->id : "";
 }
@@ -39,7 +41,7 @@ std::string utc_ms(std::int64_t utc_ns) {
   std::string seconds = utc_text(utc_ns);
   seconds.pop_back();
   const auto ms = utc_ns / 1'000'000 % 1000;
-  return seconds + "." + std::string(ms < 10 ? "00" : ms < 100 ? "0" : "") + std::to_string(ms) + "Z";
+  return fmt::format("{}.{}{}Z", seconds, ms < 10 ? "00" : ms < 100 ? "0" : "", ms);
 }
 
 Bytes results_message(const json& facts) {
@@ -74,8 +76,8 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   std::string out = "ID number";
   for (const auto& [id, exam] : exams) {
     out += "," + csv_field(id);
-    out += "," + csv_field(id + " verdict") + "," + csv_field(id + " points");
-    for (const auto& c : exam.criteria) out += "," + csv_field(id + " " + c);
+    out += fmt::format(",{},{}", csv_field(id + " verdict"), csv_field(id + " points"));
+    for (const auto& c : exam.criteria) out += "," + csv_field(fmt::format("{} {}", id, c));
     out += "," + csv_field(id + " feedback");
   }
   out += "\n";
@@ -90,7 +92,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
       const json& result = found->second->shown;
       const std::string mark = simulated_mark(*found->second);
       const ExportedGrade g = exported_grade(*found->second, scales);
-      out += "," + number_in(g.grade) + "," + csv_field(mark + g.verdict) + "," + number_in(g.points);
+      out += fmt::format(",{},{},{}", number_in(g.grade), csv_field(mark + g.verdict), number_in(g.points));
       for (const auto& wanted : exam.criteria) {
         out += ",";
         for (const auto& c : result.at("criteria"))
@@ -187,7 +189,7 @@ std::vector<std::string> check_results(const std::string& text, const std::strin
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(std::string("are no exported results: ") + e.what());
+    findings.push_back(fmt::format("are no exported results: {}", e.what()));
   }
   return findings;
 }

@@ -1,5 +1,7 @@
 #include "grading/ledger/filing.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "engine/base/file.h"
@@ -62,7 +64,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   const SessionReader session(image, path);
   if (!session.closed() && !session.findings().empty()) throw Error(path, "is damaged: " + session.findings().front(), "use an intact copy");
   if (!session.closed())
-    throw Error(path, "was never closed", "resume the exam, or close it as it stands: `cavum exam --resume --end --out " + path + "`");
+    throw Error(path, "was never closed", fmt::format("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
   const SessionSetup setup = session.setup();
   const std::string file_sha256 = to_hex(sha256(image));
 
@@ -74,8 +76,8 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   auto claimed = claims(ledger.content());
   if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
     out.findings = std::move(claimed);
-    out.findings.push_back("it lasts " + fixed(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0) +
-                           " minutes, and was not simulated: of what is refused as it is at most 10 minutes are");
+    out.findings.push_back(fmt::format("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
+                                       fixed(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
     return out;
   }
   const SchoolMark mark = mark_again(session, grounds);

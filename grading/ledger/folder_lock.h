@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -21,7 +22,7 @@ class FolderLock {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX) == 0) return;
     const std::string why = std::strerror(errno);
     if (fd_ >= 0) ::close(fd_);
-    throw Error(folder, what + " (" + why + ")", what_to_do);
+    throw Error(folder, fmt::format("{} ({})", what, why), what_to_do);
   }
   ~FolderLock() { ::close(fd_); }
   FolderLock(const FolderLock&) = delete;

@@ -1,5 +1,7 @@
 #include "grading/ledger/history.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
@@ -61,12 +63,12 @@ std::vector<RestoredHere> restores_of(const LedgerContent& c) {
 }
 
 std::string in_words(const RestoredHere& r) {
-  const std::string begin = "entry " + std::to_string(r.seq) + ": on " + utc_text(r.utc_ns) + " the ledger went on from a backup of " +
-                            std::to_string(r.seq) + (r.seq == 1 ? " entry; " : " entries; ");
+  const std::string begin = fmt::format("entry {}: on {} the ledger went on from a backup of {}{}", r.seq, utc_text(r.utc_ns), r.seq,
+                                        r.seq == 1 ? " entry; " : " entries; ");
   if (r.lost_size == 0) return begin + "nothing was known to be lost";
   const std::uint64_t lost = r.lost_size - std::min(r.lost_size, r.seq);
-  return begin + std::to_string(lost) + (lost == 1 ? " later entry was lost" : " later entries were lost") +
-         ", which the school accepted: " + one_line(r.reason);
+  return fmt::format("{}{}{}, which the school accepted: {}", begin, lost, lost == 1 ? " later entry was lost" : " later entries were lost",
+                     one_line(r.reason));
 }
 
 const RestoredHere* History::recorded_loss(const Checkpoint& seen) const {
@@ -96,9 +98,8 @@ Standing check_history(const History& ledger, const std::string& id, const Check
   }
   const Standing standing = ledger.standing_of(seen);
   if (standing == Standing::older_copy)
-    findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(ledger.roots().size()) + " entries, " + what + " saw " +
-                       std::to_string(seen.size));
-  if (standing == Standing::rewritten) findings.push_back("the ledger no longer begins with what " + what + " saw: history was rewritten");
+    findings.push_back(fmt::format("the ledger was put back to an older copy: it has {} entries, {} saw {}", ledger.roots().size(), what, seen.size));
+  if (standing == Standing::rewritten) findings.push_back(fmt::format("the ledger no longer begins with what {} saw: history was rewritten", what));
   return standing;
 }
 
@@ -111,20 +112,19 @@ void check_checkpoints(LedgerContent& c) {
   }
   std::uint64_t expected = 0;
   for (const auto& p : c.checkpoints) {
-    const std::string name = "checkpoint " + std::to_string(p.size);
+    const std::string name = fmt::format("checkpoint {}", p.size);
     const bool again = p.is_note && p.size == expected;  // the last one before notes were signed has both forms
     if (!again && p.size != ++expected) {
-      c.findings.push_back("checkpoint " + std::to_string(expected) + ": is missing");
+      c.findings.push_back(fmt::format("checkpoint {}: is missing", expected));
       expected = p.size;
     }
     if (!is_signed_by_school(c.id, c.key_of(p.size), p)) c.findings.push_back(name + ": the school's signature does not hold");
     if (p.size > roots.size())
-      c.findings.push_back(name + ": signed for " + std::to_string(p.size) + " entries, and there are " + std::to_string(roots.size()) +
-                           ": entries were taken out");
+      c.findings.push_back(fmt::format("{}: signed for {} entries, and there are {}: entries were taken out", name, p.size, roots.size()));
     else if (p.size > 0 && roots[p.size - 1] != p.root)
-      c.findings.push_back(name + ": an entry up to number " + std::to_string(p.size - 1) + " is not what the school signed");
+      c.findings.push_back(fmt::format("{}: an entry up to number {} is not what the school signed", name, p.size - 1));
   }
-  if (expected < c.entries.size()) c.findings.push_back("entry " + std::to_string(expected) + ": the school has signed nothing from here on");
+  if (expected < c.entries.size()) c.findings.push_back(fmt::format("entry {}: the school has signed nothing from here on", expected));
 }
 
 void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
@@ -136,19 +136,20 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
     const Standing standing = history.standing_of(w);
     if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
     if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w)) {
-      c.findings.push_back(witness_path(c.id) + ": the witness was changed at entry " + std::to_string(w.size) +
-                           (w.size > roots.size() ? ", or an older copy of the ledger was put back, from before the school's key was replaced" : ""));
+      c.findings.push_back(
+          fmt::format("{}: the witness was changed at entry {}{}", witness_path(c.id), w.size,
+                      w.size > roots.size() ? ", or an older copy of the ledger was put back, from before the school's key was replaced" : ""));
       return;
     }
     if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;
     if (standing == Standing::rewritten && other == nullptr) other = &w;
   }
   if (ahead != nullptr)
-    c.findings.push_back("the ledger was put back to an older copy: it has " + std::to_string(roots.size()) + " entries, and had " +
-                         std::to_string(ahead->size) + " on " + utc_text(ahead->utc_ns));
+    c.findings.push_back(fmt::format("the ledger was put back to an older copy: it has {} entries, and had {} on {}", roots.size(), ahead->size,
+                                     utc_text(ahead->utc_ns)));
   if (other != nullptr)
-    c.findings.push_back("the ledger's first " + std::to_string(other->size) + " entries are not those of " + utc_text(other->utc_ns) +
-                         ": history was rewritten");
+    c.findings.push_back(
+        fmt::format("the ledger's first {} entries are not those of {}: history was rewritten", other->size, utc_text(other->utc_ns)));
 }
 
 }  // namespace cavum

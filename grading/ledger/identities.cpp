@@ -1,5 +1,7 @@
 #include "grading/ledger/identities.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -55,7 +57,7 @@ void bring_up_to_date(Database& db) {
   db.run(k_table);
   db.run("INSERT INTO identity SELECT pseudonym, '', id, name, x'', salt FROM old");
   db.run("DROP TABLE old");
-  db.run(("PRAGMA user_version = " + std::to_string(k_format)).c_str());
+  db.run(fmt::format("PRAGMA user_version = {}", k_format).c_str());
   all.commit();
 }
 
@@ -71,9 +73,9 @@ Identities::Identities(const std::string& path, bool may_make)
         db.run("PRAGMA synchronous = EXTRA");  // the journal's name is gone from the disk, too: a power cut brings nobody back, and takes nobody away
         if (make) {
           Transaction all(db);  // whole or empty, and who finds it empty makes it again
-          db.run(("PRAGMA application_id = " + std::to_string(k_application_id)).c_str());
+          db.run(fmt::format("PRAGMA application_id = {}", k_application_id).c_str());
           db.run(k_table);
-          db.run(("PRAGMA user_version = " + std::to_string(k_format)).c_str());
+          db.run(fmt::format("PRAGMA user_version = {}", k_format).c_str());
           all.commit();
           sync_folder_of(path);
         }
@@ -81,7 +83,7 @@ Identities::Identities(const std::string& path, bool may_make)
       }()) {
   if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
   if (const auto format = database_.integer("PRAGMA user_version"); format > k_format)
-    throw Error(path, "was written by a newer version of Cavum (format " + std::to_string(format) + ")", "use that version");
+    throw Error(path, fmt::format("was written by a newer version of Cavum (format {})", format), "use that version");
   database_.run("PRAGMA secure_delete = ON");
   bring_up_to_date(database_);
   if (database_.integer("SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\'") != 1 ||
@@ -94,9 +96,10 @@ std::string Identities::enrol(const std::string& id, const std::string& name, co
   require_candidate_id("candidate", id);
   require_candidate_id("name", name);
   if (is_pseudonym(id))
-    throw Error("candidate '" + id + "'", "is what a pseudonym looks like, and would be taken for one", "give the school's own number or address");
+    throw Error(fmt::format("candidate '{}'", id), "is what a pseudonym looks like, and would be taken for one",
+                "give the school's own number or address");
   if (id.empty() || !is_plain_text(id) || !is_plain_text(name))
-    throw Error("candidate '" + one_line(id) + "'", "is no name that can be filed", "use letters and digits on one line");
+    throw Error(fmt::format("candidate '{}'", one_line(id)), "is no name that can be filed", "use letters and digits on one line");
   for (const auto& known : of_id(id))
     if (known.exam == exam) return known.pseudonym;
   const Identity i{new_pseudonym(), exam, id, name};
@@ -109,7 +112,7 @@ std::string Identities::enrol(const std::string& id, const std::string& name, co
       .run();
   for (const auto& known : of_id(id))  // somebody else may have enrolled the same candidate meanwhile
     if (known.exam == exam) return known.pseudonym;
-  throw Error("candidate '" + one_line(id) + "'", "cannot be enrolled", "try again");
+  throw Error(fmt::format("candidate '{}'", one_line(id)), "cannot be enrolled", "try again");
 }
 
 std::optional<Identity> Identities::of_pseudonym(const std::string& pseudonym) {
@@ -135,7 +138,7 @@ std::vector<Identity> Identities::all() { return identities(select(database_, "O
 std::vector<std::string> Identities::check(const SigningKey& school) {
   std::vector<std::string> findings;
   for (const auto& r : rows(select(database_, "ORDER BY pseudonym")))
-    if (!holds(r, school)) findings.push_back("identities: " + r.who.pseudonym + " is not whom it was given to; the row was changed");
+    if (!holds(r, school)) findings.push_back(fmt::format("identities: {} is not whom it was given to; the row was changed", r.who.pseudonym));
   return findings;
 }
 

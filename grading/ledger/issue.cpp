@@ -1,5 +1,7 @@
 #include "grading/ledger/issue.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -32,8 +34,8 @@ std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, A
     const IssuedTicket* live = registry.live_ticket(candidate, ticket.exam, read_clocks().utc_ns);
     if (live != nullptr && another == Another::refuse)
       throw TicketIsLive("candidate " + candidate,
-                         "has a ticket for " + one_line(ticket.exam) + " that is good until " + utc_text(live->ticket.not_after_utc_ns) + " (entry " +
-                             std::to_string(live->seq) + ")",
+                         fmt::format("has a ticket for {} that is good until {} (entry {})", one_line(ticket.exam),
+                                     utc_text(live->ticket.not_after_utc_ns), live->seq),
                          "cancel it with `cavum ledger cancel`, or add --another");
     return without_grant(text);
   });
@@ -47,12 +49,12 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
   return ledger.append("cancel", [&](const LedgerContent& now) -> nlohmann::json {
     const Registry registry = read_registry(now);
     const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.seq == seq; });
-    const std::string where = "--ticket " + std::to_string(seq);
+    const std::string where = fmt::format("--ticket {}", seq);
     if (t == registry.tickets.end()) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");
     if (t->used_by)
-      throw Error(where, "was used: its exam is filed as entry " + std::to_string(*t->used_by),
+      throw Error(where, fmt::format("was used: its exam is filed as entry {}", *t->used_by),
                   "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
-    if (t->cancelled_by) throw Error(where, "was cancelled before, by entry " + std::to_string(*t->cancelled_by), "nothing is left to do");
+    if (t->cancelled_by) throw Error(where, fmt::format("was cancelled before, by entry {}", *t->cancelled_by), "nothing is left to do");
     return {{"ticket", seq}, {"reason", reason}};
   });
 }
@@ -69,11 +71,11 @@ std::vector<Person> parse_people(const std::string& text, const std::string& whe
   std::set<std::string> seen;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
-    const std::string at = where + ":" + std::to_string(rows[i].line);
+    const std::string at = fmt::format("{}:{}", where, rows[i].line);
     if (f[id].empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
     require_candidate_id(at + ": id", f[id]);
     if (name < f.size()) require_candidate_id(at + ": name", f[name]);
-    if (!seen.insert(f[id]).second) throw Error(at, "'" + f[id] + "' stands there a second time", "leave one of them");
+    if (!seen.insert(f[id]).second) throw Error(at, fmt::format("'{}' stands there a second time", f[id]), "leave one of them");
     people.push_back({f[id], name < f.size() ? f[name] : ""});
   }
   if (people.empty()) throw Error(where, "names no candidate", "write one on each line below the heading");

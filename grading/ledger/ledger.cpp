@@ -1,5 +1,7 @@
 #include "grading/ledger/ledger.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "engine/base/json_fields.h"
@@ -28,7 +30,7 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
   };
   try {
     Database db = open_for_adding(fresh, true);
-    db.run(("PRAGMA application_id = " + std::to_string(k_ledger_application_id)).c_str());
+    db.run(fmt::format("PRAGMA application_id = {}", k_ledger_application_id).c_str());
     migrate(db, fresh);
     const std::string id = random_hex(16);
     const LedgerEntry e = make_entry(0, "init", {{"ledger", id}, {"public_key", to_hex(key.public_key)}, {"school", school_name}});
@@ -87,9 +89,11 @@ void Ledger::reload() {
   }
   if (!content_.findings.empty())
     throw Error(places_.folder,
-                (use_ != LedgerUse::tell ? "nothing is added to a ledger that does not hold (" : "nothing is told of a ledger that does not hold (") +
-                    content_.findings.front() + ")",
-                "see `cavum ledger verify " + places_.folder + "`, and go back to the copy that holds");
+                fmt::format("{}{})",
+                            use_ != LedgerUse::tell ? "nothing is added to a ledger that does not hold ("
+                                                    : "nothing is told of a ledger that does not hold (",
+                            content_.findings.front()),
+                fmt::format("see `cavum ledger verify {}`, and go back to the copy that holds", places_.folder));
   if (content_.public_key != to_hex(key_.public_key))
     throw Error(places_.folder,
                 content_.has_key(to_hex(key_.public_key)) ? "has gone on with another key of the school, which took the place of this one"

@@ -1,5 +1,7 @@
 #include "grading/ledger/ledger_content.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -28,7 +30,7 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
   e.seq = seq;
   e.leaf = leaf;
   e.text = std::move(text);
-  const std::string name = "entry " + std::to_string(seq);
+  const std::string name = fmt::format("entry {}", seq);
   if (leaf_hash(ledger_bytes(e.text)) != leaf) findings.push_back(name + ": its text was changed after it was entered");
   try {
     const json j = parse_json(e.text, name);
@@ -39,7 +41,7 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
     e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", name);
     e.attachment = std::move(attachment);
     if (require_whole<std::uint64_t>(j, "seq", name) != seq)
-      findings.push_back(name + ": was entered as number " + j.at("seq").dump() + ": entries were moved");
+      findings.push_back(fmt::format("{}: was entered as number {}: entries were moved", name, j.at("seq").dump()));
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the entry
   } catch (const std::exception&) {
@@ -50,7 +52,7 @@ LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf,
 
 /// A table that was taken out is a finding of check_schema; the others are read all the same.
 bool has_table(Database& db, const std::string& name) {
-  return db.integer(("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '" + name + "'").c_str()) == 1;
+  return db.integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name).c_str()) == 1;
 }
 
 /// Puts what openings, and attachments of before them, hold into the entries' bodies. Each must be as it was bound, named by one entry, and be gone
@@ -59,17 +61,17 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
   c.erased = read_erased(c.entries, c.findings);
   std::set<std::string> named;
   for (auto& e : c.entries) {
-    const std::string name = "entry " + std::to_string(e.seq) + ": its ";
+    const std::string name = fmt::format("entry {}: its ", e.seq);
     const auto take = [&](const std::string& what, bool there, const std::function<json()>& value) {
       const auto by = erased_by(c.erased, e.seq, what);
       e.body[what] = nullptr;
-      if (!there && !by) c.findings.push_back(name + what + " was taken out of the ledger");
-      if (there && by) c.findings.push_back(name + what + " was erased by entry " + std::to_string(*by) + ", and stands there again");
+      if (!there && !by) c.findings.push_back(fmt::format("{}{} was taken out of the ledger", name, what));
+      if (there && by) c.findings.push_back(fmt::format("{}{} was erased by entry {}, and stands there again", name, what, *by));
       if (!there) return;
       try {
         e.body[what] = value();
       } catch (const Error&) {
-        c.findings.push_back(name + what + " was changed after it was entered");
+        c.findings.push_back(fmt::format("{}{} was changed after it was entered", name, what));
       }
     };
     if (!e.body.is_object()) continue;
@@ -90,7 +92,7 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
       c.findings.push_back(name + "result was added after it was entered");
   }
   for (const auto& [hash, text] : stored)
-    if (!named.contains(hash)) c.findings.push_back("opening " + hash + ": belongs to no entry; it was put into the ledger's file");
+    if (!named.contains(hash)) c.findings.push_back(fmt::format("opening {}: belongs to no entry; it was put into the ledger's file", hash));
 }
 
 std::map<std::string, std::string> stored_openings(Database& db) {
@@ -108,7 +110,7 @@ void read_documents(Database& db, LedgerContent& c) {
     while (rows.step()) {
       const std::string hash = to_hex(rows.fixed_blob<32>(0));
       Bytes bytes = rows.blob(1);
-      if (to_hex(sha256(bytes)) != hash) c.findings.push_back("document " + hash + ": was changed after it was entered");
+      if (to_hex(sha256(bytes)) != hash) c.findings.push_back(fmt::format("document {}: was changed after it was entered", hash));
       c.documents[hash] = std::move(bytes);
     }
   }
@@ -117,10 +119,10 @@ void read_documents(Database& db, LedgerContent& c) {
     for (const auto& [name, hash] : documents_of(e)) {
       named.insert(hash);
       if (!c.documents.contains(hash))
-        c.findings.push_back("entry " + std::to_string(e.seq) + ": the " + name + " that its result was marked by was taken out of the ledger");
+        c.findings.push_back(fmt::format("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name));
     }
   for (const auto& [hash, bytes] : c.documents)
-    if (!named.contains(hash)) c.findings.push_back("document " + hash + ": belongs to no entry; it was put into the ledger's file");
+    if (!named.contains(hash)) c.findings.push_back(fmt::format("document {}: belongs to no entry; it was put into the ledger's file", hash));
 }
 
 /// Notes and cosignatures as they are stored; read when the ledger's id and key are known.
@@ -141,7 +143,7 @@ StoredNotes stored_notes(Database& db) {
 
 void take_notes(LedgerContent& c, const StoredNotes& stored) {
   for (const auto& [size, text] : stored.notes) {
-    const std::string name = "checkpoint " + std::to_string(size);
+    const std::string name = fmt::format("checkpoint {}", size);
     try {
       const ReadCheckpoint read = parse_checkpoint(text, c.key_of(size), name);
       if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
@@ -153,7 +155,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
   }
   std::stable_sort(c.checkpoints.begin(), c.checkpoints.end(), [](const Checkpoint& a, const Checkpoint& b) { return a.size < b.size; });
   for (const auto& [size, line] : stored.cosignatures) {
-    const std::string name = "cosignature under " + std::to_string(size) + " entries";
+    const std::string name = fmt::format("cosignature under {} entries", size);
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
@@ -226,7 +228,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
     auto rows = db.prepare("SELECT seq, text, leaf_sha256, coalesce(attachment, '') FROM entry ORDER BY seq");
     for (std::uint64_t expected = 0; rows.step(); ++expected) {
       const auto seq = static_cast<std::uint64_t>(rows.integer(0));
-      if (seq != expected) c.findings.push_back("entry " + std::to_string(expected) + ": is missing");
+      if (seq != expected) c.findings.push_back(fmt::format("entry {}: is missing", expected));
       expected = seq;
       c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), rows.text(3), c.findings));
     }
@@ -254,7 +256,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   std::int64_t before = 0;
   for (const auto& e : c.entries) {
     if (e.utc_ns < before)
-      c.remarks.push_back("entry " + std::to_string(e.seq) + ": by the computer's clock it is older than the one before; the clock was set back");
+      c.remarks.push_back(fmt::format("entry {}: by the computer's clock it is older than the one before; the clock was set back", e.seq));
     before = e.utc_ns;
   }
   return c;

@@ -2,6 +2,8 @@
 // scenarios that results were marked anew by. What does not hold is said in words.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -83,7 +85,7 @@ struct LedgerPlaces {
   std::string folder;
   [[nodiscard]] std::string database() const { return folder + "/ledger.db"; }
   [[nodiscard]] std::string identities() const { return folder + "/identities.db"; }
-  [[nodiscard]] std::string session(const std::string& file_sha256) const { return folder + "/sessions/" + file_sha256 + ".cavum"; }
+  [[nodiscard]] std::string session(const std::string& file_sha256) const { return fmt::format("{}/sessions/{}.cavum", folder, file_sha256); }
 };
 /// True where filed sessions or identities are, whose ledger may be gone.
 [[nodiscard]] bool holds_parts_of_a_ledger(const LedgerPlaces& places);

@@ -1,5 +1,7 @@
 #include "grading/ledger/ledger_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -15,7 +17,7 @@ static_assert(k_ledger_migrations.size() == k_ledger_format);
 std::map<std::string, std::string> schema_of(Database& db) {
   std::map<std::string, std::string> out;
   auto rows = db.prepare("SELECT type, name, coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' ORDER BY rowid");
-  while (rows.step()) out[rows.text(0) + " " + rows.text(1)] = rows.text(2);
+  while (rows.step()) out[fmt::format("{} {}", rows.text(0), rows.text(1))] = rows.text(2);
   return out;
 }
 
@@ -36,8 +38,7 @@ void require_ledger(Database& db, const std::string& where) {
 
 std::int64_t ledger_format(Database& db, const std::string& where) {
   const auto format = db.integer("PRAGMA user_version");
-  if (format > k_ledger_format)
-    throw Error(where, "was written by a newer version of Cavum (format " + std::to_string(format) + ")", "use that version");
+  if (format > k_ledger_format) throw Error(where, fmt::format("was written by a newer version of Cavum (format {})", format), "use that version");
   return std::max<std::int64_t>(format, 0);
 }
 
@@ -72,7 +73,7 @@ void migrate(Database& db, const std::string& where) {
   Transaction all(db);
   const auto format = ledger_format(db, where);  // again under the lock: another program may have done it meanwhile
   for (auto i = static_cast<std::size_t>(format); i < k_ledger_migrations.size(); ++i) db.run(k_ledger_migrations[i]);
-  db.run(("PRAGMA user_version = " + std::to_string(k_ledger_format)).c_str());
+  db.run(fmt::format("PRAGMA user_version = {}", k_ledger_format).c_str());
   all.commit();
 }
 

@@ -1,5 +1,6 @@
 #include "grading/ledger/ledger_key.h"
 
+#include <fmt/core.h>
 #include <sodium.h>
 
 #include <filesystem>
@@ -31,7 +32,7 @@ Bytes from_hex(const std::string& hex, std::size_t bytes, const std::string& whe
   std::size_t read = 0;
   const bool whole = hex.size() == 2 * bytes && hex.find_first_not_of("0123456789abcdef") == std::string::npos &&
                      sodium_hex2bin(out.data(), out.size(), hex.data(), hex.size(), nullptr, &read, nullptr) == 0 && read == bytes;
-  if (!whole) throw Error(where, "is not " + std::to_string(2 * bytes) + " hexadecimal digits in lower case", "use an intact copy");
+  if (!whole) throw Error(where, fmt::format("is not {} hexadecimal digits in lower case", 2 * bytes), "use an intact copy");
   return out;
 }
 

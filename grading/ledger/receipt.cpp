@@ -1,5 +1,7 @@
 #include "grading/ledger/receipt.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
@@ -50,7 +52,7 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t
   const auto from = std::find_if(content.checkpoints.rbegin(), content.checkpoints.rend(), [&](const Checkpoint& p) { return p.size == from_size; });
   if (from == content.checkpoints.rend()) throw std::out_of_range("no such checkpoint");
   if (content.key_of(from_size) != content.public_key)
-    throw Error("--from-size " + std::to_string(from_size), "was signed with a key that the school has replaced, and a receipt names one key",
+    throw Error(fmt::format("--from-size {}", from_size), "was signed with a key that the school has replaced, and a receipt names one key",
                 "show the note of that time beside it: `cavum ledger verify --cosigned`, or the earlier receipt");
   receipt["consistency"] = {{"from", told(content, *from)}, {"proof", hex_list(consistency_proof(leaves, from_size))}};
   return receipt;
@@ -77,15 +79,15 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
     if (ledger != nullptr) {
       const History history(*ledger);
       if (check_history(history, id, p, "the receipt", findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
-        findings.push_back("the entry on the receipt was lost when the ledger went on from a backup (entry " +
-                           std::to_string(history.recorded_loss(p)->seq) + "): file its session again");
+        findings.push_back(fmt::format("the entry on the receipt was lost when the ledger went on from a backup (entry {}): file its session again",
+                                       history.recorded_loss(p)->seq));
     }
   } catch (const json::exception&) {
     findings.emplace_back("is no receipt: a part of it is missing or of another kind than `cavum ledger add --receipts` writes");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(std::string("is no receipt: ") + e.what());
+    findings.push_back(fmt::format("is no receipt: {}", e.what()));
   }
   return findings;
 }

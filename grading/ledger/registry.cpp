@@ -1,5 +1,7 @@
 #include "grading/ledger/registry.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -43,10 +45,10 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
     const auto say = [&](const std::string& what) {
-      r.remarks.push_back("entry " + std::to_string(seq) + ": has not released entry " + std::to_string(s.seq) + ", for " + what);
+      r.remarks.push_back(fmt::format("entry {}: has not released entry {}, for {}", seq, s.seq, what));
     };
     if (const FiledSession* other = r.chosen_instead_of(s)) {
-      say("entry " + std::to_string(other->seq) + ", another ending of the same exam, was chosen before");
+      say(fmt::format("entry {}, another ending of the same exam, was chosen before", other->seq));
       continue;
     }
     const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
@@ -81,7 +83,7 @@ const IssuedTicket* Registry::live_ticket(const std::string& candidate, const st
 
 std::string recording_of(const LedgerPlaces& places, const FiledSession& s) {
   if (s.motion_erased_by)
-    throw Error("entry " + std::to_string(s.seq), "its recording was erased (entry " + std::to_string(*s.motion_erased_by) + ")",
+    throw Error(fmt::format("entry {}", s.seq), fmt::format("its recording was erased (entry {})", *s.motion_erased_by),
                 "its result and its proofs are what is left");
   return places.session(s.file_sha256);
 }
@@ -98,7 +100,7 @@ class RegistryReader {
         {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing}};
     const auto kind = k_kinds.find(e.kind);
     try {
-      if (kind == k_kinds.end()) return say(e, "is of a kind that this version does not know: '" + e.kind + "'");
+      if (kind == k_kinds.end()) return say(e, fmt::format("is of a kind that this version does not know: '{}'", e.kind));
       (this->*kind->second)(e);
     } catch (const std::out_of_range&) {
       say(e, "speaks of an entry that is not there");
@@ -111,7 +113,7 @@ class RegistryReader {
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
 
  private:
-  void say(const LedgerEntry& e, const std::string& what) { r_.findings.push_back("entry " + std::to_string(e.seq) + ": " + what); }
+  void say(const LedgerEntry& e, const std::string& what) { r_.findings.push_back(fmt::format("entry {}: {}", e.seq, what)); }
   void nothing(const LedgerEntry&) {}
 
   void ticket(const LedgerEntry& e) {
@@ -188,7 +190,7 @@ class RegistryReader {
     if (found == by_nonce_.end()) return say(e, "a session with a ticket that was not issued");
     IssuedTicket& t = r_.tickets[found->second];
     if (t.used_by) return say(e, "a ticket that was used before");
-    if (t.cancelled_by) say(e, "a ticket that was cancelled by entry " + std::to_string(*t.cancelled_by));
+    if (t.cancelled_by) say(e, fmt::format("a ticket that was cancelled by entry {}", *t.cancelled_by));
     t.used_by = e.seq;
   }
 

@@ -1,5 +1,7 @@
 #include "grading/ledger/regrade.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "scenarios/file/parse.h"
@@ -31,7 +33,7 @@ std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regra
   for (const auto& [name, hash] : regrade.documents) {
     const auto found = content.documents.find(hash);
     if (found == content.documents.end())
-      throw Error("entry " + std::to_string(regrade.seq), "the " + name + " that its result was marked by is not in the ledger",
+      throw Error(fmt::format("entry {}", regrade.seq), fmt::format("the {} that its result was marked by is not in the ledger", name),
                   "restore ledger.db from its backup");
     const Bytes& bytes = found->second;
     if (name == k_rubric) basis.rubric_toml.assign(bytes.begin(), bytes.end());
@@ -56,7 +58,7 @@ std::optional<RubricSpec> rubric_of(const RegradeBasis& basis, const std::string
 const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
                                  const std::string& reason) {
   if (reason.empty() || reason.size() > k_longest_reason || !is_plain_text(reason))
-    throw Error("--reason", reason.size() > k_longest_reason ? "is longer than " + std::to_string(k_longest_reason) + " bytes" : "is no line of text",
+    throw Error("--reason", reason.size() > k_longest_reason ? fmt::format("is longer than {} bytes", k_longest_reason) : "is no line of text",
                 "say in one line of UTF-8 why the result changes, without names: it is kept for ever");
   std::vector<Bytes> documents;
   nlohmann::json by = nlohmann::json::object();

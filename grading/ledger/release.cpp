@@ -1,5 +1,7 @@
 #include "grading/ledger/release.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace cavum {
@@ -21,19 +23,20 @@ std::string entries_of(const FiledSession& s) {
 
 /// An entry that was named by its number is released, or it is said why not.
 void require_releasable(const Registry& registry, const ReleaseWish& wish, const FiledSession& s) {
-  const std::string where = "--session " + std::to_string(s.seq);
+  const std::string where = fmt::format("--session {}", s.seq);
   for (const auto other : s.contested_by)
     if (holds(wish.sessions, other))
-      throw Error(where, "and entry " + std::to_string(other) + " are endings of the same exam, and one counts", "choose one of them");
+      throw Error(where, fmt::format("and entry {} are endings of the same exam, and one counts", other), "choose one of them");
   if (const FiledSession* other = registry.chosen_instead_of(s))
-    throw Error(where, "entry " + std::to_string(other->seq) + ", another ending of the same exam, was chosen before and alone counts",
+    throw Error(where, fmt::format("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq),
                 "it stays unreleased");
   if (s.result_erased_by)
-    throw Error(where, "its result was erased (entry " + std::to_string(*s.result_erased_by) + ")", "there is nothing left to release");
+    throw Error(where, fmt::format("its result was erased (entry {})", *s.result_erased_by), "there is nothing left to release");
   if (s.questioned() && !wish.with_findings)
-    throw Error(where,
-                s.contested_by.empty() ? "was filed with findings" : "is one of several endings of the same exam (entries " + entries_of(s) + ")",
-                "look at it; to release it all the same, add --with-findings");
+    throw Error(
+        where,
+        s.contested_by.empty() ? "was filed with findings" : fmt::format("is one of several endings of the same exam (entries {})", entries_of(s)),
+        "look at it; to release it all the same, add --with-findings");
 }
 
 }  // namespace
@@ -43,7 +46,7 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     return std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == seq; });
   };
   for (const auto seq : wish.sessions)
-    if (find(seq) == registry.sessions.end()) throw Error("--session " + std::to_string(seq), "is no session's entry", "see `cavum ledger show`");
+    if (find(seq) == registry.sessions.end()) throw Error(fmt::format("--session {}", seq), "is no session's entry", "see `cavum ledger show`");
   for (const auto& c : wish.candidates)
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
       throw Error("--candidate " + c, "has no session in this ledger", "see `cavum ledger show`");
@@ -53,7 +56,7 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     if (by_entry) require_releasable(registry, wish, s);
     const bool undecided = !s.contested_by.empty() && !s.chosen && registry.chosen_instead_of(s) == nullptr;
     if (by_candidate && undecided && !by_entry)
-      throw Error("--candidate " + s.candidate, "several endings of one exam are filed, entries " + entries_of(s) + ", and one counts",
+      throw Error("--candidate " + s.candidate, fmt::format("several endings of one exam are filed, entries {}, and one counts", entries_of(s)),
                   "choose it with --session and --with-findings");
     // what was released before somebody contested it is not chosen yet
     if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful())) || s.result_erased_by) continue;

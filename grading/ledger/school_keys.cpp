@@ -1,5 +1,7 @@
 #include "grading/ledger/school_keys.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -44,10 +46,10 @@ void read_school_keys(LedgerContent& c) {
       if (const auto next = successor_named_by(e.text, c.id, c.keys.back().public_key))
         c.keys.push_back({e.seq + 1, *next, whole_in(e.body, "until_utc_ns")});
       else
-        c.findings.push_back("entry " + std::to_string(e.seq) + ": names a key that the school's key before it has not signed");
+        c.findings.push_back(fmt::format("entry {}: names a key that the school's key before it has not signed", e.seq));
     } else if (const SchoolKey& k = c.keys.back(); k.until_utc_ns > 0 && e.utc_ns > k.until_utc_ns) {
-      c.findings.push_back("entry " + std::to_string(e.seq) + ": was entered on " + utc_text(e.utc_ns) + ", and the school's key had run out on " +
-                           utc_text(k.until_utc_ns));
+      c.findings.push_back(
+          fmt::format("entry {}: was entered on {}, and the school's key had run out on {}", e.seq, utc_text(e.utc_ns), utc_text(k.until_utc_ns)));
     }
   }
   c.public_key = c.keys.back().public_key;
@@ -80,7 +82,7 @@ json school_key_body(const LedgerContent& c, const SigningKey& present, const Si
 
 std::string next_key_path(const std::string& path) { return path + ".next"; }
 
-std::string old_key_path(const std::string& path, const std::string& public_key) { return path + "." + public_key.substr(0, 8); }
+std::string old_key_path(const std::string& path, const std::string& public_key) { return fmt::format("{}.{}", path, public_key.substr(0, 8)); }
 
 std::string replace_school_key(const std::string& folder, const std::string& path, std::int64_t until_utc_ns, const std::string& reason,
                                const std::string& public_path) {

@@ -1,5 +1,6 @@
 #include "grading/ledger/signed_note.h"
 
+#include <fmt/core.h>
 #include <sodium.h>
 
 #include <algorithm>
@@ -43,7 +44,7 @@ bool has_space_or_plus(const std::string& name) {
 std::span<const std::uint8_t> bytes_of(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
 /// What a cosigner signs.
-std::string cosigned_text(const std::string& text, std::uint64_t utc_s) { return "cosignature/v1\ntime " + std::to_string(utc_s) + "\n" + text; }
+std::string cosigned_text(const std::string& text, std::uint64_t utc_s) { return fmt::format("cosignature/v1\ntime {}\n{}", utc_s, text); }
 
 [[noreturn]] void no_note(const std::string& where, const std::string& why) {
   throw Error(where, "is no signed note: " + why, "name a note that `cavum ledger` wrote, unchanged");
@@ -69,7 +70,7 @@ std::optional<Bytes> from_base64(const std::string& text) {
 
 void require_note_name(const std::string& name, const std::string& where) {
   if (name.empty() || name.size() > k_longest_name || !is_plain_text(name) || has_space_or_plus(name))
-    throw Error(where, "'" + one_line(name) + "' is no name for a signature", "give 1 to 254 bytes of text without spaces and plus signs");
+    throw Error(where, fmt::format("'{}' is no name for a signature", one_line(name)), "give 1 to 254 bytes of text without spaces and plus signs");
 }
 
 std::array<std::uint8_t, 4> key_id_of(const NoteKey& key) {
@@ -84,7 +85,7 @@ std::array<std::uint8_t, 4> key_id_of(const NoteKey& key) {
 std::string key_line(const NoteKey& key) {
   Bytes b{static_cast<std::uint8_t>(key.kind)};
   b.insert(b.end(), key.public_key.begin(), key.public_key.end());
-  return key.name + "+" + to_hex(key_id_of(key)) + "+" + to_base64(b);
+  return fmt::format("{}+{}+{}", key.name, to_hex(key_id_of(key)), to_base64(b));
 }
 
 NoteKey parse_key_line(const std::string& line, const std::string& where) {
@@ -115,7 +116,7 @@ NoteSignature parse_signature_line(const std::string& line, const std::string& w
 std::string signature_line(const NoteSignature& s) {
   Bytes b(s.key_id.begin(), s.key_id.end());
   b.insert(b.end(), s.signature.begin(), s.signature.end());
-  return std::string(k_dash) + s.name + " " + to_base64(b) + "\n";
+  return fmt::format("{}{} {}\n", k_dash, s.name, to_base64(b));
 }
 
 SignedNote parse_note(const std::string& note, const std::string& where) {
@@ -129,7 +130,7 @@ SignedNote parse_note(const std::string& note, const std::string& where) {
     if (!is_plain_text(line)) no_note(where, "it holds a control character or bytes that are no UTF-8");
     if (from >= gap + 2) {
       out.signatures.push_back(parse_signature_line(line + "\n", where));
-      if (out.signatures.size() > k_most_signatures) no_note(where, "it has more than " + std::to_string(k_most_signatures) + " signatures");
+      if (out.signatures.size() > k_most_signatures) no_note(where, fmt::format("it has more than {} signatures", k_most_signatures));
     }
     from = end + 1;
   }

@@ -1,6 +1,7 @@
 #include "grading/ledger/station_ticket.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -44,7 +45,7 @@ HeldTicket read_ticket(const std::string& path) {
 
 void use_ticket(const HeldTicket& held, ExamOptions& options) {
   if (!options.candidate.empty() && options.candidate != held.ticket.candidate)
-    throw Error("--candidate " + options.candidate, "the ticket " + held.path + " is for " + held.ticket.candidate, "leave the option out");
+    throw Error("--candidate " + options.candidate, fmt::format("the ticket {} is for {}", held.path, held.ticket.candidate), "leave the option out");
   if (!notes_of(options.grant).empty()) throw Error(held.path, "says itself what is granted", "leave out extra time, handedness and contrast");
   options.candidate = held.ticket.candidate;
   options.notes.insert(options.notes.end(), held.ticket.grant.begin(), held.ticket.grant.end());
@@ -54,8 +55,8 @@ void use_ticket(const HeldTicket& held, ExamOptions& options) {
 
 void require_promised(const HeldTicket& held, const SessionSetup& setup) {
   if (held.ticket.begun_at_ledger && held.begin.empty())
-    throw Error(held.path, "asks for the ledger's word to begin, and " + begin_path(held.path) + " is not there",
-                "have the office run `cavum ledger begin LEDGER --ticket " + held.path + "`");
+    throw Error(held.path, fmt::format("asks for the ledger's word to begin, and {} is not there", begin_path(held.path)),
+                fmt::format("have the office run `cavum ledger begin LEDGER --ticket {}`", held.path));
   const auto wrong = check_ticket(held.ticket, setup, read_clocks().utc_ns);
   if (wrong.empty()) return;
   std::string all;
@@ -90,7 +91,7 @@ class UsedTickets {
       words >> what >> of >> when;
       if (of != nonce) continue;
       std::getline(words >> std::ws, session);
-      said = what == "used" || what == "closed" ? "on " + when + " for " + one_line(session) : "";
+      said = what == "used" || what == "closed" ? fmt::format("on {} for {}", when, one_line(session)) : "";
       closed_ = what == "closed";
     }
     return said;
@@ -106,7 +107,7 @@ class UsedTickets {
   [[noreturn]] void fail() const {
     const std::string why = std::strerror(errno);
     if (file_ >= 0) ::close(file_);
-    throw Error(path_, "cannot remember which tickets were used (" + why + ")", "make the folder writable, and room on its disk");
+    throw Error(path_, fmt::format("cannot remember which tickets were used ({})", why), "make the folder writable, and room on its disk");
   }
 
   std::string path_ = used_tickets_path();
@@ -134,13 +135,13 @@ void require_unused(const HeldTicket& held) {
 void remember_use(const HeldTicket& held, const std::string& session) {
   UsedTickets used;
   refuse_used(held, used.use_of(held.ticket.nonce));
-  used.add("used " + held.ticket.nonce + " " + utc_text(read_clocks().utc_ns) + " " + one_line(session));
+  used.add(fmt::format("used {} {} {}", held.ticket.nonce, utc_text(read_clocks().utc_ns), one_line(session)));
 }
 
 void remember_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) noexcept {
   try {
     const std::string nonce = nonce_in(notes, session);
-    if (!nonce.empty()) UsedTickets().add("closed " + nonce + " " + utc_text(read_clocks().utc_ns) + " " + one_line(session));
+    if (!nonce.empty()) UsedTickets().add(fmt::format("closed {} {} {}", nonce, utc_text(read_clocks().utc_ns), one_line(session)));
   } catch (const std::exception&) {  // the exam is sealed all the same, and the ledger takes the first that is handed in
   }
 }
@@ -161,7 +162,7 @@ SourceNotes require_not_closed(const std::vector<std::pair<std::string, std::str
 
 void forget_use(const HeldTicket& held) noexcept {
   try {
-    UsedTickets().add("not-begun " + held.ticket.nonce + " " + utc_text(read_clocks().utc_ns));
+    UsedTickets().add(fmt::format("not-begun {} {}", held.ticket.nonce, utc_text(read_clocks().utc_ns)));
   } catch (const std::exception&) {  // the ticket then counts as used here: the school gives another
   }
 }

@@ -1,5 +1,6 @@
 #include "grading/ledger/stations.h"
 
+#include <fmt/core.h>
 #include <sodium.h>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ SigningKey key_of_code(const std::string& code) {
     digits += c == 'O' ? '0' : c == 'I' || c == 'L' ? '1' : c;
   }
   if (digits.size() != k_code_digits || digits.find_first_not_of(k_code_alphabet) != std::string::npos)
-    throw Error("station code", "'" + one_line(code) + "' is none",
+    throw Error("station code", fmt::format("'{}' is none", one_line(code)),
                 "type the code that `cavum ledger station … --invite` printed: S- and five groups of four");
   const Sha256 seed = sha256("CVCODE_1" + digits);
   SigningKey key;
@@ -71,7 +72,7 @@ Request parse_request(const json& j, const std::string& where) {
                 "make it again on the station");
   const json& devices = member_of(facts, "devices");
   if (!devices.is_array() || devices.size() > k_most_devices)
-    throw Error(where, "names no list of at most " + std::to_string(k_most_devices) + " styluses", "make it again on the station");
+    throw Error(where, fmt::format("names no list of at most {} styluses", k_most_devices), "make it again on the station");
   for (const auto& d : devices) r.devices.push_back({"device", text_in(d, "name"), text_in(d, "serial")});
   return r;
 }
@@ -118,12 +119,13 @@ const Station* StationRegister::of(const std::string& key) const {
 std::string StationRegister::problem(const std::string& key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const {
   const Station* s = of(key);
   if (s == nullptr)
-    return "the station with the key " + (key.empty() ? "that is not named" : key) + " is not enrolled: anybody can make such a recording";
-  const std::string name = "station '" + s->name + "'";
+    return fmt::format("the station with the key {} is not enrolled: anybody can make such a recording", key.empty() ? "that is not named" : key);
+  const std::string name = fmt::format("station '{}'", s->name);
   if (s->revoked_utc_ns && received_utc_ns > *s->revoked_utc_ns)
-    return "the key of " + name + (s->replaced_by.empty() ? " was revoked on " : " was replaced, and good until ") + utc_text(*s->revoked_utc_ns);
+    return fmt::format("the key of {}{}{}", name, s->replaced_by.empty() ? " was revoked on " : " was replaced, and good until ",
+                       utc_text(*s->revoked_utc_ns));
   if (s->until_utc_ns > 0 && (closed_utc_ns > s->until_utc_ns || received_utc_ns > s->until_utc_ns + k_late_ns))
-    return "the key of " + name + " ran out on " + utc_text(s->until_utc_ns);
+    return fmt::format("the key of {} ran out on {}", name, utc_text(s->until_utc_ns));
   return {};
 }
 
@@ -145,7 +147,7 @@ void apply_station_entry(StationRegister& r, const LedgerEntry& e, const std::st
     s->revoked_utc_ns = e.utc_ns;
     s->replaced_by.clear();
   } else {
-    throw Error(where, "'" + one_line(action) + "' is nothing that happens to a station", "use the version of Cavum that entered it");
+    throw Error(where, fmt::format("'{}' is nothing that happens to a station", one_line(action)), "use the version of Cavum that entered it");
   }
 }
 
@@ -170,8 +172,8 @@ std::string station_request(const SigningKey& key, const std::string& school, co
 std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns) {
   constexpr std::size_t k_longest = 80;
   if (name.empty() || name.size() > k_longest || !is_plain_text(name))
-    throw Error("--invite", "'" + one_line(name.substr(0, k_longest)) + "' is no station's name",
-                "give one line of at most " + std::to_string(k_longest) + " bytes");
+    throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest))),
+                fmt::format("give one line of at most {} bytes", k_longest));
   const std::string code = new_station_code(), code_key = to_hex(key_of_code(code).public_key);
   ledger.append("station", [&](const LedgerContent&) -> json {
     return {{"action", "invite"}, {"name", name}, {"code_key", code_key}, {"until_utc_ns", until_utc_ns}};

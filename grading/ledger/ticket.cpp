@@ -1,5 +1,7 @@
 #include "grading/ledger/ticket.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -109,21 +111,22 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
 
 std::vector<std::string> check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
   std::vector<std::string> findings;
-  if (setup.candidate != t.candidate) findings.push_back("the ticket is candidate " + t.candidate + "'s, the exam was sat by " + setup.candidate);
+  if (setup.candidate != t.candidate)
+    findings.push_back(fmt::format("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate));
   const auto examined = examined_artifacts(setup);
   for (const auto& [name, hash] : t.artifacts) {
     const auto found = examined.find(name);
     if (found == examined.end())
-      findings.push_back("the ticket promises " + name + ", which the exam does not have");
+      findings.push_back(fmt::format("the ticket promises {}, which the exam does not have", name));
     else if (found->second != hash)
       findings.push_back(name + " is not the one that the ticket promises");
   }
   for (const auto& [name, hash] : examined)
-    if (!t.artifacts.contains(name)) findings.push_back("the exam has " + name + ", of which the ticket says nothing");
+    if (!t.artifacts.contains(name)) findings.push_back(fmt::format("the exam has {}, of which the ticket says nothing", name));
   if (accommodations_in(setup) != t.grant) findings.emplace_back("the accommodations are not those that the ticket grants");
   if (begun_utc_ns < t.not_before_utc_ns || begun_utc_ns > t.not_after_utc_ns)
-    findings.push_back("the exam began on " + utc_text(begun_utc_ns) + ", and the ticket is good from " + utc_text(t.not_before_utc_ns) + " to " +
-                       utc_text(t.not_after_utc_ns));
+    findings.push_back(fmt::format("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns),
+                                   utc_text(t.not_before_utc_ns), utc_text(t.not_after_utc_ns)));
   return findings;
 }
 
@@ -137,7 +140,7 @@ std::int64_t parse_utc(const std::string& text, const std::string& where) {
   const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
   if (!read || year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > k_days[month - 1] + (month == 2 && leap ? 1 : 0) ||
       hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 59)
-    throw Error(where, "'" + text + "' is no time", "write it in UTC as 2026-11-21T09:00Z");
+    throw Error(where, fmt::format("'{}' is no time", text), "write it in UTC as 2026-11-21T09:00Z");
   return (((days_since_1970(year, month, day) * 24 + hour) * 60 + minute) * 60 + second) * 1'000'000'000;
 }
 

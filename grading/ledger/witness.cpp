@@ -1,6 +1,7 @@
 #include "grading/ledger/witness.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
     try {
       p.root = fixed_from_hex<32>(root, path);
     } catch (const Error&) {
-      findings.push_back(path + ": the witness was changed at entry " + std::to_string(p.size));
+      findings.push_back(fmt::format("{}: the witness was changed at entry {}", path, p.size));
       break;
     }
     out.push_back(p);
@@ -48,7 +49,7 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
 void tell_witness(const std::string& id, const Checkpoint& p) {
   const std::string path = witness_path(id);
   make_private_folder(std::filesystem::path(path).parent_path().string());
-  std::string line = std::to_string(p.size) + " " + to_hex(p.root) + " " + std::to_string(p.utc_ns) + " " + to_base64(p.signature) + "\n";
+  std::string line = fmt::format("{} {} {} {}\n", p.size, to_hex(p.root), p.utc_ns, to_base64(p.signature));
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
   char last = '\n';  // after a line that a power cut left short, a new one begins
   const off_t end = fd >= 0 ? ::lseek(fd, 0, SEEK_END) : 0;
@@ -61,7 +62,7 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
     sync_folder_of(std::filesystem::path(path).parent_path().string());
   }
   if (!told)
-    throw Error(path, std::string("the entry is in the ledger, but its witness cannot be told (") + std::strerror(why) + ")",
+    throw Error(path, fmt::format("the entry is in the ledger, but its witness cannot be told ({})", std::strerror(why)),
                 "make the folder writable; the next entry tells it again");
 }
 

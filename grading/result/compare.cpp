@@ -1,5 +1,7 @@
 #include "grading/result/compare.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -27,7 +29,7 @@ auto* find(List& list, const std::string& id) {
 
 void changes_of_spec(const CriterionSpec& a, const CriterionSpec& b, std::vector<std::string>& why) {
   const auto say = [&](const char* what, const std::string& from, const std::string& to) {
-    why.push_back(std::string(what) + " " + from + " -> " + to);
+    why.push_back(fmt::format("{} {} -> {}", what, from, to));
   };
   if (a.metric != b.metric) say("metric", a.metric, b.metric);
   if (!same(a.full, b.full)) say("full marks at", number(a.full), number(b.full));
@@ -77,7 +79,7 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
   c.points = now.points;
   c.max = now.max_points;
   const auto rule = [&](const char* what, const std::string& from, const std::string& to) {
-    if (from != to) c.rules.push_back(std::string(what) + " " + from + " -> " + to);
+    if (from != to) c.rules.push_back(fmt::format("{} {} -> {}", what, from, to));
   };
   rule("pass mark, %", plain_number(old_rubric.pass_percent), plain_number(new_rubric.pass_percent));
   rule("borderline band, %", plain_number(old_rubric.borderline_percent), plain_number(new_rubric.borderline_percent));
@@ -129,10 +131,11 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
 bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
 
 std::string regrade_text(const Comparison& c) {
-  const auto score = [](double points, double max) { return fixed(points, 1) + " of " + fixed(max, 1) + " points"; };
-  return "marked anew by " + c.by + ": " + c.verdict + ", " + score(c.points, c.max) + "; the exam was sealed as " + c.before.verdict + ", " +
-         score(c.before.points, c.before.max) +
-         (c.tampered ? ", which is not what its version of grading gives: the result was tampered with, or its station's program was" : "");
+  const auto score = [](double points, double max) { return fmt::format("{} of {} points", fixed(points, 1), fixed(max, 1)); };
+  return fmt::format(
+      "marked anew by {}: {}, {}; the exam was sealed as {}, {}{}", c.by, c.verdict, score(c.points, c.max), c.before.verdict,
+      score(c.before.points, c.before.max),
+      c.tampered ? ", which is not what its version of grading gives: the result was tampered with, or its station's program was" : "");
 }
 
 Json to_json(const Comparison& c) {
@@ -163,19 +166,20 @@ std::string to_text(const Comparison& c) {
     return s;
   };
   const auto points = [&](const std::optional<double>& p, const std::optional<double>& max) {
-    return p ? fixed(*p, 1) + " / " + fixed(*max, 1) : "-";
+    return p ? fmt::format("{} / {}", fixed(*p, 1), fixed(*max, 1)) : "-";
   };
-  std::string s = cell("", 20) + cell("old", 16) + cell("new", 16) + cell("change", 10) + "what changed\n";
-  s += "  " + cell("verdict", 18) + cell(c.before.verdict, 16) + cell(c.verdict, 16) + cell("", 10);
+  std::string s = fmt::format("{}{}{}{}what changed\n", cell("", 20), cell("old", 16), cell("new", 16), cell("change", 10));
+  s += fmt::format("  {}{}{}{}", cell("verdict", 18), cell(c.before.verdict, 16), cell(c.verdict, 16), cell("", 10));
   for (std::size_t i = 0; i < c.rules.size(); ++i) s += (i > 0 ? "; " : "") + c.rules[i];
-  s += "\n  " + cell("points", 18) + cell(points(c.before.points, c.before.max), 16) + cell(points(c.points, c.max), 16) +
-       cell(signed_points(c.points - c.before.points), 10) + "\n";
+  s += fmt::format("\n  {}{}{}{}\n", cell("points", 18), cell(points(c.before.points, c.before.max), 16), cell(points(c.points, c.max), 16),
+                   cell(signed_points(c.points - c.before.points), 10));
   for (const auto& d : c.criteria) {
-    s += "  " + cell(d.id, 18) + cell(points(d.old_points, d.old_max), 16) + cell(points(d.new_points, d.new_max), 16) +
-         cell(signed_points(d.difference()), 10);
+    s += fmt::format("  {}{}{}{}", cell(d.id, 18), cell(points(d.old_points, d.old_max), 16), cell(points(d.new_points, d.new_max), 16),
+                     cell(signed_points(d.difference()), 10));
     for (std::size_t i = 0; i < d.why.size(); ++i) s += (i > 0 ? "; " : "") + d.why[i];
     if (!same(d.old_value, d.new_value) && d.old_value && d.new_value)
-      s += (d.why.empty() ? "" : "; ") + ("value " + fixed(*d.old_value, 3) + " -> " + fixed(*d.new_value, 3)) + (d.unit.empty() ? "" : " " + d.unit);
+      s += fmt::format("{}value {} -> {}{}", d.why.empty() ? "" : "; ", fixed(*d.old_value, 3), fixed(*d.new_value, 3),
+                       d.unit.empty() ? "" : " " + d.unit);
     s += "\n";
   }
   return s;

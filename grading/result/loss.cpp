@@ -1,5 +1,7 @@
 #include "grading/result/loss.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +10,12 @@
 
 namespace cavum {
 
-std::string when(const Trace& t) { return fixed(t.t_s(), 2) + " s (tick " + std::to_string(t.tick) + ")"; }
-std::string place(Vec3 p) { return "[" + fixed(p.x, 2) + ", " + fixed(p.y, 2) + ", " + fixed(p.z, 2) + "] mm"; }
+std::string when(const Trace& t) { return fmt::format("{} s (tick {})", fixed(t.t_s(), 2), t.tick); }
+std::string place(Vec3 p) { return fmt::format("[{}, {}, {}] mm", fixed(p.x, 2), fixed(p.y, 2), fixed(p.z, 2)); }
 std::string wall_text(std::size_t wall) {
   return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal side"
          : wall == static_cast<std::size_t>(Wall::floor) ? "the floor"
-                                                         : "the " + std::string(wall_name(static_cast<Wall>(wall))) + " wall";
+                                                         : fmt::format("the {} wall", wall_name(static_cast<Wall>(wall)));
 }
 
 std::string amount_text(double value, double bound, int digits, const std::string& unit) {
@@ -29,9 +31,9 @@ std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
 Loss missed(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
   const Trace& last = r.volumes.target_last[w];
-  return {amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3") + " of the target left standing, most of it towards " +
-              wall_text(w) + " (" + fixed(r.volumes.missed_by_wall_mm3[w], 2) + " mm3), where " +
-              (last.tick < 0 ? "nothing of it was cut" : "it was cut last at " + when(last)),
+  return {fmt::format("{} of the target left standing, most of it towards {} ({} mm3), where {}",
+                      amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3"), wall_text(w),
+                      fixed(r.volumes.missed_by_wall_mm3[w], 2), last.tick < 0 ? "nothing of it was cut" : "it was cut last at " + when(last)),
           last};
 }
 
@@ -50,9 +52,9 @@ Loss removed_in(const Result& r, const std::vector<Zone>& zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = std::string("most of it ") + (worst == Zone::none ? "outside all zones" : std::string("in ") + zone_name(worst)) + " at " +
-              wall_text(wall) + " (" + fixed(most, 2) + " mm3)";
-  if (loss.first.tick >= 0) loss.text += ", beginning at " + when(loss.first) + " at " + place(loss.first.site_mm);
+  loss.text = fmt::format("most of it {} at {} ({} mm3)", worst == Zone::none ? "outside all zones" : fmt::format("in {}", zone_name(worst)),
+                          wall_text(wall), fixed(most, 2));
+  if (loss.first.tick >= 0) loss.text += fmt::format(", beginning at {} at {}", when(loss.first), place(loss.first.site_mm));
   return loss;
 }
 
@@ -62,8 +64,8 @@ std::string ends_text(const Result& r, std::size_t first) {
   std::string text;
   for (std::size_t i = first; i < first + 2; ++i) {
     const auto& e = r.shape.end_error[i];
-    text += (text.empty() ? "" : ", ") + fixed(e.part_mm, 2) + " mm at the " + k_ends[i] + " end (" + fixed(std::fabs(e.beyond_mm), 2) +
-            (e.beyond_mm >= 0 ? " mm too far)" : " mm short)");
+    text += fmt::format("{}{} mm at the {} end ({}{}", text.empty() ? "" : ", ", fixed(e.part_mm, 2), k_ends[i], fixed(std::fabs(e.beyond_mm), 2),
+                        e.beyond_mm >= 0 ? " mm too far)" : " mm short)");
   }
   return text;
 }
@@ -71,7 +73,7 @@ std::string ends_text(const Result& r, std::size_t first) {
 /// "...; width 2.10 mm instead of 2.00 mm"
 Loss outline_error(const Result& r, std::size_t first_end, const char* name, const std::optional<double>& found, double wanted) {
   if (!found) return {};
-  return {ends_text(r, first_end) + "; " + name + " " + fixed(*found, 2) + " mm instead of " + fixed(wanted, 2) + " mm", {}};
+  return {fmt::format("{}; {} {} mm instead of {} mm", ends_text(r, first_end), name, fixed(*found, 2), fixed(wanted, 2)), {}};
 }
 
 /// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never did.
@@ -97,7 +99,8 @@ Loss missed_and_beyond(const Result& r, const Asked& a) {
   const Volume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
   Loss not_cut = missed(r);
   if (over.first.tick < 0) return not_cut;
-  return {not_cut.text + "; " + fixed(r.volumes.removed.mm3 - in_target.mm3, 2) + " mm3 removed beyond the target, " + over.text, over.first};
+  return {fmt::format("{}; {} mm3 removed beyond the target, {}", not_cut.text, fixed(r.volumes.removed.mm3 - in_target.mm3, 2), over.text),
+          over.first};
 }
 
 Loss at_walls(const Result& r, const Asked& a) {
@@ -116,14 +119,14 @@ Loss at_walls(const Result& r, const Asked& a) {
   const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   Loss loss{{}, t};
   if (over)
-    loss.text = wall_text(worst) + " overcut by up to " + fixed(m.max_over_mm, 2) + " mm";
+    loss.text = fmt::format("{} overcut by up to {} mm", wall_text(worst), fixed(m.max_over_mm, 2));
   else if (under)
-    loss.text = wall_text(worst) + " left up to " + fixed(m.max_under_mm, 2) + " mm thick";
+    loss.text = fmt::format("{} left up to {} mm thick", wall_text(worst), fixed(m.max_under_mm, 2));
   else
     loss.text = wall_text(worst) +
                 (p95 ? ", 95 % of whose places lie no further out than that; the furthest " : ", in the mean of its places; the furthest ") +
                 (&t == &m.worst_under ? fixed(m.max_under_mm, 2) + " mm thick" : fixed(m.max_over_mm, 2) + " mm beyond the target");
-  if (t.tick >= 0) loss.text += ", at " + place(t.site_mm) + ", cut at " + when(t);
+  if (t.tick >= 0) loss.text += fmt::format(", at {}, cut at {}", place(t.site_mm), when(t));
   return loss;
 }
 
@@ -132,11 +135,11 @@ Loss width_error(const Result& r, const Asked&) { return outline_error(r, 2, "wi
 
 Loss depth_error(const Result& r, const Asked&) {
   if (!r.shape.depth_mm) return {};
-  return {"depth " + fixed(*r.shape.depth_mm, 2) + " mm instead of " + fixed(r.shape.target_depth_mm, 2) + " mm", {}};
+  return {fmt::format("depth {} mm instead of {} mm", fixed(*r.shape.depth_mm, 2), fixed(r.shape.target_depth_mm, 2)), {}};
 }
 
 Loss taper_error(const Result& r, const Asked&) {
-  return {"the walls open by " + fixed(*r.shape.taper_deg, 1) + " instead of " + fixed(*r.access.target_taper_deg, 1) + " degrees", {}};
+  return {fmt::format("the walls open by {} instead of {} degrees", fixed(*r.shape.taper_deg, 1), fixed(*r.access.target_taper_deg, 1)), {}};
 }
 
 Loss overhang(const Result& r, const Asked&) { return {"roof left above the chamber, around " + place(r.access.overhang_middle_mm), {}}; }
@@ -145,12 +148,12 @@ Loss canals_covered(const Result& r, const Asked&) { return {"hard tissue stands
 
 Loss floor_cut(const Result& r, const Asked&) {
   if (r.access.floor_first.tick < 0) return {"no hard tissue was cut below the target", {}};
-  return {"beginning at " + when(r.access.floor_first) + " at " + place(r.access.floor_first.site_mm), r.access.floor_first};
+  return {fmt::format("beginning at {} at {}", when(r.access.floor_first), place(r.access.floor_first.site_mm)), r.access.floor_first};
 }
 
 Loss dentin_over_pulp(const Result& r, const Asked&) {
   const Trace& at = r.over_pulp.thinnest;
-  return {(*r.over_pulp.dentin_mm > 0 ? "thinnest at " : "the pulp was opened at ") + place(at.site_mm) + ", cut at " + when(at), at};
+  return {fmt::format("{}{}, cut at {}", *r.over_pulp.dentin_mm > 0 ? "thinnest at " : "the pulp was opened at ", place(at.site_mm), when(at)), at};
 }
 
 Loss time_over(const Result& r, const Asked& a) {
@@ -160,7 +163,7 @@ Loss time_over(const Result& r, const Asked& a) {
 }
 
 Loss force_peak(const Result& r, const Asked&) {
-  return {"pressed hardest at " + when(r.motion.force_peak) + " at " + place(r.motion.force_peak.site_mm), r.motion.force_peak};
+  return {fmt::format("pressed hardest at {} at {}", when(r.motion.force_peak), place(r.motion.force_peak.site_mm)), r.motion.force_peak};
 }
 
 Loss force_over_limit(const Result& r, const Asked&) {
@@ -171,19 +174,19 @@ Loss force_over_limit(const Result& r, const Asked&) {
 Loss fault_opened(const Result& r, const Asked&) {
   const PerforationTruth& t = r.perforation.fault;
   if (!t.perforated) return {"no faulty breakthrough", {}};
-  return {t.tissue + " touched at " + when(t.first) + " at " + place(t.first.site_mm) + ", " + fixed(t.volume_mm3, 3) + " mm3 in all", t.first};
+  return {fmt::format("{} touched at {} at {}, {} mm3 in all", t.tissue, when(t.first), place(t.first.site_mm), fixed(t.volume_mm3, 3)), t.first};
 }
 
 Loss fault_felt(const Result& r, const Asked&) {
   for (const auto& e : r.perforation.events)
-    if (e.fault) return {"a drop in force from " + fixed(e.force_before_n, 2) + " N at " + when({e.tick, e.site_mm}), {e.tick, e.site_mm}};
+    if (e.fault) return {fmt::format("a drop in force from {} N at {}", fixed(e.force_before_n, 2), when({e.tick, e.site_mm})), {e.tick, e.site_mm}};
   return {"no faulty breakthrough seen in the force", {}};
 }
 
 Loss tissue_touched(const Result& r, const Asked& a) {
   for (const auto& t : r.tissues)
     if (const Trace& first = r.volumes.tissue_first[t.id]; t.name == a.measure.tissue && first.tick >= 0)
-      return {"touched first at " + when(first) + " at " + place(first.site_mm), first};
+      return {fmt::format("touched first at {} at {}", when(first), place(first.site_mm)), first};
   return {"never touched", {}};
 }
 

@@ -1,5 +1,7 @@
 #include "grading/result/mark.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -86,29 +88,29 @@ CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
     Loss loss = a.marking->reason(r, a);
     if (loss.first.tick < 0 && r.end.tick >= 0) {
       loss.first = r.end;
-      loss.text += std::string(loss.text.empty() ? "" : ", ") + "as it stood at the end, " + when(r.end);
+      loss.text += fmt::format("{}as it stood at the end, {}", loss.text.empty() ? "" : ", ", when(r.end));
     }
     out.first = loss.first;
     const int digits = digits_for(*v.value, c.full);
-    out.reason = amount_text(*v.value, v.bound, digits, out.unit) + " where " + amount_text(c.full, 0, digits, out.unit) + " gives full marks" +
-                 (loss.text.empty() ? "" : ": " + loss.text);
+    out.reason = fmt::format("{} where {} gives full marks{}", amount_text(*v.value, v.bound, digits, out.unit),
+                             amount_text(c.full, 0, digits, out.unit), loss.text.empty() ? "" : ": " + loss.text);
   }
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   if (out.critical_failed) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
     const auto& limit = above ? c.critical_above : c.critical_below;
-    out.reason += std::string("; critical ") + (above ? "above " : "below ") + fixed(*limit, 2);
+    out.reason += fmt::format("; critical {}{}", above ? "above " : "below ", fixed(*limit, 2));
     if (near(limit)) out.reason += ", which lies within the bound of the figure";
     out.reason += out.doubtful ? "; this alone would fail the exam, but force and tissue disagree on it" : "; this alone fails the exam";
   } else if (near(c.critical_above) || near(c.critical_below)) {
-    out.reason += "; the critical limit of " + fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2) +
-                  " lies within the bound of the figure";
+    out.reason += fmt::format("; the critical limit of {} lies within the bound of the figure",
+                              fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2));
   }
   if (out.work_share < 1) {
     if (out.first.tick < 0) out.first = r.end;
-    out.work_text = amount_text(work.percent, work.bound_percent, 1, "%") + " of the target" + work.where + " was removed";
-    out.reason += "; counts " + fixed(100 * out.work_share, 0) + " % only, for " + out.work_text + ", and care counts in full from " +
-                  fixed(k_care_counts_percent, 0) + " % on";
+    out.work_text = fmt::format("{} of the target{} was removed", amount_text(work.percent, work.bound_percent, 1, "%"), work.where);
+    out.reason += fmt::format("; counts {} % only, for {}, and care counts in full from {} % on", fixed(100 * out.work_share, 0), out.work_text,
+                              fixed(k_care_counts_percent, 0));
   }
   return out;
 }
@@ -157,24 +159,24 @@ void mark(Result& r, const RubricSpec& rubric) {
   for (const auto& c : r.criteria) {
     if (!c.critical_failed) continue;
     critical = critical || !c.doubtful;
-    r.verdict_reasons.push_back("critical criterion " + c.id + ": " + c.reason);
+    r.verdict_reasons.push_back(fmt::format("critical criterion {}: {}", c.id, c.reason));
   }
   const Standing standing = standing_of(r, false);
   const double beyond = standing.percent - rubric.pass_percent;
   const bool doubt = !r.perforation.agree(), band = std::fabs(beyond) < rubric.borderline_percent;
   r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
   if (!critical && band) r.verdict = Verdict::review;
-  std::string text = standing.which + " reaches " + fixed(standing.percent, 1) + " %, " +
-                     (critical && beyond >= 0 ? "which alone would be enough: " : "") + "the pass mark is " + fixed(rubric.pass_percent, 1) + " %";
-  if (!critical && band) text += ", which is within the borderline band of " + fixed(rubric.borderline_percent, 1) + " %";
+  std::string text = fmt::format("{} reaches {} %, {}the pass mark is {} %", standing.which, fixed(standing.percent, 1),
+                                 critical && beyond >= 0 ? "which alone would be enough: " : "", fixed(rubric.pass_percent, 1));
+  if (!critical && band) text += fmt::format(", which is within the borderline band of {} %", fixed(rubric.borderline_percent, 1));
   if (!critical && !band && std::fabs(beyond) < standing.bound_percent)
-    text += "; the score's bound of ± " + fixed(standing.bound_percent, 1) +
-            " % reaches across it (every figure off by all of its bound, each to the same side)";
+    text += fmt::format("; the score's bound of ± {} % reaches across it (every figure off by all of its bound, each to the same side)",
+                        fixed(standing.bound_percent, 1));
   r.verdict_reasons.push_back(text);
   if (!r.compensatory)
     for (const auto& c : r.criteria)
       if (const double percent = c.max > 0 ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.which != "criterion " + c.id)
-        r.verdict_reasons.push_back("criterion " + c.id + " reaches " + fixed(percent, 1) + " %, below the pass mark, too");
+        r.verdict_reasons.push_back(fmt::format("criterion {} reaches {} %, below the pass mark, too", c.id, fixed(percent, 1)));
   if (doubt) {
     const std::string what = r.perforation.detected() ? "the force shows a faulty breakthrough, the tissue does not"
                                                       : "the tissue shows a faulty breakthrough, the force does not";

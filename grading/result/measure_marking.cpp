@@ -1,5 +1,7 @@
 #include "grading/result/measure_marking.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -286,9 +288,9 @@ std::string place_in(const char* pointer, const Measure& m) {
 
 /// The families' places: the wall's or the tissue's object, in it the figure's or the tissue's name.
 std::string family_place(const Measure& m, bool bound) {
-  if (!m.tissue.empty()) return std::string(bound ? "/volumes/bounds" : "/volumes") + "/tissue_mm3/" + m.tissue;
+  if (!m.tissue.empty()) return fmt::format("{}/tissue_mm3/{}", bound ? "/volumes/bounds" : "/volumes", m.tissue);
   if (m.walls != 1) return "";
-  return "/walls/" + std::string(wall_name(static_cast<Wall>(m.first_wall))) + (bound ? "/bounds/" : "/") + wall_figure_name(m.figure);
+  return fmt::format("/walls/{}{}{}", wall_name(static_cast<Wall>(m.first_wall)), bound ? "/bounds/" : "/", wall_figure_name(m.figure));
 }
 
 }  // namespace
@@ -297,7 +299,7 @@ std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows) {
   std::vector<std::string> keys;
   for (const auto& row : rows) {
     if (row.measure == nullptr || row.value == nullptr || row.reason == nullptr)
-      throw std::logic_error("measure_marking: " + std::string(row.measure != nullptr ? row.measure : "a row") + " lacks name, value or reason");
+      throw std::logic_error(fmt::format("measure_marking: {} lacks name, value or reason", row.measure != nullptr ? row.measure : "a row"));
     keys.emplace_back(row.measure);
   }
   require_row_for_each(keys, "measure_marking");

@@ -236,7 +236,7 @@ std::string criteria_text(const Result& r) {
 std::string volumes_text(const Result& r) {
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
   const auto volume = [&](const std::string& name, const Volume& v) {
-    return "  " + padded(name, 22) + fixed(v.mm3, 2) + " ± " + fixed(v.bound_mm3, 2) + " mm3\n";
+    return fmt::format("  {}{} ± {} mm3\n", padded(name, 22), fixed(v.mm3, 2), fixed(v.bound_mm3, 2));
   };
   std::string s = "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) +
                   fixed(r.volumes.target_removed_percent, 1) + " ± " + fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" +
@@ -264,7 +264,7 @@ std::string walls_text(const Result& r) {
 std::string cavity_text(const Result& r) {
   std::string s = "\ncavity\n";
   const auto shape = [&](const char* name, const std::optional<double>& v, double bound, const char* unit) {
-    s += "  " + padded(name, 22) + (v ? fixed(*v, 2) + " ± " + fixed(bound, 2) + unit : std::string("not cut")) + "\n";
+    s += fmt::format("  {}{}\n", padded(name, 22), v ? fmt::format("{} ± {}{}", fixed(*v, 2), fixed(bound, 2), unit) : std::string("not cut"));
   };
   shape("length", r.shape.length_mm, r.shape.bound_mm, " mm");
   shape("width", r.shape.width_mm, r.shape.bound_mm, " mm");
@@ -277,14 +277,13 @@ std::string perforation_text(const Result& r) {
   std::string s = "\nperforation\n";
   if (r.perforation.events.empty()) s += "  no breakthrough seen in the force\n";
   for (const auto& e : r.perforation.events)
-    s += "  force: " + std::string(e.fault ? "fault" : "aim") + " at " + fixed(static_cast<double>(e.tick) * k_tick_s, 3) + " s, " +
-         fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N, " +
-         (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue") + "\n";
+    s += fmt::format("  force: {} at {} s, {} N to {} N, {}\n", e.fault ? "fault" : "aim", fixed(static_cast<double>(e.tick) * k_tick_s, 3),
+                     fixed(e.force_before_n, 2), fixed(e.force_after_n, 2), e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue");
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    s +=
-        "  tissue: " + std::string(kind) +
-        (t.perforated ? ", " + t.tissue + " first touched at " + fixed(t.first.t_s(), 3) + " s, " + amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3\n")
-                      : " not touched\n");
+    s += fmt::format("  tissue: {}{}", kind,
+                     t.perforated ? fmt::format(", {} first touched at {} s, {}", t.tissue, fixed(t.first.t_s(), 3),
+                                                amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3\n"))
+                                  : " not touched\n");
   };
   truth("fault", r.perforation.fault);
   if (r.perforation.has_aims) truth("aim", r.perforation.aim);

@@ -1,5 +1,7 @@
 #include "grading/words/loss_finder.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -73,11 +75,11 @@ void LossFinder::removed_moments(std::vector<WhyItem> items) {
       const double now = before + *i.amount;
       i.points_lost = points_at(before) - points_at(now);
       if (now <= spec_.full)
-        i.what += ", within the " + said(spec_.full) + " that cost nothing";
+        i.what += fmt::format(", within the {} that cost nothing", said(spec_.full));
       else if (before < spec_.full)
-        i.what += ", of it " + fixed(now - spec_.full, 3) + " mm3 beyond the " + said(spec_.full) + " that cost nothing";
+        i.what += fmt::format(", of it {} mm3 beyond the {} that cost nothing", fixed(now - spec_.full, 3), said(spec_.full));
       else if (before >= spec_.zero)
-        i.what += ", beyond the " + said(spec_.zero) + " at which no points are left";
+        i.what += fmt::format(", beyond the {} at which no points are left", said(spec_.zero));
       before = now;
     }
   }
@@ -130,8 +132,8 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<WallFig
       fact(wall_text(w) + ": nothing was cut there");
       continue;
     }
-    fact(wall_text(w) + ": mean " + amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm") + ", 95th percentile " +
-         amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm") + ", of " + std::to_string(m.samples) + " places (+ = overcut)");
+    fact(fmt::format("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall_text(w), amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm"),
+                     amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm"), m.samples));
     if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
       fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
     if (m.worst_under.tick >= 0 && !over && m.max_under_mm > full)
@@ -174,7 +176,7 @@ void LossFinder::canals() {
   for (const auto& p : r_.access.canal_mouths) {
     if (!(p.part > 0)) continue;
     const Trace last = last_cut_near(in_, end_, p.middle_mm);
-    fact("of a canal's mouth, its middle at " + place(p.middle_mm) + ", has hard tissue on the straight line out" + last_cut_text(last),
+    fact(fmt::format("of a canal's mouth, its middle at {}, has hard tissue on the straight line out{}", place(p.middle_mm), last_cut_text(last)),
          100 * p.part / p.whole, "%", last);
     if (last.tick < 0) why_.items.back().site_mm = p.middle_mm;
     why_.items.back().points_lost = (spec_.points - why_.criterion.points) * p.part / covered;
@@ -194,13 +196,13 @@ void LossFinder::value_and_work() {
   const double by_work = points_at(spec_.full) < spec_.points ? spec_.points - points_at(spec_.full) : 0.0;
   const double by_value = spec_.points - c.points - by_work - accounted;
   if (by_value > 1e-9) {
-    fact((*c.value < spec_.full ? "short of " : "beyond ") + amount_text(spec_.full, 0, 2, c.unit) + ", which gives full marks",
+    fact(fmt::format("{}{}, which gives full marks", *c.value < spec_.full ? "short of " : "beyond ", amount_text(spec_.full, 0, 2, c.unit)),
          std::fabs(*c.value - spec_.full), c.unit, c.first, c.bound);
     why_.items.back().points_lost = by_value;
   }
   if (by_work > 1e-9) {
-    fact(fixed(100 * c.work_share, 1) + " % of the points count, for care counts in full only from " + fixed(k_care_counts_percent, 0) +
-             " % of the work on: " + c.work_text,
+    fact(fmt::format("{} % of the points count, for care counts in full only from {} % of the work on: {}", fixed(100 * c.work_share, 1),
+                     fixed(k_care_counts_percent, 0), c.work_text),
          {}, "", r_.end);
     why_.items.back().points_lost = by_work;
   }
@@ -214,7 +216,7 @@ void LossFinder::steps() {
     std::replace(what.begin(), what.end(), '_', ' ');
     if (detail.is_object())
       for (const char* key : {"step", "how", "tissue"})
-        if (detail.contains(key) && detail[key].is_string()) what += " (" + detail[key].get<std::string>() + ")";
+        if (detail.contains(key) && detail[key].is_string()) what += fmt::format(" ({})", detail[key].get<std::string>());
     WhyItem item;
     item.tick = item.end_tick = e.tick;
     item.what = what + ", after";
@@ -229,16 +231,16 @@ void LossFinder::steps() {
 void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    if (!t.perforated) return fact(std::string("tissue: no ") + kind);
-    fact(std::string("tissue: ") + kind + ", " + t.tissue + " first removed here", t.volume_mm3, "mm3 of it in all", t.first, t.bound_mm3);
+    if (!t.perforated) return fact(fmt::format("tissue: no {}", kind));
+    fact(fmt::format("tissue: {}, {} first removed here", kind, t.tissue), t.volume_mm3, "mm3 of it in all", t.first, t.bound_mm3);
   };
   truth("fault", p.fault);
   if (p.has_aims) truth("aim", p.aim);
   if (p.events.empty()) fact("force: no breakthrough seen");
   if (p.aim_unseen()) fact("force: the breakthrough into the aim was not seen, which costs nothing");
   for (const auto& e : p.events) {
-    fact(std::string("force: ") + (e.fault ? "fault" : "aim") + ", a fall from " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) +
-             " N while the tip went on by " + fixed(e.advance_mm, 2) + " mm; " + (e.confirmed ? "confirmed" : "not confirmed") + " by the tissue",
+    fact(fmt::format("force: {}, a fall from {} N to {} N while the tip went on by {} mm; {} by the tissue", e.fault ? "fault" : "aim",
+                     fixed(e.force_before_n, 2), fixed(e.force_after_n, 2), fixed(e.advance_mm, 2), e.confirmed ? "confirmed" : "not confirmed"),
          e.force_before_n - e.force_after_n, "N", {e.tick, e.site_mm});
     why_.items.back().end_tick = e.seen_tick;
   }
@@ -267,11 +269,11 @@ void LossFinder::shape(const std::string& name, std::optional<double> found, dou
       most = dot(at, end.direction);
       t = {r.tick, at};
     }
-    if (t.tick >= 0) fact(std::string(end.what) + " place removed", most, "mm from the tooth's origin", t);
+    if (t.tick >= 0) fact(fmt::format("{} place removed", end.what), most, "mm from the tooth's origin", t);
     if (deep || !error) continue;
     const auto& e = r_.shape.end_error[static_cast<std::size_t>(&end - ends.data()) + (along_x ? 0 : 2)];
-    fact("missing or too much at the " + std::string(end.what).substr(9) + " end, " + fixed(std::fabs(e.beyond_mm), 2) +
-             (e.beyond_mm >= 0 ? " mm too far" : " mm short"),
+    fact(fmt::format("missing or too much at the {} end, {}{}", std::string(end.what).substr(9), fixed(std::fabs(e.beyond_mm), 2),
+                     e.beyond_mm >= 0 ? " mm too far" : " mm short"),
          e.part_mm, "mm", t, r_.shape.bound_mm);
     if (*error > 0) why_.items.back().points_lost = (points_at(spec_.full) - why_.criterion.points) * e.part_mm / *error;
   }
@@ -345,8 +347,8 @@ void LossFinder::force_over_limit() { pressed_above(in_.scenario.force_limit_n);
 void LossFinder::pressed_above(double force) {
   if (r_.motion.force_peak.tick >= 0) fact("pressed hardest", r_.motion.force_peak_n, "N", r_.motion.force_peak);
   list_largest(tick_stretches(
-      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks, "pressed with more than " + fixed(force, 2) + " N",
-      Stretch::peak_force));
+      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks,
+      fmt::format("pressed with more than {} N", fixed(force, 2)), Stretch::peak_force));
 }
 
 }  // namespace cavum

@@ -1,5 +1,7 @@
 #include "grading/words/measures_page.h"
 
+#include <fmt/core.h>
+
 #include <sstream>
 
 #include "grading/result/measure_marking.h"
@@ -48,7 +50,7 @@ const char* needs_words(Needs needs) {
   return "a tooth with pulp";
 }
 
-std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
+std::string code(const std::string& text) { return text.empty() ? "" : fmt::format("`{}`", text); }
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "grading/words/moments.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -29,11 +31,11 @@ std::string text_of(const Moment& m) {
   std::string text = "removed";
   for (std::size_t i = 0; i < zones.size(); ++i) {
     const std::string name =
-        static_cast<Zone>(zones[i]) == Zone::none ? "outside all zones" : std::string("in ") + zone_name(static_cast<Zone>(zones[i]));
+        static_cast<Zone>(zones[i]) == Zone::none ? "outside all zones" : fmt::format("in {}", zone_name(static_cast<Zone>(zones[i])));
     text += (i == 0 ? " " : ", ") + (zones.size() > 1 ? fixed(m.by_zone[zones[i]], 3) + " mm3 " : "") + name;
   }
   text += ", most of it at " + wall_text(wall);
-  if (m.furthest_mm > 0) text += ", at the furthest " + fixed(m.furthest_mm, 2) + " mm beyond the target";
+  if (m.furthest_mm > 0) text += fmt::format(", at the furthest {} mm beyond the target", fixed(m.furthest_mm, 2));
   return text;
 }
 
@@ -90,7 +92,7 @@ std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, c
     const double held_s = static_cast<double>(held) * k_tick_s;
     i.amount = amount == Stretch::peak_force ? peak : held_s;
     i.unit = amount == Stretch::peak_force ? "N" : "s";
-    if (amount == Stretch::peak_force) i.what += ", " + fixed(held_s, 3) + " s of it; the peak is given";
+    if (amount == Stretch::peak_force) i.what += fmt::format(", {} s of it; the peak is given", fixed(held_s, 3));
   };
   const auto n = std::min<std::int64_t>(end, static_cast<std::int64_t>(input.inputs.size()));
   for (std::int64_t i = 0; i < n; ++i) {
@@ -147,7 +149,7 @@ std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end,
   for (const auto& p : access.overhang_pieces) {
     WhyItem item;
     const Trace last = last_cut_near(input, end, p.middle_mm);
-    item.what = "roof left over the chamber, its middle at " + place(p.middle_mm) + last_cut_text(last);
+    item.what = fmt::format("roof left over the chamber, its middle at {}{}", place(p.middle_mm), last_cut_text(last));
     item.tick = item.end_tick = last.tick;
     item.site_mm = last.tick >= 0 ? last.site_mm : p.middle_mm;
     item.amount = p.part;

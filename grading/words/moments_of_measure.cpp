@@ -1,5 +1,7 @@
 #include "grading/words/moments_of_measure.h"
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -9,7 +11,7 @@ std::vector<MomentsOfMeasure> checked_moments(std::vector<MomentsOfMeasure> rows
   std::vector<std::string> keys;
   for (const auto& row : rows) {
     if (row.measure == nullptr || row.words == nullptr || row.list == nullptr)
-      throw std::logic_error("moments_of_measure: " + std::string(row.measure != nullptr ? row.measure : "a row") + " lacks name, words or list");
+      throw std::logic_error(fmt::format("moments_of_measure: {} lacks name, words or list", row.measure != nullptr ? row.measure : "a row"));
     keys.emplace_back(row.measure);
   }
   require_row_for_each(keys, "moments_of_measure");

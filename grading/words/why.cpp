@@ -1,5 +1,7 @@
 #include "grading/words/why.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -21,7 +23,7 @@ Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric,
     std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
     return w;
   }
-  throw Error("--why", "the rubric has no criterion '" + criterion_id + "'", "use one of: " + known);
+  throw Error("--why", fmt::format("the rubric has no criterion '{}'", criterion_id), "use one of: " + known);
 }
 
 }  // namespace cavum

@@ -1,4 +1,6 @@
 // What `grade --why` found, as JSON and as text.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -53,10 +55,10 @@ Json to_json(const Why& w) {
 
 std::string to_text(const Why& w) {
   const auto& c = w.criterion;
-  std::string s = c.id + " (" + c.metric + "): " + fixed(c.points, 2) + " of " + fixed(c.max, 2) + " points, " + fixed(c.max - c.points, 2) +
-                  " lost\n  " + (c.value ? amount_text(*c.value, c.bound, 3, c.unit) : std::string("not measured")) + "; full marks at " +
-                  amount_text(w.full, 0, 3, c.unit) + (w.full < w.zero ? " or less" : " or more") + ", none from " +
-                  amount_text(w.zero, 0, 3, c.unit) + " on\n  " + c.reason + "\n";
+  std::string s =
+      fmt::format("{} ({}): {} of {} points, {} lost\n  {}; full marks at {}{}, none from {} on\n  {}\n", c.id, c.metric, fixed(c.points, 2),
+                  fixed(c.max, 2), fixed(c.max - c.points, 2), c.value ? amount_text(*c.value, c.bound, 3, c.unit) : std::string("not measured"),
+                  amount_text(w.full, 0, 3, c.unit), w.full < w.zero ? " or less" : " or more", amount_text(w.zero, 0, 3, c.unit), c.reason);
   if (!w.items.empty()) s += "\n";
   for (const auto& i : w.items) {
     std::string time;
@@ -67,19 +69,19 @@ std::string to_text(const Why& w) {
     }
     time.resize(std::max<std::size_t>(time.size(), 22), ' ');
     const std::string amount = i.amount ? amount_text(*i.amount, i.bound.value_or(0), 3, i.unit) : "";
-    s += "  " + time + "  ";
+    s += fmt::format("  {}  ", time);
     if (i.what.starts_with("of "))
-      s += amount + " " + i.what;
+      s += fmt::format("{} {}", amount, i.what);
     else
       s += i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
     if (i.site_mm) s += ", at " + place(*i.site_mm);
-    if (i.tick >= 0) s += ", tick " + std::to_string(i.tick);
-    if (i.points_lost) s += ", " + fixed(*i.points_lost, 2) + " points";
+    if (i.tick >= 0) s += fmt::format(", tick {}", i.tick);
+    if (i.points_lost) s += fmt::format(", {} points", fixed(*i.points_lost, 2));
     s += "\n";
   }
   if (w.left_out > 0)
-    s += "  and " + std::to_string(w.left_out) + " smaller moments, " + fixed(w.left_out_amount, 3) + " in all" +
-         (w.left_out_points > 0 ? ", " + fixed(w.left_out_points, 2) + " points" : "") + "\n";
+    s += fmt::format("  and {} smaller moments, {} in all{}\n", w.left_out, fixed(w.left_out_amount, 3),
+                     w.left_out_points > 0 ? fmt::format(", {} points", fixed(w.left_out_points, 2)) : "");
   return s;
 }
 

@@ -1,5 +1,7 @@
 #include "scenarios/candidates/operator.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -74,7 +76,7 @@ Skill make_skill(const std::string& name, std::uint64_t seed) {
     return s;
   }
   if (const int level = level_in(name); level >= 0) return student(level * 0.01, seed);
-  throw Error("operator '" + name + "'", "is not known", "use expert, novice, perforator, careless, or student-0 to student-100");
+  throw Error(fmt::format("operator '{}'", name), "is not known", "use expert, novice, perforator, careless, or student-0 to student-100");
 }
 
 Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::uint64_t seed)

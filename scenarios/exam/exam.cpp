@@ -1,5 +1,7 @@
 #include "scenarios/exam/exam.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -93,7 +95,8 @@ std::string find_data_file(const std::string& folder, const std::string& name, c
     if (fs::exists(p)) return p.lexically_normal().string();
     looked += (looked.empty() ? "" : ", ") + p.lexically_normal().string();
   }
-  throw Error(folder + "/" + name, "is nowhere to be found (looked at " + looked + ")", "correct the name or set CAVUM_DATA to the data folder");
+  throw Error(fmt::format("{}/{}", folder, name), fmt::format("is nowhere to be found (looked at {})", looked),
+              "correct the name or set CAVUM_DATA to the data folder");
 }
 
 std::string force_model_path(const std::string& wanted, const std::string& near_file) {
@@ -101,7 +104,7 @@ std::string force_model_path(const std::string& wanted, const std::string& near_
   if (wanted.empty() || wanted.find('/') != std::string::npos) {
     std::string known;
     for (const auto& name : data_names("materials", near_file)) known += (known.empty() ? "" : ", ") + name;
-    throw Error("--model", "'" + wanted + "' is no force model", "name one of " + known + ", or a file ending in .toml");
+    throw Error("--model", fmt::format("'{}' is no force model", wanted), fmt::format("name one of {}, or a file ending in .toml", known));
   }
   return find_data_file("materials", wanted + ".toml", near_file);
 }
@@ -113,8 +116,8 @@ std::vector<std::string> check_servo(const std::string& servo_toml, const Scenar
   std::vector<std::string> findings;
   const auto same = [&](const char* name, double value, double wanted) {
     if (value != wanted)
-      findings.push_back("servo.toml: " + std::string(name) + " is " + plain_number(value) + ", and exams of this scenario run with " +
-                         plain_number(wanted));
+      findings.push_back(
+          fmt::format("servo.toml: {} is {}, and exams of this scenario run with {}", name, plain_number(value), plain_number(wanted)));
   };
   const auto at_most = [&](const char* name, double value, double most) {
     if (!(value > 0 && value <= most)) same(name, value, most);
@@ -247,7 +250,7 @@ void Exam::keep(const DatabaseError& refusal) {
   try {
     recorder_->move_to(second_place_, refusal.what());
   } catch (const Error& also) {
-    problem_ += "; and elsewhere: " + std::string(also.what());
+    problem_ += fmt::format("; and elsewhere: {}", also.what());
   }
 }
 

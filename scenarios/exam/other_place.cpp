@@ -1,5 +1,7 @@
 #include "scenarios/exam/other_place.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +16,7 @@ std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string
     exam = begin(path);
   } catch (const DatabaseError& refusal) {
     if (second_place.empty())
-      throw Error(path, "cannot be written, and the exam has not begun (" + one_line(refusal.what()) + ")",
+      throw Error(path, fmt::format("cannot be written, and the exam has not begun ({})", one_line(refusal.what())),
                   "make room, or name a file on another disk too: --out-if-full");
     exam = begin(second_place);
     const nlohmann::json detail{{"from", std::filesystem::path(path).filename().string()}, {"ticks", 0}, {"why", one_line(refusal.what())}};
@@ -28,7 +30,7 @@ std::string rescue_place(const std::string& path) {
   const auto folder = std::filesystem::temp_directory_path();
   const std::string stem = std::filesystem::path(path).stem().string();
   std::string place = (folder / (stem + "-rescued.cavum")).string();
-  for (int i = 2; std::filesystem::exists(place); ++i) place = (folder / (stem + "-rescued-" + std::to_string(i) + ".cavum")).string();
+  for (int i = 2; std::filesystem::exists(place); ++i) place = (folder / (fmt::format("{}-rescued-{}.cavum", stem, i))).string();
   return place;
 }
 

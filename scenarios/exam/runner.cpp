@@ -1,5 +1,7 @@
 #include "scenarios/exam/runner.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -56,7 +58,7 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
       if (std::find(names_.begin(), names_.end(), used) == names_.end() && used.rfind("touched_", 0) == 0) names_.push_back(used);
   };
   const auto wrong = [&](const StepSpec& step, const std::runtime_error& e) {
-    return Error(scenario.path, "step '" + step.id + "': " + e.what(), "correct the condition");
+    return Error(scenario.path, fmt::format("step '{}': {}", step.id, e.what()), "correct the condition");
   };
   for (const auto& step : scenario.steps) {
     try {

@@ -1,5 +1,7 @@
 #include "scenarios/file/accommodations.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <charconv>
 
@@ -25,12 +27,12 @@ double number_in(const std::string& text, double most, const std::string& where)
   double v = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
   if (error != std::errc() || end != text.data() + text.size() || !(v >= 0 && v <= most))
-    throw Error(where, "'" + text + "' is no extra time", "use 0 to " + plain_number(most));
+    throw Error(where, fmt::format("'{}' is no extra time", text), "use 0 to " + plain_number(most));
   return v;
 }
 
 bool truth_in(const std::string& text, const std::string& where) {
-  if (text != "true" && text != "false") throw Error(where, "'" + text + "' is neither true nor false", "use one of them");
+  if (text != "true" && text != "false") throw Error(where, fmt::format("'{}' is neither true nor false", text), "use one of them");
   return text == "true";
 }
 
@@ -38,7 +40,7 @@ bool truth_in(const std::string& text, const std::string& where) {
 
 void require_sound(const Grant& g, const std::string& where) {
   const auto within = [&](const std::optional<double>& v, double most, const char* name) {
-    if (v && !(*v >= 0 && *v <= most)) throw Error(where, std::string(name) + " is " + plain_number(*v), "use 0 to " + plain_number(most));
+    if (v && !(*v >= 0 && *v <= most)) throw Error(where, fmt::format("{} is {}", name, plain_number(*v)), "use 0 to " + plain_number(most));
   };
   within(g.extra_time_percent, k_most_percent, "extra time in percent");
   within(g.extra_time_s, k_most_s, "extra time in seconds");
@@ -68,7 +70,7 @@ std::string accommodations_text(const Accommodations& a) {
   std::string text;
   const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
   if (a.extra_time_percent > 0 && a.extra_time_s > 0)
-    add(plain_number(a.extra_time_percent) + " % and " + plain_number(a.extra_time_s) + " s extra time");
+    add(fmt::format("{} % and {} s extra time", plain_number(a.extra_time_percent), plain_number(a.extra_time_s)));
   else if (a.extra_time_percent > 0)
     add(plain_number(a.extra_time_percent) + " % extra time");
   else if (a.extra_time_s > 0)

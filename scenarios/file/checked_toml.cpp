@@ -1,5 +1,7 @@
 #include "scenarios/file/checked_toml.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -45,7 +47,7 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
       closest = &w;
     }
   }
-  if (closest != nullptr) return "did you mean '" + *closest + "'?";
+  if (closest != nullptr) return fmt::format("did you mean '{}'?", *closest);
   std::string all = "use one of";
   for (std::size_t i = 0; i < words.size(); ++i) all += (i == 0 ? " " : ", ") + words[i];
   return all;
@@ -56,7 +58,7 @@ void ProblemList::add(const toml::source_region& at, const std::string& what, co
 }
 
 void ProblemList::add(Place at, const std::string& what, const std::string& what_to_do) {
-  problems_.push_back({path_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column), what, what_to_do, at.line, at.column});
+  problems_.push_back({fmt::format("{}:{}:{}", path_, at.line, at.column), what, what_to_do, at.line, at.column});
 }
 
 std::vector<Problem> ProblemList::take() {
@@ -82,13 +84,13 @@ void CheckedTable::note(std::map<std::string, Place>& places, std::string_view k
   const auto place = [](const toml::node& n) { return Place{static_cast<int>(n.source().begin.line), static_cast<int>(n.source().begin.column)}; };
   places[name] = place(*node);
   if (const auto* array = node->as_array())
-    for (std::size_t i = 0; i < array->size(); ++i) places[name + "/" + std::to_string(i)] = place((*array)[i]);
+    for (std::size_t i = 0; i < array->size(); ++i) places[fmt::format("{}/{}", name, i)] = place((*array)[i]);
 }
 
 const toml::node* CheckedTable::ask(std::string_view key, bool required) {
   asked_.emplace_back(key);
   const auto* node = table_.get(key);
-  if (node == nullptr && required) problems_.add(table_.source(), name_ + " has no '" + std::string(key) + "'", "add it");
+  if (node == nullptr && required) problems_.add(table_.source(), fmt::format("{} has no '{}'", name_, key), "add it");
   return node;
 }
 
@@ -96,12 +98,12 @@ double CheckedTable::number(std::string_view key, double low, double high, doubl
   const auto* node = ask(key, required);
   if (node == nullptr) return fallback;
   if (!node->is_number()) {
-    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a number");
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a number");
     return fallback;
   }
   const double v = node->value<double>().value_or(fallback);
   if (!(v >= low && v <= high)) {
-    problem(key, "'" + std::string(key) + "' is " + plain_number(v), "use " + plain_number(low) + " to " + plain_number(high));
+    problem(key, fmt::format("'{}' is {}", key, plain_number(v)), fmt::format("use {} to {}", plain_number(low), plain_number(high)));
     return fallback;
   }
   return v;
@@ -110,7 +112,7 @@ double CheckedTable::number(std::string_view key, double low, double high, doubl
 int CheckedTable::whole(std::string_view key, int low, int high, int fallback, bool required) {
   const double v = number(key, low, high, fallback, required);
   if (v == std::floor(v)) return static_cast<int>(v);
-  problem(key, "'" + std::string(key) + "' is " + plain_number(v), "write a whole number");
+  problem(key, fmt::format("'{}' is {}", key, plain_number(v)), "write a whole number");
   return fallback;
 }
 
@@ -118,15 +120,15 @@ std::string CheckedTable::text(std::string_view key, const std::string& fallback
   const auto* node = ask(key, required);
   if (node == nullptr) return fallback;
   if (!node->is_string()) {
-    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a text in quotes");
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a text in quotes");
     return fallback;
   }
   std::string s = node->value<std::string>().value_or(fallback);
   constexpr std::size_t k_longest_title = 300, k_longest_text = 20'000;  // a page is laid out with each of them
   if (const std::size_t most = key == "title" || key == "name" ? k_longest_title : k_longest_text; s.size() > most)
-    problem(key, "'" + std::string(key) + "' has " + std::to_string(s.size()) + " bytes, the limit is " + std::to_string(most), "shorten it");
-  if (s.find('\0') != std::string::npos) problem(key, "'" + std::string(key) + "' holds a zero byte", "leave it out");
-  if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, "'" + std::string(key) + "' is empty", "write a text");
+    problem(key, fmt::format("'{}' has {} bytes, the limit is {}", key, s.size(), most), "shorten it");
+  if (s.find('\0') != std::string::npos) problem(key, fmt::format("'{}' holds a zero byte", key), "leave it out");
+  if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, fmt::format("'{}' is empty", key), "write a text");
   return s;
 }
 
@@ -134,7 +136,7 @@ bool CheckedTable::truth(std::string_view key, bool fallback) {
   const auto* node = ask(key, false);
   if (node == nullptr) return fallback;
   if (!node->is_boolean()) {
-    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write true or false");
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write true or false");
     return fallback;
   }
   return node->value<bool>().value_or(fallback);
@@ -143,23 +145,23 @@ bool CheckedTable::truth(std::string_view key, bool fallback) {
 std::size_t CheckedTable::word(std::string_view key, const std::vector<std::string>& words, std::size_t fallback, bool required) {
   const auto* node = ask(key, false);
   if (node == nullptr) {
-    if (required) problems_.add(table_.source(), name_ + " has no '" + std::string(key) + "'", suggestion("", words));
+    if (required) problems_.add(table_.source(), fmt::format("{} has no '{}'", name_, key), suggestion("", words));
     return required ? k_wrong : fallback;
   }
   if (!node->is_string()) {
-    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), suggestion("", words));
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), suggestion("", words));
     return k_wrong;
   }
   const std::string s = node->value<std::string>().value_or("");
   for (std::size_t i = 0; i < words.size(); ++i)
     if (s == words[i]) return i;
-  problem(key, "'" + std::string(key) + "' is \"" + s + "\"", suggestion(s, words));
+  problem(key, fmt::format("'{}' is \"{}\"", key, s), suggestion(s, words));
   return k_wrong;
 }
 
 bool CheckedTable::too_many(std::string_view key, std::size_t count, std::size_t most) {
   if (count <= most) return false;
-  problem(key, "'" + std::string(key) + "' has " + std::to_string(count) + " items", "list at most " + std::to_string(most));
+  problem(key, fmt::format("'{}' has {} items", key, count), fmt::format("list at most {}", most));
   return true;
 }
 
@@ -169,7 +171,7 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
   if (node == nullptr) return list;
   const auto* array = node->as_array();
   if (array == nullptr) {
-    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a list of texts, [\"a\", \"b\"]");
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a list of texts, [\"a\", \"b\"]");
     return list;
   }
   if (too_many(key, array->size(), k_most_items)) return list;
@@ -177,9 +179,9 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
     if (item.is_string())
       list.push_back(item.value<std::string>().value_or(""));
     else
-      problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write a text in quotes");
+      problems_.add(item.source(), fmt::format("'{}' holds {}", key, kind_of(item)), "write a text in quotes");
   }
-  if (required && array->empty()) problem(key, "'" + std::string(key) + "' is empty", "list at least one");
+  if (required && array->empty()) problem(key, fmt::format("'{}' is empty", key), "list at least one");
   return list;
 }
 
@@ -205,8 +207,7 @@ Vec3 CheckedTable::vector(std::string_view key, std::size_t count, Vec3 fallback
   if (node == nullptr) return fallback;
   Vec3 v = fallback;
   if (!read_vector(*node, count, v))
-    problem(key, "'" + std::string(key) + "' is not a list of " + std::to_string(count) + " numbers within 1000 mm",
-            count == 2 ? "write [x, y]" : "write [x, y, z]");
+    problem(key, fmt::format("'{}' is not a list of {} numbers within 1000 mm", key, count), count == 2 ? "write [x, y]" : "write [x, y, z]");
   return v;
 }
 
@@ -216,7 +217,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
   if (node == nullptr) return list;
   const auto* array = node->as_array();
   if (array == nullptr || array->size() < at_least) {
-    problem(key, "'" + std::string(key) + "' needs at least " + std::to_string(at_least) + " points", "write [[x, y], [x, y], ...]");
+    problem(key, fmt::format("'{}' needs at least {} points", key, at_least), "write [[x, y], [x, y], ...]");
     return list;
   }
   if (too_many(key, array->size(), k_most_points)) return list;
@@ -225,7 +226,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
     if (read_vector(item, 2, v))
       list.push_back(v);
     else
-      problems_.add(item.source(), "a point of '" + std::string(key) + "' is not two numbers within 1000 mm", "write [x, y]");
+      problems_.add(item.source(), fmt::format("a point of '{}' is not two numbers within 1000 mm", key), "write [x, y]");
   }
   return list;
 }
@@ -233,7 +234,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
 const toml::table* CheckedTable::table(std::string_view key, bool required) {
   const auto* node = ask(key, required);
   if (node == nullptr) return nullptr;
-  if (node->as_table() == nullptr) problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write a table, [" + std::string(key) + "]");
+  if (node->as_table() == nullptr) problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), fmt::format("write a table, [{}]", key));
   return node->as_table();
 }
 
@@ -244,7 +245,7 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
   if (const auto* one = node->as_table()) return {one};
   const auto* array = node->as_array();
   if (array == nullptr) {
-    problem(key, "'" + std::string(key) + "' is " + kind_of(*node), "write tables, [[" + std::string(key) + "]]");
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), fmt::format("write tables, [[{}]]", key));
     return list;
   }
   if (too_many(key, array->size(), k_most_items)) return list;
@@ -252,9 +253,9 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
     if (const auto* t = item.as_table())
       list.push_back(t);
     else
-      problems_.add(item.source(), "'" + std::string(key) + "' holds " + kind_of(item), "write tables, [[" + std::string(key) + "]]");
+      problems_.add(item.source(), fmt::format("'{}' holds {}", key, kind_of(item)), fmt::format("write tables, [[{}]]", key));
   }
-  if (required && list.empty()) problem(key, "'" + std::string(key) + "' is empty", "add at least one");
+  if (required && list.empty()) problem(key, fmt::format("'{}' is empty", key), "add at least one");
   return list;
 }
 
@@ -262,7 +263,7 @@ void CheckedTable::finish() {
   for (auto&& [key, node] : table_) {
     const std::string name(key.str());
     if (std::find(asked_.begin(), asked_.end(), name) == asked_.end())
-      problems_.add(key.source(), name_ + " has an unknown key '" + name + "'", asked_.empty() ? "take it out" : suggestion(name, asked_));
+      problems_.add(key.source(), fmt::format("{} has an unknown key '{}'", name_, name), asked_.empty() ? "take it out" : suggestion(name, asked_));
   }
 }
 

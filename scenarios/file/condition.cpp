@@ -1,5 +1,7 @@
 #include "scenarios/file/condition.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -163,8 +165,8 @@ std::optional<ConditionFault> condition_fault(const std::string& text) {
       const Text by = divisor(t, i + 1);
       if (!by.empty() && at_zero(by) == 0.0) {
         if (names_in_expression(std::string(by)).empty()) return ConditionFault{"divides by 0", "divide by something else, or take that part out"};
-        return ConditionFault{"divides by '" + std::string(by) + "', which is 0 when an exam begins",
-                              "multiply instead, or divide by max(" + std::string(by) + ", 1)"};
+        return ConditionFault{fmt::format("divides by '{}', which is 0 when an exam begins", by),
+                              fmt::format("multiply instead, or divide by max({}, 1)", by)};
       }
     }
     if (c != ' ' && c != '\t' && c != '\n') before = c;

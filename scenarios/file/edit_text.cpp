@@ -1,5 +1,6 @@
 #include "scenarios/file/edit_text.h"
 
+#include <fmt/core.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -63,12 +64,12 @@ std::size_t after_value(const std::string& text, std::size_t i) {
 class ReadToml {
  public:
   ReadToml(const std::string& text, const std::string& path) : text_(text), path_(path) {
-    if (const auto beyond = beyond_toml_limits(text)) throw Error(path + ":" + std::to_string(beyond->line) + ":1", beyond->what, beyond->what_to_do);
+    if (const auto beyond = beyond_toml_limits(text)) throw Error(fmt::format("{}:{}:1", path, beyond->line), beyond->what, beyond->what_to_do);
     try {
       table_ = toml::parse(std::string_view(text), path);
     } catch (const toml::parse_error& e) {
-      throw Error(path + ":" + std::to_string(e.source().begin.line) + ":" + std::to_string(e.source().begin.column),
-                  "is no TOML (" + one_line(e.description()) + ")", k_elsewhere);
+      throw Error(fmt::format("{}:{}:{}", path, e.source().begin.line, e.source().begin.column),
+                  fmt::format("is no TOML ({})", one_line(e.description())), k_elsewhere);
     }
     lines_.push_back(text.starts_with("\xef\xbb\xbf") ? 3 : 0);  // a byte order mark is no column
     for (std::size_t i = 0; i < text.size(); ++i)
@@ -86,7 +87,7 @@ class ReadToml {
     for (std::size_t i = 0; i <= place.size();) {
       const std::size_t end = std::min(place.find('/', i), place.size());
       const std::string key = place.substr(i, end - i);
-      if (f.node == nullptr) throw Error(path_, "has no '" + place.substr(0, i - 1) + "'", "write it in a text editor");
+      if (f.node == nullptr) throw Error(path_, fmt::format("has no '{}'", place.substr(0, i - 1)), "write it in a text editor");
       f = {next(*f.node, key), f.node, key};
       i = end + 1;
     }
@@ -95,12 +96,12 @@ class ReadToml {
   /// The same where it must be there.
   [[nodiscard]] const toml::node& at(const std::string& place) const {
     const Found f = find(place);
-    if (f.node == nullptr) throw Error(path_, "has no '" + place + "'", "write it in a text editor");
+    if (f.node == nullptr) throw Error(path_, fmt::format("has no '{}'", place), "write it in a text editor");
     return *f.node;
   }
   [[nodiscard]] const toml::array& list(const std::string& place) const {
     const auto* array = at(place).as_array();
-    if (array == nullptr) fail(at(place), "'" + place + "' is no list");
+    if (array == nullptr) fail(at(place), fmt::format("'{}' is no list", place));
     return *array;
   }
 
@@ -135,7 +136,7 @@ class ReadToml {
   }
 
   [[noreturn]] void fail(const toml::node& node, const std::string& what) const {
-    throw Error(path_ + ":" + std::to_string(node.source().begin.line) + ":" + std::to_string(node.source().begin.column), what, k_elsewhere);
+    throw Error(fmt::format("{}:{}:{}", path_, node.source().begin.line, node.source().begin.column), what, k_elsewhere);
   }
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
   [[nodiscard]] const toml::table& root() const noexcept { return table_; }
@@ -145,7 +146,7 @@ class ReadToml {
     if (const auto* array = node.as_array()) {
       std::size_t index = 0;
       const auto read = std::from_chars(key.data(), key.data() + key.size(), index);
-      if (read.ec != std::errc{} || read.ptr != key.data() + key.size()) fail(node, "a list was met where '" + key + "' was looked for");
+      if (read.ec != std::errc{} || read.ptr != key.data() + key.size()) fail(node, fmt::format("a list was met where '{}' was looked for", key));
       return index < array->size() ? &(*array)[index] : nullptr;
     }
     if (const auto* table = node.as_table()) {
@@ -153,7 +154,7 @@ class ReadToml {
       if (key == "0" && !table->contains(key)) return table;
       return table->get(key);
     }
-    fail(node, "a single value was met where '" + key + "' was looked for");
+    fail(node, fmt::format("a single value was met where '{}' was looked for", key));
   }
 
   const std::string& text_;
@@ -163,11 +164,11 @@ class ReadToml {
 };
 
 double number_at(const ReadToml& reading, const toml::node& node, const std::string& place) {
-  if (!node.is_number()) reading.fail(node, "'" + place + "' is no number");
+  if (!node.is_number()) reading.fail(node, fmt::format("'{}' is no number", place));
   return node.value<double>().value_or(0.0);
 }
 
-std::string written_point(double x, double y) { return "[" + written_number(x) + ", " + written_number(y) + "]"; }
+std::string written_point(double x, double y) { return fmt::format("[{}, {}]", written_number(x), written_number(y)); }
 
 /// A number where one stands; a number that is written otherwise but is the same stays.
 TextChange replaced(const ReadToml& r, const toml::node& node, const std::string& place, double value) {
@@ -180,15 +181,15 @@ TextChange replaced(const ReadToml& r, const toml::node& node, const std::string
 /// A key that its table does not have yet: after the last value of it.
 TextChange added(const ReadToml& r, const ReadToml::Found& f, const std::string& place, const std::string& value) {
   const auto* table = f.holder->as_table();
-  if (table == nullptr) r.fail(*f.holder, "there is no '" + place + "'");
-  const std::string line = f.key + " = " + value;
+  if (table == nullptr) r.fail(*f.holder, fmt::format("there is no '{}'", place));
+  const std::string line = fmt::format("{} = {}", f.key, value);
   const std::size_t begin = r.begin_of(*f.holder), last = r.end_of_last(*table);
   if (r.text()[begin] == '{') {
     if (last != std::string::npos) return {last, "", ", " + line};
     const std::size_t end = r.end_of(*f.holder);
-    return {begin, r.text().substr(begin, end - begin), "{ " + line + " }"};
+    return {begin, r.text().substr(begin, end - begin), fmt::format("{{ {} }}", line)};
   }
-  if (r.text()[begin] != '[') r.fail(*f.holder, "'" + f.key + "' cannot be added to a table that is written in dotted keys");
+  if (r.text()[begin] != '[') r.fail(*f.holder, fmt::format("'{}' cannot be added to a table that is written in dotted keys", f.key));
   const std::size_t newline = r.text().find('\n', last == std::string::npos ? begin : last);
   const std::size_t first = r.text().find('\n');
   const std::string line_end = first != std::string::npos && first > 0 && r.text()[first - 1] == '\r' ? "\r\n" : "\n";
@@ -205,7 +206,7 @@ TextChange proved(const ReadToml& before, const std::string& path, const TextCha
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto* array = node.as_array();
     const double is = number_at(after, array != nullptr ? *array->get(i) : node, at);
-    if (written_number(is) != written_number(wanted[i])) after.fail(node, "'" + at + "' did not become " + written_number(wanted[i]));
+    if (written_number(is) != written_number(wanted[i])) after.fail(node, fmt::format("'{}' did not become {}", at, written_number(wanted[i])));
   }
   return change;
 }
@@ -246,7 +247,7 @@ TextChange set_point(const std::string& text, const std::string& path, const std
   const ReadToml::Found f = r.find(place);
   if (f.node == nullptr) return proved(r, path, added(r, f, place, written_point(x_mm, y_mm)), place, {x_mm, y_mm});
   const auto* array = f.node->as_array();
-  if (array == nullptr || array->size() < 2) r.fail(*f.node, "'" + place + "' is no list of numbers");
+  if (array == nullptr || array->size() < 2) r.fail(*f.node, fmt::format("'{}' is no list of numbers", place));
   const TextChange x = replaced(r, (*array)[0], place, x_mm), y = replaced(r, (*array)[1], place, y_mm);
   const std::size_t after_x = x.at + x.removed.size();
   const std::string between = text.substr(after_x, y.at - after_x);
@@ -258,7 +259,7 @@ TextChange insert_point(const std::string& text, const std::string& path, const 
   require_number(path, y_mm);
   const ReadToml r(text, path);
   const toml::array& list = r.list(place);
-  if (list.empty() || index > list.size()) r.fail(list, "'" + place + "' has no place " + std::to_string(index) + " for a point");
+  if (list.empty() || index > list.size()) r.fail(list, fmt::format("'{}' has no place {} for a point", place, index));
   // parted as its neighbours are, unless a comment stands between them
   std::string parting = ", ";
   if (list.size() > 1) {
@@ -268,13 +269,13 @@ TextChange insert_point(const std::string& text, const std::string& path, const 
   const std::string point = written_point(x_mm, y_mm);
   const TextChange change =
       index == 0 ? TextChange{r.begin_of(list[0]), "", point + parting} : TextChange{r.end_of(list[index - 1]), "", parting + point};
-  return proved(r, path, change, place + "/" + std::to_string(index), {x_mm, y_mm});
+  return proved(r, path, change, fmt::format("{}/{}", place, index), {x_mm, y_mm});
 }
 
 TextChange remove_point(const std::string& text, const std::string& path, const std::string& place, std::size_t index) {
   const ReadToml r(text, path);
   const toml::array& list = r.list(place);
-  if (index >= list.size() || list.size() < 2) r.fail(list, "'" + place + "' has no point " + std::to_string(index) + " to spare");
+  if (index >= list.size() || list.size() < 2) r.fail(list, fmt::format("'{}' has no point {} to spare", place, index));
   std::size_t begin = r.begin_of(list[index]), end = r.end_of(list[index]);
   const auto bare = [&](std::size_t a, std::size_t b) { return text.substr(a, b - a).find('#') == std::string::npos; };
   if (index + 1 < list.size()) {

@@ -1,5 +1,7 @@
 #include "scenarios/file/measures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -42,7 +44,7 @@ constexpr FigureWords k_figures[] = {{.figure = WallFigure::mean,
                                       .most = &most::no_end}};
 
 Measure wall_measure(const std::string& walls_name, const FigureWords& f, const char* words, std::size_t first, std::size_t walls) {
-  return {.name = walls_name + "_" + wall_figure_name(f.figure),
+  return {.name = fmt::format("{}_{}", walls_name, wall_figure_name(f.figure)),
           .unit = "mm",
           .words = words,
           .better = f.better,
@@ -240,7 +242,7 @@ std::optional<Measure> find_measure(const std::string& name) {
 
 Measure known_measure(const std::string& name) {
   if (auto m = find_measure(name)) return *m;
-  throw Error("rubric", "there is no measure '" + name + "'", "use one that `cavum scenario check` knows");
+  throw Error("rubric", fmt::format("there is no measure '{}'", name), "use one that `cavum scenario check` knows");
 }
 
 std::optional<double> most_of(const Measure& measure, const ExamExtent& exam) {
@@ -255,9 +257,10 @@ void require_row_for_each(const std::vector<std::string>& keys, const std::strin
     if (std::find(wanted.begin(), wanted.end(), m.key()) == wanted.end()) wanted.push_back(m.key());
   for (const auto& key : wanted)
     if (const auto rows = std::count(keys.begin(), keys.end(), key); rows != 1)
-      throw std::logic_error(table + ": " + (rows == 0 ? "no row" : "several rows") + " for the measure " + key);
+      throw std::logic_error(fmt::format("{}: {} for the measure {}", table, rows == 0 ? "no row" : "several rows", key));
   for (const auto& key : keys)
-    if (std::find(wanted.begin(), wanted.end(), key) == wanted.end()) throw std::logic_error(table + ": a row for " + key + ", which is no measure");
+    if (std::find(wanted.begin(), wanted.end(), key) == wanted.end())
+      throw std::logic_error(fmt::format("{}: a row for {}, which is no measure", table, key));
 }
 
 }  // namespace cavum

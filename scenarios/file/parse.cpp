@@ -1,5 +1,7 @@
 #include "scenarios/file/parse.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -19,9 +21,9 @@ namespace {
 
 void check_measure(CheckedTable& t, const std::string& metric, const ProblemList& problems) {
   if (metric.empty() || find_measure(metric)) return;
-  const std::string what = "there is no measure '" + metric + "'", of_tissue = metric + "_mm3";
+  const std::string what = fmt::format("there is no measure '{}'", metric), of_tissue = metric + "_mm3";
   if (find_measure(of_tissue) && metric != "touched_") {  // an exam that ran with it says so when it is marked
-    if (problems.strict()) t.problem("metric", what, "did you mean '" + of_tissue + "'?");
+    if (problems.strict()) t.problem("metric", what, fmt::format("did you mean '{}'?", of_tissue));
     return;
   }
   std::vector<std::string> names;
@@ -36,9 +38,9 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   c.title = t.text("title", c.id);
   c.metric = t.text("metric", "", true);
   check_measure(t, c.metric, problems);
-  for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, at + "/" + key);
+  for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, fmt::format("{}/{}", at, key));
   const auto place_of = [&](const char* key) {
-    const auto found = places.find(at + "/" + key);
+    const auto found = places.find(fmt::format("{}/{}", at, key));
     return found != places.end() ? found->second : Place{static_cast<int>(table.source().begin.line), static_cast<int>(table.source().begin.column)};
   };
   c.metric_at = place_of("metric");
@@ -69,11 +71,11 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
   r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
   double sum = 0;
   for (const auto* c : t.tables("criteria", true)) {
-    r.criteria.push_back(read_criterion(*c, "rubric/criteria/" + std::to_string(r.criteria.size()), places, problems));
+    r.criteria.push_back(read_criterion(*c, fmt::format("rubric/criteria/{}", r.criteria.size()), places, problems));
     sum += r.criteria.back().points;
     for (std::size_t i = 0; i + 1 < r.criteria.size(); ++i)
       if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
-        problems.add(c->source(), "two criteria are called '" + r.criteria[i].id + "'", "give each its own id");
+        problems.add(c->source(), fmt::format("two criteria are called '{}'", r.criteria[i].id), "give each its own id");
   }
   if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", "no criterion gives any points", "give at least one some points");
   t.finish();
@@ -82,7 +84,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
 
 void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!good_id(list[i])) t.problem_in(key, i, "'" + list[i] + "' is no name of a tissue", "use names such as pulp or periodontium");
+    if (!good_id(list[i])) t.problem_in(key, i, fmt::format("'{}' is no name of a tissue", list[i]), "use names such as pulp or periodontium");
 }
 
 PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
@@ -106,7 +108,7 @@ CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, P
   std::vector<std::string> ids;
   for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
-    t.problem("fails_by", "the rubric has no criterion '" + c.fails_by + "'", suggestion(c.fails_by, ids));
+    t.problem("fails_by", fmt::format("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids));
   if (c.perforates && scenario.perforation.faults.empty() && problems.strict())
     t.problem("perforates", "'perforates' is true, and no tissue is a fault",
               "list what is broken into under faults of [perforation], or leave 'perforates' out");
@@ -122,7 +124,7 @@ GaugeSpec read_gauges(CheckedTable& scenario) {
   const auto names = scenario.texts("gauges");
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
-      scenario.problem_in("gauges", i, "there is no gauge '" + names[i] + "'", suggestion(names[i], known));
+      scenario.problem_in("gauges", i, fmt::format("there is no gauge '{}'", names[i]), suggestion(names[i], known));
     gauges.speed |= names[i] == "speed";
     gauges.force |= names[i] == "force";
     gauges.depth |= names[i] == "depth";
@@ -141,12 +143,12 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.points = t.texts("points", true);
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
-      t.problem_in("points", i, "'" + s.points[i] + "' is no name of a diamond point", "use names of data/points, such as round-1.0");
+      t.problem_in("points", i, fmt::format("'{}' is no name of a diamond point", s.points[i]), "use names of data/points, such as round-1.0");
     else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
              s.points.begin() + static_cast<std::ptrdiff_t>(i))
-      t.problem_in("points", i, "'" + s.points[i] + "' is listed twice", "list each point once");
+      t.problem_in("points", i, fmt::format("'{}' is listed twice", s.points[i]), "list each point once");
   if (s.points.size() > k_most_tray) {
-    t.problem("points", "'points' has " + std::to_string(s.points.size()) + " items", "list at most " + std::to_string(k_most_tray));
+    t.problem("points", fmt::format("'points' has {} items", s.points.size()), fmt::format("list at most {}", k_most_tray));
     s.points.resize(k_most_tray);
   }
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
@@ -170,12 +172,12 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     CheckedTable pt(*p, "[perforation]", problems);
     s.perforation.aims = pt.texts("aims");
     s.perforation.faults = pt.texts("faults");
-    for (const char* key : {"aims", "faults"}) pt.note(s.places, key, std::string("perforation/") + key);
+    for (const char* key : {"aims", "faults"}) pt.note(s.places, key, fmt::format("perforation/{}", key));
     check_tissues(pt, "aims", s.perforation.aims);
     check_tissues(pt, "faults", s.perforation.faults);
     for (const auto& aim : s.perforation.aims)
       if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
-        pt.problem("faults", "'" + aim + "' is both an aim and a fault", "keep it in one of the two lists");
+        pt.problem("faults", fmt::format("'{}' is both an aim and a fault", aim), "keep it in one of the two lists");
     pt.finish();
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
@@ -205,20 +207,20 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
     if (encoding)
       problems.add(e.source(), "a letter here is not in UTF-8, as in a text saved as Latin-1", "save the file as UTF-8");
     else
-      problems.add(e.source(), std::string("this is not TOML (") + std::string(e.description()) + ")", "correct the line");
+      problems.add(e.source(), fmt::format("this is not TOML ({})", e.description()), "correct the line");
     return false;
   }
 }
 
 std::string summary(const std::vector<Problem>& list) {
   const auto more = list.size() - 1;
-  return list[0].what_to_do + (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
+  return list[0].what_to_do + (more == 0 ? "" : fmt::format(" (and {} more)", more));
 }
 
 void throw_first(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   const auto more = problems.size() - 1;
-  const std::string rest = more == 0 ? "" : " (and " + std::to_string(more) + " more: `cavum scenario check` names every mistake of a scenario)";
+  const std::string rest = more == 0 ? "" : fmt::format(" (and {} more: `cavum scenario check` names every mistake of a scenario)", more);
   throw Error(problems[0].where, problems[0].what, problems[0].what_to_do + rest);
 }
 
@@ -287,7 +289,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
   std::vector<Problem> problems;
   const auto need = [&](const std::string& name, const std::string& place) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      problems.push_back(problem_at(s, place, "this tooth has no tissue '" + name + "'", suggestion(name, known)));
+      problems.push_back(problem_at(s, place, fmt::format("this tooth has no tissue '{}'", name), suggestion(name, known)));
   };
   for (const auto& [key, list] : {std::pair("perforation/aims/", &s.perforation.aims), std::pair("perforation/faults/", &s.perforation.faults)})
     for (std::size_t i = 0; i < list->size(); ++i) need((*list)[i], key + std::to_string(i));
@@ -303,7 +305,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
     }
   for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
     const auto measure = find_measure(s.rubric.criteria[i].metric);
-    if (measure && !measure->tissue.empty()) need(measure->tissue, "rubric/criteria/" + std::to_string(i) + "/metric");
+    if (measure && !measure->tissue.empty()) need(measure->tissue, fmt::format("rubric/criteria/{}/metric", i));
   }
   return problems;
 }
@@ -315,8 +317,7 @@ Problem problem_at(const Scenario& s, const std::string& place, const std::strin
   for (std::string key = place;; key.erase(key.rfind('/'))) {
     const auto at = s.places.find(key);
     if (at != s.places.end())
-      return {s.path + ":" + std::to_string(at->second.line) + ":" + std::to_string(at->second.column), what, what_to_do, at->second.line,
-              at->second.column};
+      return {fmt::format("{}:{}:{}", s.path, at->second.line, at->second.column), what, what_to_do, at->second.line, at->second.column};
     if (key.rfind('/') == std::string::npos) return {s.path, what, what_to_do};
   }
 }

@@ -1,6 +1,8 @@
 // Reads scenario and rubric files. Every mistake of a file is found in one go, each with its place.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <string>
 #include <vector>
 
@@ -15,7 +17,7 @@ struct Problem {
   std::string where, what, what_to_do;
   int line = 0, column = 0;
   bool warning = false;
-  [[nodiscard]] std::string text() const { return where + ": " + (warning ? "warning: " : "") + what + "; " + what_to_do; }
+  [[nodiscard]] std::string text() const { return fmt::format("{}: {}{}; {}", where, warning ? "warning: " : "", what, what_to_do); }
 };
 
 /// Several mistakes at once. `what()` is the first one's text and how many more there are; the command line prints each on a line of its own.

@@ -1,5 +1,7 @@
 #include "scenarios/file/parse_steps.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
@@ -15,36 +17,34 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
   if (text.empty()) return;
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
-  for (const auto tissue : k_usual_tissues) names.push_back("touched_" + std::string(tissue));
+  for (const auto tissue : k_usual_tissues) names.push_back(fmt::format("touched_{}", tissue));
   constexpr std::size_t k_longest = 2000;
   if (text.size() > k_longest) {
-    t.problem(key, "'" + std::string(key) + "' has " + std::to_string(text.size()) + " characters", "write at most 2000");
+    t.problem(key, fmt::format("'{}' has {} characters", key, text.size()), "write at most 2000");
     return;
   }
   for (const auto& function : functions_in_expression(text))
     if (function != "min" && function != "max" && function != "abs") {
-      t.problem(key, "'" + std::string(key) + "' uses the unknown function '" + function + "'", "use min, max or abs");
+      t.problem(key, fmt::format("'{}' uses the unknown function '{}'", key, function), "use min, max or abs");
       return;
     }
   try {
     std::vector<std::string> known = names;
     for (const auto& used : names_in_expression(text)) {
       if (std::find(names.begin(), names.end(), used) != names.end()) continue;
-      if (used.rfind("touched_", 0) != 0)
-        t.problem(key, "'" + std::string(key) + "' uses the unknown quantity '" + used + "'", suggestion(used, names));
+      if (used.rfind("touched_", 0) != 0) t.problem(key, fmt::format("'{}' uses the unknown quantity '{}'", key, used), suggestion(used, names));
       known.push_back(used);
     }
     std::vector<double> values(known.size(), 0.0);
     const Expression compiled(text, known, values);
     static_cast<void>(compiled);
     if (const auto fault = problems.strict() ? condition_fault(text) : std::nullopt)
-      t.problem(key, "'" + std::string(key) + "' " + fault->what, fault->what_to_do);
+      t.problem(key, fmt::format("'{}' {}", key, fault->what), fault->what_to_do);
     else if (problems.strict() && !is_condition(text))
-      t.problem(key, "'" + std::string(key) + "' is a number, not a condition",
+      t.problem(key, fmt::format("'{}' is a number, not a condition", key),
                 "compare it with something, for example \"target_removed_percent >= 90\"");
   } catch (const std::runtime_error& e) {
-    t.problem(key, "'" + std::string(key) + "' cannot be read (" + e.what() + ")",
-              "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
+    t.problem(key, fmt::format("'{}' cannot be read ({})", key, e.what()), "write for example \"target_removed_percent >= 90 && depth_mm < 5\"");
   }
 }
 
@@ -57,7 +57,7 @@ bool good_id(const std::string& id) {
 
 std::string read_id(CheckedTable& t, const std::string& fallback) {
   std::string id = t.text("id", fallback, true);
-  if (!id.empty() && !good_id(id)) t.problem("id", "'id' is \"" + id + "\"", "use small letters, digits, _ and -");
+  if (!id.empty() && !good_id(id)) t.problem("id", fmt::format("'id' is \"{}\"", id), "use small letters, digits, _ and -");
   return id;
 }
 
@@ -66,7 +66,7 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, Problem
   for (const auto* table : scenario.tables("steps", true)) {
     CheckedTable t(*table, "[[steps]]", problems);
     StepSpec s;
-    const std::string at = "steps/" + std::to_string(steps.size());
+    const std::string at = fmt::format("steps/{}", steps.size());
     s.id = read_id(t, "");
     s.instruction = t.text("instruction", "", true);
     s.complete_when = t.text("complete_when", "", true);
@@ -83,7 +83,7 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, Problem
     s.failure_ends_exam = t.truth("failure_ends_exam", false);
     t.finish();
     for (const auto& other : steps)
-      if (other.id == s.id && !s.id.empty()) t.problem("id", "two steps are called '" + s.id + "'", "give each its own id");
+      if (other.id == s.id && !s.id.empty()) t.problem("id", fmt::format("two steps are called '{}'", s.id), "give each its own id");
     steps.push_back(std::move(s));
   }
   return steps;
@@ -91,7 +91,7 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, Problem
 
 void check_pause_button(const Scenario& s, ProblemList& problems) {
   if (s.pauses.count == 0) return;
-  const std::string button = "button_" + std::to_string(s.pauses.button);
+  const std::string button = fmt::format("button_{}", s.pauses.button);
   for (std::size_t i = 0; i < s.steps.size(); ++i)
     for (const auto& [key, text] : {std::pair("complete_when", s.steps[i].complete_when), std::pair("fail_when", s.steps[i].fail_when)}) {
       std::vector<std::string> used;
@@ -101,8 +101,8 @@ void check_pause_button(const Scenario& s, ProblemList& problems) {
         continue;  // named already
       }
       if (std::find(used.begin(), used.end(), button) == used.end()) continue;
-      const Place at = s.places.at("steps/" + std::to_string(i) + "/" + key);
-      problems.add(at, std::string("'") + key + "' asks for " + button + ", which begins and ends pauses",
+      const Place at = s.places.at(fmt::format("steps/{}/{}", i, key));
+      problems.add(at, fmt::format("'{}' asks for {}, which begins and ends pauses", key, button),
                    "use the other button, or set 'button' of [pauses]");
     }
 }

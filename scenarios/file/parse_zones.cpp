@@ -1,5 +1,7 @@
 #include "scenarios/file/parse_zones.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
 
@@ -218,7 +220,7 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   s.line = static_cast<int>(table.source().begin.line);
   s.column = static_cast<int>(table.source().begin.column);
   places[at] = {s.line, s.column};
-  for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, at + "/" + key);
+  for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, fmt::format("{}/{}", at, key));
   const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone"}, 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
@@ -232,8 +234,7 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
 std::vector<ShapeSpec> read_shapes(CheckedTable& zones, const char* key, bool required, Places& places, ProblemList& problems) {
   std::vector<ShapeSpec> list;
   for (const auto* table : zones.tables(key, required)) {
-    list.push_back(
-        read_shape(*table, std::string("[[zones.") + key + "]]", "zones/" + std::string(key) + "/" + std::to_string(list.size()), places, problems));
+    list.push_back(read_shape(*table, fmt::format("[[zones.{}]]", key), fmt::format("zones/{}/{}", key, list.size()), places, problems));
     if (list.size() == 1 && list[0].combine != ShapeSpec::Combine::add)
       problems.add(table->source(), "the first shape of a zone must be added", "take out 'combine' or put another shape first");
   }
@@ -248,16 +249,15 @@ void check_sum(CheckedTable& zones, const ZoneSpec& z) {
       ++bodies;
       points += shape.outline.points_mm.size();
     }
-  if (bodies > k_most_bodies)
-    zones.problem("target", "the zones have " + std::to_string(bodies) + " bodies", "use at most " + std::to_string(k_most_bodies));
+  if (bodies > k_most_bodies) zones.problem("target", fmt::format("the zones have {} bodies", bodies), fmt::format("use at most {}", k_most_bodies));
   if (points > k_most_points)
-    zones.problem("target", "the outlines have " + std::to_string(points) + " points in all", "use at most " + std::to_string(k_most_points));
+    zones.problem("target", fmt::format("the outlines have {} points in all", points), fmt::format("use at most {}", k_most_points));
 }
 
 MarginSpec read_margin(CheckedTable& zones, const char* key, ProblemList& problems) {
   MarginSpec m;
   if (const auto* table = zones.table(key, true)) {
-    CheckedTable t(*table, std::string("[zones.") + key + "]", problems);
+    CheckedTable t(*table, fmt::format("[zones.{}]", key), problems);
     m.sides_mm = t.number("sides_mm", 0, 5, 0, true);
     m.bottom_mm = t.number("bottom_mm", 0, 5, 0, true);
     t.finish();
@@ -271,7 +271,7 @@ ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& plac
   CheckedTable t(table, "[zones]", problems);
   ZoneSpec z;
   z.target = read_shapes(t, "target", true, places, problems);
-  for (const char* key : {"leeway", "container"}) t.note(places, key, std::string("zones/") + key);
+  for (const char* key : {"leeway", "container"}) t.note(places, key, fmt::format("zones/{}", key));
   const std::size_t before = problems.size();
   z.leeway = read_margin(t, "leeway", problems);
   z.container = read_margin(t, "container", problems);

@@ -1,5 +1,7 @@
 #include "scenarios/file/rubric_check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -11,7 +13,7 @@ namespace cavum {
 namespace {
 
 Problem problem_of(const RubricSpec& rubric, Place at, const std::string& what, const std::string& what_to_do) {
-  return {rubric.path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column), what, what_to_do, at.line, at.column};
+  return {fmt::format("{}:{}:{}", rubric.path, at.line, at.column), what, what_to_do, at.line, at.column};
 }
 
 /// What a measure needs and this exam lacks; empty when nothing.
@@ -54,9 +56,10 @@ std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& 
   for (const auto& c : rubric.criteria) {
     const Measure measure = known_measure(c.metric);
     if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
-      problems.push_back(problem_of(rubric, c.metric_at, "'" + c.metric + "' measures no tissue of this tooth", suggestion(c.metric, known)));
+      problems.push_back(
+          problem_of(rubric, c.metric_at, fmt::format("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known)));
     if (const std::string what = lacking(measure.needs, scenario, tooth); !what.empty())
-      problems.push_back(problem_of(rubric, c.metric_at, "'" + c.metric + "' measures nothing in this exam: " + what,
+      problems.push_back(problem_of(rubric, c.metric_at, fmt::format("'{}' measures nothing in this exam: {}", c.metric, what),
                                     "take the criterion out, or choose a measure of what there is"));
   }
   return problems;
@@ -68,8 +71,8 @@ std::vector<Problem> turned_round(const RubricSpec& rubric) {
     const Better better = known_measure(c.metric).better;
     if (better == Better::by_task || c.full == c.zero || (c.full > c.zero) == (better == Better::more)) continue;
     problems.push_back(problem_of(rubric, c.zero_at,
-                                  "the criterion gives full marks at " + plain_number(c.full) + " and none at " + plain_number(c.zero) + ", but " +
-                                      (better == Better::more ? "more" : "less") + " of '" + c.metric + "' is better",
+                                  fmt::format("the criterion gives full marks at {} and none at {}, but {} of '{}' is better", plain_number(c.full),
+                                              plain_number(c.zero), better == Better::more ? "more" : "less", c.metric),
                                   "exchange 'full' and 'zero'"));
     problems.back().warning = true;
   }

@@ -1,5 +1,7 @@
 #include "scenarios/file/surface_files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -30,7 +32,7 @@ template <class AnyScenario, class Visit>
 void for_each_surface(AnyScenario& s, const Visit& visit) {
   const auto all = [&](auto& list, const std::string& key) {
     for (std::size_t i = 0; i < list.size(); ++i)
-      if (list[i].kind == ShapeSpec::Kind::stl) visit(list[i], "zones/" + key + "/" + std::to_string(i) + "/file");
+      if (list[i].kind == ShapeSpec::Kind::stl) visit(list[i], fmt::format("zones/{}/{}/file", key, i));
   };
   all(s.zones.target, "target");
   all(s.zones.protected_shapes, "protected");
@@ -59,7 +61,7 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
   for_each_surface(scenario, [&](ShapeSpec& shape, const std::string& place) {
     if (!shape.file.ends_with(".stl") && !shape.file.ends_with(".STL")) return;  // a mistake of the text, named already
     const auto wrong = [&](const std::string& what, const std::string& what_to_do) {
-      problems.push_back(problem_at(scenario, place, "'" + shape.file + "': " + what, what_to_do));
+      problems.push_back(problem_at(scenario, place, fmt::format("'{}': {}", shape.file, what), what_to_do));
     };
     const fs::path path = fs::path(scenario.path).parent_path() / shape.file;
     std::error_code none;
@@ -80,8 +82,8 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
 void use_surfaces(Scenario& scenario, const SurfaceFiles& files) {
   for_each_surface(scenario, [&](ShapeSpec& shape, const std::string&) {
     const Bytes* bytes = find(files, shape.file);
-    if (bytes == nullptr) throw Error(scenario.path, "the session does not hold the surface '" + shape.file + "'", "use an intact copy");
-    take(shape, *bytes, scenario.path + ": " + shape.file);
+    if (bytes == nullptr) throw Error(scenario.path, fmt::format("the session does not hold the surface '{}'", shape.file), "use an intact copy");
+    take(shape, *bytes, fmt::format("{}: {}", scenario.path, shape.file));
   });
 }
 
@@ -91,8 +93,8 @@ void require_same_surfaces(const Scenario& scenario, const Scenario& recorded) {
       if (now.file != then.file || now.file_sha256 == then.file_sha256) return;
       const auto begin = [](const Sha256& hash) { return to_hex(hash).substr(0, 12); };
       const Problem p = problem_at(scenario, place,
-                                   "'" + now.file + "' is not the surface that the session ran with (SHA-256 " + begin(now.file_sha256) +
-                                       "... instead of " + begin(then.file_sha256) + "...)",
+                                   fmt::format("'{}' is not the surface that the session ran with (SHA-256 {}... instead of {}...)", now.file,
+                                               begin(now.file_sha256), begin(then.file_sha256)),
                                    "put the old one back, or give the corrected surface a name of its own");
       throw Error(p.where, p.what, p.what_to_do);
     });

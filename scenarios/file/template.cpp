@@ -1,5 +1,7 @@
 #include "scenarios/file/template.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <string_view>
 
@@ -320,15 +322,15 @@ critical_above = 0.5
 
 std::string line(const std::string& text, const std::string& comment) {
   std::string s = text;
-  if (!comment.empty()) s += std::string(s.size() < 36 ? 37 - s.size() : 1, ' ') + "# " + comment;
+  if (!comment.empty()) s += fmt::format("{}# {}", std::string(s.size() < 36 ? 37 - s.size() : 1, ' '), comment);
   return s + "\n";
 }
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text); }
 
 std::string all_choices() {
   std::string text;
   for (const auto& tooth : k_teeth) {
-    text += (text.empty() ? "" : "; ") + std::string(tooth.word) + " with";
+    text += fmt::format("{}{} with", text.empty() ? "" : "; ", tooth.word);
     bool first = true;
     for (const auto& task : k_tasks)
       if (task.tooth == tooth.word) {
@@ -358,19 +360,19 @@ std::string scenario_template(const std::string& tooth_word, const std::string& 
   if (task == nullptr) throw Error("--task " + task_word, "there is no such task for the " + tooth_word, "choose " + all_choices());
   const bool access = task->kind == Kind::access;
   std::string s(k_head);
-  s += line("id = " + in_quotes(std::string(tooth_word) + "_" + task_word), "small letters, digits, _ and -");
+  s += line("id = " + in_quotes(fmt::format("{}_{}", tooth_word, task_word)), "small letters, digits, _ and -");
   s += line("title = " + in_quotes(task->title), "what the candidate reads first");
   s += line("description = " + in_quotes(task->what), "");
-  s += "# " + std::string(tooth->how) + "\n";
+  s += fmt::format("# {}\n", tooth->how);
   s += line("tooth = " + in_quotes(tooth->file), "beside this file, or in data/teeth");
-  s += "# allowed diamond points (data/points); the first is mounted\n" + line("points = " + std::string(task->points), "");
+  s += "# allowed diamond points (data/points); the first is mounted\n" + line(fmt::format("points = {}", task->points), "");
   s += line("max_rpm = 200000", "a faster handpiece is a violation");
-  s += line("time_limit_s = " + std::to_string(static_cast<int>(task->time_limit_s)), "to the tick of 1 ms; what is done later does not count");
+  s += line(fmt::format("time_limit_s = {}", static_cast<int>(task->time_limit_s)), "to the tick of 1 ms; what is done later does not count");
   s += line("force_limit_n = 2.5", "pressing harder is counted; 0 = no limit");
   s += k_frame;
   s += access ? k_access_steps : k_cavity_steps;
-  s += "\n[perforation]\n" + line("aims = " + std::string(task->aims), "tissues that are to be opened") +
-       line("faults = " + std::string(task->faults), "tissues that must not be");
+  s += fmt::format("\n[perforation]\n{}{}", line(fmt::format("aims = {}", task->aims), "tissues that are to be opened"),
+                   line(fmt::format("faults = {}", task->faults), "tissues that must not be"));
   s += k_shapes;
   s += task->zones;
   s += k_margins;

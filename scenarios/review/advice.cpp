@@ -1,5 +1,7 @@
 #include "scenarios/review/advice.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,15 +92,16 @@ void Adviser::target() {
   for (const auto& t : tooth_.tissues) {
     if (t.id == k_air || role_[t.id] == 1 || (role_[t.id] == 0 && tree.is_solid(t.id))) continue;
     const std::string stays = role_[t.id] == 2 ? ", which must not be opened" : ", which is neither an aim nor a fault";
-    const std::string remedy = role_[t.id] == 2 ? "make the target smaller, or list '" + t.name + "' under aims"
-                                                : "list '" + t.name + "' under aims or faults of [perforation]";
+    const std::string remedy = role_[t.id] == 2 ? fmt::format("make the target smaller, or list '{}' under aims", t.name)
+                                                : fmt::format("list '{}' under aims or faults of [perforation]", t.name);
     if (inside[t.id] > 0)
-      warn("zones/target/0", "the target holds " + mm3(inside[t.id]) + " of " + t.name + stays, remedy);
+      warn("zones/target/0", fmt::format("the target holds {} of {}{}", mm3(inside[t.id]), t.name, stays), remedy);
     else if (beside[t.id] > 0)
-      warn("zones/target/0", "the target touches the " + t.name + stays, remedy);
+      warn("zones/target/0", fmt::format("the target touches the {}{}", t.name, stays), remedy);
   }
   if (zones_.guarded_in_target() > 0)
-    warn("zones/target/0", "the target reaches " + mm3(zones_.guarded_in_target()) + " of what is protected, and the protection counts there",
+    warn("zones/target/0",
+         fmt::format("the target reaches {} of what is protected, and the protection counts there", mm3(zones_.guarded_in_target())),
          "make the target smaller, or protect less");
 }
 
@@ -117,10 +120,11 @@ void Adviser::leeway() {
   });
   for (const auto& t : tooth_.tissues)
     if (role_[t.id] == 2 && reached[t.id] > 0)
-      warn("zones/leeway", "the leeway reaches " + mm3(reached[t.id]) + " of " + t.name + ", which must not be opened: it is wider than the wall",
+      warn("zones/leeway",
+           fmt::format("the leeway reaches {} of {}, which must not be opened: it is wider than the wall", mm3(reached[t.id]), t.name),
            "make the leeway narrower, or the target smaller");
   if (guarded > 0)
-    warn("zones/leeway", "the leeway reaches " + mm3(guarded) + " of what is protected, and the protection counts there",
+    warn("zones/leeway", fmt::format("the leeway reaches {} of what is protected, and the protection counts there", mm3(guarded)),
          "make the leeway narrower, or protect less");
 }
 
@@ -152,15 +156,16 @@ void Adviser::walls() {
     if (mm2 < k_thin_wall_mm2) continue;
     const bool floor = static_cast<Wall>(w) == Wall::floor;
     warn("zones/leeway",
-         "the leeway is wider than the " + std::string(floor ? "floor" : wall_name(static_cast<Wall>(w))) + (floor ? "" : " wall") +
-             " of the tooth over " + fixed(mm2, 1) + " mm2: it leads out into the air",
+         fmt::format("the leeway is wider than the {}{} of the tooth over {} mm2: it leads out into the air",
+                     floor ? "floor" : wall_name(static_cast<Wall>(w)), floor ? "" : " wall", fixed(mm2, 1)),
          "make the leeway narrower, or move the target inwards");
   }
 }
 
 void Adviser::time(std::optional<double>& expert_s) {
   if (zones_.leaf_mm() > k_coarse_leaf_mm)
-    warn("tooth", "the tooth's leaves are " + plain_number(zones_.leaf_mm()) + " mm wide: zones, reach and figures are known to half of that only",
+    warn("tooth",
+         fmt::format("the tooth's leaves are {} mm wide: zones, reach and figures are known to half of that only", plain_number(zones_.leaf_mm())),
          "make the tooth with leaves of 0.05 mm");
   if (!zones_.target_is_open()) {
     warn("zones/target/0", "the target lies buried: no part of it is at the tooth's surface, so no point comes to it without cutting elsewhere",
@@ -184,15 +189,16 @@ void Adviser::time(std::optional<double>& expert_s) {
   const auto percent = [](double share) { return fixed(100 * share, 0) + " %"; };
   for (std::size_t i = 0; i < tray.size(); ++i)
     if (covers[i] < k_useless_share)
-      warn("points/" + std::to_string(i), "the point '" + points_[i].name + "' fits into " + percent(covers[i]) + " of the target",
+      warn(fmt::format("points/{}", i), fmt::format("the point '{}' fits into {} of the target", points_[i].name, percent(covers[i])),
            "take it out, or make the target wider");
   if (best < k_poor_share)
-    warn("points", "no allowed point removes more than " + percent(best) + " of the target", "allow one that fits, or make the target wider");
+    warn("points", fmt::format("no allowed point removes more than {} of the target", percent(best)),
+         "allow one that fits, or make the target wider");
   if (chosen.index == tray.size()) return;
   const auto way = plan_cut(chosen.map, tooth_, PlanOptions{});
   expert_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
   if (*expert_s > limit_s_)
-    warn("time_limit_s", "the built-in expert needs about " + fixed(*expert_s, 0) + " s, and the limit is " + plain_number(limit_s_) + " s",
+    warn("time_limit_s", fmt::format("the built-in expert needs about {} s, and the limit is {} s", fixed(*expert_s, 0), plain_number(limit_s_)),
          "allow more time, or see what `cavum scenario solve` reaches");
 }
 
@@ -234,23 +240,23 @@ Ranges live_ranges(ExamExtent exam, double step_s) {
 
 void Adviser::step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges) {
   if (text.empty()) return;
-  const std::string place = "steps/" + std::to_string(step) + "/" + key;
+  const std::string place = fmt::format("steps/{}/{}", step, key);
   std::vector<std::string> known;
   for (const auto& t : tooth_.tissues) known.push_back("touched_" + t.name);
   Ranges with_missing = ranges;
   for (const auto& name : names_in_expression(text)) {
     if (name.rfind("touched_", 0) != 0 || ranges.count(name) > 0) continue;
-    warn(place, "this tooth has no tissue '" + name.substr(8) + "', so '" + name + "' stays 0", suggestion(name, known));
+    warn(place, fmt::format("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known));
     with_missing[name] = {0, 0};
   }
   const Outlook outlook = judge_condition(text, with_missing);
   const bool completes = std::string(key) == "complete_when";
   if (outlook == Outlook::never)
-    warn(place, "'" + std::string(key) + "' can never come true",
+    warn(place, fmt::format("'{}' can never come true", key),
          completes ? "ask for something that can be reached, or the step ends by its time limit only"
                    : "ask for something that can happen, or take it out");
   if (outlook == Outlook::always)
-    warn(place, "'" + std::string(key) + "' is true from the first tick", completes ? "ask for something that is still to be done" : "take it out");
+    warn(place, fmt::format("'{}' is true from the first tick", key), completes ? "ask for something that is still to be done" : "take it out");
 }
 
 void Adviser::steps() {
@@ -262,18 +268,19 @@ void Adviser::steps() {
     step_condition(i, "complete_when", step.complete_when, ranges);
     step_condition(i, "fail_when", step.fail_when, ranges);
     if (step.time_limit_s && *step.time_limit_s > s_.time_limit_s)
-      warn("steps/" + std::to_string(i) + "/time_limit_s", "the step's time limit is longer than the exam's", "make it shorter, or take it out");
+      warn(fmt::format("steps/{}/time_limit_s", i), "the step's time limit is longer than the exam's", "make it shorter, or take it out");
   }
 }
 
 void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& measure, const ValueRange& range) {
-  const std::string place = "rubric/criteria/" + std::to_string(i);
+  const std::string place = fmt::format("rubric/criteria/{}", i);
   const auto share = [&](double v) { return std::clamp((v - c.zero) / (c.full - c.zero), 0.0, 1.0); };
   const double best = std::max(share(range.low), share(range.high)), worst = std::min(share(range.low), share(range.high));
-  const std::string runs = "'" + c.metric + "' " +
-                           (range.high >= k_no_end    ? "never falls below " + plain_number(range.low)
-                            : range.low == range.high ? "is always " + plain_number(range.low) + " here"
-                                                      : "runs from " + plain_number(range.low) + " to " + plain_number(range.high) + " here");
+  const std::string runs =
+      fmt::format("'{}' {}", c.metric,
+                  range.high >= k_no_end    ? "never falls below " + plain_number(range.low)
+                  : range.low == range.high ? fmt::format("is always {} here", plain_number(range.low))
+                                            : fmt::format("runs from {} to {} here", plain_number(range.low), plain_number(range.high)));
   if (c.points > 0 && best <= 0)
     warn(place + "/zero", "nobody can win these points: " + runs, "set 'full' and 'zero' within that");
   else if (c.points > 0 && worst >= 1)
@@ -282,14 +289,14 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& me
     warn(place + "/full", "nobody can win all of these points: " + runs, "set 'full' within that");
   if (c.critical_below && c.critical_above && *c.critical_below > *c.critical_above)
     warn(place + "/critical_below",
-         "everybody fails: every value is below " + plain_number(*c.critical_below) + " or above " + plain_number(*c.critical_above),
+         fmt::format("everybody fails: every value is below {} or above {}", plain_number(*c.critical_below), plain_number(*c.critical_above)),
          "make critical_below the smaller of the two");
   else if ((c.critical_below && c.full < *c.critical_below) || (c.critical_above && c.full > *c.critical_above))
     warn(place + (c.critical_below && c.full < *c.critical_below ? "/critical_below" : "/critical_above"),
-         "who has full marks at " + plain_number(c.full) + " fails by it all the same", "let the critical limit lie beyond 'full'");
+         fmt::format("who has full marks at {} fails by it all the same", plain_number(c.full)), "let the critical limit lie beyond 'full'");
   if (measure.needs == Needs::aim && s_.perforation.aims.empty())
     warn(place + "/metric",
-         "'" + c.metric + "' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points",
+         fmt::format("'{}' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points", c.metric),
          "name the aim in [perforation], or take the criterion out");
   if ((c.critical_above && *c.critical_above < range.low) || (c.critical_below && *c.critical_below > range.high))
     warn(place + (c.critical_above && *c.critical_above < range.low ? "/critical_above" : "/critical_below"), "everybody fails by this: " + runs,
@@ -316,9 +323,9 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
 void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2) {
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
   const auto wall = static_cast<Wall>(measure.first_wall);
-  warn("rubric/criteria/" + std::to_string(i) + "/metric",
-       "the cavity has no " + std::string(wall_name(wall)) + (wall == Wall::floor ? "" : " wall") +
-           " in this tooth: " + (measure.figure == WallFigure::max_over ? "nobody can lose these points" : "nobody can win these points"),
+  warn(fmt::format("rubric/criteria/{}/metric", i),
+       fmt::format("the cavity has no {}{} in this tooth: {}", wall_name(wall), wall == Wall::floor ? "" : " wall",
+                   measure.figure == WallFigure::max_over ? "nobody can lose these points" : "nobody can win these points"),
        "take the criterion out, or measure a wall that stays");
 }
 
@@ -327,7 +334,7 @@ void Adviser::criteria() {
   const auto walls_mm2 = wall_mm2();
   for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
     const CriterionSpec& c = s_.rubric.criteria[i];
-    const std::string place = "rubric/criteria/" + std::to_string(i);
+    const std::string place = fmt::format("rubric/criteria/{}", i);
     if (!(c.points > 0) && !c.critical_above && !c.critical_below)
       warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
     const Measure measure = known_measure(c.metric);
@@ -340,7 +347,7 @@ void Adviser::criteria() {
   });
   if (!guard_judged && !s_.zones.protected_shapes.empty())
     warn("zones/protected/0", "what is protected can be removed for nothing: no criterion measures it",
-         "add one on " + measures_of_protection() + ", or take [[zones.protected]] out");
+         fmt::format("add one on {}, or take [[zones.protected]] out", measures_of_protection()));
   const bool fault_judged =
       std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) { return known_measure(c.metric).counts_faults; });
   if (!fault_judged && !s_.perforation.faults.empty())
@@ -356,7 +363,7 @@ std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, 
   scenario.path = rubric.path;
   scenario.places.clear();
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i)
-    scenario.places["rubric/criteria/" + std::to_string(i)] = rubric.criteria[i].metric_at;  // and so of all that it holds
+    scenario.places[fmt::format("rubric/criteria/{}", i)] = rubric.criteria[i].metric_at;  // and so of all that it holds
   Adviser a(scenario, tooth, zones, {});
   a.criteria();
   return a.take();

@@ -1,5 +1,7 @@
 #include "scenarios/review/check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -39,17 +41,17 @@ Problem problem_of(const Error& e, const Scenario& s, const std::string& place) 
 std::vector<DiamondPoint> read_points(const Scenario& s, std::vector<Problem>& problems) {
   std::vector<DiamondPoint> points;
   for (std::size_t i = 0; i < s.points.size(); ++i) {
-    const std::string place = "points/" + std::to_string(i);
+    const std::string place = fmt::format("points/{}", i);
     try {
       const std::string file = find_data_file("points", s.points[i] + ".toml", s.path);
       try {
         points.push_back(parse_diamond_point(read_text_file(file), file));
       } catch (const Error& e) {
-        problems.push_back(problem_at(s, place, "its file is wrong (" + std::string(e.what()) + ")", "mend that file, or use another point"));
+        problems.push_back(problem_at(s, place, fmt::format("its file is wrong ({})", e.what()), "mend that file, or use another point"));
       }
     } catch (const Error&) {
       const auto known = data_names("points", s.path);
-      problems.push_back(problem_at(s, place, "there is no diamond point '" + s.points[i] + "'",
+      problems.push_back(problem_at(s, place, fmt::format("there is no diamond point '{}'", s.points[i]),
                                     known.empty() ? "set CAVUM_DATA to the data folder" : suggestion(s.points[i], known)));
     }
   }
@@ -77,7 +79,7 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
     const auto name_of = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
     if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
       problems.push_back(problem_at(s, "tooth",
-                                    "the scenario was written for " + name_of(s.tooth_file) + ", and is checked on " + name_of(tooth_file),
+                                    fmt::format("the scenario was written for {}, and is checked on {}", name_of(s.tooth_file), name_of(tooth_file)),
                                     "see where its zones lie: `cavum scenario show --tooth`"));
       problems.back().warning = true;
     }
@@ -87,7 +89,7 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
       try {
         tooth = load_tooth_file(found);
       } catch (const Error& e) {
-        problems.push_back(problem_at(s, "tooth", "the tooth cannot be read (" + std::string(e.what()) + ")", "name another, or make it again"));
+        problems.push_back(problem_at(s, "tooth", fmt::format("the tooth cannot be read ({})", e.what()), "name another, or make it again"));
       }
     } catch (const Error& e) {
       problems.push_back(problem_of(e, s, "tooth"));

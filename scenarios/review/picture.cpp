@@ -1,5 +1,7 @@
 #include "scenarios/review/picture.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/text.h"
@@ -14,8 +16,8 @@ namespace {
 
 std::string line(const std::string& path, const char* colour, double leaf_px, double width_px, const char* dash) {
   if (path.empty()) return "";
-  return "<path fill='none' stroke='" + std::string(colour) + "' stroke-width='" + svg_number(width_px / leaf_px) + "' stroke-linecap='round'" +
-         (dash[0] != 0 ? " stroke-dasharray='" + std::string(dash) + "'" : "") + " d='" + path + "'/>\n";
+  return fmt::format("<path fill='none' stroke='{}' stroke-width='{}' stroke-linecap='round'{} d='{}'/>\n", colour, svg_number(width_px / leaf_px),
+                     dash[0] != 0 ? fmt::format(" stroke-dasharray='{}'", dash) : "", path);
 }
 
 /// Of the leaves in any of these zones: it runs where the zone changes.
@@ -93,9 +95,9 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
   ShapeMaker maker(tooth, scenario.path);
   const auto guard = scenario.zones.protected_shapes.empty() ? nullptr : maker.make(scenario.zones.protected_shapes);
   const PictureSpec specs[] = {
-      {View::mesio_distal, middle.y, 30, "section mesial-distal, y = " + svg_number(middle.y) + " mm", strong, guard.get()},
-      {View::bucco_lingual, middle.x, 30, "section buccal-lingual, x = " + svg_number(middle.x) + " mm", strong, guard.get()},
-      {View::horizontal, low, 30, "section across, z = " + svg_number(low) + " mm", strong, guard.get()},
+      {View::mesio_distal, middle.y, 30, fmt::format("section mesial-distal, y = {} mm", svg_number(middle.y)), strong, guard.get()},
+      {View::bucco_lingual, middle.x, 30, fmt::format("section buccal-lingual, x = {} mm", svg_number(middle.x)), strong, guard.get()},
+      {View::horizontal, low, 30, fmt::format("section across, z = {} mm", svg_number(low)), strong, guard.get()},
       {View::occlusal, 0, 30, "from above", strong, guard.get()}};
   const auto size_of = [](const std::string& svg, const char* key) {
     const auto at = svg.find(key);
@@ -110,7 +112,7 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
       x = 10;
     }
     const std::string svg = section_svg(tooth, nullptr, zones, specs[i]);
-    body += "<g transform='translate(" + svg_number(x) + " " + svg_number(row_y) + ")'>" + svg + "</g>\n";
+    body += fmt::format("<g transform='translate({} {})'>{}</g>\n", svg_number(x), svg_number(row_y), svg);
     row_height = std::max(row_height, size_of(svg, "height='"));
     x += size_of(svg, "width='") + 14;
     width = std::max(width, x);
@@ -119,10 +121,11 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
   const double title_px = 9.0 * static_cast<double>(scenario.title.size() + tooth.name.size() + 2);
   width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
   const double height = row_y + row_height + 40;
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + svg_number(width) + "' height='" + svg_number(height) + "' font-family='sans-serif'>\n" +
-         "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>" +
-         xml_text(scenario.title + ": " + tooth.name) + "</text>\n" + body + "<g transform='translate(10 " + svg_number(height - 30) + ")'>" +
-         legend + "</g>\n</svg>\n";
+  return fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' font-family='sans-serif'>\n"
+      "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>{}</text>\n{}<g transform='translate(10 "
+      "{})'>{}</g>\n</svg>\n",
+      svg_number(width), svg_number(height), xml_text(fmt::format("{}: {}", scenario.title, tooth.name)), body, svg_number(height - 30), legend);
 }
 
 }  // namespace cavum

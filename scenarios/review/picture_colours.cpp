@@ -1,5 +1,7 @@
 #include "scenarios/review/picture_colours.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -42,14 +44,14 @@ std::string key_svg(const std::vector<KeyEntry>& entries) {
   double x = 4;
   for (const auto& e : entries) {
     if (e.is_line)
-      items += "<path d='M" + svg_number(x) + " 11h16' stroke='" + e.colour + "' stroke-width='2'/>";
+      items += fmt::format("<path d='M{} 11h16' stroke='{}' stroke-width='2'/>", svg_number(x), e.colour);
     else
-      items += "<rect x='" + svg_number(x) + "' y='4' width='16' height='14' fill='" + e.colour + "' stroke='#777777' stroke-width='0.6'/>";
-    items += "<text x='" + svg_number(x + 21) + "' y='15' font-size='12' fill='#222222'>" + e.text + "</text>";
+      items += fmt::format("<rect x='{}' y='4' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x), e.colour);
+    items += fmt::format("<text x='{}' y='15' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), e.text);
     x += 34 + 6.6 * static_cast<double>(e.text.size());
   }
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + svg_number(x) + "' height='22' viewBox='0 0 " + svg_number(x) +
-         " 22' font-family='sans-serif'>" + items + "</svg>\n";
+  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='22' viewBox='0 0 {} 22' font-family='sans-serif'>{}</svg>\n",
+                     svg_number(x), svg_number(x), items);
 }
 
 }  // namespace
@@ -103,7 +105,7 @@ std::string tissue_colour(std::uint8_t tissue, bool high_contrast) { return tiss
 std::string heat_legend_svg() {
   std::vector<KeyEntry> entries{{k_grey.target_line, "target", true}};
   const auto band = [](std::size_t i) {
-    return svg_number(k_heat[i].from_percent) + (i == 0 ? " % or more" : " to " + svg_number(k_heat[i - 1].from_percent) + " %");
+    return svg_number(k_heat[i].from_percent) + (i == 0 ? " % or more" : fmt::format(" to {} %", svg_number(k_heat[i - 1].from_percent)));
   };
   for (std::size_t i = std::size(k_heat); i-- > 0;)
     entries.push_back({k_heat[i].over, (i + 1 == std::size(k_heat) ? "removed, damage: " : "") + band(i), false});

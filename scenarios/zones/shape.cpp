@@ -1,5 +1,7 @@
 #include "scenarios/zones/shape.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -224,9 +226,9 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
   bool any = false;
   const auto mouths = canal_mouths(tooth, spec.tissue, where);
   if (mouths.empty())
-    throw Error(where, "no canal leaves the " + spec.tissue + " of '" + tooth.name + "'", "choose a tooth with canals, or another shape");
+    throw Error(where, fmt::format("no canal leaves the {} of '{}'", spec.tissue, tooth.name), "choose a tooth with canals, or another shape");
   for (const CanalMouth& mouth : mouths) {
-    found += (found.empty() ? "[" : ", [") + fixed(mouth.at_mm.x, 2) + ", " + fixed(mouth.at_mm.y, 2) + ", " + fixed(mouth.at_mm.z, 2) + "]";
+    found += fmt::format("{}{}, {}, {}]", found.empty() ? "[" : ", [", fixed(mouth.at_mm.x, 2), fixed(mouth.at_mm.y, 2), fixed(mouth.at_mm.z, 2));
     const Vec3 off = mouth.at_mm - middle;
     if (spec.canals_x * off.x < 0 || spec.canals_y * off.y < 0) continue;
     any = true;
@@ -237,7 +239,7 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
     all->add(ShapeSpec::Combine::add, std::make_unique<Frustum>(cone, cone.radius_mm + cone.height_mm * taper.sin / taper.cos));
   }
   if (!any)
-    throw Error(where, "no canal lies on that side of the chamber's middle; the mouths are at " + found + " mm",
+    throw Error(where, fmt::format("no canal lies on that side of the chamber's middle; the mouths are at {} mm", found),
                 "choose another side in 'canals', or \"all\"");
   return all;
 }
@@ -277,9 +279,7 @@ ShapeFrame shape_frame(const ShapeSpec& s) {
   return f;
 }
 
-std::string place_text(const std::string& file, const ShapeSpec& spec) {
-  return file + ":" + std::to_string(spec.line) + ":" + std::to_string(spec.column);
-}
+std::string place_text(const std::string& file, const ShapeSpec& spec) { return fmt::format("{}:{}:{}", file, spec.line, spec.column); }
 
 struct ShapeMaker::Cache {
   std::optional<ColumnMap> surface;
@@ -327,7 +327,7 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
                                           spec.offset_mm, work_);
     }
     case ShapeSpec::Kind::stl:
-      if (spec.surface == nullptr) throw Error(where, "the surface '" + spec.file + "' was not read", "read it first");
+      if (spec.surface == nullptr) throw Error(where, fmt::format("the surface '{}' was not read", spec.file), "read it first");
       count_mesh_body(tooth_, *spec.surface, work_);
       return std::make_unique<MeshBody>(tooth_, *spec.surface);
     case ShapeSpec::Kind::canal_cone:

@@ -1,5 +1,7 @@
 #include "scenarios/zones/zone_map.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -2,6 +2,8 @@
 // surfaces are laid out leaf by leaf, so a text of a few lines can ask for minutes and gigabytes: it is counted before it is done.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <string>
 
@@ -22,23 +24,23 @@ class ZoneWork {
  public:
   explicit ZoneWork(std::string where) : where_(std::move(where)) {}
   void zone_leaves(std::uint64_t leaves) const {
-    require(leaves, k_most_zone_leaves, "the target and its margins hold " + std::to_string(leaves) + " leaves of the tooth",
+    require(leaves, k_most_zone_leaves, fmt::format("the target and its margins hold {} leaves of the tooth", leaves),
             "make the target smaller, or the tooth with larger leaves");
   }
   void body_leaves(std::uint64_t leaves) {
     body_leaves_ += leaves;
-    require(body_leaves_, k_most_body_leaves, "the bodies that are tissues or surfaces reach over " + std::to_string(body_leaves_) + " leaves",
+    require(body_leaves_, k_most_body_leaves, fmt::format("the bodies that are tissues or surfaces reach over {} leaves", body_leaves_),
             "use fewer of them, or a smaller 'offset_mm'");
   }
   void steps(std::uint64_t leaves, std::uint64_t pieces) {
     steps_ += leaves * pieces;
-    require(steps_, k_most_zone_steps, "the zones need " + std::to_string(steps_) + " distances to pieces of bodies",
+    require(steps_, k_most_zone_steps, fmt::format("the zones need {} distances to pieces of bodies", steps_),
             "use fewer bodies, outlines of fewer points, surfaces of fewer triangles, or a smaller target");
   }
 
  private:
   void require(std::uint64_t count, std::uint64_t most, const std::string& what, const std::string& what_to_do) const {
-    if (count > most) throw Error(where_, what + ", more than the limit of " + std::to_string(most), what_to_do);
+    if (count > most) throw Error(where_, fmt::format("{}, more than the limit of {}", what, most), what_to_do);
   }
   std::string where_;
   std::uint64_t body_leaves_ = 0, steps_ = 0;

@@ -1,5 +1,7 @@
 #include "ui/parts/chart_svg.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,8 +49,8 @@ Axis make_axis(std::optional<std::pair<double, double>> range, double low, doubl
 std::string num(double v) { return fixed(v, 1); }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& colour, double width, const std::string& more = "") {
-  return "<line x1='" + num(x1) + "' y1='" + num(y1) + "' x2='" + num(x2) + "' y2='" + num(y2) + "' stroke='" + colour + "' stroke-width='" +
-         num(width) + "' " + more + "/>";
+  return fmt::format("<line x1='{}' y1='{}' x2='{}' y2='{}' stroke='{}' stroke-width='{}' {}/>", num(x1), num(y1), num(x2), num(y2), colour,
+                     num(width), more);
 }
 
 std::string drawn(const ChartSeries& s, const Axis& x, const Axis& y) {
@@ -56,15 +58,15 @@ std::string drawn(const ChartSeries& s, const Axis& x, const Axis& y) {
   std::string out;
   if (s.style == Style::band) {
     std::string path;
-    for (const auto& p : s.points) path += num(x.px(p.x)) + "," + num(y.px(p.y + p.error)) + " ";
-    for (auto p = s.points.rbegin(); p != s.points.rend(); ++p) path += num(x.px(p->x)) + "," + num(y.px(p->y - p->error)) + " ";
-    return "<polygon points='" + path + "' fill='" + s.colour + "' fill-opacity='0.22'/>";
+    for (const auto& p : s.points) path += fmt::format("{},{} ", num(x.px(p.x)), num(y.px(p.y + p.error)));
+    for (auto p = s.points.rbegin(); p != s.points.rend(); ++p) path += fmt::format("{},{} ", num(x.px(p->x)), num(y.px(p->y - p->error)));
+    return fmt::format("<polygon points='{}' fill='{}' fill-opacity='0.22'/>", path, s.colour);
   }
   if (s.style == Style::line || s.style == Style::dashed) {
     std::string path;
-    for (const auto& p : s.points) path += num(x.px(p.x)) + "," + num(y.px(p.y)) + " ";
-    return "<polyline points='" + path + "' fill='none' stroke='" + s.colour + "' stroke-width='" + num(s.width_px) + "' stroke-linejoin='round'" +
-           (s.style == Style::dashed ? " stroke-dasharray='5 4'" : "") + "/>";
+    for (const auto& p : s.points) path += fmt::format("{},{} ", num(x.px(p.x)), num(y.px(p.y)));
+    return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{}/>", path, s.colour, num(s.width_px),
+                       s.style == Style::dashed ? " stroke-dasharray='5 4'" : "");
   }
   for (const auto& p : s.points) {
     const double px = x.px(p.x), py = y.px(p.y);
@@ -72,19 +74,19 @@ std::string drawn(const ChartSeries& s, const Axis& x, const Axis& y) {
       const double high = y.px(p.y + p.error), low = y.px(p.y - p.error);
       out += line(px, high, px, low, s.colour, 1) + line(px - 3, high, px + 3, high, s.colour, 1) + line(px - 3, low, px + 3, low, s.colour, 1);
     }
-    out += "<circle cx='" + num(px) + "' cy='" + num(py) + "' r='3.4' stroke='" + s.colour + "' stroke-width='1.4' fill='" +
-           (s.style == Style::rings ? "white" : s.colour) + "'/>";
+    out += fmt::format("<circle cx='{}' cy='{}' r='3.4' stroke='{}' stroke-width='1.4' fill='{}'/>", num(px), num(py), s.colour,
+                       s.style == Style::rings ? "white" : s.colour);
   }
   return out;
 }
 
 std::string legend_sign(const ChartSeries& s, double x, double y) {
   if (s.style == ChartSeries::Style::band)
-    return "<rect x='" + num(x) + "' y='" + num(y - 5) + "' width='22' height='10' fill='" + s.colour + "' fill-opacity='0.22'/>";
+    return fmt::format("<rect x='{}' y='{}' width='22' height='10' fill='{}' fill-opacity='0.22'/>", num(x), num(y - 5), s.colour);
   if (s.style == ChartSeries::Style::line || s.style == ChartSeries::Style::dashed)
     return line(x, y, x + 22, y, s.colour, s.width_px, s.style == ChartSeries::Style::dashed ? "stroke-dasharray='5 4'" : "");
-  return "<circle cx='" + num(x + 11) + "' cy='" + num(y) + "' r='3.4' stroke='" + s.colour + "' stroke-width='1.4' fill='" +
-         (s.style == ChartSeries::Style::rings ? "white" : s.colour) + "'/>";
+  return fmt::format("<circle cx='{}' cy='{}' r='3.4' stroke='{}' stroke-width='1.4' fill='{}'/>", num(x + 11), num(y), s.colour,
+                     s.style == ChartSeries::Style::rings ? "white" : s.colour);
 }
 
 std::string legend(const Chart& chart) {
@@ -97,8 +99,8 @@ std::string legend(const Chart& chart) {
   if (n == 0) return "";
   const double width = 40 + 5.9 * static_cast<double>(longest), height = 8 + 16.0 * static_cast<double>(n);
   const double x = chart.legend_at_right ? chart.width_px - k_right - width - 6 : k_left + 8, y = k_top + (chart.spans.empty() ? 6 : 22);
-  std::string out = "<rect x='" + num(x) + "' y='" + num(y) + "' width='" + num(width) + "' height='" + num(height) +
-                    "' fill='white' fill-opacity='0.85' stroke='#cccccc'/>";
+  std::string out = fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='white' fill-opacity='0.85' stroke='#cccccc'/>", num(x), num(y),
+                                num(width), num(height));
   double at = y + 12;
   for (const auto& s : chart.series) {
     if (s.label.empty()) continue;
@@ -111,8 +113,8 @@ std::string legend(const Chart& chart) {
 }  // namespace
 
 std::string svg_text(double x_px, double y_px, const std::string& text, double size_px, const std::string& anchor, const std::string& more) {
-  return "<text x='" + num(x_px) + "' y='" + num(y_px) + "' font-size='" + num(size_px) + "' text-anchor='" + anchor + "' " + more + ">" +
-         xml_text(text) + "</text>";
+  return fmt::format("<text x='{}' y='{}' font-size='{}' text-anchor='{}' {}>{}</text>", num(x_px), num(y_px), num(size_px), anchor, more,
+                     xml_text(text));
 }
 
 std::string chart_group(const Chart& chart, double x_px, double y_px) {
@@ -131,24 +133,24 @@ std::string chart_group(const Chart& chart, double x_px, double y_px) {
   x.to_px = chart.width_px - k_right;
   y.from_px = chart.height_px - k_bottom;
   y.to_px = k_top;
-  const std::string clip = "plot" + num(x_px) + "-" + num(y_px);
-  std::string out = "<g transform='translate(" + num(x_px) + " " + num(y_px) + ")'><clipPath id='" + clip + "'><rect x='" + num(k_left) + "' y='" +
-                    num(k_top) + "' width='" + num(x.to_px - k_left) + "' height='" + num(y.from_px - k_top) + "'/></clipPath>";
+  const std::string clip = fmt::format("plot{}-{}", num(x_px), num(y_px));
+  std::string out = fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>",
+                                num(x_px), num(y_px), clip, num(k_left), num(k_top), num(x.to_px - k_left), num(y.from_px - k_top));
   out += svg_text(k_left, 20, chart.title, 13, "start", "font-weight='bold'");
   std::string names;
   for (const auto& s : chart.spans) {
     const double from = std::max(k_left, x.px(s.from)), to = std::min(x.to_px, x.px(s.to));
     if (to <= from) continue;
-    out += "<rect x='" + num(from) + "' y='" + num(k_top) + "' width='" + num(to - from) + "' height='" + num(y.from_px - k_top) + "' fill='" +
-           s.colour + "'/>";
+    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>", num(from), num(k_top), num(to - from), num(y.from_px - k_top),
+                       s.colour);
     names += svg_text((from + to) / 2, k_top + 14, s.label, 11, "middle",
-                      "fill='#555555' paint-order='stroke' stroke-width='4' stroke='" + s.colour + "'");
+                      fmt::format("fill='#555555' paint-order='stroke' stroke-width='4' stroke='{}'", s.colour));
   }
   for (double v = std::ceil(x.low / x.step - 1e-9) * x.step; v <= x.high + 1e-9 * x.step; v += x.step)
     out += line(x.px(v), k_top, x.px(v), y.from_px, "#e4e4e4", 1) + svg_text(x.px(v), y.from_px + 16, x.label(v), 11, "middle");
   for (double v = std::ceil(y.low / y.step - 1e-9) * y.step; v <= y.high + 1e-9 * y.step; v += y.step)
     out += line(k_left, y.px(v), x.to_px, y.px(v), "#e4e4e4", 1) + svg_text(k_left - 6, y.px(v) + 4, y.label(v), 11, "end");
-  out += names + "<g clip-path='url(#" + clip + ")'>";
+  out += fmt::format("{}<g clip-path='url(#{})'>", names, clip);
   for (const auto& s : chart.series) out += drawn(s, x, y);
   out += "</g>";
   for (const auto& m : chart.marks) {
@@ -159,18 +161,20 @@ std::string chart_group(const Chart& chart, double x_px, double y_px) {
       out += line(k_left, y.px(m.at), x.to_px, y.px(m.at), "#333333", 1, "stroke-dasharray='3 3'") +
              svg_text(x.to_px - 4, y.px(m.at) - 5, m.label, 11, "end", "fill='#333333'");
   }
-  out += "<rect x='" + num(k_left) + "' y='" + num(k_top) + "' width='" + num(x.to_px - k_left) + "' height='" + num(y.from_px - k_top) +
-         "' fill='none' stroke='#666666'/>";
+  out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>", num(k_left), num(k_top), num(x.to_px - k_left),
+                     num(y.from_px - k_top));
   const double middle = (k_top + y.from_px) / 2;
   out += svg_text((k_left + x.to_px) / 2, chart.height_px - 10, chart.x_label, 12, "middle") +
-         svg_text(16, middle, chart.y_label, 12, "middle", "transform='rotate(-90 16 " + num(middle) + ")'");
-  return out + legend(chart) + "</g>\n";
+         svg_text(16, middle, chart.y_label, 12, "middle", fmt::format("transform='rotate(-90 16 {})'", num(middle)));
+  return fmt::format("{}{}</g>\n", out, legend(chart));
 }
 
 std::string svg_page(double width_px, double height_px, const std::string& content) {
   const std::string w = fixed(width_px, 0), h = fixed(height_px, 0);
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + w + "' height='" + h + "' viewBox='0 0 " + w + " " + h +
-         "' font-family='Helvetica, Arial, sans-serif' fill='#222222'>\n<rect width='100%' height='100%' fill='white'/>\n" + content + "</svg>\n";
+  return fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='Helvetica, Arial, sans-serif' "
+      "fill='#222222'>\n<rect width='100%' height='100%' fill='white'/>\n{}</svg>\n",
+      w, h, w, h, content);
 }
 
 std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print) {

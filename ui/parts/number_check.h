@@ -1,6 +1,8 @@
 // What an option with a number takes, said in words when it is not.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <sstream>
 #include <string>
@@ -14,11 +16,12 @@ namespace cavum {
     text << v;
     return text.str();
   };
-  const std::string range = plain(low) + " to " + plain(high);
+  const std::string range = fmt::format("{} to {}", plain(low), plain(high));
   return CLI::Validator(
       [low, high, range](const std::string& text) {
         double value = 0.0;
-        return CLI::detail::lexical_cast(text, value) && value >= low && value <= high ? std::string{} : "'" + text + "' is no number from " + range;
+        return CLI::detail::lexical_cast(text, value) && value >= low && value <= high ? std::string{}
+                                                                                       : fmt::format("'{}' is no number from {}", text, range);
       },
       range);
 }

@@ -1,5 +1,7 @@
 #include "ui/report/class_report.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -20,7 +22,7 @@ using cohort::ClassTooth;
 constexpr int k_bins = 20;
 
 std::string number(const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : "–"; }
-std::string count(std::size_t n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
+std::string count(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
 
 /// A warning before what a figure says, when it comes from few.
 std::string few_first(const ClassFigures& f, const char* figure) {
@@ -56,9 +58,9 @@ Picture distribution(const ClassFigures& f) {
 ReportTable key_figures(const ClassFigures& f) {
   ReportTable t{{{"Figure", false, 3}, {"Value", true, 2}, {"What it says", false, 6}}, {}, "The class in figures"};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
-  row("mean", fixed(f.mean, 1) + " of " + plain_number(f.max_points), "points");
+  row("mean", fmt::format("{} of {}", fixed(f.mean, 1), plain_number(f.max_points)), "points");
   row("standard deviation", fixed(f.sd, 1), "points");
-  row("pass / review / fail", std::to_string(f.pass) + " / " + std::to_string(f.review) + " / " + std::to_string(f.fail), "candidates");
+  row("pass / review / fail", fmt::format("{} / {} / {}", f.pass, f.review, f.fail), "candidates");
   const auto few = [&f](const char* figure) { return few_first(f, figure); };
   row("Cronbach's alpha", number(f.alpha, 2),
       few("alpha") + "how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951");
@@ -91,9 +93,9 @@ std::vector<Picture> class_pictures(const ClassTooth& t) {
     spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
     return Picture{section_svg(t.tooth, nullptr, t.zones, spec), title};
   };
-  return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, "Mesio-distal, y = " + fixed(at.y, 2) + " mm"),
-          draw(View::bucco_lingual, at.x, "Bucco-lingual, x = " + fixed(at.x, 2) + " mm"),
-          draw(View::horizontal, at.z, "Horizontal, z = " + fixed(at.z, 2) + " mm")};
+  return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, fmt::format("Mesio-distal, y = {} mm", fixed(at.y, 2))),
+          draw(View::bucco_lingual, at.x, fmt::format("Bucco-lingual, x = {} mm", fixed(at.x, 2))),
+          draw(View::horizontal, at.z, fmt::format("Horizontal, z = {} mm", fixed(at.z, 2)))};
 }
 
 void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
@@ -114,7 +116,7 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
   d.blocks.emplace_back(Paragraph{"The sections run through the middle of what was cut too much.", "", Paragraph::Kind::small});
   if (t.left_out > 0)
     d.blocks.emplace_back(
-        Paragraph{std::to_string(t.left_out) + " sat it with another text, tooth or leaf size than most; they are not in these pictures.", "Note",
+        Paragraph{fmt::format("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out), "Note",
                   Paragraph::Kind::note});
   for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{finding, "Not in these pictures", Paragraph::Kind::note});
   if (f.walls.empty()) return;
@@ -147,7 +149,7 @@ void add_criteria(Document& d, const ClassFigures& f) {
                 "one skill, and a rubric of few and different ones has a low one without being unfair.",
                 "", Paragraph::Kind::small});
   if (const std::string few = few_words(f, "discrimination"); !few.empty())
-    d.blocks.emplace_back(Paragraph{"Discrimination, " + few + ".", "Few candidates", Paragraph::Kind::note});
+    d.blocks.emplace_back(Paragraph{fmt::format("Discrimination, {}.", few), "Few candidates", Paragraph::Kind::note});
 }
 
 void add_stations(Document& d, const ClassFigures& f) {
@@ -162,10 +164,10 @@ void add_stations(Document& d, const ClassFigures& f) {
   if (!f.station_effect) return;
   const auto& e = *f.station_effect;
   d.blocks.emplace_back(
-      Paragraph{"F = " + fixed(e.f, 2) + "; stations hold " + fixed(100 * e.share, 1) +
-                    " % of the variance, and shuffled candidates give as much in a share of " + fixed(e.chance, 3) + " of 9,999 shuffles. " +
-                    (e.chance < 0.01 ? "One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there."
-                                     : "No station stands out."),
+      Paragraph{fmt::format("F = {}; stations hold {} % of the variance, and shuffled candidates give as much in a share of {} of 9,999 shuffles. {}",
+                            fixed(e.f, 2), fixed(100 * e.share, 1), fixed(e.chance, 3),
+                            e.chance < 0.01 ? "One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there."
+                                            : "No station stands out."),
                 ""});
 }
 
@@ -176,7 +178,7 @@ void add_agreement(Document& d, const ClassFigures& f) {
     d.blocks.emplace_back(Paragraph{"No marks of people were given (--marks).", ""});
     return;
   }
-  d.blocks.emplace_back(Paragraph{count(a.n, "candidate", "candidates") + " marked by " + count(a.judges, "judge", "judges") + ".", ""});
+  d.blocks.emplace_back(Paragraph{fmt::format("{} marked by {}.", count(a.n, "candidate", "candidates"), count(a.judges, "judge", "judges")), ""});
   ReportTable t{{{"Figure", false, 3}, {"Value", true, 3}, {"What it says", false, 6}}, {}, "Agreement with people"};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   if (a.icc) {
@@ -186,12 +188,13 @@ void add_agreement(Document& d, const ClassFigures& f) {
     row("ICC(3,k)", fixed(a.icc->average_fixed, 2), few_first(f, "icc") + "consistency of all judges' mean");
   }
   if (a.limits)
-    row("program less people", fixed(a.limits->bias, 1) + " (" + fixed(a.limits->low, 1) + " to " + fixed(a.limits->high, 1) + ")",
+    row("program less people", fmt::format("{} ({} to {})", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1)),
         few_first(f, "limits") + "points: mean, and limits within which about 95 % lie (Bland and Altman 1986)");
   row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + "fail, borderline, pass; quadratic weights (Cohen 1968)");
   if (a.cut)
     row("cut by borderline regression", fixed(*a.cut, 1),
-        few_first(f, "borderline_cut") + "points at the rating that means borderline; the rubric's pass mark is " + fixed(f.pass_points, 1));
+        fmt::format("{}points at the rating that means borderline; the rubric's pass mark is {}", few_first(f, "borderline_cut"),
+                    fixed(f.pass_points, 1)));
   d.blocks.emplace_back(std::move(t));
   if (a.incomplete > 0)
     d.blocks.emplace_back(Paragraph{count(a.incomplete, "candidate was", "candidates were") + " not marked by all judges, and left out of the ICC.",
@@ -214,14 +217,15 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
 Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   Document d;
   d.title = tooth.scenario.title + ": the class";
-  d.subtitle =
-      count(f.n, "candidate", "candidates") + " of the exam " + f.exam + "; the last attempt of each counts, sessions filed with findings do not";
+  d.subtitle = fmt::format("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not",
+                           count(f.n, "candidate", "candidates"), f.exam);
   if (f.simulated > 0)
-    d.blocks.emplace_back(Paragraph{f.simulated == f.n ? "All of them were sat by simulated operators."
-                                                       : std::to_string(f.simulated) +
-                                                             " of them were sat by simulated operators, and every figure below mixes them with "
-                                                             "people: they are listed at the end.",
-                                    "Note", Paragraph::Kind::note});
+    d.blocks.emplace_back(Paragraph{
+        f.simulated == f.n
+            ? "All of them were sat by simulated operators."
+            : fmt::format("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
+                          f.simulated),
+        "Note", Paragraph::Kind::note});
   d.blocks.emplace_back(key_figures(f));
   d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
   add_places(d, f, tooth);
@@ -229,7 +233,7 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   add_stations(d, f);
   add_agreement(d, f);
   add_to_look_at(d, f);
-  d.footer = {"Class of the exam " + f.exam + ", " + count(f.n, "candidate", "candidates"),
+  d.footer = {fmt::format("Class of the exam {}, {}", f.exam, count(f.n, "candidate", "candidates")),
               "Formulae and sources: grading/cohort/README.md of Cavum " CAVUM_VERSION "."};
   return d;
 }

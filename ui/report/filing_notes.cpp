@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "engine/base/text.h"
 #include "ui/report/report_document.h"
 
@@ -8,12 +10,12 @@ void add_filing_notes(Document& d, const ReportSource& s) {
     d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note});
   };
   if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty()))
-    note("Does not hold", "This session does not hold, and its result is no sound one: " + s.integrity.findings.front() +
-                              (s.integrity.findings.size() > 1 ? "; and more, under \"What is proved\"" : ""));
+    note("Does not hold", fmt::format("This session does not hold, and its result is no sound one: {}{}", s.integrity.findings.front(),
+                                      s.integrity.findings.size() > 1 ? "; and more, under \"What is proved\"" : ""));
   if (!s.filing) return;
   if (const auto& r = s.filing->regrade)
     note("Why it was regraded",
-         r->reason + " (entry " + std::to_string(r->entry) + " of the ledger, " + r->date + "). The result below is the one that counts");
+         fmt::format("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
   if (!s.filing->not_filed.empty()) note("Not the ledger's result", s.filing->not_filed);
   if (s.filing->findings.empty()) return;
   std::string all;
@@ -22,7 +24,7 @@ void add_filing_notes(Document& d, const ReportSource& s) {
 }
 
 std::string attempt_verdict(const ReportAttempt& a) {
-  std::string out = a.doubt.empty() ? a.verdict : "in doubt (" + (a.verdict.empty() ? "no verdict" : a.verdict) + ")";
+  std::string out = a.doubt.empty() ? a.verdict : fmt::format("in doubt ({})", a.verdict.empty() ? "no verdict" : a.verdict);
   if (a.regraded) out += ", regraded";
   if (a.simulated) out += ", simulated operator";
   return out;

@@ -1,4 +1,6 @@
 // What only an instructor's report shows: every figure with its bound, perforation by force and by tissue, the work, the device.
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_reader.h"
@@ -13,7 +15,7 @@ using nlohmann::json;
 const std::string k_dash = "–";
 
 std::string bounded(double v, double bound, int digits, const std::string& unit) {
-  return fixed(v, digits) + " ± " + fixed(bound, digits) + (unit.empty() ? "" : " " + unit);
+  return fmt::format("{} ± {}{}", fixed(v, digits), fixed(bound, digits), unit.empty() ? "" : " " + unit);
 }
 
 void add_volumes(Document& d, const Result& r) {
@@ -34,12 +36,12 @@ void add_volumes(Document& d, const Result& r) {
     volume(name, v.removed, v.removed.mm3 > 0 ? v.first : Trace{});
   };
   for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom})
-    zone("removed, " + std::string(zone_name(z)), z);
+    zone(fmt::format("removed, {}", zone_name(z)), z);
   volume("removed, outside", r.volumes.outside());
   zone("of it in no zone", Zone::none);
   zone("of it protected", Zone::protected_);
   for (const auto& tissue : r.tissues)
-    if (r.volumes.tissue[tissue.id].mm3 > 0) volume("removed of " + tissue.name + ", in whole leaves", r.volumes.tissue[tissue.id]);
+    if (r.volumes.tissue[tissue.id].mm3 > 0) volume(fmt::format("removed of {}, in whole leaves", tissue.name), r.volumes.tissue[tissue.id]);
   t.rows.push_back({{{"agreement (Dice)"}, {bounded(r.volumes.dice, r.volumes.dice_bound, 3, "")}, {""}, {""}}});
   d.blocks.push_back(std::move(t));
 }
@@ -52,7 +54,9 @@ void add_walls(Document& d, const Result& r) {
       "Walls"};
   for (std::size_t w = 0; w < k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    const auto cell = [&](double v, double bound) { return TableCell{m.samples == 0 ? k_dash : fixed(v, 2) + " ± " + fixed(bound, 2)}; };
+    const auto cell = [&](double v, double bound) {
+      return TableCell{m.samples == 0 ? k_dash : fmt::format("{} ± {}", fixed(v, 2), fixed(bound, 2))};
+    };
     t.rows.push_back({{{wall_name(static_cast<Wall>(w))},
                        cell(m.mean_mm, m.mean_bound_mm),
                        cell(m.p95_mm, m.p95_bound_mm),
@@ -94,21 +98,23 @@ void add_perforation(Document& d, const Result& r) {
   ReportTable t{
       {{"Source", false, 1}, {"Kind", false, 0.9}, {"Time", true, 1.3}, {"Place x, y, z, mm", true, 2}, {"What", false, 5}}, {}, "Perforation"};
   for (const auto& e : p.events)
-    t.rows.push_back({{{"force"},
-                       {e.fault ? "fault" : "aim"},
-                       time_cell(e.tick, e.site_mm),
-                       {place_text(e.site_mm)},
-                       {fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N while the tip went on by " + fixed(e.advance_mm, 2) +
-                        " mm; sureness " + fixed(e.sureness, 2) + "; " + (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")}},
-                      e.fault});
+    t.rows.push_back(
+        {{{"force"},
+          {e.fault ? "fault" : "aim"},
+          time_cell(e.tick, e.site_mm),
+          {place_text(e.site_mm)},
+          {fmt::format("{} N to {} N while the tip went on by {} mm; sureness {}; {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
+                       fixed(e.advance_mm, 2), fixed(e.sureness, 2), e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")}},
+         e.fault});
   for (const auto& [kind, truth] : {std::pair{"fault", &p.fault}, std::pair{"aim", &p.aim}}) {
     if (truth == &p.aim && !p.has_aims) continue;
-    t.rows.push_back({{{"tissue"},
-                       {kind},
-                       time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
-                       {truth->perforated ? place_text(truth->first.site_mm) : ""},
-                       {truth->perforated ? truth->tissue + " touched, " + bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³") : "not touched"}},
-                      truth == &p.fault && truth->perforated});
+    t.rows.push_back(
+        {{{"tissue"},
+          {kind},
+          time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
+          {truth->perforated ? place_text(truth->first.site_mm) : ""},
+          {truth->perforated ? fmt::format("{} touched, {}", truth->tissue, bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³")) : "not touched"}},
+         truth == &p.fault && truth->perforated});
   }
   d.blocks.push_back(std::move(t));
 }
@@ -117,12 +123,11 @@ void add_work(Document& d, const ReportSource& s) {
   const Result& r = s.result;
   const MotionMeasures& m = r.motion;
   d.blocks.push_back(Heading{"Work"});
-  d.blocks.push_back(Paragraph{"Time " + fixed(m.time_s, 1) + " s, handpiece turning " + fixed(m.handpiece_time_s, 1) + " s, idle " +
-                                   fixed(m.idle_s, 1) + " s. Way of the tip " + fixed(m.path_mm, 0) + " mm. Force " + fixed(m.force_mean_n, 2) +
-                                   " N on average while cutting, " + fixed(m.force_peak_n, 2) + " N at most, over the limit for " +
-                                   fixed(m.force_over_limit_s, 1) + " s. Steps " + std::to_string(r.progress.steps_completed) + " of " +
-                                   std::to_string(r.progress.steps) + " completed, " + std::to_string(r.progress.violations) +
-                                   " violations; the exam ended: " + finish_words(r.progress.finish) + ".",
+  d.blocks.push_back(Paragraph{fmt::format("Time {} s, handpiece turning {} s, idle {} s. Way of the tip {} mm. Force {} N on average while cutting, "
+                                           "{} N at most, over the limit for {} s. Steps {} of {} completed, {} violations; the exam ended: {}.",
+                                           fixed(m.time_s, 1), fixed(m.handpiece_time_s, 1), fixed(m.idle_s, 1), fixed(m.path_mm, 0),
+                                           fixed(m.force_mean_n, 2), fixed(m.force_peak_n, 2), fixed(m.force_over_limit_s, 1),
+                                           r.progress.steps_completed, r.progress.steps, r.progress.violations, finish_words(r.progress.finish)),
                                ""});
   ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Accommodations, pauses, late work"};
   const std::string granted = accommodations_text(r.accommodations);
@@ -130,15 +135,15 @@ void add_work(Document& d, const ReportSource& s) {
   t.rows.push_back({{{"time limit"}, {fixed(static_cast<double>(r.limit_ticks) * k_tick_s, 1) + " s"}}});
   std::string pauses;
   for (const auto& p : r.pauses)
-    pauses += (pauses.empty() ? "" : "; ") + fixed(static_cast<double>(p.begin) * k_tick_s, 1) + " s to " +
-              fixed(static_cast<double>(p.end) * k_tick_s, 1) + " s";
+    pauses += fmt::format("{}{} s to {} s", pauses.empty() ? "" : "; ", fixed(static_cast<double>(p.begin) * k_tick_s, 1),
+                          fixed(static_cast<double>(p.end) * k_tick_s, 1));
   t.rows.push_back(
-      {{{"pauses"}, {(pauses.empty() ? "none" : pauses) + (r.pauses_refused > 0 ? "; refused: " + std::to_string(r.pauses_refused) : "")}}});
+      {{{"pauses"}, {(pauses.empty() ? "none" : pauses) + (r.pauses_refused > 0 ? fmt::format("; refused: {}", r.pauses_refused) : "")}}});
   const std::int64_t late = m.late_ticks + r.late_work.ticks;
   t.rows.push_back({{{"late work"},
                      {late == 0 ? "none"
-                                : fixed(static_cast<double>(late) * k_tick_s, 1) + " s after the end, " + fixed(m.late_removed_mm3, 2) +
-                                      " mm³ removed in it; nothing of it counts"}}});
+                                : fmt::format("{} s after the end, {} mm³ removed in it; nothing of it counts",
+                                              fixed(static_cast<double>(late) * k_tick_s, 1), fixed(m.late_removed_mm3, 2))}}});
   d.blocks.push_back(std::move(t));
 }
 
@@ -153,8 +158,8 @@ void add_servo(ReportTable& t, const SessionEvent& e) {
   };
   const auto count = [&](const char* key) { return j.contains(key) && j[key].is_number() ? j[key].dump() : k_dash; };
   t.rows.push_back({{{"lateness of the servo"},
-                     {count("ticks") + " ticks, " + count("overruns") + " late; half of them within " + us("p50_us") + ", 99.9 % within " +
-                      us("p999_us") + ", worst " + us("worst_us")}}});
+                     {fmt::format("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", count("ticks"), count("overruns"),
+                                  us("p50_us"), us("p999_us"), us("worst_us"))}}});
 }
 
 void add_device(Document& d, const ReportSource& s) {
@@ -171,7 +176,7 @@ void add_device(Document& d, const ReportSource& s) {
       live = true;
     }
   if (!live) t.rows.push_back({{{"lateness of the servo"}, {"not recorded: the exam did not run in real time"}}});
-  t.rows.push_back({{{"tooth"}, {s.result.tooth_name + ", hash " + s.facts.tooth_hash + ", leaf " + fixed(s.result.leaf_mm, 3) + " mm"}}});
+  t.rows.push_back({{{"tooth"}, {fmt::format("{}, hash {}, leaf {} mm", s.result.tooth_name, s.facts.tooth_hash, fixed(s.result.leaf_mm, 3))}}});
   d.blocks.push_back(std::move(t));
 }
 

@@ -1,5 +1,7 @@
 #include "ui/report/integrity.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "engine/base/file.h"
@@ -26,8 +28,10 @@ ReportIntegrity read_integrity(const std::string& path, bool replay) {
       i.closed_utc = utc_text(seal->clocks.utc_ns);
     }
     if (!replay && i.findings.empty())
-      i.proved.push_back("nothing in the file was changed since it was recorded: " + std::to_string(session.chunks().size()) +
-                         " seconds linked by SHA-256, each with its motion, forces, events and clocks, and closed by the station's signature");
+      i.proved.push_back(
+          fmt::format("nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and "
+                      "clocks, and closed by the station's signature",
+                      session.chunks().size()));
   }
   if (!replay) {
     i.remarks.emplace_back("the motion was not simulated again for this report; `cavum verify` does that");
@@ -49,7 +53,7 @@ void add_integrity(Document& d, const ReportSource& s) {
   if (!i.findings.empty() || i.replay == Replay::differs)
     promise = "This session does not hold: see below.";
   else if (i.replay == Replay::agrees)
-    promise = std::string("This session is tamper-evident and replay-verified") + (i.at_filing ? " (when it was filed)." : ".");
+    promise = fmt::format("This session is tamper-evident and replay-verified{}", i.at_filing ? " (when it was filed)." : ".");
   else
     promise = "This session is tamper-evident. It was not replayed for this report.";
   d.blocks.push_back(Paragraph{promise, ""});
@@ -63,15 +67,15 @@ void add_integrity(Document& d, const ReportSource& s) {
   row("chain of its seconds", i.chain_sha256);
   row("tooth as it was left", i.final_tooth_sha256);
   row("sealed result", i.result_sha256);
-  row("closed", i.closed_utc.empty() ? "" : i.closed_utc + ", signed by station " + i.station_key);
-  row("replay", i.replay == Replay::agrees ? std::string("simulated again from the motion: the same forces and the same tooth, bit for bit") +
-                                                 (i.at_filing ? ", when the ledger took it in" : "")
+  row("closed", i.closed_utc.empty() ? "" : fmt::format("{}, signed by station {}", i.closed_utc, i.station_key));
+  row("replay", i.replay == Replay::agrees    ? fmt::format("simulated again from the motion: the same forces and the same tooth, bit for bit{}",
+                                                         i.at_filing ? ", when the ledger took it in" : "")
                 : i.replay == Replay::differs ? "does not give what was recorded, or the file does not hold"
                                               : "not done for this report");
   if (const auto& f = s.filing) {
-    row("ledger", f->ledger + " of " + f->school + ", key " + f->public_key);
-    row("receipt", "entry " + std::to_string(f->entry) + ", filed " + f->date + (f->released ? ", released" : ", not released"));
-    row("root", f->root + " of the first " + std::to_string(f->entries) + " entries");
+    row("ledger", fmt::format("{} of {}, key {}", f->ledger, f->school, f->public_key));
+    row("receipt", fmt::format("entry {}, filed {}{}", f->entry, f->date, f->released ? ", released" : ", not released"));
+    row("root", fmt::format("{} of the first {} entries", f->root, f->entries));
     for (const auto& finding : f->findings) row("in doubt", finding);
   }
   d.blocks.push_back(std::move(t));
@@ -85,11 +89,11 @@ void add_integrity(Document& d, const ReportSource& s) {
     list("How that is known", i.proved);
     list("What else is to be known", i.remarks);
   }
-  d.footer.push_back("Session " + (named ? i.file + ", " : std::string()) + "SHA-256 " + i.file_sha256.substr(0, 16) + "…: " +
-                     (!i.findings.empty() || i.replay == Replay::differs ? "does not hold"
-                      : i.replay == Replay::agrees                       ? "tamper-evident and replay-verified"
-                                                                         : "tamper-evident, not replayed for this report") +
-                     (s.filing ? "; ledger entry " + std::to_string(s.filing->entry) : ""));
+  d.footer.push_back(fmt::format("Session {}SHA-256 {}…: {}{}", named ? i.file + ", " : std::string(), i.file_sha256.substr(0, 16),
+                                 !i.findings.empty() || i.replay == Replay::differs ? "does not hold"
+                                 : i.replay == Replay::agrees                       ? "tamper-evident and replay-verified"
+                                                                                    : "tamper-evident, not replayed for this report",
+                                 s.filing ? fmt::format("; ledger entry {}", s.filing->entry) : ""));
   d.footer.push_back("Tooth " + s.facts.tooth_hash.substr(0, 16) + ", leaf " + fixed(s.result.leaf_mm, 3) +
                      " mm. Definitions: docs/grading.md of Cavum " CAVUM_VERSION ".");
 }

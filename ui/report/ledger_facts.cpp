@@ -1,5 +1,7 @@
 #include "ui/report/ledger_facts.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "engine/base/error.h"
@@ -17,14 +19,15 @@ namespace {
 std::vector<std::string> doubts_of(const FiledSession& s) {
   std::vector<std::string> out;
   for (const auto& f : s.findings) out.push_back("filed with a finding: " + f);
-  for (const auto other : s.contested_by) out.push_back("contested by entry " + std::to_string(other) + ", another ending of this exam");
+  for (const auto other : s.contested_by) out.push_back(fmt::format("contested by entry {}, another ending of this exam", other));
   return out;
 }
 
 }  // namespace
 
 ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(read_ledger(places)) {
-  if (!content.findings.empty()) throw Error(folder, "does not hold (" + content.findings.front() + ")", "see `cavum ledger verify " + folder + "`");
+  if (!content.findings.empty())
+    throw Error(folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", folder));
   registry = read_registry(content);
 }
 
@@ -32,16 +35,16 @@ const FiledSession& ReportLedger::session(const std::string& file_sha256, const 
   for (const auto& s : registry.sessions)
     if (s.file_sha256 == file_sha256) return s;
   throw Error(path, "was never filed in the ledger " + places.folder,
-              "file it with `cavum ledger add " + places.folder + " " + path + "`, or leave --ledger out");
+              fmt::format("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
 }
 
 ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, ReportReader reader, bool with_name) {
-  const std::string entry = "entry " + std::to_string(session.seq);
+  const std::string entry = fmt::format("entry {}", session.seq);
   const bool shown = !session.shown.is_null();
   if (reader == ReportReader::student && !shown)
     throw Error(entry, "is not released, and a student's report is of released results only",
-                "release it with `cavum ledger release " + ledger.places.folder + " --session " + std::to_string(session.seq) +
-                    (session.doubtful() ? " --with-findings" : "") + "`, or use --for instructor");
+                fmt::format("release it with `cavum ledger release {} --session {}{}`, or use --for instructor", ledger.places.folder, session.seq,
+                            session.doubtful() ? " --with-findings" : ""));
   if (with_name && !shown) throw Error("--with-name", entry + " is not released, and names stand with released results only", "release it first");
   ReportFiling f;
   f.entry = session.seq;
@@ -100,16 +103,16 @@ std::string not_the_filed_result(const FiledSession& session, const Result& resu
                     std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;
   if (same) return {};
   const std::string held = filed.is_object() && filed.contains("score")
-                               ? filed.value("verdict", "") + ", " + fixed(filed["score"].value("points", 0.0), 1) + " points"
+                               ? fmt::format("{}, {} points", filed.value("verdict", ""), fixed(filed["score"].value("points", 0.0), 1))
                                : "another";
-  return "the " + std::string(reader == ReportReader::student ? "released" : "ledger's") + " result is " + held + ", and this report's is " +
-         verdict_name(result.verdict) + ", " + fixed(result.points, 1) + " points";
+  return fmt::format("the {} result is {}, and this report's is {}, {} points", reader == ReportReader::student ? "released" : "ledger's", held,
+                     verdict_name(result.verdict), fixed(result.points, 1));
 }
 
 void require_released_result(const FiledSession& session, const Result& result) {
   if (const std::string other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
     throw Error(
-        "entry " + std::to_string(session.seq), other,
+        fmt::format("entry {}", session.seq), other,
         "leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark differently");
 }
 

@@ -1,5 +1,7 @@
 #include "ui/report/motion_charts.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +25,7 @@ std::vector<ChartMark> event_marks(const std::vector<ReportEvent>& events, doubl
       first = i;
       marks.push_back({events[i].t_s, true, ""});
     }
-    marks.back().label = std::to_string(first + 1) + (i > first ? "\u2013" + std::to_string(i + 1) : "");
+    marks.back().label = std::to_string(first + 1) + (i > first ? fmt::format("\u2013{}", i + 1) : "");
   }
   return marks;
 }

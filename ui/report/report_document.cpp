@@ -1,5 +1,7 @@
 #include "ui/report/report_document.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,10 +18,12 @@ namespace {
 
 const std::string k_dash = "–";
 
-std::string with_unit(const std::string& number, const std::string& unit) { return unit.empty() ? number : number + " " + unit_text(unit); }
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : fmt::format("{} {}", number, unit_text(unit));
+}
 
 std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
-  return points ? fixed(*points, 1) + " / " + fixed(max.value_or(0), 1) : k_dash;
+  return points ? fmt::format("{} / {}", fixed(*points, 1), fixed(max.value_or(0), 1)) : k_dash;
 }
 
 /// How far from the pass mark, in points.
@@ -27,26 +31,27 @@ std::vector<std::string> margin(const Result& r) {
   std::vector<std::string> lines;
   if (r.compensatory) {
     const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
-    lines.push_back(
-        fixed(std::fabs(off), 1) + " points " + (off < 0 ? "below" : "above") + " the pass mark of " + fixed(mark, 1) + " points (" +
-        plain_number(r.pass_percent) + " %)" +
-        (r.borderline_percent > 0 ? "; within " + fixed(r.borderline_percent / 100 * r.max_points, 1) + " points of it a person decides" : ""));
+    lines.push_back(fmt::format("{} points {} the pass mark of {} points ({} %){}", fixed(std::fabs(off), 1), off < 0 ? "below" : "above",
+                                fixed(mark, 1), plain_number(r.pass_percent),
+                                r.borderline_percent > 0
+                                    ? fmt::format("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1))
+                                    : ""));
   } else {
     const CriterionResult* lowest = nullptr;
     const auto percent = [](const CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
     for (const auto& c : r.criteria)
       if (c.max > 0 && (lowest == nullptr || percent(c) < percent(*lowest))) lowest = &c;
-    lines.push_back("each criterion must reach " + plain_number(r.pass_percent) + " % by itself" +
-                    (lowest != nullptr ? "; the lowest, " + lowest->title + ", reaches " + fixed(percent(*lowest), 1) + " %" : ""));
+    lines.push_back(fmt::format("each criterion must reach {} % by itself{}", plain_number(r.pass_percent),
+                                lowest != nullptr ? fmt::format("; the lowest, {}, reaches {} %", lowest->title, fixed(percent(*lowest), 1)) : ""));
   }
-  lines.push_back("± " + fixed(r.points_bound, 1) + " if every figure were off by its whole bound");
+  lines.push_back(fmt::format("± {} if every figure were off by its whole bound", fixed(r.points_bound, 1)));
   return lines;
 }
 
 /// What gives full marks and what none, and beyond what the exam is failed.
 std::string limits_text(const CriterionSpec& c, const std::string& unit) {
-  std::string s = "full " + std::string(c.full <= c.zero ? "up to " : "from ") + with_unit(plain_number(c.full), unit) + ", none " +
-                  (c.full <= c.zero ? "from " : "up to ") + with_unit(plain_number(c.zero), unit);
+  std::string s = fmt::format("full {}{}, none {}{}", c.full <= c.zero ? "up to " : "from ", with_unit(plain_number(c.full), unit),
+                              c.full <= c.zero ? "from " : "up to ", with_unit(plain_number(c.zero), unit));
   if (c.critical_above) s += "; failed above " + with_unit(plain_number(*c.critical_above), unit);
   if (c.critical_below) s += "; failed below " + with_unit(plain_number(*c.critical_below), unit);
   return s;
@@ -54,13 +59,16 @@ std::string limits_text(const CriterionSpec& c, const std::string& unit) {
 
 /// What a reader of the criteria would else have to guess.
 std::vector<std::string> how_to_read(const Result& r) {
-  std::vector<std::string> words{"± after a value: how far the true one may lie from it, because the tooth is known in leaves of " +
-                                 plain_number(r.leaf_mm) + " mm. ± after points: what the value at either end of its ± would give."};
+  std::vector<std::string> words{
+      fmt::format("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {} mm. ± after points: what the "
+                  "value at either end of its ± would give.",
+                  plain_number(r.leaf_mm))};
   const auto any = [&r](const auto& is) { return std::any_of(r.criteria.begin(), r.criteria.end(), is); };
   if (any([](const CriterionResult& c) { return c.work_share < 1; }))
-    words.push_back("Care counts for as much as was done: where less than " + plain_number(k_care_counts_percent) +
-                    " % of the target at the place in question was removed, points are given in proportion, and their ± holds that share at either "
-                    "end of its own ±, too.");
+    words.push_back(
+        fmt::format("Care counts for as much as was done: where less than {} % of the target at the place in question was removed, points are given "
+                    "in proportion, and their ± holds that share at either end of its own ±, too.",
+                    plain_number(k_care_counts_percent)));
   if (any([](const CriterionResult& c) { return known_measure(c.metric).of_floor; })) words.emplace_back(k_floor_words);
   return words;
 }
@@ -72,7 +80,8 @@ void add_criteria(Document& d, const ReportSource& s) {
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const CriterionResult& c = s.result.criteria[i];
     const std::string value = c.value ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit) : k_dash;
-    const std::string points = fixed(c.points, 1) + (c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "") + " / " + fixed(c.max, 1);
+    const std::string points =
+        fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
     const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";
     t.rows.push_back({{{c.title}, {value}, {limits}, {points}, {c.reason}}, c.max - c.points > 1e-9});
   }
@@ -84,7 +93,7 @@ void add_criteria(Document& d, const ReportSource& s) {
 TableRow moment_row(const WhyItem& m) {
   const std::string amount = m.amount ? with_unit(fixed(*m.amount, 3), m.unit) : "";
   std::string what = m.what;
-  if (m.end_tick > m.tick && m.tick >= 0) what += " (until " + fixed(static_cast<double>(m.end_tick) * k_tick_s, 2) + " s)";
+  if (m.end_tick > m.tick && m.tick >= 0) what += fmt::format(" (until {} s)", fixed(static_cast<double>(m.end_tick) * k_tick_s, 2));
   return {{time_cell(m.tick, m.site_mm), {place_text(m.site_mm)}, {what}, {amount}, {m.points_lost ? fixed(*m.points_lost, 2) : ""}},
           m.points_lost && *m.points_lost > 0};
 }
@@ -107,7 +116,7 @@ void add_moments(Document& d, const ReportSource& s) {
     if (w.left_out > 0)
       t.rows.push_back({{{k_dash},
                          {""},
-                         {std::to_string(w.left_out) + " smaller moments together"},
+                         {fmt::format("{} smaller moments together", w.left_out)},
                          {fixed(w.left_out_amount, 3)},
                          {w.left_out_points > 0 ? fixed(w.left_out_points, 2) : ""}},
                         w.left_out_points > 0});
@@ -191,7 +200,7 @@ void add_regrade(Document& d, const Comparison& c) {
   for (const auto& k : c.criteria) {
     std::string why = because(k.why);
     if (k.old_value && k.new_value && fixed(*k.old_value, 3) != fixed(*k.new_value, 3))
-      why += (why.empty() ? "" : "; ") + with_unit("value " + fixed(*k.old_value, 3) + " → " + fixed(*k.new_value, 3), k.unit);
+      why += (why.empty() ? "" : "; ") + with_unit(fmt::format("value {} → {}", fixed(*k.old_value, 3), fixed(*k.new_value, 3)), k.unit);
     t.rows.push_back({{{k.id}, {points_of(k.old_points, k.old_max)}, {points_of(k.new_points, k.new_max)}, {signed_points(k.difference())}, {why}}});
   }
   d.blocks.push_back(std::move(t));
@@ -205,7 +214,7 @@ TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
   return {fixed(t_s, 3) + " s", Jump{t_s, site_mm}};
 }
 
-std::string place_text(const std::optional<Vec3>& p) { return p ? fixed(p->x, 2) + ", " + fixed(p->y, 2) + ", " + fixed(p->z, 2) : ""; }
+std::string place_text(const std::optional<Vec3>& p) { return p ? fmt::format("{}, {}, {}", fixed(p->x, 2), fixed(p->y, 2), fixed(p->z, 2)) : ""; }
 
 std::string finish_words(const std::string& finish) {
   if (finish == finish_name(Finish::completed)) return "its last step was completed";
@@ -226,18 +235,18 @@ Document report_document(const ReportSource& s) {
   Document d;
   d.title = report_title(s);
   const bool named = s.filing && s.filing->name && s.filing->released;
-  d.subtitle = (named ? *s.filing->name + ", candidate " : "Candidate ") + s.facts.candidate + " · " + s.facts.created + " · " + r.tooth_name +
-               " · " + s.facts.device + (s.reader == ReportReader::instructor ? " · instructor's report" : "");
+  d.subtitle = fmt::format("{}{} · {} · {} · {}{}", named ? *s.filing->name + ", candidate " : "Candidate ", s.facts.candidate, s.facts.created,
+                           r.tooth_name, s.facts.device, s.reader == ReportReader::instructor ? " · instructor's report" : "");
   d.created = s.facts.created;
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
   add_filing_notes(d, s);
   d.blocks.push_back(
-      VerdictBox{verdict_name(r.verdict), fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points", margin(r), r.verdict_reasons});
+      VerdictBox{verdict_name(r.verdict), fmt::format("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)), margin(r), r.verdict_reasons});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const PerforationTruth& p = r.perforation.fault; p.perforated)
-    d.blocks.push_back(Paragraph{p.tissue + " was opened at " + fixed(p.first.t_s(), 3) +
-                                     " s, which this task asks to spare: " + fixed(p.volume_mm3, 3) + " mm³ of it were removed",
+    d.blocks.push_back(Paragraph{fmt::format("{} was opened at {} s, which this task asks to spare: {} mm³ of it were removed", p.tissue,
+                                             fixed(p.first.t_s(), 3), fixed(p.volume_mm3, 3)),
                                  "Perforation", Paragraph::Kind::note});
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
   add_criteria(d, s);

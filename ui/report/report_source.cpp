@@ -1,5 +1,7 @@
 #include "ui/report/report_source.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -36,12 +38,12 @@ ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::
   const auto is = [&](ExamEventKind kind) { return e.kind == event_name(kind); };
   ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, "device", spaced(e.kind), site_of(detail)};
   const auto say = [&](const char* kind, const std::string& text) { r.kind = kind, r.text = text; };
-  if (is(ExamEventKind::step_started)) say("step", "step \"" + step + "\" begins");
-  if (is(ExamEventKind::step_completed)) say("step", "step \"" + step + "\" completed");
-  if (is(ExamEventKind::step_failed)) say("step", "step \"" + step + "\" failed");
-  if (is(ExamEventKind::step_time_limit)) say("limit", "time limit of step \"" + step + "\"");
+  if (is(ExamEventKind::step_started)) say("step", fmt::format("step \"{}\" begins", step));
+  if (is(ExamEventKind::step_completed)) say("step", fmt::format("step \"{}\" completed", step));
+  if (is(ExamEventKind::step_failed)) say("step", fmt::format("step \"{}\" failed", step));
+  if (is(ExamEventKind::step_time_limit)) say("limit", fmt::format("time limit of step \"{}\"", step));
   if (is(ExamEventKind::time_limit)) say("limit", "time limit of the exam");
-  if (is(ExamEventKind::over_speed)) say("violation", "handpiece faster than " + plain_number(input.scenario.max_rpm) + " rpm");
+  if (is(ExamEventKind::over_speed)) say("violation", fmt::format("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
   if (is(ExamEventKind::point_not_allowed)) {
     std::string name;
     if (detail.is_object() && detail.contains("point") && detail["point"].is_number_unsigned() &&
@@ -68,8 +70,8 @@ std::vector<ReportEvent> report_events(const Result& result, const GradeInput& i
     if (e.kind != "servo_lateness") list.push_back(event_of(e, input, points_toml));
   for (const auto& e : result.perforation.events)
     list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? "perforation" : "aim",
-                    "breakthrough in the force: " + fixed(e.force_before_n, 2) + " N to " + fixed(e.force_after_n, 2) + " N, " +
-                        (e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue"),
+                    fmt::format("breakthrough in the force: {} N to {} N, {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
+                                e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue"),
                     e.site_mm});
   std::stable_sort(list.begin(), list.end(), [](const ReportEvent& a, const ReportEvent& b) { return a.t_s < b.t_s; });
   return list;

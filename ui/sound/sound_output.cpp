@@ -4,6 +4,7 @@
 #include <AL/alc.h>
 #include <AL/alext.h>
 #include <dlfcn.h>
+#include <fmt/core.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -46,7 +47,7 @@ void ask_for_short_periods() noexcept {
   constexpr std::string_view k_wish = "[general]\nperiod_size = 256\nperiods = 3\n";
   const int file = memfd_create("cavum-openal", MFD_CLOEXEC);
   if (file < 0 || write(file, k_wish.data(), k_wish.size()) != static_cast<ssize_t>(k_wish.size())) return;
-  setenv("ALSOFT_CONF", ("/proc/self/fd/" + std::to_string(file)).c_str(), 0);  // kept open: OpenAL may read it again
+  setenv("ALSOFT_CONF", fmt::format("/proc/self/fd/{}", file).c_str(), 0);  // kept open: OpenAL may read it again
 }
 
 extern "C" void ignore_alsa(const char*, int, const char*, int, const char*, ...) {}  // NOLINT(cert-dcl50-cpp): what ALSA calls
@@ -238,7 +239,7 @@ SoundOutput::SoundOutput() : shared_(std::make_shared<Shared>()) {
   try {
     thread_ = std::thread([shared = shared_] { run(shared); });
   } catch (const std::exception& e) {
-    shared_->report.silent_why = std::string("no thread for the sound: ") + e.what();
+    shared_->report.silent_why = fmt::format("no thread for the sound: {}", e.what());
     shared_->ended = true;
   }
 }

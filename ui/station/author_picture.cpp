@@ -1,5 +1,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -90,7 +91,7 @@ void draw_depth(ImDrawList& draw, const AuthorContext& c, const Sight& sight, co
   const float s = r - 2.0F * px;
   draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s}, colour_of(zone.layer, 255));
   if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r) return;  // from above the word would cover the points
-  const std::string word = "depth " + written_number(*zone.depth_mm) + " mm";
+  const std::string word = fmt::format("depth {} mm", written_number(*zone.depth_mm));
   draw.AddText({b.x + r + 4, b.y + 1}, IM_COL32(0, 0, 0, 255), word.c_str());
   draw.AddText({b.x + r + 3, b.y}, IM_COL32(255, 255, 255, 255), word.c_str());
 }

@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ void top_bar(const AuthorContext& c, ImVec2 size, AuthorWish& wish) {
   ImGui::PopStyleVar();
   const float buttons = t.px(440);
   ImGui::BeginChild("file", {size.x - buttons - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
-  quiet_text(t, "Authoring    " + c.document.path() + (c.document.unsaved() ? "    NOT SAVED" : "    saved"));
+  quiet_text(t, fmt::format("Authoring    {}{}", c.document.path(), c.document.unsaved() ? "    NOT SAVED" : "    saved"));
   wrapped_text(c.screen.scenario.title);
   ImGui::EndChild();
   ImGui::SameLine();
@@ -59,7 +60,7 @@ void zone_list(const AuthorContext& c) {
     ImGui::Dummy({side, side});
     ImGui::SameLine();
     ImGui::PushID(static_cast<int>(i));
-    const std::string label = zone.title + (zone.line > 0 ? "   line " + std::to_string(zone.line) : "");
+    const std::string label = zone.title + (zone.line > 0 ? fmt::format("   line {}", zone.line) : "");
     if (ImGui::Selectable(label.c_str(), s.zone == i)) {
       s.zone = i;
       s.point = s.number = 0;
@@ -82,7 +83,7 @@ void numbers(const AuthorContext& c) {
     ImGui::PushID(n.place.c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     auto value = static_cast<float>(n.value);
-    const std::string format = std::string("%.3f ") + n.unit;
+    const std::string format = fmt::format("%.3f {}", n.unit);
     if (ImGui::DragFloat("##number", &value, 0.01F, static_cast<float>(n.low), static_cast<float>(n.high), format.c_str()))
       author_set_number(c, n, static_cast<double>(value), true);
     if (ImGui::IsItemActivated()) s.number = i;
@@ -91,8 +92,7 @@ void numbers(const AuthorContext& c) {
   }
   if (s.point < zone.points_mm.size()) {
     const Vec3 p = zone.points_mm[s.point];
-    wrapped_text("Point " + std::to_string(s.point + 1) + " of " + std::to_string(zone.points_mm.size()) + ":  " + written_number(p.x) + ", " +
-                 written_number(p.y) + " mm");
+    wrapped_text(fmt::format("Point {} of {}:  {}, {} mm", s.point + 1, zone.points_mm.size(), written_number(p.x), written_number(p.y)));
   }
 }
 
@@ -105,7 +105,7 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   if (s.zone < c.zones.size()) numbers(c);
   ImGui::Separator();
   for (std::size_t i = 0; i < k_author_layers; ++i) {
-    const std::string label = std::string(layer_name(static_cast<AuthorLayer>(i))) + " (F" + std::to_string(i + 1) + ")";
+    const std::string label = fmt::format("{} (F{})", layer_name(static_cast<AuthorLayer>(i)), i + 1);
     s.shown_differs = ImGui::Checkbox(label.c_str(), &s.shown[i]) || s.shown_differs;
     if (i % 2 == 0) ImGui::SameLine(size.x / 2);
   }
@@ -119,7 +119,7 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
 std::string verdict(const AuthorContext& c) {
   const auto warnings = std::count_if(c.problems.begin(), c.problems.end(), [](const Problem& p) { return p.warning; });
   const auto mistakes = static_cast<std::ptrdiff_t>(c.problems.size()) - warnings;
-  const auto counted = [](std::ptrdiff_t n, const char* word) { return std::to_string(n) + " " + word + (n == 1 ? "" : "s"); };
+  const auto counted = [](std::ptrdiff_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
   if (c.busy) return mistakes > 0 ? counted(mistakes, "mistake") + "; checking ..." : "checking ...";
   std::string text = mistakes > 0 ? counted(mistakes, "mistake") : "sound";
   if (warnings > 0) text += ", " + counted(warnings, "warning");
@@ -138,9 +138,9 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   wrapped_text("Check: " + verdict(c));
   const std::string file = std::filesystem::path(c.document.path()).filename().string();
   for (const Problem& p : c.problems) {
-    const std::string where = p.line > 0 ? file + ":" + std::to_string(p.line) + ":" + std::to_string(p.column) : p.where;
+    const std::string where = p.line > 0 ? fmt::format("{}:{}:{}", file, p.line, p.column) : p.where;
     ImGui::PushStyleColor(ImGuiCol_Text, p.warning ? t.warn : t.bad);
-    wrapped_text(where + (p.warning ? "  warning: " : "  MISTAKE: ") + p.what + "; " + p.what_to_do);
+    wrapped_text(fmt::format("{}{}{}; {}", where, p.warning ? "  warning: " : "  MISTAKE: ", p.what, p.what_to_do));
     ImGui::PopStyleColor();
   }
   end_area();
@@ -171,7 +171,7 @@ void points_by_key(const AuthorContext& c, const AuthorZone& zone) {
       change(c, "", false, [&] { return remove_point(c.document.text(), c.document.path(), zone.points_place, s.point); });
       s.point = s.point > 0 ? s.point - 1 : 0;
     } else {
-      s.message = "An outline of this kind needs at least " + std::to_string(zone.least_points) + " points.";
+      s.message = fmt::format("An outline of this kind needs at least {} points.", zone.least_points);
     }
   }
 }
@@ -233,7 +233,7 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
 }  // namespace
 
 void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to, bool pull) {
-  const std::string place = zone.points_place + "/" + std::to_string(point);
+  const std::string place = fmt::format("{}/{}", zone.points_place, point);
   change(c, place, pull, [&] { return set_point(c.document.text(), c.document.path(), place, to.x, to.y); });
 }
 

@@ -1,5 +1,7 @@
 #include "ui/station/author_zones.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +25,7 @@ void add_bottom(AuthorZone& zone, const BottomSpec& b, const std::string& at) {
       zone.depth_place = at + "/depth_mm";
       break;
     default:
-      zone.numbers.push_back({"floor deeper than the " + b.tissue + "'s", at + "/deeper_mm", b.deeper_mm, -5, 5});
+      zone.numbers.push_back({fmt::format("floor deeper than the {}'s", b.tissue), at + "/deeper_mm", b.deeper_mm, -5, 5});
   }
 }
 
@@ -55,7 +57,7 @@ AuthorZone zone_of(const ShapeSpec& s, const std::string& at, double opening_z_m
   zone.line = s.line;
   zone.frame = shape_frame(s);
   const auto number = [&](const char* label, const char* key, double value, double low, double high, const char* unit = "mm") {
-    zone.numbers.push_back({label, at + "/" + key, value, low, high, unit});
+    zone.numbers.push_back({label, fmt::format("{}/{}", at, key), value, low, high, unit});
   };
   switch (s.kind) {
     case Kind::column: {
@@ -133,10 +135,10 @@ std::vector<AuthorZone> author_zones(const Scenario& scenario, double opening_z_
   std::vector<AuthorZone> zones;
   const auto bodies = [&](AuthorLayer layer, const char* key, const std::vector<ShapeSpec>& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      zones.push_back(zone_of(list[i], std::string("zones/") + key + "/" + std::to_string(i), opening_z_mm, chamber_mm));
+      zones.push_back(zone_of(list[i], fmt::format("zones/{}/{}", key, i), opening_z_mm, chamber_mm));
       AuthorZone& zone = zones.back();
       zone.layer = layer;
-      zone.title = std::string(layer_name(layer)) + " " + std::to_string(i + 1) + ", " + k_shape_names[static_cast<std::size_t>(list[i].kind)];
+      zone.title = fmt::format("{} {}, {}", layer_name(layer), i + 1, k_shape_names[static_cast<std::size_t>(list[i].kind)]);
       if (list[i].combine == ShapeSpec::Combine::subtract) zone.title += ", taken away";
       if (list[i].combine == ShapeSpec::Combine::intersect) zone.title += ", in common";
     }

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <imgui.h>
 
 #include "ui/station/screens.h"
@@ -8,7 +9,7 @@ namespace {
 
 std::string pauses_text(const PauseSpec& pauses) {
   if (pauses.count == 0) return "none";
-  return std::to_string(pauses.count) + ", each of at most " + clock_text(pauses.longest_s) + ", while the handpiece stands still (P)";
+  return fmt::format("{}, each of at most {}, while the handpiece stands still (P)", pauses.count, clock_text(pauses.longest_s));
 }
 
 void fact(const Theme& t, const char* name, const std::string& value) {
@@ -53,7 +54,7 @@ void briefing_screen(const ScreenContext& c) {
     ImGui::SameLine(t.px(50));
     ImGui::BeginGroup();
     wrapped_text(scenario.steps[i].instruction);
-    if (scenario.steps[i].time_limit_s) quiet_text(t, "within " + clock_text(*scenario.steps[i].time_limit_s) + " minutes");
+    if (scenario.steps[i].time_limit_s) quiet_text(t, fmt::format("within {} minutes", clock_text(*scenario.steps[i].time_limit_s)));
     ImGui::EndGroup();
   }
   if (c.practice) {

@@ -1,5 +1,7 @@
 #include "ui/station/device_check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,7 +25,7 @@ CheckItem stylus_item(const DeviceSight& s) {
   if (!s.error.empty()) return {State::bad, "Stylus", s.error};
   if (!s.read_once) return {State::waiting, "Stylus", "waiting for its first word"};
   if (s.rate_hz < DeviceCheck::k_least_share * s.usual_rate_hz)
-    return {State::waiting, "Stylus", "speaks too seldom: " + number("%.0f", s.rate_hz) + " times a second"};
+    return {State::waiting, "Stylus", fmt::format("speaks too seldom: {} times a second", number("%.0f", s.rate_hz))};
   return {State::good, "Stylus", number("speaks %.0f times a second", s.rate_hz)};
 }
 

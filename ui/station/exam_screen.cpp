@@ -1,5 +1,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -42,8 +43,7 @@ void top_bar(const ScreenContext& c, const LiveView& view, const Layout& l) {
   const float clock = t.px(200);
   ImGui::BeginChild("step", {l.top.x - clock - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
   const std::size_t steps = scenario.steps.size(), step = std::min(static_cast<std::size_t>(view.step), steps - 1);
-  quiet_text(t, "Step " + std::to_string(step + 1) + " of " + std::to_string(steps) + "    " + c.sitting->candidate() +
-                    (c.practice ? "    practice" : "    examination"));
+  quiet_text(t, fmt::format("Step {} of {}    {}{}", step + 1, steps, c.sitting->candidate(), c.practice ? "    practice" : "    examination"));
   wrapped_text(scenario.steps[step].instruction);
   ImGui::EndChild();
   ImGui::SameLine();
@@ -78,7 +78,7 @@ void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   const float width = ImGui::GetContentRegionAvail().x;
   if (scenario.pauses.count > 0) {
     const int left = scenario.pauses.count - view.pauses;
-    const std::string label = view.paused ? "Go on  (P)" : "Pause  (P), " + std::to_string(left) + " left";
+    const std::string label = view.paused ? "Go on  (P)" : fmt::format("Pause  (P), {} left", left);
     const bool may = view.paused || left > 0;
     ImGui::BeginDisabled(!may);
     if (side_button(t, label.c_str(), width) || (may && key_pressed(GLFW_KEY_P))) s.pause_key_s = 0.1;
@@ -131,7 +131,7 @@ void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
                    line.c_str());
       below -= t.px(18);
     }
-    if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), ("F" + std::to_string(i + 1)).c_str());
+    if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), fmt::format("F{}", i + 1).c_str());
     pop_font();
   }
   end_area();
@@ -207,8 +207,8 @@ void exam_screen(const ScreenContext& c) {
   ImGui::PopStyleVar();
   const bool over = tooth_area(c, l.tooth);
   if (!view.recording_error.empty()) {
-    const std::string waiting = std::to_string(view.unwritten_ticks / 1000) + " s are kept in memory, nothing is lost. Go on working, and";
-    words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", waiting + " call the supervisor: " + view.recording_error, t.bad);
+    const std::string waiting = fmt::format("{} s are kept in memory, nothing is lost. Go on working, and", view.unwritten_ticks / 1000);
+    words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", fmt::format("{} call the supervisor: {}", waiting, view.recording_error), t.bad);
   } else if (!c.sitting->moved().empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Go on working, nothing is lost. For the supervisor: " + c.sitting->moved(), t.warn);
   } else if (const std::string problem = c.sitting->device().problem(); !problem.empty()) {

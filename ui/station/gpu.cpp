@@ -1,6 +1,7 @@
 #include "ui/station/gpu.h"
 
 #include <epoxy/gl.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ unsigned compile(unsigned kind, const char* source) {
     std::array<char, 1000> words{};
     glGetShaderInfoLog(shader, static_cast<int>(words.size()), nullptr, words.data());
     glDeleteShader(shader);
-    throw Error("window", std::string("the graphics driver refuses a shader (") + words.data() + ")", "update the driver");
+    throw Error("window", fmt::format("the graphics driver refuses a shader ({})", words.data()), "update the driver");
   }
   return shader;
 }

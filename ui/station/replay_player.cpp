@@ -1,5 +1,7 @@
 #include "ui/station/replay_player.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -12,7 +14,7 @@ const SessionReader& sound(const SessionReader& reader) {
   reader.require_readable();
   const std::int64_t version = reader.number("physics_version", 0);
   if (version != k_physics_version)
-    throw Error(reader.path(), "was recorded under physics " + std::to_string(version) + ", this is " + std::to_string(k_physics_version),
+    throw Error(reader.path(), fmt::format("was recorded under physics {}, this is {}", version, k_physics_version),
                 "use the program that recorded it");
   return reader;
 }

@@ -1,5 +1,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void top_bar(const ScreenContext& c, ImVec2 size) {
   begin_area(t, "replay top", {0, 0}, size, true);
   ImGui::PopStyleVar();
   ImGui::BeginChild("replay step", {size.x - t.px(260), 0}, false, ImGuiWindowFlags_NoScrollbar);
-  quiet_text(t, "Replay of " + player.session().path() + "    candidate " + player.session().setup().candidate);
+  quiet_text(t, fmt::format("Replay of {}    candidate {}", player.session().path(), player.session().setup().candidate));
   wrapped_text(player.instruction().empty() ? "The exam is over." : player.instruction());
   ImGui::EndChild();
   ImGui::SameLine();

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <imgui.h>
 
 #define GLFW_INCLUDE_NONE
@@ -74,8 +75,8 @@ void result_screen(const ScreenContext& c) {
   ImGui::PopStyleColor();
   pop_font();
   heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
-  quiet_text(t, r.scenario_title + ",  candidate " + c.sitting->candidate() + ",  " + clock_text(r.motion.time_s) + " minutes" +
-                    (c.practice ? ",  practice" : ""));
+  quiet_text(t, fmt::format("{},  candidate {},  {} minutes{}", r.scenario_title, c.sitting->candidate(), clock_text(r.motion.time_s),
+                            c.practice ? ",  practice" : ""));
   for (const auto& reason : r.verdict_reasons) wrapped_text(reason);
   ImGui::Dummy({0, t.px(4)});
   criteria(t, r);

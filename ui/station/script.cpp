@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -85,13 +86,13 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     Command c;
     c.line = number;
     if (!(words >> c.word) || c.word[0] == '#') continue;
-    const std::string where = path + ":" + std::to_string(number);
+    const std::string where = fmt::format("{}:{}", path, number);
     if (std::find(k_words.begin(), k_words.end(), c.word) == k_words.end())
-      throw Error(where, "'" + c.word + "' is no command of a script", "use one of: " + all_words());
+      throw Error(where, fmt::format("'{}' is no command of a script", c.word), "use one of: " + all_words());
     words >> c.text;
     if (c.word == "until" || c.word == "sleep" || c.word == "stall") {
       std::istringstream value(c.text);
-      if (!(value >> c.number) || c.number < 0) throw Error(where, "'" + c.word + "' needs seconds", "write a number of 0 or more");
+      if (!(value >> c.number) || c.number < 0) throw Error(where, fmt::format("'{}' needs seconds", c.word), "write a number of 0 or more");
     }
     if (c.word == "mouse") {
       std::istringstream x(c.text);
@@ -102,7 +103,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     if (c.word == "key" || c.word == "hold" || c.word == "release") {
       c.key = key_of(c.text);
       if (c.key == 0)
-        throw Error(where, "'" + c.text + "' is no key",
+        throw Error(where, fmt::format("'{}' is no key", c.text),
                     "use enter, escape, space, tab, an arrow's name, pageup, pagedown, home, end, ctrl, shift, f1 to f12, a letter or a digit");
       words >> c.number;
     }
@@ -111,7 +112,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
 }
 
 bool Script::run(const Command& c, Window& window, Screen screen, double exam_s, double now_s) {
-  const std::string where = path_ + ":" + std::to_string(c.line);
+  const std::string where = fmt::format("{}:{}", path_, c.line);
   const double waited_s = now_s - since_s_;
   if (c.word == "wait" || c.word == "go") {
     constexpr double k_again_s = 0.5;
@@ -121,20 +122,20 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
       pressed_s_ = now_s;
     }
     if (!there && waited_s > k_patience_s)
-      throw Error(where, "the screen '" + c.text + "' did not come, '" + screen_name(screen) + "' shows", "correct the script");
+      throw Error(where, fmt::format("the screen '{}' did not come, '{}' shows", c.text, screen_name(screen)), "correct the script");
     return there;
   }
   if (c.word == "until") {
     if (exam_s < c.number && (screen == Screen::result || screen == Screen::trouble))
-      throw Error(where, "the exam was over before its clock came to " + c.text + " s", "correct the script");
+      throw Error(where, fmt::format("the exam was over before its clock came to {} s", c.text), "correct the script");
     if (exam_s <= 0 && screen != Screen::exam && waited_s > k_patience_s)
-      throw Error(where, std::string("no exam began, '") + screen_name(screen) + "' shows", "correct the script");
+      throw Error(where, fmt::format("no exam began, '{}' shows", screen_name(screen)), "correct the script");
     return exam_s >= c.number;
   }
   if (c.word == "type") {
     if (!window.wants_text()) {
       if (waited_s > k_patience_s)
-        throw Error(where, std::string("the screen '") + screen_name(screen) + "' has no field for letters", "correct the script");
+        throw Error(where, fmt::format("the screen '{}' has no field for letters", screen_name(screen)), "correct the script");
       return false;
     }
     window.type(c.text);
@@ -162,9 +163,9 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
 
 void Script::tell(const Command& c, Screen screen, double exam_s) const {
   std::string what;
-  if (c.word == "wait" || c.word == "go") what = "the screen '" + c.text + "'";
-  if (c.word == "until") what = "the exam's clock to show " + seconds(c.number) + " (now " + seconds(exam_s) + ")";
-  if (c.word == "type") what = "a field to type '" + c.text + "' into";
+  if (c.word == "wait" || c.word == "go") what = fmt::format("the screen '{}'", c.text);
+  if (c.word == "until") what = fmt::format("the exam's clock to show {} (now {})", seconds(c.number), seconds(exam_s));
+  if (c.word == "type") what = fmt::format("a field to type '{}' into", c.text);
   if (c.word == "sleep" || c.word == "key") what = seconds(c.number) + " to pass";
   std::fprintf(stderr, "cavum: notice: %s:%d: waits for %s; '%s' shows\n", path_.c_str(), c.line, what.c_str(), screen_name(screen));
 }

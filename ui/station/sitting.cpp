@@ -1,5 +1,7 @@
 #include "ui/station/sitting.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -23,8 +25,9 @@ bool is_ready(const std::future<T>& f) {
 HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   std::string name = code;
   for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const std::string path = folder + "/" + file_name_of(name) + ".ticket";
-  if (!std::filesystem::exists(path)) throw Error("candidate '" + one_line(code) + "'", "has no ticket here", "check the code, or ask the school");
+  const std::string path = fmt::format("{}/{}.ticket", folder, file_name_of(name));
+  if (!std::filesystem::exists(path))
+    throw Error(fmt::format("candidate '{}'", one_line(code)), "has no ticket here", "check the code, or ask the school");
   return read_ticket(path);
 }
 
@@ -39,10 +42,11 @@ bool has_room(const std::string& path) {
 void require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
   const SessionReader session(path);
   session.require_readable();
-  if (session.closed()) throw Error(path, "is closed: there is nothing to go on with", "look at it with `cavum station --replay " + path + "`");
+  if (session.closed())
+    throw Error(path, "is closed: there is nothing to go on with", fmt::format("look at it with `cavum station --replay {}`", path));
   const SessionSetup setup = session.setup();
   if (setup.candidate != candidate)
-    throw Error("candidate '" + one_line(candidate) + "'", "did not begin this exam", "type the code that it was begun with");
+    throw Error(fmt::format("candidate '{}'", one_line(candidate)), "did not begin this exam", "type the code that it was begun with");
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
     throw Error(device.name(), "has another encoder than the stylus that this exam was begun with", "go on with that one");
 }
@@ -137,7 +141,7 @@ std::string Sitting::new_path(const std::string& out) const {
   localtime_r(&now, &local);
   std::string when(32, '\0');
   when.resize(std::strftime(when.data(), when.size(), "%Y%m%d-%H%M%S", &local));
-  const std::string name = file_name_of(setup_->scenario.id) + "-" + file_name_of(candidate_) + "-" + when + ".cavum";
+  const std::string name = fmt::format("{}-{}-{}.cavum", file_name_of(setup_->scenario.id), file_name_of(candidate_), when);
   return (std::filesystem::path(out) / name).string();
 }
 
@@ -178,7 +182,7 @@ void Sitting::look_where_it_is_recorded() {
   const auto now = std::chrono::steady_clock::now();
   const std::string at = live_->session();
   if (at != path_) {
-    moved_ = path_ + " cannot be written: its disk is full or refuses. The whole exam is recorded at " + at + ".";
+    moved_ = fmt::format("{} cannot be written: its disk is full or refuses. The whole exam is recorded at {}.", path_, at);
     moved_at_ = now;
     path_ = at;
   }

@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 #include <imgui.h>
 #include <malloc.h>
 
@@ -78,7 +79,7 @@ class Station {
     } catch (const std::exception& e) {
       rescue();
       if (!open_session().empty())
-        throw Error("station", std::string("failed during the exam (") + without_advice(e.what()) + ")",
+        throw Error("station", fmt::format("failed during the exam ({})", without_advice(e.what())),
                     "what was done is recorded; go on with: cavum station --resume " + open_session());
       throw;
     }

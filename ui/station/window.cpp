@@ -1,6 +1,7 @@
 #include "ui/station/window.h"
 
 #include <epoxy/gl.h>
+#include <fmt/core.h>
 // the functions of OpenGL come from epoxy: before GLFW
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -58,7 +59,7 @@ void spare_the_processor() noexcept { ::setenv("LP_NUM_THREADS", "1", 0); }
 Window::Window(const std::string& title, int width, int height) {
   spare_the_processor();
   if (glfwInit() != GLFW_TRUE)
-    throw Error("window", "cannot be opened (" + glfw_reason() + ")", "start the station from a desktop, or under xvfb-run");
+    throw Error("window", fmt::format("cannot be opened ({})", glfw_reason()), "start the station from a desktop, or under xvfb-run");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -67,7 +68,8 @@ Window::Window(const std::string& title, int width, int height) {
   if (window_ == nullptr) {
     const std::string why = glfw_reason();
     glfwTerminate();
-    throw Error("window", "has no OpenGL 3.3 (" + why + ")", "install the driver of the graphics card, or libgl1-mesa-dri for drawing without one");
+    throw Error("window", fmt::format("has no OpenGL 3.3 ({})", why),
+                "install the driver of the graphics card, or libgl1-mesa-dri for drawing without one");
   }
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);

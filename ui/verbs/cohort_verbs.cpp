@@ -1,4 +1,5 @@
 // `cavum cohort`: a class as a whole, and a class that is simulated.
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -56,7 +57,7 @@ void report(const Options& o) {
   const LedgerPlaces places{o.folder};
   const LedgerContent content = read_ledger(places);
   if (!content.findings.empty())
-    throw Error(o.folder, "does not hold (" + content.findings.front() + ")", "see `cavum ledger verify " + o.folder + "`");
+    throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
   const Registry registry = read_registry(content);
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {

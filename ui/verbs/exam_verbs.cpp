@@ -1,4 +1,5 @@
 // `cavum exam`: a timed exam from a motion file or a simulated candidate, recorded, graded and sealed.
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,10 +74,9 @@ std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vec
   Motion motion = parse_motion(text, path);
   for (std::size_t i = 0; i < motion.samples.size(); ++i)
     if (const int point = motion.samples[i].point; point >= static_cast<int>(tray.size()))
-      throw Error(
-          path + ":" + std::to_string(line_of_sample(text, i)),
-          "point is " + std::to_string(point) + ", and the scenario has " + std::to_string(tray.size()) + (tray.size() == 1 ? " point" : " points"),
-          "write 0 for its first point" + (tray.size() > 1 ? ", at most " + std::to_string(tray.size() - 1) : std::string()));
+      throw Error(fmt::format("{}:{}", path, line_of_sample(text, i)),
+                  fmt::format("point is {}, and the scenario has {}{}", point, tray.size(), tray.size() == 1 ? " point" : " points"),
+                  "write 0 for its first point" + (tray.size() > 1 ? fmt::format(", at most {}", tray.size() - 1) : std::string()));
   return std::make_unique<PlayedMotion>(std::move(motion), tray, path);
 }
 
@@ -155,8 +155,8 @@ void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
   try {  // the exam is sealed by now, whatever becomes of its report
     write_closing_report(o.report, session, result, *closed.graded);
   } catch (const Error& e) {
-    throw Error(o.report, "the exam is graded and sealed in " + session + ", its report is not written (" + e.what() + ")",
-                "write it later: `cavum report " + session + " --out FILE`");
+    throw Error(o.report, fmt::format("the exam is graded and sealed in {}, its report is not written ({})", session, e.what()),
+                fmt::format("write it later: `cavum report {} --out FILE`", session));
   }
   if (!o.json) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
 }
@@ -266,8 +266,8 @@ Options demonstration(Options o) {
   o.scenario = find_data_file("scenarios", "molar_access.toml", "");
   o.candidate = "demonstration";
   o.operator_name = "expert";
-  o.out = std::string(name) + ".cavum";
-  if (o.report.empty()) o.report = std::string(name) + ".html";
+  o.out = fmt::format("{}.cavum", name);
+  if (o.report.empty()) o.report = fmt::format("{}.html", name);
   return o;
 }
 
@@ -280,13 +280,14 @@ bool names_nothing(const Options& o) {
 /// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
 void require_same(const Options& o, const SessionSetup& held) {
   const auto differs = [&o](const std::string& option, const std::string& what) {
-    throw Error(option, "is not the " + what + " that " + o.out + " was begun with", "leave it out, or name another session with --out");
+    throw Error(option, fmt::format("is not the {} that {} was begun with", what, o.out), "leave it out, or name another session with --out");
   };
-  if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, "candidate ('" + held.candidate + "')");
+  if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, fmt::format("candidate ('{}')", held.candidate));
   if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
   if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, "tooth");
   for (const auto& [key, value] : notes_of(o.grant))
-    if (std::find(held.notes.begin(), held.notes.end(), std::pair(key, value)) == held.notes.end()) differs(key + " " + value, "accommodation");
+    if (std::find(held.notes.begin(), held.notes.end(), std::pair(key, value)) == held.notes.end())
+      differs(fmt::format("{} {}", key, value), "accommodation");
   const std::string near_file = o.scenario.empty() ? "data/scenarios/any.toml" : o.scenario;
   if (o.model_given && force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
   if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml) differs("--rubric " + o.rubric, "rubric");
@@ -309,7 +310,7 @@ int run_resumed(const Options& o) {
     const Interrupt interrupt;
     const auto live = open_source(o);
     if (live->position_quantum_mm() != parse_servo_config(setup->session.servo_toml, o.out).position_quantum_mm)
-      throw Error("--device " + o.device, "has another encoder than the one that " + o.out + " was begun with",
+      throw Error("--device " + o.device, fmt::format("has another encoder than the one that {} was begun with", o.out),
                   "go on with the same device, or close the exam with --end");
     live->begin(*setup);
     say(to_notes(live->source()));
@@ -350,8 +351,8 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   auto* name = exam->add_option("--operator", o->operator_name,
                                 "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
   auto* device = exam->add_option("--device", o->device,
-                                  "in real time, without a window: " + stylus_kinds().ids({StylusHand::person}) + ", or " +
-                                      stylus_kinds().ids({StylusHand::candidate}) + " with --operator as its hand");
+                                  fmt::format("in real time, without a window: {}, or {} with --operator as its hand",
+                                              stylus_kinds().ids({StylusHand::person}), stylus_kinds().ids({StylusHand::candidate})));
   motion->excludes(name);
   device->excludes(motion);
   exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);

@@ -1,5 +1,7 @@
 #include "ui/verbs/explain_page.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -43,7 +45,7 @@ std::string axis_label(const std::string& column) {
   if (column == "spindle_rpm") return "spindle, 1000/min";
   auto [name, unit] = name_and_unit(column);
   std::replace(name.begin(), name.end(), '_', ' ');
-  return unit.empty() ? name : name + ", " + unit;
+  return unit.empty() ? name : fmt::format("{}, {}", name, unit);
 }
 
 /// Means of `y` over equal parts of u (quantiles), with two standard errors.
@@ -124,8 +126,9 @@ std::string force_charts(const View& before, const View& after) {
   const Eigen::Index begin = telling_stretch(before, after);
   const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const auto& s) { return begin >= s.begin && begin < s.end; });
   Chart c, d;
-  c.title = "session " + session->name +
-            (after.causes.empty() ? ": the twelve seconds of the greatest forces" : ": the twelve seconds in which the causes change most");
+  c.title =
+      fmt::format("session {}{}", session->name,
+                  after.causes.empty() ? ": the twelve seconds of the greatest forces" : ": the twelve seconds in which the causes change most");
   d.title = "what is left: measured - simulated";
   c.x_label = d.x_label = "time t, s";
   c.y_label = d.y_label = "force, N";
@@ -187,45 +190,46 @@ std::string head(const std::string& title) {
 
 std::string list(const std::vector<std::string>& items) {
   std::string out = "<ul>\n";
-  for (const auto& i : items) out += "<li>" + xml_text(i) + "</li>\n";
+  for (const auto& i : items) out += fmt::format("<li>{}</li>\n", xml_text(i));
   return out + "</ul>\n";
 }
 
 std::string verdict_box(const explain::Explanation& e, const std::string& words) {
-  return "<p class=\"verdict\"><b>" + xml_text(e.verdict) + "</b><br>" + xml_text(words) + "</p>\n";
+  return fmt::format("<p class=\"verdict\"><b>{}</b><br>{}</p>\n", xml_text(e.verdict), xml_text(words));
 }
 
-std::string next_box(const std::string& words) { return "<h2>The next experiment</h2>\n<p class=\"next\">" + xml_text(words) + "</p>\n"; }
+std::string next_box(const std::string& words) { return fmt::format("<h2>The next experiment</h2>\n<p class=\"next\">{}</p>\n", xml_text(words)); }
 
 std::string causes_html(const explain::Explanation& e) {
   std::string out;
   for (const auto& c : e.causes) {
     const auto& m = explain::mechanism_at(c.term.mechanism);
-    out += "<h3>" + xml_text(m.words) + " <small><code>" + m.name + "</code></small></h3>\n<p>It adds <code>" + xml_text(m.equation) +
-           printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %s. ", c.effect_n,
-                   c.p_value < 1e-4 ? "below 0.0001" : printed("%.2g", c.p_value).c_str()) +
-           (m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
+    out += fmt::format("<h3>{} <small><code>{}</code></small></h3>\n<p>It adds <code>{}{}{}", xml_text(m.words), m.name, xml_text(m.equation),
+                       printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %s. ", c.effect_n,
+                               c.p_value < 1e-4 ? "below 0.0001" : printed("%.2g", c.p_value).c_str()),
+                       m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
     out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
     for (const auto& [parameter, i] : c.parameters) {
       const auto [name, unit] = name_and_unit(parameter);
-      out += "<tr><td>" + xml_text(name) + "</td>" +
-             printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>", i.value, i.low, i.high) + "<td>" +
-             xml_text(unit) + "</td></tr>\n";
+      out +=
+          fmt::format("<tr><td>{}</td>{}<td>{}</td></tr>\n", xml_text(name),
+                      printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>", i.value, i.low, i.high), xml_text(unit));
     }
     out += "</table>\n";
     if (!c.aliases.empty()) {
       out += "<p><b>These fit as well:</b> ";
       for (std::size_t i = 0; i < c.aliases.size(); ++i) {
         const auto& other = explain::mechanism_at(explain::find_mechanism(c.aliases[i]));
-        out += (i > 0 ? "; " : "") + xml_text(other.words) + " (<code>" + other.name + "</code>)";
+        out += fmt::format("{}{} (<code>{}</code>)", i > 0 ? "; " : "", xml_text(other.words), other.name);
       }
       out += ". The data cannot tell which it is.</p>\n";
     }
   }
   if (e.unexplained)
-    out += "<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>" + xml_text(axis_label(e.unexplained->variable)) +
-           "</b> (" + xml_text(e.unexplained->form) + printed("), %.4f N root mean square.</p>\n", e.unexplained->effect_n);
-  if (const std::string left = left_over_words(e); !left.empty()) out += "<p>" + xml_text(left) + "</p>\n";
+    out += fmt::format("<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>{}</b> ({}{}",
+                       xml_text(axis_label(e.unexplained->variable)), xml_text(e.unexplained->form),
+                       printed("), %.4f N root mean square.</p>\n", e.unexplained->effect_n));
+  if (const std::string left = left_over_words(e); !left.empty()) out += fmt::format("<p>{}</p>\n", xml_text(left));
   return out.empty() ? "<p>No cause was found.</p>\n" : out;
 }
 
@@ -235,10 +239,10 @@ std::string cannot_tell(const explain::Explanation& e) {
   std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
   for (const auto& n : e.not_testable) by_reason[n.reason].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
   for (const auto& [reason, group] : by_reason) {
-    out += "<p><b>" + xml_text(reason) + ":</b></p>\n<details" + (group.size() > 8 ? "" : " open") +
-           printed("><summary>%zu mechanisms, and what would show them</summary>\n<table>\n", group.size());
+    out += fmt::format("<p><b>{}:</b></p>\n<details{}{}", xml_text(reason), group.size() > 8 ? "" : " open",
+                       printed("><summary>%zu mechanisms, and what would show them</summary>\n<table>\n", group.size()));
     for (const auto* m : group)
-      out += "<tr><td>" + xml_text(m->words) + " (<code>" + m->name + "</code>)</td><td>" + xml_text(m->separate) + "</td></tr>\n";
+      out += fmt::format("<tr><td>{} (<code>{}</code>)</td><td>{}</td></tr>\n", xml_text(m->words), m->name, xml_text(m->separate));
     out += "</table></details>\n";
   }
   return out;
@@ -257,14 +261,14 @@ std::string verdict_words(const explain::Explanation& e) {
 
 std::string explanation_html(const explain::Explanation& e, const std::string& title) {
   std::string out = head(title) + verdict_box(e, verdict_words(e));
-  if (e.verdict == "data_fault") return out + list(e.data_faults) + next_box(e.next_experiment) + "</body></html>\n";
+  if (e.verdict == "data_fault") return fmt::format("{}{}{}</body></html>\n", out, list(e.data_faults), next_box(e.next_experiment));
   out += "<h2>What the simulation gets wrong</h2>\n" + causes_html(e);
-  out += "<h2>What fixing it gains</h2>\n<p>Root mean square error on sessions that the fit had not seen.</p>\n" + gain_chart(e.gain) +
-         printed(
-             "<p>Gain %.1f %% (95 %%: %.1f to %.1f), %.0f %% of what could be explained. k = %.4g N/mm (%.4g to %.4g), c = %.4g N s/mm (%.4g to "
-             "%.4g).</p>\n",
-             e.gain.percent.value, e.gain.percent.low, e.gain.percent.high, e.gain.share_percent, e.base.k_n_per_mm, e.k.low, e.k.high,
-             e.base.c_n_s_per_mm, e.c.low, e.c.high);
+  out += fmt::format(
+      "<h2>What fixing it gains</h2>\n<p>Root mean square error on sessions that the fit had not seen.</p>\n{}{}", gain_chart(e.gain),
+      printed("<p>Gain %.1f %% (95 %%: %.1f to %.1f), %.0f %% of what could be explained. k = %.4g N/mm (%.4g to %.4g), c = %.4g N s/mm (%.4g to "
+              "%.4g).</p>\n",
+              e.gain.percent.value, e.gain.percent.low, e.gain.percent.high, e.gain.share_percent, e.base.k_n_per_mm, e.k.low, e.k.high,
+              e.base.c_n_s_per_mm, e.c.low, e.c.high));
   out += next_box(e.next_experiment);
   if (e.before && e.after) {
     const auto& scene = e.before->scene;
@@ -301,7 +305,8 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
 std::string table_html(const explain::TableExplanation& e, const std::string& title) {
   std::string out = head(title);
   if (e.said.verdict == "data_fault")
-    return out + verdict_box(e.said, verdict_words(e.said)) + list(e.said.data_faults) + next_box(e.said.next_experiment) + "</body></html>\n";
+    return fmt::format("{}{}{}{}</body></html>\n", out, verdict_box(e.said, verdict_words(e.said)), list(e.said.data_faults),
+                       next_box(e.said.next_experiment));
   out += verdict_box(
       e.said, e.said.verdict == "alias"
                   ? printed("A force of %.3f N is missing that does not depend on k. Friction, a bias of the load cell, an edge force: the table "
@@ -340,7 +345,8 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
         "<tr><td>%s</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.4f</td><td "
         "class=\"n\">%.4f</td></tr>\n",
         name, f->slope_mm, f->root, f->intercept_n, f->rms_n, f->left_out_rms_n);
-  out += "</table>\n<h2>What it says, and what it cannot say</h2>\n" + list(e.said.notes) + next_box(e.said.next_experiment) + cannot_tell(e.said);
+  out += fmt::format("</table>\n<h2>What it says, and what it cannot say</h2>\n{}{}{}", list(e.said.notes), next_box(e.said.next_experiment),
+                     cannot_tell(e.said));
   return out + "</body></html>\n";
 }
 

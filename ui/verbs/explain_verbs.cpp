@@ -1,4 +1,5 @@
 // `cavum explain`: measured data against the simulation.
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -95,7 +96,7 @@ bool ran_table(const ExplainArgs& a) {
   if (a.json)
     print_json(to_json(result));
   else
-    std::cout << to_text(result) << (a.out.empty() ? "" : "written: " + a.out + "\n");
+    std::cout << to_text(result) << (a.out.empty() ? "" : fmt::format("written: {}\n", a.out));
   return true;
 }
 
@@ -105,7 +106,7 @@ void run_explain(const ExplainArgs& a) {
     return;
   }
   if (!a.protocol.empty()) {
-    if (!a.data.empty()) throw Error("--protocol " + a.protocol, "goes without a recording", "leave out " + a.data + ", or --protocol");
+    if (!a.data.empty()) throw Error("--protocol " + a.protocol, "goes without a recording", fmt::format("leave out {}, or --protocol", a.data));
     return write_protocol(a.protocol);
   }
   if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
@@ -126,7 +127,8 @@ void run_explain(const ExplainArgs& a) {
     const std::string material = a.material.empty() ? explain::material_of(start) : a.material;
     const auto owner = start.materials.find(material);
     if (owner == start.materials.end() || !(owner->second.voigt.stiffness_n_per_mm > 0.0))
-      throw Error("--material " + material, "is no material of " + a.model + " that resists", "name one of its materials with k_n_per_mm above 0");
+      throw Error("--material " + material, fmt::format("is no material of {} that resists", a.model),
+                  "name one of its materials with k_n_per_mm above 0");
     added = explain::added_force_n(start, material, recording, a.model);
     const auto& tissue = start.materials.find(material)->second.voigt;
     recording.rig.k_n_per_mm = tissue.stiffness_n_per_mm;
@@ -173,7 +175,7 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
           [](const std::string& text) {
             int n = -1;
             return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 8 && n <= 1000)) ? std::string()
-                                                                                           : "'" + text + "' is neither 0 nor 8 to 1000";
+                                                                                           : fmt::format("'{}' is neither 0 nor 8 to 1000", text);
           },
           "0, or 8 to 1000"));
   verb->add_flag("--json", args->json, "one JSON object on standard output");

@@ -1,4 +1,6 @@
 // `cavum grade`: recorded exams, marked.
+#include <fmt/core.h>
+
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -73,7 +75,7 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
   int failed = 0, compared = 0;
   std::map<std::string, int> verdicts;  // "fail -> pass"
   const auto cell = [](const std::string& verdict, double points, double max) {
-    std::string s = verdict + " " + fixed(points, 1) + "/" + plain_number(max);
+    std::string s = fmt::format("{} {}/{}", verdict, fixed(points, 1), plain_number(max));
     s.resize(std::max<std::size_t>(18, s.size() + 1), ' ');
     return s;
   };
@@ -86,19 +88,20 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
         const Comparison& c = *g.comparison;
         std::string change = signed_points(c.points - c.before.points);
         change.resize(std::max<std::size_t>(8, change.size() + 1), ' ');
-        table += "  " + cell(c.before.verdict, c.before.points, c.before.max) + cell(now, c.points, c.max) + change + one_line(file) + "\n";
+        table +=
+            fmt::format("  {}{}{}{}\n", cell(c.before.verdict, c.before.points, c.before.max), cell(now, c.points, c.max), change, one_line(file));
         for (const auto& d : c.criteria)
           if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
-            std::string line = "      " + d.id + " " + signed_points(d.difference());
+            std::string line = fmt::format("      {} {}", d.id, signed_points(d.difference()));
             for (std::size_t i = 0; i < d.why.size(); ++i) line += (i > 0 ? "; " : ": ") + d.why[i];
             table += line + "\n";
           }
         ++compared;
-        ++verdicts[c.before.verdict == now ? "stay " + now : c.before.verdict + " -> " + now];
+        ++verdicts[c.before.verdict == now ? "stay " + now : fmt::format("{} -> {}", c.before.verdict, now)];
         const Json json = to_json(c);
         for (const auto& [key, value] : json.items()) one[key] = value;
       } else {
-        table += "  " + cell("none", 0, 0) + cell(now, g.result.points, g.result.max_points) + "        " + one_line(file) + "\n";
+        table += fmt::format("  {}{}        {}\n", cell("none", 0, 0), cell(now, g.result.points, g.result.max_points), one_line(file));
         one["old"] = nullptr;
         one["new"] = {{"verdict", now}, {"points", g.result.points}, {"max", g.result.max_points}};
       }
@@ -106,7 +109,7 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
     } catch (const Error& e) {
       ++failed;
       list.push_back({{"file", file}, {"error", e.what()}});
-      table += "  cannot be graded: " + one_line(e.what()) + "\n";
+      table += fmt::format("  cannot be graded: {}\n", one_line(e.what()));
     }
   }
   const Json all = {{"sessions", list}, {"graded", files.size() - static_cast<std::size_t>(failed)}, {"failed", failed}, {"verdicts", verdicts}};

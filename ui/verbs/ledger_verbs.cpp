@@ -1,4 +1,6 @@
 // `cavum ledger`: the names and options of its verbs.
+#include <fmt/core.h>
+
 #include <functional>
 #include <memory>
 

@@ -1,4 +1,6 @@
 // `cavum ledger verify | show`: does a ledger hold, and what is in it.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -25,17 +27,18 @@ int ledger_verify(const LedgerOptions& o) {
   check_owner(check, places, content, o.key.empty() ? school_key_path() : o.key, school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(path + ": " + f);
+    for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(fmt::format("{}: {}", path, f));
   }
   const auto cosigners = cosigners_of(o);
   check_cosignatures(content, cosigners, check.findings, check.not_checked);
   for (const auto& path : o.cosigned) {
     const auto note = check_cosigned(read_text_file(path), cosigners, content);
-    for (const auto& f : note.findings) check.findings.push_back(path + ": " + f);
-    for (const auto& n : note.not_checked) check.not_checked.push_back(path + ": " + n);
+    for (const auto& f : note.findings) check.findings.push_back(fmt::format("{}: {}", path, f));
+    for (const auto& n : note.not_checked) check.not_checked.push_back(fmt::format("{}: {}", path, n));
   }
   if (!o.results.empty())
-    for (auto& f : check_results(read_text_file(o.results), content.public_key, &content)) check.findings.push_back(o.results + ": " + f);
+    for (auto& f : check_results(read_text_file(o.results), content.public_key, &content))
+      check.findings.push_back(fmt::format("{}: {}", o.results, f));
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
                     {"ledger", content.id},
@@ -103,7 +106,7 @@ int ledger_show(const LedgerOptions& o) {
                 s.result.is_object() ? fixed(s.result["score"]["points"].get<double>(), 1).c_str() : "-", s.released ? "released" : "pending",
                 (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
                 ((s.findings.empty() ? std::string() : ", with findings") +
-                 (s.contested_by.empty() ? "" : ", contested by entry " + std::to_string(s.contested_by.back())) + (s.chosen ? ", chosen" : ""))
+                 (s.contested_by.empty() ? "" : fmt::format(", contested by entry {}", s.contested_by.back())) + (s.chosen ? ", chosen" : ""))
                     .c_str());
   return code;
 }

@@ -1,4 +1,6 @@
 // `cavum ledger checkpoint | cosign | add-cosignature`: other parties sign what the school signs of its ledger.
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <iostream>
 
@@ -23,7 +25,7 @@ std::vector<NoteKey> cosigners_of(const LedgerOptions& o) {
 
 void ledger_checkpoint(const LedgerOptions& o) {
   const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
-  if (o.since < -1) throw Error("--since " + std::to_string(o.since), "is no number of entries", "give 0 for a cosigner who has signed nothing yet");
+  if (o.since < -1) throw Error(fmt::format("--since {}", o.since), "is no number of entries", "give 0 for a cosigner who has signed nothing yet");
   const std::uint64_t since = o.since < 0 ? last_cosigned(ledger.content()) : static_cast<std::uint64_t>(o.since);
   const std::string request = cosign_request(ledger.content(), since);
   require_new(o, o.out);

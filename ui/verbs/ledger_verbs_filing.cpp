@@ -1,4 +1,6 @@
 // `cavum ledger init | add | receipt`: a ledger, and the exams that were sat.
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <iostream>
 
@@ -59,7 +61,7 @@ void ledger_init(const LedgerOptions& o) {
   if (o.school.empty() || o.school.size() > k_longest_school || !is_plain_text(o.school))
     throw Error("--school",
                 o.school.empty()                     ? "names no school"
-                : o.school.size() > k_longest_school ? "is longer than " + std::to_string(k_longest_school) + " bytes"
+                : o.school.size() > k_longest_school ? fmt::format("is longer than {} bytes", k_longest_school)
                                                      : "holds a control character or bytes that are no UTF-8",
                 "give the school's name in one line of UTF-8");
   const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
@@ -99,16 +101,16 @@ int ledger_add(const LedgerOptions& o) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
-      filing.findings.push_back(path + ": cannot be filed (" + e.what() + "); use an intact copy");
+      filing.findings.push_back(fmt::format("{}: cannot be filed ({}); use an intact copy", path, e.what()));
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
-      if (!o.out.empty()) write_private_text_file(o.out + "/receipt-" + std::to_string(*filing.seq) + ".json", one["receipt"].dump(2) + "\n");
+      if (!o.out.empty()) write_private_text_file(fmt::format("{}/receipt-{}.json", o.out, *filing.seq), one["receipt"].dump(2) + "\n");
     }
     if (!o.as_json) {
-      std::cout << one_line(path) << ": " << (filing.seq ? "entry " + std::to_string(*filing.seq) : std::string("NOT FILED")) << "\n";
+      std::cout << one_line(path) << ": " << (filing.seq ? fmt::format("entry {}", *filing.seq) : std::string("NOT FILED")) << "\n";
       for (const auto& f : filing.findings) std::cout << "  - " << one_line(f) << "\n";
       for (const auto& r : filing.remarks) std::cout << "  (" << one_line(r) << ")\n";
     }
@@ -121,10 +123,10 @@ int ledger_add(const LedgerOptions& o) {
 void ledger_receipt(const LedgerOptions& o) {
   const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error("--entry " + std::to_string(o.session_seq), "is no entry of this ledger", "see `cavum ledger show " + o.folder + "`");
+    throw Error(fmt::format("--entry {}", o.session_seq), "is no entry of this ledger", fmt::format("see `cavum ledger show {}`", o.folder));
   if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error("--from-size " + std::to_string(o.from_size), "is no number of entries that this ledger has had",
-                "give 1 to " + std::to_string(ledger.content().entries.size()));
+    throw Error(fmt::format("--from-size {}", o.from_size), "is no number of entries that this ledger has had",
+                fmt::format("give 1 to {}", ledger.content().entries.size()));
   require_new(o, o.out);
   const json receipt = make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
   write_school_file(o, o.out, receipt.dump(2) + "\n");

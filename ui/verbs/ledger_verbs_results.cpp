@@ -1,4 +1,6 @@
 // `cavum ledger release | regrade | export | candidates`: what becomes of the results.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iostream>
 
@@ -42,9 +44,9 @@ void ledger_release(const LedgerOptions& o) {
     print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}});
   else
     std::cout << released.results.size() << (released.results.size() == 1 ? " result released" : " results released")
-              << (released.kept_back > 0 ? ", " + std::to_string(released.kept_back) +
-                                               " kept back: filed with findings, or contested by another ending of the same exam (--candidate or "
-                                               "--session with --with-findings releases one after an appeal)"
+              << (released.kept_back > 0 ? fmt::format(", {} kept back: filed with findings, or contested by another ending of the same exam "
+                                                       "(--candidate or --session with --with-findings releases one after an appeal)",
+                                                       released.kept_back)
                                          : "")
               << "\n";
 }
@@ -53,8 +55,8 @@ void ledger_release(const LedgerOptions& o) {
 std::string in_words(const json& result) {
   if (!result.is_object()) return "no result";
   const json& score = result.at("score");
-  return one_line(result.value("verdict", "")) + ", " + fixed(score.at("points").get<double>(), 1) + " of " +
-         plain_number(score.at("max").get<double>());
+  return fmt::format("{}, {} of {}", one_line(result.value("verdict", "")), fixed(score.at("points").get<double>(), 1),
+                     plain_number(score.at("max").get<double>()));
 }
 
 void ledger_regrade(const LedgerOptions& o) {
@@ -65,7 +67,7 @@ void ledger_regrade(const LedgerOptions& o) {
   const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(),
                                   [&](const FiledSession& s) { return static_cast<std::int64_t>(s.seq) == o.session_seq; });
   if (found == registry.sessions.end())
-    throw Error("--session " + std::to_string(o.session_seq), "is no session's entry", "see `cavum ledger show " + o.folder + "`");
+    throw Error(fmt::format("--session {}", o.session_seq), "is no session's entry", fmt::format("see `cavum ledger show {}`", o.folder));
   const RegradeBasis basis = read_basis(o.rubric, o.scenario);
   const auto graded = load_for_grading(recording_of(ledger.places(), *found));
   if (auto scenario = scenario_of(basis, o.scenario)) {
@@ -116,7 +118,7 @@ void ledger_candidates(const LedgerOptions& o) {
   for (const auto& i : identities.all()) {
     all.push_back({{"candidate", i.pseudonym}, {"exam", i.exam}, {"id", i.id}, {"name", i.name}});
     if (!o.as_json)
-      std::cout << one_line(i.pseudonym + "  " + (i.exam.empty() ? "any exam" : i.exam) + "  " + i.id + (i.name.empty() ? "" : ", " + i.name))
+      std::cout << one_line(fmt::format("{}  {}  {}{}", i.pseudonym, i.exam.empty() ? "any exam" : i.exam, i.id, i.name.empty() ? "" : ", " + i.name))
                 << "\n";
   }
   if (o.as_json) print_json(json{{"candidates", all}});

@@ -1,4 +1,6 @@
 // `cavum ledger ticket | tickets | cancel | begin`: exams that the school promised.
+#include <fmt/core.h>
+
 #include <cstdio>
 #include <iostream>
 
@@ -43,7 +45,7 @@ int ledger_ticket(const LedgerOptions& o) {
   int refused = 0;
   for (const auto& p : people) {
     const std::string candidate = identities.enrol(p.id, p.name, ticket.exam, ledger.key()),
-                      file = folder ? o.out + "/" + file_name_of(candidate) + ".ticket" : o.out;
+                      file = folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out;
     require_new(o, file);
     try {
       write_school_file(o, file, issue(ledger, ticket, candidate, o.another ? Another::allow : Another::refuse) + "\n");
@@ -54,7 +56,7 @@ int ledger_ticket(const LedgerOptions& o) {
       continue;
     }
     printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
-    if (!o.as_json) std::cout << one_line(candidate + "  " + file + "  " + p.id + (p.name.empty() ? "" : ", " + p.name)) << "\n";
+    if (!o.as_json) std::cout << one_line(fmt::format("{}  {}  {}{}", candidate, file, p.id, p.name.empty() ? "" : ", " + p.name)) << "\n";
   }
   if (o.as_json) print_json(json{{"tickets", printed}, {"refused", refused}});
   return refused == 0 ? 0 : 1;
@@ -66,10 +68,10 @@ void ledger_tickets(const LedgerOptions& o) {
   const std::int64_t now = read_clocks().utc_ns;
   json printed = json::array();
   for (const auto& t : registry.tickets) {
-    const std::string state = t.used_by                         ? "used by entry " + std::to_string(*t.used_by)
-                              : t.cancelled_by                  ? "cancelled by entry " + std::to_string(*t.cancelled_by)
+    const std::string state = t.used_by                         ? fmt::format("used by entry {}", *t.used_by)
+                              : t.cancelled_by                  ? fmt::format("cancelled by entry {}", *t.cancelled_by)
                               : now > t.ticket.not_after_utc_ns ? "run out"
-                              : !t.begins.empty()               ? "let begin by entry " + std::to_string(t.begins.back().seq)
+                              : !t.begins.empty()               ? fmt::format("let begin by entry {}", t.begins.back().seq)
                                                                 : "live";
     printed.push_back({{"entry", t.seq},
                        {"candidate", t.ticket.candidate},
@@ -86,7 +88,7 @@ void ledger_tickets(const LedgerOptions& o) {
 }
 
 void ledger_cancel(const LedgerOptions& o) {
-  if (o.session_seq < 0) throw Error("--ticket", "is no entry's number", "see `cavum ledger tickets " + o.folder + "`");
+  if (o.session_seq < 0) throw Error("--ticket", "is no entry's number", fmt::format("see `cavum ledger tickets {}`", o.folder));
   Ledger ledger(o.folder, key_of(o));
   const auto& entry = cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
   std::cout << "entry " << entry.seq << ": the ticket of entry " << o.session_seq

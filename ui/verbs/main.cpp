@@ -1,4 +1,6 @@
 // The one binary: `cavum VERB ...`. Exit 0 done, 1 done and the answer is no, 2 usage or unreadable input.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -18,7 +20,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, not the end of an exam
   const cavum::SafeTerminal terminal;
   CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
-  app.set_version_flag("--version", std::string("cavum ") + CAVUM_VERSION + ", physics " + std::to_string(cavum::k_physics_version));
+  app.set_version_flag("--version", fmt::format("cavum {}, physics {}", CAVUM_VERSION, cavum::k_physics_version));
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   int exit_code = 0;

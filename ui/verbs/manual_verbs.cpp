@@ -1,4 +1,6 @@
 // The manual page, the shell's completion and the udev rules, made of what the program says of itself with --help.
+#include <fmt/core.h>
+
 #include <iostream>
 #include <sstream>
 
@@ -43,10 +45,10 @@ void write_verb(std::ostream& out, const CLI::App& verb, const std::string& path
       const bool takes_value = o->get_expected_max() > 0 && o->get_items_expected_max() > 0;
       const std::string value = takes_value && !o->get_positional() ? " " + o->get_type_name() : "";
       out << ".TP\n.B \"" << roff(o->get_name(o->get_positional(), true) + value) << "\"\n"
-          << roff(o->get_description()) << (o->get_default_str().empty() ? "" : roff(" (" + o->get_default_str() + ")")) << "\n";
+          << roff(o->get_description()) << (o->get_default_str().empty() ? "" : roff(fmt::format(" ({})", o->get_default_str()))) << "\n";
     }
   }
-  for (const auto* v : below) write_verb(out, *v, path + " " + v->get_name());
+  for (const auto* v : below) write_verb(out, *v, fmt::format("{} {}", path, v->get_name()));
 }
 
 void write_man_page(std::ostream& out, const CLI::App& app) {
@@ -65,7 +67,7 @@ std::string names_of(const CLI::App& app) {
   std::string out;
   for (const auto* v : shown_verbs(app)) out += v->get_name() + " ";
   for (const auto* o : shown_options(app))
-    for (const auto& name : o->get_lnames()) out += "--" + name + " ";
+    for (const auto& name : o->get_lnames()) out += fmt::format("--{} ", name);
   if (!out.empty()) out.pop_back();
   return out;
 }
@@ -74,7 +76,7 @@ void write_cases(std::ostream& paths, std::ostream& words, const CLI::App& app, 
   words << "    \"" << path << "\") words=\"" << names_of(app) << "\" ;;\n";
   for (const auto* v : shown_verbs(app)) {
     paths << (paths.tellp() > 0 ? " | " : "") << "\"" << path << " " << v->get_name() << "\"";
-    write_cases(paths, words, *v, path + " " + v->get_name());
+    write_cases(paths, words, *v, fmt::format("{} {}", path, v->get_name()));
   }
 }
 

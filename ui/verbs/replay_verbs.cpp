@@ -1,5 +1,7 @@
 // `cavum replay`: simulates recorded sessions again and says whether they are true. Works on one file or on
 // a folder, and writes JUnit for CI.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -87,7 +89,7 @@ json to_json(const std::string& folder, const std::vector<Outcome>& outcomes) {
       sum["first_divergence"] = one["first_divergence"];
       sum["first_divergence"]["file"] = o.report.file;
     }
-    for (const auto& f : o.report.findings) sum["findings"].push_back(o.report.file + ": " + f);
+    for (const auto& f : o.report.findings) sum["findings"].push_back(fmt::format("{}: {}", o.report.file, f));
     sessions.push_back(std::move(one));
   }
   sum["ticks"] = ticks;

@@ -1,4 +1,6 @@
 // `cavum report` and `cavum ledger report`: reports of recorded exams, for instructors and for students.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -41,17 +43,17 @@ ReportIntegrity integrity_of(const std::string& path, const Options& o, const Fi
 
 /// What the ledger kept of a regrade, to mark by. Throws Error when it kept nothing: such a regrade is older than that.
 Marking marking_of(const ReportLedger& ledger, const FiledSession& session, const Regrade& regrade) {
-  const std::string entry = "entry " + std::to_string(regrade.seq);
+  const std::string entry = fmt::format("entry {}", regrade.seq);
   const auto basis = kept_basis(ledger.content, regrade);
   if (!basis)
-    throw Error(entry, "is a regrade of entry " + std::to_string(session.seq) + " by a rubric that the ledger did not keep then",
+    throw Error(entry, fmt::format("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
                 "name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on");
   Marking m;
   m.scenario = scenario_of(*basis, entry + ": scenario.toml");
   m.rubric = rubric_of(*basis, entry + ": rubric.toml");
   m.another_task = true;  // was allowed when it was entered
-  m.by = std::string(m.rubric ? "the rubric" : "") + (m.rubric && m.scenario ? " and " : "") + (m.scenario ? "the scenario" : "") +
-         " that the ledger keeps with " + entry;
+  m.by = fmt::format("{}{}{} that the ledger keeps with {}", m.rubric ? "the rubric" : "", m.rubric && m.scenario ? " and " : "",
+                     m.scenario ? "the scenario" : "", entry);
   return m;
 }
 
@@ -96,13 +98,14 @@ int run_all(const Options& o) {
   const ReportLedger ledger(o.ledger);
   std::error_code failed_to_make;
   std::filesystem::create_directories(o.out, failed_to_make);
-  if (failed_to_make) throw Error("--out " + o.out, "cannot be made (" + failed_to_make.message() + ")", "name a folder that you may write to");
+  if (failed_to_make)
+    throw Error("--out " + o.out, fmt::format("cannot be made ({})", failed_to_make.message()), "name a folder that you may write to");
   Options each = o;
   each.reader = "student";
   int written = 0, failed = 0;
   for (const auto& s : ledger.registry.sessions) {
     if (s.shown.is_null()) continue;
-    each.out = o.out + "/" + file_name_of(s.candidate) + "-" + std::to_string(s.seq) + (o.pdf ? ".pdf" : ".html");
+    each.out = fmt::format("{}/{}-{}{}", o.out, file_name_of(s.candidate), s.seq, o.pdf ? ".pdf" : ".html");
     try {
       require_report_place(each.out, each.overwrite);
       write_report(recording_of(ledger.places, s), each.out, each, &ledger, &s);
@@ -112,7 +115,7 @@ int run_all(const Options& o) {
       std::cerr << "cavum: " << one_line(e.what()) << "\n";
     }
   }
-  std::cout << written << (written == 1 ? " report" : " reports") << " written" << (failed > 0 ? ", " + std::to_string(failed) + " not" : "") << "\n";
+  std::cout << written << (written == 1 ? " report" : " reports") << " written" << (failed > 0 ? fmt::format(", {} not", failed) : "") << "\n";
   return failed > 0 ? 1 : 0;
 }
 

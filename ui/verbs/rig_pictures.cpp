@@ -1,5 +1,7 @@
 #include "ui/verbs/rig_pictures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +21,7 @@ constexpr std::array k_colours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad"};
 const std::string k_paper_colour = "#222222";
 
 std::string equation(const Fit& f) {
-  return "F = " + fixed(f.value[0], 3) + " k " + (f.value[1] < 0 ? "- " : "+ ") + fixed(std::fabs(f.value[1]), 3);
+  return fmt::format("F = {} k {}{}", fixed(f.value[0], 3), f.value[1] < 0 ? "- " : "+ ", fixed(std::fabs(f.value[1]), 3));
 }
 
 /// y = value at 0 … largest k, in steps fine enough for a root.
@@ -41,12 +43,12 @@ std::string heat_colour(double value, double limit) {
   if (value <= limit) return value <= 0.25 * limit ? "#bfe3c5" : "#dcefd5";
   const double hot = std::clamp(std::log10(value / limit) / 2.0, 0.0, 1.0);
   const auto channel = [&](double from, double to) { return static_cast<int>(from + (to - from) * hot); };
-  return "rgb(" + std::to_string(channel(255, 200)) + "," + std::to_string(channel(226, 50)) + "," + std::to_string(channel(130, 45)) + ")";
+  return fmt::format("rgb({},{},{})", channel(255, 200), channel(226, 50), channel(130, 45));
 }
 
 std::string field(double x, double y, double w, double h, const std::string& colour, const std::string& words, bool bold) {
-  return "<rect x='" + fixed(x, 1) + "' y='" + fixed(y, 1) + "' width='" + fixed(w - 1, 1) + "' height='" + fixed(h - 1, 1) + "' fill='" + colour +
-         "'/>" + svg_text(x + w / 2, y + h / 2 + 3.5, words, 10, "middle", bold ? "font-weight='bold'" : "");
+  return fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>{}", fixed(x, 1), fixed(y, 1), fixed(w - 1, 1), fixed(h - 1, 1), colour,
+                     svg_text(x + w / 2, y + h / 2 + 3.5, words, 10, "middle", bold ? "font-weight='bold'" : ""));
 }
 
 /// The straight line of a fit, over all stiffnesses.
@@ -117,10 +119,11 @@ std::string cube_svg(const CubeResult& r) {
   for (std::size_t i = 0; i < r.sets.size(); ++i) add_cube_set(r.sets[i], k_colours[i % k_colours.size()], largest, force, rest);
   scale_cube_charts(force, rest, largest);
   const auto& m = r.options.machine;
-  return charts_page(
-      "Virtual cubes on the testing machine, " + plain_number(m.speed_mm_s) + " mm/s, " + runs_text(r.options.runs) + " each", {force, rest},
-      {"Bars: sd over the runs. Joint friction of the simulated Omni " + plain_number(m.omni.coulomb_n) + " N; load cell noise " +
-       plain_number(m.noise_n) + " N and zero error " + plain_number(m.zero_n) + " N a run (assumed). Mean of the last 2 s of a steady cut."});
+  return charts_page(fmt::format("Virtual cubes on the testing machine, {} mm/s, {} each", plain_number(m.speed_mm_s), runs_text(r.options.runs)),
+                     {force, rest},
+                     {fmt::format("Bars: sd over the runs. Joint friction of the simulated Omni {} N; load cell noise {} N and zero error {} N a run "
+                                  "(assumed). Mean of the last 2 s of a steady cut.",
+                                  plain_number(m.omni.coulomb_n), plain_number(m.noise_n), plain_number(m.zero_n))});
 }
 
 std::string tooth_svg(const ToothRigResult& r) {
@@ -167,16 +170,17 @@ std::string tooth_svg(const ToothRigResult& r) {
     fall.marks.push_back({0.0, true, ""});
     fall.spans.push_back({-1e9, 0, r.layers.size() > 1 ? r.layers[r.layers.size() - 2].tissue : "", span_colour("dentin")});
     fall.spans.push_back({0, 1e9, "pulp", span_colour("pulp")});
-    fall.marks.push_back({r.before_n.mean, false, "before " + fixed(r.before_n.mean, 2) + " N"});
-    fall.marks.push_back({r.after_n.mean, false, "after " + fixed(r.after_n.mean, 2) + " N"});
+    fall.marks.push_back({r.before_n.mean, false, fmt::format("before {} N", fixed(r.before_n.mean, 2))});
+    fall.marks.push_back({r.after_n.mean, false, fmt::format("after {} N", fixed(r.after_n.mean, 2))});
   }
   whole.y_range = fall.y_range = {{0.0, 1.3 * top}};
-  std::vector<std::string> words{"Joint friction " + plain_number(r.options.machine.omni.coulomb_n) +
-                                 " N included. Shaded spans: mean times at which a tissue lies before the tip."};
+  std::vector<std::string> words{fmt::format("Joint friction {} N included. Shaded spans: mean times at which a tissue lies before the tip.",
+                                             plain_number(r.options.machine.omni.coulomb_n))};
   if (r.counted > 0)
-    words.push_back("Pulp reached " + fixed(r.pulp_s.mean, 1) + " ± " + fixed(r.pulp_s.sd, 1) + " s after contact (dashed); fall from " +
-                    fixed(r.before_n.mean, 3) + " to " + fixed(r.after_n.mean, 3) + " N, 90 to 10 % within " + fixed(r.fall_s.mean, 2) + " s.");
-  return charts_page(r.tooth + ", model '" + r.model + "', " + r.point + ", " + plain_number(r.options.machine.speed_mm_s) + " mm/s", {whole, fall},
+    words.push_back(fmt::format("Pulp reached {} ± {} s after contact (dashed); fall from {} to {} N, 90 to 10 % within {} s.",
+                                fixed(r.pulp_s.mean, 1), fixed(r.pulp_s.sd, 1), fixed(r.before_n.mean, 3), fixed(r.after_n.mean, 3),
+                                fixed(r.fall_s.mean, 2)));
+  return charts_page(fmt::format("{}, model '{}', {}, {} mm/s", r.tooth, r.model, r.point, plain_number(r.options.machine.speed_mm_s)), {whole, fall},
                      words);
 }
 
@@ -264,14 +268,15 @@ std::string press_legend(const PressOptions& o, double y) {
   std::string body;
   double x = 16;
   for (const auto& [times, words] : scale) {
-    body += "<rect x='" + fixed(x, 1) + "' y='" + fixed(y - 10, 1) + "' width='16' height='12' fill='" + heat_colour(times, 1.0) + "'/>" +
-            svg_text(x + 21, y, words, 11);
+    body += fmt::format("<rect x='{}' y='{}' width='16' height='12' fill='{}'/>{}", fixed(x, 1), fixed(y - 10, 1), heat_colour(times, 1.0),
+                        svg_text(x + 21, y, words, 11));
     x += 40 + 6.2 * static_cast<double>(std::string(words).size());
   }
   body += svg_text(16, y + 18,
-                   "Limit " + plain_number(o.limit_sd_n) + " N; * = the wall gave out energy (passivity observer, limit " +
-                       plain_number(o.limit_energy_mj) + " mJ). Hand " + plain_number(1000 * o.hand_mass_kg) + " g, damping ratio " +
-                       plain_number(o.hand_damping_ratio) + " (assumed). Bounces: most of all hands at " + plain_number(o.contact_press_n) + " N.",
+                   fmt::format("Limit {} N; * = the wall gave out energy (passivity observer, limit {} mJ). Hand {} g, damping ratio {} (assumed). "
+                               "Bounces: most of all hands at {} N.",
+                               plain_number(o.limit_sd_n), plain_number(o.limit_energy_mj), plain_number(1000 * o.hand_mass_kg),
+                               plain_number(o.hand_damping_ratio), plain_number(o.contact_press_n)),
                    11, "start", "fill='#555555'");
   return body;
 }

@@ -1,4 +1,6 @@
 // `cavum rig`: the paper's experiments on a virtual testing machine, the closed-loop press, and the servo in real time.
+#include <fmt/core.h>
+
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -106,7 +108,7 @@ void finish(const Common& a, const Result& result, const std::string& svg, const
   if (a.json)
     print_json(to_json(result));
   else
-    std::cout << text() << (a.out.empty() ? "" : "written: " + a.out + "\n");
+    std::cout << text() << (a.out.empty() ? "" : fmt::format("written: {}\n", a.out));
 }
 
 void run_cube(CubeArgs a) {
@@ -131,7 +133,7 @@ void run_cube(CubeArgs a) {
     write_text_file(a.csv, recordings_csv(result));
     write_text_file(rig_toml, recordings_rig_toml(result));
   }
-  finish(a, result, cube_svg(result), [&] { return to_text(result) + (a.csv.empty() ? "" : "written: " + a.csv + " and " + rig_toml + "\n"); });
+  finish(a, result, cube_svg(result), [&] { return to_text(result) + (a.csv.empty() ? "" : fmt::format("written: {} and {}\n", a.csv, rig_toml)); });
 }
 
 void run_tooth(ToothArgs a) {
@@ -147,7 +149,7 @@ void run_tooth(ToothArgs a) {
 DampingRule parse_damping(const std::string& name) {
   for (const DampingRule rule : {DampingRule::paper, DampingRule::consistent, DampingRule::none})
     if (name == damping_name(rule)) return rule;
-  throw Error("--c", "there is no damping '" + name + "'", "use paper, consistent or none");
+  throw Error("--c", fmt::format("there is no damping '{}'", name), "use paper, consistent or none");
 }
 
 bool run_press(PressArgs a) {

@@ -1,4 +1,5 @@
 // `cavum scenario check | show | solve | new`: authoring help.
+#include <fmt/core.h>
 #include <stdlib.h>
 
 #include <array>
@@ -52,7 +53,7 @@ int check(const Options& o) {
     for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
     if (checked.sound()) {
       const auto n = checked.problems.size();
-      std::cout << o.scenario << ": " << (n == 0 ? "sound" : "no mistakes, " + std::to_string(n) + (n == 1 ? " warning" : " warnings"));
+      std::cout << o.scenario << ": " << (n == 0 ? "sound" : fmt::format("no mistakes, {}{}", n, n == 1 ? " warning" : " warnings"));
       if (checked.expert_s) std::cout << "; the built-in expert needs about " << fixed(*checked.expert_s, 0) << " s";
       std::cout << (n == 0 ? "" : "; whether it can be passed: cavum scenario solve " + o.scenario) << "\n";
     }
@@ -156,10 +157,10 @@ struct Solved {
 std::string advice_for_expert(const Result& r) {
   if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
   for (const auto& c : r.criteria)
-    if (!c.value) return "take '" + c.id + "' out: this cavity has nothing that it measures";
+    if (!c.value) return fmt::format("take '{}' out: this cavity has nothing that it measures", c.id);
   for (const auto& c : r.criteria)
     if (c.critical_failed)
-      return "move the critical limit of '" + c.id + "' beyond what the expert reaches, or change the zones so that it can be kept";
+      return fmt::format("move the critical limit of '{}' beyond what the expert reaches, or change the zones so that it can be kept", c.id);
   if (r.verdict == Verdict::review)
     return r.perforation.agree() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
                                  : "look at the recording (--out): force and tissue disagree about a perforation";
@@ -168,8 +169,9 @@ std::string advice_for_expert(const Result& r) {
     if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;
   return worst == nullptr
              ? "give the rubric criteria"
-             : "begin with '" + worst->id + "', which cost most: set its full and zero within what the expert reaches, or allow a point that " +
-                   "fits the target";
+             : fmt::format(
+                   "begin with '{}', which cost most: set its full and zero within what the expert reaches, or allow a point that fits the target",
+                   worst->id);
 }
 
 /// The built-in expert takes the exam.
@@ -187,11 +189,13 @@ Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& s
   const Result& r = solved.result.emplace(taken(setup, *expert, session));
   if (r.verdict == Verdict::pass) return solved;
   solved.reasons = r.verdict_reasons;
-  if (r.progress.finish == "time") solved.reasons.push_back("time was up after " + fixed(r.motion.time_s, 1) + " s: the expert was not finished");
+  if (r.progress.finish == "time")
+    solved.reasons.push_back(fmt::format("time was up after {} s: the expert was not finished", fixed(r.motion.time_s, 1)));
   for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
-    solved.reasons.push_back("step " + setup.scenario.steps[i].id + " was not completed (" + setup.scenario.steps[i].complete_when + ")");
+    solved.reasons.push_back(fmt::format("step {} was not completed ({})", setup.scenario.steps[i].id, setup.scenario.steps[i].complete_when));
   for (const auto& c : r.criteria)
-    if (c.points < c.max && !c.critical_failed) solved.reasons.push_back("criterion " + c.id + ": " + c.reason);  // a critical one is named already
+    if (c.points < c.max && !c.critical_failed)
+      solved.reasons.push_back(fmt::format("criterion {}: {}", c.id, c.reason));  // a critical one is named already
   solved.advice = advice_for_expert(r);
   return solved;
 }
@@ -211,13 +215,16 @@ std::string advice_for(const Caught& c) {
   if (c.result.progress.finish == "time")
     return "time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see";
   if (lost_all && c.result.verdict == Verdict::review)
-    return "a person would have to decide: make '" + named.id + "' critical, or raise the pass mark by more than the borderline band";
+    return fmt::format("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id);
   if (lost_all)
-    return "'" + named.id +
-           "' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory";
+    return fmt::format(
+        "'{}' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory",
+        named.id);
   const std::string value = named.value ? fixed(*named.value, 2) + (named.unit.empty() ? "" : " " + named.unit) : "no value";
-  return "'" + named.id + "' still gives " + fixed(named.points, 1) + " of " + fixed(named.max, 1) + " points for " + value +
-         ": make the mistake in [careless] larger, or the criterion stricter so that it gives none for that, or let fails_by name another";
+  return fmt::format(
+      "'{}' still gives {} of {} points for {}: make the mistake in [careless] larger, or the criterion stricter so that it gives none for that, or "
+      "let fails_by name another",
+      named.id, fixed(named.points, 1), fixed(named.max, 1), value);
 }
 
 Caught catch_careless(const Options& o, const ExamSetup& setup, const std::string& session) {
@@ -239,11 +246,11 @@ nlohmann::ordered_json to_json(const Caught& c) {
 }
 
 std::string to_text(const Caught& c) {
-  std::string s = "careless: " + std::string(c.as_named ? "failed by " : "NOT failed by ") + c.criterion.id + " (" + c.criterion.reason + "); " +
-                  fixed(c.result.points, 1) + " of " + fixed(c.result.max_points, 1) + " points, " + verdict_name(c.result.verdict) + "\n";
+  std::string s = fmt::format("careless: {}{} ({}); {} of {} points, {}\n", c.as_named ? "failed by " : "NOT failed by ", c.criterion.id,
+                              c.criterion.reason, fixed(c.result.points, 1), fixed(c.result.max_points, 1), verdict_name(c.result.verdict));
   if (c.as_named) return s;
-  for (const auto& reason : c.result.verdict_reasons) s += "because: " + reason + "\n";
-  s += "what to do: " + c.advice + "\n";
+  for (const auto& reason : c.result.verdict_reasons) s += fmt::format("because: {}\n", reason);
+  s += fmt::format("what to do: {}\n", c.advice);
   return s;
 }
 
@@ -280,7 +287,7 @@ int solve(const Options& o) {
     print_json(j);
     return answer;
   }
-  std::cout << one_line(setup->scenario.id + " on " + setup->tooth.name) << ": "
+  std::cout << one_line(fmt::format("{} on {}", setup->scenario.id, setup->tooth.name)) << ": "
             << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
   if (solved.result) {
     const Result& r = *solved.result;
@@ -351,7 +358,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
 
   auto* news = verb->add_subcommand("new", "Write a commented scenario to start from");
   std::string known;
-  for (const auto& c : template_choices()) known += (known.empty() ? "" : ", ") + c.tooth + " " + c.task;
+  for (const auto& c : template_choices()) known += fmt::format("{}{} {}", known.empty() ? "" : ", ", c.tooth, c.task);
   news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
   news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
   news->add_option("--out", o->out, "file to write")->required();

@@ -1,4 +1,6 @@
 // `station`: the exam window.
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <memory>
 
@@ -68,7 +70,7 @@ void require_sound(const StationOptions& o, const std::string& author) {
   }
   require_second_place(o.sitting);
   if (o.candidate.size() > k_longest_code)
-    throw Error("--candidate", "is longer than a code", "use " + std::to_string(k_longest_code) + " characters at most");
+    throw Error("--candidate", "is longer than a code", fmt::format("use {} characters at most", k_longest_code));
   // what would spoil the exam is said before a candidate sits down
   ExamOptions trial;
   trial.candidate = "trial";

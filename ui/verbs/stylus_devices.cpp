@@ -1,5 +1,6 @@
 #include "ui/verbs/stylus_devices.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <array>
@@ -67,8 +68,8 @@ std::string styluses_text(bool again) {
   for (const auto& s : list_styluses(!again)) {
     std::string id = s.id;
     id.resize(10, ' ');
-    text += "  " + id + " " + one_line(s.name) + (s.there ? "" : "  (not there)") + (placed(s.id) ? "  (placed)" : "") + "\n";
-    if (!s.problem.empty()) text += "    " + one_line(s.problem) + "\n";
+    text += fmt::format("  {} {}{}{}\n", id, one_line(s.name), s.there ? "" : "  (not there)", placed(s.id) ? "  (placed)" : "");
+    if (!s.problem.empty()) text += fmt::format("    {}\n", one_line(s.problem));
   }
   return text;
 }
@@ -138,7 +139,7 @@ void place_stylus(const std::string& id) {
   const PlacementFit fit = fit_placement(device, tooth);
   constexpr double k_most_mm = 3.0;
   if (fit.worst_mm > k_most_mm)
-    throw Error("--place", "the marks do not fit together: one is off by " + fixed(fit.worst_mm, 1) + " mm",
+    throw Error("--place", fmt::format("the marks do not fit together: one is off by {} mm", fixed(fit.worst_mm, 1)),
                 "measure them with a ruler, and begin again");
   options.station.placement = fit.placement;
   options.station.placement.tool = tool;

@@ -1,4 +1,6 @@
 // `cavum tooth`: make a tooth, import one, look at it, export its surface.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -46,7 +48,7 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
     double v = 0.0;
     const auto read = std::from_chars(part.data(), part.data() + part.size(), v);
     if (read.ec != std::errc{} || read.ptr != part.data() + part.size() || !std::isfinite(v))
-      throw Error(option, "cannot read '" + part + "' as a number", "write numbers with commas between, such as 10,10,6");
+      throw Error(option, fmt::format("cannot read '{}' as a number", part), "write numbers with commas between, such as 10,10,6");
     numbers.push_back(v);
   }
   return numbers;
@@ -54,7 +56,7 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
 
 Vec3 parse_vec(const std::string& text, const std::string& option) {
   const auto n = parse_numbers(text, option);
-  if (n.size() != 3) throw Error(option, "needs three numbers, '" + text + "' has " + std::to_string(n.size()), "write them as x,y,z");
+  if (n.size() != 3) throw Error(option, fmt::format("needs three numbers, '{}' has {}", text, n.size()), "write them as x,y,z");
   return {n[0], n[1], n[2]};
 }
 
@@ -115,7 +117,7 @@ void notice_part_leaves(const std::vector<double>& sizes_mm, double leaf_mm, con
 Tooth with_lesion(Tooth tooth, const std::string& text) {
   if (text.empty()) return tooth;
   const auto n = parse_numbers(text, "--lesion");
-  if (n.size() != 6) throw Error("--lesion", "needs six numbers, '" + text + "' has " + std::to_string(n.size()), "write them as x,y,z,rx,ry,rz");
+  if (n.size() != 6) throw Error("--lesion", fmt::format("needs six numbers, '{}' has {}", text, n.size()), "write them as x,y,z,rx,ry,rz");
   return plant_lesion(std::move(tooth), {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
 }
 
@@ -250,7 +252,7 @@ void require_meshes(const ImportArgs& a) {
       missing += (missing.empty() ? "" : " and ") + std::string(option);
   }
   if (!missing.empty())
-    throw Error("tooth import", missing + (missing.find(' ') == missing.npos ? " is" : " are") + " missing",
+    throw Error("tooth import", fmt::format("{}{} missing", missing, missing.find(' ') == missing.npos ? " is" : " are"),
                 "give one closed surface for each of the three layers");
 }
 

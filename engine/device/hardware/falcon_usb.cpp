@@ -1,5 +1,6 @@
 #include "engine/device/hardware/falcon_usb.h"
 
+#include <fmt/core.h>
 #include <libusb-1.0/libusb.h>
 
 #include <algorithm>
@@ -56,7 +57,7 @@ libusb_device_handle* open_first(libusb_context* context, bool& there) {
   if (count >= 0) libusb_free_device_list(list, 1);
   if (!there) throw not_there();
   if (error == LIBUSB_ERROR_ACCESS) throw Error(k_where, "may not be opened", udev_advice(k_falcon_vendor, k_falcon_product, false));
-  if (error != 0) throw Error(k_where, std::string("does not open (") + libusb_strerror(error) + ")", "plug it in again");
+  if (error != 0) throw Error(k_where, fmt::format("does not open ({})", libusb_strerror(error)), "plug it in again");
   return handle;
 }
 
@@ -80,7 +81,7 @@ FalconUsb::FalconUsb() {
   static_cast<void>(libusb_set_auto_detach_kernel_driver(device_, 1));  // a serial port driver may hold it; not every system can
   if (const int error = libusb_claim_interface(device_, 0); error != 0) {
     libusb_close(device_);
-    throw Error(k_where, std::string("is in use (") + libusb_strerror(error) + ")", "close the other program that drives it");
+    throw Error(k_where, fmt::format("is in use ({})", libusb_strerror(error)), "close the other program that drives it");
   }
   context_ = context.release();
 }
@@ -96,7 +97,7 @@ void FalconUsb::control(int request, int value) {
   if (const int error = libusb_control_transfer(device_, k_vendor_out, static_cast<std::uint8_t>(request), static_cast<std::uint16_t>(value), 0,
                                                 nullptr, 0, k_patience_ms);
       error < 0)
-    throw Error(k_where, std::string("its USB chip refuses a setting (") + libusb_strerror(error) + ")", "plug it in again");
+    throw Error(k_where, fmt::format("its USB chip refuses a setting ({})", libusb_strerror(error)), "plug it in again");
 }
 
 void FalconUsb::send(std::span<const std::uint8_t> bytes) {
@@ -104,14 +105,14 @@ void FalconUsb::send(std::span<const std::uint8_t> bytes) {
   const int error =
       libusb_bulk_transfer(device_, k_out, const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), &sent, k_patience_ms);
   if (error != 0 || sent != static_cast<int>(bytes.size()))
-    throw Error(k_where, std::string("does not take what is sent (") + libusb_strerror(error) + ")", "plug it in again");
+    throw Error(k_where, fmt::format("does not take what is sent ({})", libusb_strerror(error)), "plug it in again");
 }
 
 std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
   std::array<std::uint8_t, k_packet_bytes> packet{};
   int got = 0;
   const int error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &got, static_cast<unsigned>(patience_ms));
-  if (error != 0 && error != LIBUSB_ERROR_TIMEOUT) throw Error(k_where, std::string("was lost (") + libusb_strerror(error) + ")", "plug it in again");
+  if (error != 0 && error != LIBUSB_ERROR_TIMEOUT) throw Error(k_where, fmt::format("was lost ({})", libusb_strerror(error)), "plug it in again");
   if (got <= k_status_bytes) return {};
   return {packet.begin() + k_status_bytes, packet.begin() + got};
 }
@@ -125,7 +126,7 @@ void FalconUsb::expect(std::span<const std::uint8_t> wanted, const char* stage) 
     heard.insert(heard.end(), more.begin(), more.end());
   }
   if (heard.size() < wanted.size() || !std::equal(wanted.begin(), wanted.end(), heard.begin()))
-    throw Error(k_where, std::string(heard.empty() ? "is silent" : "answers something else") + " " + stage,
+    throw Error(k_where, fmt::format("{} {}", heard.empty() ? "is silent" : "answers something else", stage),
                 "take it off its power supply for a moment, and begin again");
 }
 

@@ -1,5 +1,7 @@
 #include "engine/device/hardware/hid_descriptor.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <string>
 
@@ -13,7 +15,7 @@ constexpr std::uint32_t k_most_report_bits = 8 * 4096;
 constexpr std::size_t k_most_stacked = 16, k_deepest = 64;
 
 [[noreturn]] void refuse(std::size_t at, const std::string& what) {
-  throw Error("HID report descriptor, byte " + std::to_string(at), what, "unplug the device and plug it in again; if it stays so, use another pedal");
+  throw Error(fmt::format("HID report descriptor, byte {}", at), what, "unplug the device and plug it in again; if it stays so, use another pedal");
 }
 
 /// Bits 2 and 3 of an item's first byte (HID 1.11, 6.2.2.2).

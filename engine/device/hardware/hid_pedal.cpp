@@ -41,7 +41,7 @@ using Device = std::unique_ptr<hid_device, CloseDevice>;
 
 /// The report descriptor as the kernel keeps it. hidapi names a device "/dev/hidraw3" or, through libusb, "1-2:1.0".
 Bytes descriptor_of(const std::string& path) {
-  if (path.starts_with("/dev/")) return read_file("/sys/class/hidraw/" + path.substr(5) + "/device/report_descriptor");
+  if (path.starts_with("/dev/")) return read_file(fmt::format("/sys/class/hidraw/{}/device/report_descriptor", path.substr(5)));
   std::error_code none;
   for (const auto& entry : fs::directory_iterator("/sys/bus/usb/devices/" + path, none))
     if (fs::exists(entry.path() / "report_descriptor", none)) return read_file((entry.path() / "report_descriptor").string());
@@ -51,7 +51,7 @@ Bytes descriptor_of(const std::string& path) {
 /// The file that must be opened: the node itself, or, through libusb, the USB device that the interface "1-2:1.0" belongs to. Empty when unknown.
 std::string file_of(const std::string& path) {
   if (path.starts_with("/dev/")) return path;
-  const std::string device = "/sys/bus/usb/devices/" + path.substr(0, path.find(':')) + "/";
+  const std::string device = fmt::format("/sys/bus/usb/devices/{}/", path.substr(0, path.find(':')));
   try {
     return fmt::format("/dev/bus/usb/{:03}/{:03}", std::stoi(read_text_file(device + "busnum")), std::stoi(read_text_file(device + "devnum")));
   } catch (const std::exception&) {  // no such device, or no number: opening it will say
@@ -118,7 +118,7 @@ struct HidPedal::Open {
     const HidLayout layout = parse_hid_descriptor(descriptor_of(path));
     axes = layout.axes();
     if (axis < 0 || static_cast<std::size_t>(axis) >= axes.size())
-      throw Error(where, "has " + std::to_string(axes.size()) + " axes, and axis " + std::to_string(axis) + " is wanted",
+      throw Error(where, fmt::format("has {} axes, and axis {} is wanted", axes.size(), axis),
                   "calibrate it anew: `cavum devices --calibrate-pedal`");
     numbered = layout.numbered;
     // A pseudo terminal keeps no borders between reports: where there is one kind of report, exactly its length is read.

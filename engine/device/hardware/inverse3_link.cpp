@@ -1,5 +1,7 @@
 #include "engine/device/hardware/inverse3_link.h"
 
+#include <fmt/core.h>
+
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -53,18 +55,18 @@ struct Inverse3Link::Socket {
 
 Inverse3Link::Inverse3Link(std::uint16_t port, double patience_s) : socket_(std::make_unique<Socket>()) {
   Socket& s = *socket_;
-  const std::string at = "127.0.0.1:" + std::to_string(port);
+  const std::string at = fmt::format("127.0.0.1:{}", port);
   const asio::ip::tcp::endpoint service(asio::ip::address_v4::loopback(), port);
   auto error = s.wait(patience_s, [&](auto done) { s.stream.next_layer().async_connect(service, std::move(done)); });
   if (error)
-    throw Error(k_where, "no service listens at " + at + " (" + one_line(error.message()) + ")",
+    throw Error(k_where, fmt::format("no service listens at {} ({})", at, one_line(error.message())),
                 "start the Haply Inverse Service (`systemctl start haply-inverse-service`), or name its port in stylus-inverse3.toml");
   beast::error_code ignored;
   s.stream.next_layer().socket().set_option(asio::ip::tcp::no_delay(true), ignored);
   s.stream.read_message_max(k_inverse3_largest);
   error = s.wait(patience_s, [&](auto done) { s.stream.async_handshake(at, "/", std::move(done)); });
   if (error)
-    throw Error(k_where, "what listens at " + at + " is no Haply Inverse Service (" + one_line(error.message()) + ")",
+    throw Error(k_where, fmt::format("what listens at {} is no Haply Inverse Service ({})", at, one_line(error.message())),
                 "name the service's port in stylus-inverse3.toml; 10001 is usual");
 }
 
@@ -87,7 +89,8 @@ void Inverse3Link::send(const std::string& text, double patience_s) {
     socket_->stream.async_write(asio::buffer(*kept), [kept, done](beast::error_code e, std::size_t) mutable { done(e); });
   });
   if (error)
-    throw Error(k_where, "the line to the service is cut (" + one_line(error.message()) + ")", "see whether the Haply Inverse Service still runs");
+    throw Error(k_where, fmt::format("the line to the service is cut ({})", one_line(error.message())),
+                "see whether the Haply Inverse Service still runs");
 }
 
 bool Inverse3Link::hear(std::string& text, double patience_s) {
@@ -100,9 +103,10 @@ bool Inverse3Link::hear(std::string& text, double patience_s) {
   if (!s.wait_for(s.read, in(patience_s))) return false;
   const beast::error_code error = *s.read;
   if (error == beast::websocket::error::message_too_big || error == beast::websocket::error::buffer_overflow)
-    throw Error(k_where, "the service sent more than " + std::to_string(k_inverse3_largest) + " bytes at once", "update the Haply Inverse Service");
+    throw Error(k_where, fmt::format("the service sent more than {} bytes at once", k_inverse3_largest), "update the Haply Inverse Service");
   if (error)
-    throw Error(k_where, "the line to the service is cut (" + one_line(error.message()) + ")", "see whether the Haply Inverse Service still runs");
+    throw Error(k_where, fmt::format("the line to the service is cut ({})", one_line(error.message())),
+                "see whether the Haply Inverse Service still runs");
   if (!s.stream.got_text()) throw Error(k_where, "the service sent bytes that are no text", "update the Haply Inverse Service");
   text.assign(static_cast<const char*>(s.heard.data().data()), s.heard.size());
   s.read.reset();

@@ -1,5 +1,7 @@
 #include "engine/device/hardware/inverse3_protocol.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -19,7 +21,7 @@ const char* const k_todo = "start the Haply Inverse Service again; docs/inverse3
 
 double number_in(const json& j, const char* key) {
   const json& m = member_of(j, key);
-  if (!m.is_number()) refuse(std::string("no number '") + key + "'");
+  if (!m.is_number()) refuse(fmt::format("no number '{}'", key));
   return m.get<double>();
 }
 
@@ -73,7 +75,7 @@ const json& list_in(const json& message, const char* key) {
   static const json k_none = json::array();
   const json& list = member_of(message, key);
   if (list.is_null()) return k_none;
-  if (!list.is_array()) refuse(std::string("no list '") + key + "'");
+  if (!list.is_array()) refuse(fmt::format("no list '{}'", key));
   return list;
 }
 
@@ -85,7 +87,7 @@ Inverse3Message parse_inverse3(std::string_view text) {
   try {
     message = parse_json(text, k_where, k_limits);
   } catch (const Error& e) {
-    refuse("what is no message of it (" + without_advice(e.what()) + ")");
+    refuse(fmt::format("what is no message of it ({})", without_advice(e.what())));
   }
   if (!message.is_object()) refuse("what is no message of it");
   Inverse3Message m;

@@ -1,5 +1,7 @@
 #include "engine/device/hardware/inverse3_stylus.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -31,8 +33,10 @@ const T& chosen(const std::vector<T>& all, const std::string& wanted, const std:
   for (const T& one : all)
     if (one.id == wanted) return one;
   if (!wanted.empty())
-    throw Error(k_where, "the " + what + " " + wanted + " is not there", "set " + key + " in stylus-inverse3.toml to one of " + ids_of(all));
-  if (all.size() > 1) throw Error(k_where, "there are several of " + what, "set " + key + " in stylus-inverse3.toml to one of " + ids_of(all));
+    throw Error(k_where, fmt::format("the {} {} is not there", what, wanted),
+                fmt::format("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
+  if (all.size() > 1)
+    throw Error(k_where, "there are several of " + what, fmt::format("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
   return all.front();
 }
 
@@ -244,7 +248,7 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
 
 void Inverse3Stylus::take(const Inverse3Message& message, const std::string& id) {
   const auto device = std::find_if(message.devices.begin(), message.devices.end(), [&id](const auto& d) { return d.id == id; });
-  if (device == message.devices.end()) throw Error(k_where, "the Inverse3 " + id + " was unplugged", "plug it in again");
+  if (device == message.devices.end()) throw Error(k_where, fmt::format("the Inverse3 {} was unplugged", id), "plug it in again");
   Place place;
   std::string problem = place_of(*device, place);
   if (problem.empty() && facts_.measures_direction) problem = direction_of(message, place);

@@ -1,5 +1,7 @@
 #include "engine/device/hardware/open_stylus.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <thread>
 
@@ -28,11 +30,11 @@ std::vector<StylusInfo> list_styluses(bool begin, const StylusKinds& kinds) {
 }
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options, const StylusKinds& kinds) {
-  return kinds.at(wanted, "stylus '" + wanted + "'", {StylusHand::candidate, StylusHand::person}).open(options);
+  return kinds.at(wanted, fmt::format("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person}).open(options);
 }
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted) {
-  const StylusKind& kind = stylus_kinds().at(wanted, "stylus '" + wanted + "'", {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(wanted, fmt::format("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person});
   StylusOptions options;
   options.station = load_station_stylus(kind);
   return kind.open(options);
@@ -50,7 +52,7 @@ Pose first_pose(Stylus& stylus, double patience_s) {
     std::this_thread::sleep_for(std::chrono::duration<double>(k_look_s));
   }
   const std::string problem = stylus.health().problem;
-  throw_problem(problem.empty() ? "stylus " + stylus.facts().id + ": gives no position; see `cavum devices`" : problem);
+  throw_problem(problem.empty() ? fmt::format("stylus {}: gives no position; see `cavum devices`", stylus.facts().id) : problem);
 }
 
 }  // namespace cavum

@@ -94,7 +94,7 @@ struct OpenHapticsStylus::Library {
 
   explicit Library(const std::string& path) : file(::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (file == nullptr)
-      throw Error(k_where, "OpenHaptics is not there (" + std::string(::dlerror()) + ")",
+      throw Error(k_where, fmt::format("OpenHaptics is not there ({})", ::dlerror()),
                   "install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml");
     find(init_device, "hdInitDevice");
     find(disable_device, "hdDisableDevice");
@@ -121,7 +121,7 @@ struct OpenHapticsStylus::Library {
   template <class Function>
   void find(Function& function, const char* name) {
     function = reinterpret_cast<Function>(::dlsym(file, name));
-    if (function == nullptr) throw Error(k_where, std::string("its library has no ") + name, "install OpenHaptics 3.4 or later");
+    if (function == nullptr) throw Error(k_where, fmt::format("its library has no {}", name), "install OpenHaptics 3.4 or later");
   }
 
   /// Errors that wait are taken; the first one is returned, 0 = none.
@@ -141,10 +141,10 @@ struct OpenHapticsStylus::Library {
     const unsigned handle = init_device(name.empty() ? nullptr : name.c_str());
     const unsigned error = take_errors();
     if (error != 0 || handle == k_no_handle)
-      throw Error(
-          k_where,
-          (name.empty() ? std::string("the default device") : "the device '" + name + "'") + " does not begin (error " + code_text(error) + ")",
-          "look at its cables and power supply, and at its name in the setup of its maker's driver");
+      throw Error(k_where,
+                  fmt::format("{} does not begin (error {})", name.empty() ? std::string("the default device") : fmt::format("the device '{}'", name),
+                              code_text(error)),
+                  "look at its cables and power supply, and at its name in the setup of its maker's driver");
     return handle;
   }
 
@@ -196,7 +196,7 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
   library_->enable(k_force_output);
   if (const unsigned error = library_->take_errors(); error != 0) {
     library_->disable_device(handle_);
-    throw Error(k_where, "cannot be made ready (error " + code_text(error) + ")", k_todo);
+    throw Error(k_where, fmt::format("cannot be made ready (error {})", code_text(error)), k_todo);
   }
   task_ = library_->schedule(&OpenHapticsStylus::call, this, k_highest_priority);
   if (library_->running++ == 0) library_->start_scheduler();
@@ -298,10 +298,10 @@ StylusHealth OpenHapticsStylus::health() const {
   h.mean_period_s = meter_.mean_s();
   h.jitter_s = meter_.scatter_s();
   h.longest_gap_s = meter_.longest_s();
-  const std::string where = std::string(k_where) + ": ";
+  const std::string where = fmt::format("{}: ", k_where);
   const unsigned error = error_.load(std::memory_order_acquire), calibration = calibration_.load(std::memory_order_acquire);
   if (error >= k_first_device_error)
-    h.problem = where + "was lost (error " + code_text(error) + "); " + k_todo;
+    h.problem = fmt::format("{}was lost (error {}); {}", where, code_text(error), k_todo);
   else if (calibration == 0)
     h.problem = where + "has not spoken yet; wait a second";
   else if (calibration == k_calibration_manual)
@@ -309,9 +309,9 @@ StylusHealth OpenHapticsStylus::health() const {
   else if (calibration == k_calibration_update)
     h.problem = where + "is being calibrated; hold the stylus still, in its inkwell if it has one";
   else if (calibration != k_calibration_ok)
-    h.problem = where + "says nothing of its calibration (" + code_text(calibration) + "); " + k_todo;
+    h.problem = fmt::format("{}says nothing of its calibration ({}); {}", where, code_text(calibration), k_todo);
   h.ready = h.problem.empty() && h.readings > 0;
-  if (!h.ready && h.problem.empty()) h.problem = where + "gives no place; " + k_todo;
+  if (!h.ready && h.problem.empty()) h.problem = fmt::format("{}gives no place; {}", where, k_todo);
   return h;
 }
 

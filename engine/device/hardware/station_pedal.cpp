@@ -21,7 +21,7 @@ void parse_usb_id(const std::string& text, const std::string& where, std::uint16
     return error == std::errc{} && rest == from + 4;
   };
   if (!shaped || !four(text.data(), vendor) || !four(end - 4, product))
-    throw Error(where, "'" + text + "' is no USB device", "write vendor and product as `cavum devices` shows them, for example 068e:00f2");
+    throw Error(where, fmt::format("'{}' is no USB device", text), "write vendor and product as `cavum devices` shows them, for example 068e:00f2");
 }
 
 std::string usb_id(std::uint16_t vendor, std::uint16_t product) { return fmt::format("{:04x}:{:04x}", vendor, product); }
@@ -51,9 +51,10 @@ std::optional<StationPedal> load_station_pedal(const std::string& path) {
 
 std::string to_toml(const StationPedal& pedal) {
   const PedalCalibration& c = pedal.calibration;
-  return "# The foot pedal of this station, by `cavum devices --calibrate-pedal`.\nid = \"" + usb_id(pedal.vendor, pedal.product) +
-         "\"\naxis = " + std::to_string(c.axis) + "\nreleased = " + std::to_string(c.released) + "\npressed = " + std::to_string(c.pressed) +
-         "\nspeaks_on_change = " + (c.speaks_on_change ? "true" : "false") + "\n";
+  return fmt::format(
+      "# The foot pedal of this station, by `cavum devices --calibrate-pedal`.\nid = \"{}\"\naxis = {}\nreleased = {}\npressed = "
+      "{}\nspeaks_on_change = {}\n",
+      usb_id(pedal.vendor, pedal.product), c.axis, c.released, c.pressed, c.speaks_on_change ? "true" : "false");
 }
 
 PedalCalibration calibrate_pedal(const std::vector<AxisHeard>& axes, const std::vector<std::int64_t>& ranges, bool speaks_on_change) {

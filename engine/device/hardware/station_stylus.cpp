@@ -1,5 +1,6 @@
 #include "engine/device/hardware/station_stylus.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <sstream>
@@ -22,7 +23,7 @@ std::vector<double> numbers(TomlReader& in, std::string_view key, std::size_t co
       in.fail(key, "holds what is no number in its range", "place the stylus anew: `cavum devices --place`");
     values.push_back(*number);
   }
-  if (values.size() != count) in.fail(key, "needs " + std::to_string(count) + " numbers", "place the stylus anew: `cavum devices --place`");
+  if (values.size() != count) in.fail(key, fmt::format("needs {} numbers", count), "place the stylus anew: `cavum devices --place`");
   return values;
 }
 
@@ -62,7 +63,7 @@ template <class T>
 const T& setting(const StationStylus& s, const std::string& key) {
   const auto found = s.settings.find(key);
   if (found == s.settings.end() || !std::holds_alternative<T>(found->second))
-    throw Error("setting '" + key + "'", "is none of this stylus", "add it to the settings of its record");
+    throw Error(fmt::format("setting '{}'", key), "is none of this stylus", "add it to the settings of its record");
   return std::get<T>(found->second);
 }
 
@@ -71,7 +72,7 @@ const T& setting(const StationStylus& s, const std::string& key) {
 double StationStylus::number(const std::string& key) const { return setting<double>(*this, key); }
 const std::string& StationStylus::text(const std::string& key) const { return setting<std::string>(*this, key); }
 
-std::string station_stylus_path(const std::string& id) { return station_path("stylus-" + id + ".toml"); }
+std::string station_stylus_path(const std::string& id) { return station_path(fmt::format("stylus-{}.toml", id)); }
 
 StationStylus usual_station_stylus(const StylusKind& kind) {
   StationStylus s{.placement = kind.placement, .settings = {}};

@@ -1,5 +1,7 @@
 #include "engine/device/hardware/stylus_kind.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -57,7 +59,7 @@ bool among(std::initializer_list<StylusHand> hands, StylusHand hand) { return st
 StylusKinds::StylusKinds(std::vector<StylusKind> kinds) : kinds_(std::move(kinds)) {
   std::set<std::string> taken;
   for (const auto& k : kinds_) {
-    const std::string where = "table of styluses, '" + k.facts.id + "'", todo = "complete its record; see docs/howto/add_a_stylus.md";
+    const std::string where = fmt::format("table of styluses, '{}'", k.facts.id), todo = "complete its record; see docs/howto/add_a_stylus.md";
     if (const std::string lack = lacks(k); !lack.empty()) throw Error(where, "lacks " + lack, todo);
     if (!taken.insert(k.facts.id).second) throw Error(where, "stands there twice", "give each stylus an id of its own");
   }
@@ -66,7 +68,7 @@ StylusKinds::StylusKinds(std::vector<StylusKind> kinds) : kinds_(std::move(kinds
 const StylusKind& StylusKinds::at(const std::string& id, const std::string& where, std::initializer_list<StylusHand> hands) const {
   for (const auto& k : kinds_)
     if (k.facts.id == id && among(hands, k.hand)) return k;
-  throw Error(where, "is no stylus that can be used here", "name one of " + ids(hands) + "; `cavum devices` lists what is there");
+  throw Error(where, "is no stylus that can be used here", fmt::format("name one of {}; `cavum devices` lists what is there", ids(hands)));
 }
 
 std::string StylusKinds::ids(std::initializer_list<StylusHand> hands) const {

@@ -1,5 +1,7 @@
 #include "engine/device/hardware/udev_rule.h"
 
+#include <fmt/core.h>
+
 #include "engine/device/hardware/station_pedal.h"
 
 namespace cavum {
@@ -12,8 +14,8 @@ std::string udev_rule(std::uint16_t vendor, std::uint16_t product, bool hid) {
 }
 
 std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid) {
-  return "put the line  " + udev_rule(vendor, product, hid) +
-         "  into /etc/udev/rules.d/60-cavum.rules, run `udevadm control --reload` as root, and plug the device in again";
+  return fmt::format("put the line  {}  into /etc/udev/rules.d/60-cavum.rules, run `udevadm control --reload` as root, and plug the device in again",
+                     udev_rule(vendor, product, hid));
 }
 
 }  // namespace cavum

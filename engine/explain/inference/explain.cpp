@@ -81,11 +81,12 @@ void conclude(Explanation& e, bool one_way) {
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(i), wanted[i]) == wanted.begin() + static_cast<std::ptrdiff_t>(i))
       text += (text.empty() ? "" : "; ") + wanted[i];
-  if (text.empty() && e.unexplained) text = "vary " + e.unexplained->variable + " alone, in steps, with everything else held, and record again";
+  if (text.empty() && e.unexplained)
+    text = fmt::format("vary {} alone, in steps, with everything else held, and record again", e.unexplained->variable);
   if (text.empty() && !e.not_testable.empty()) {
     for (const auto& n : e.not_testable)
       if (mechanism_at(known_mechanism(n.mechanism)).in_recordings) {
-        text = "to test " + n.mechanism + " too: " + separate(n.mechanism);
+        text = fmt::format("to test {} too: {}", n.mechanism, separate(n.mechanism));
         break;
       }
   }
@@ -106,12 +107,12 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
     e.unexplained = Unexplained{"v_mm_s", "c differs from that of rig.toml",
                                 std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene.damper_mm_s.square().mean())};
     if (c < 1.0)
-      e.notes.push_back("a lag of " + plain_number((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm) +
-                        " s of the force (delay or low_pass) takes as much from c: k and c alone cannot tell");
+      e.notes.push_back(fmt::format("a lag of {} s of the force (delay or low_pass) takes as much from c: k and c alone cannot tell",
+                                    plain_number((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm)));
     e.next_experiment = "press and stop suddenly, several times: a lag shows after each stop, a wrong c does not";
   } else {
     e.verdict = "data_fault";
-    e.data_faults.push_back(std::string("time base: ") + text + ", as when the clock is off by that factor; check the sampling rate, or c");
+    e.data_faults.push_back(fmt::format("time base: {}, as when the clock is off by that factor; check the sampling rate, or c", text));
     e.next_experiment = "record the speed too, or check the sampling rate against a clock";
   }
 }

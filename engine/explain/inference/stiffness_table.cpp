@@ -207,7 +207,7 @@ std::string to_text(const TableExplanation& e) {
     return printed("  %-26s F = %7.3f k %+7.3f √k %+7.3f N   rms %.4f N, row left out %.4f N\n", name, f.slope_mm, f.root, f.intercept_n, f.rms_n,
                    f.left_out_rms_n);
   };
-  out += "\n" + fit("Voigt law, k X + c V", e.voigt) + fit("k X and an intercept", e.line) + fit("all three", e.all) + "\n";
+  out += fmt::format("\n{}{}{}\n", fit("Voigt law, k X + c V", e.voigt), fit("k X and an intercept", e.line), fit("all three", e.all));
   for (const auto& s : said.notes) out += wrapped("- " + s);
   out += "\n" + wrapped("next experiment: " + said.next_experiment);
   return out;

@@ -1,5 +1,7 @@
 #include "engine/explain/inference/structure.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -153,7 +155,7 @@ void ripple(const Left& l, const Series& x, Structure& best) {
     if (best_f == 0.0) continue;
     Series in = (x * (2 * std::numbers::pi * best_f)).sin(), quad = (x * (2 * std::numbers::pi * best_f)).cos();
     if (contact) in *= s.active, quad *= s.active;
-    keep(best, gain_of(l, {in, quad}), 3, "a ripple of " + std::to_string(1.0 / best_f).substr(0, 6) + " mm in position");
+    keep(best, gain_of(l, {in, quad}), 3, fmt::format("a ripple of {} mm in position", std::to_string(1.0 / best_f).substr(0, 6)));
   }
 }
 
@@ -187,7 +189,7 @@ void step_in_time(const Left& l, Structure& best) {
     const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const SessionRows& s) { return at >= s.begin && at < s.end; });
     step.segment(at, (whole ? r.rows() : session->end) - at) = 1.0;
     keep(best, gain_of(l, {step}), 2,
-         "a step at " + std::to_string(r.t_s[at]).substr(0, 6) + " s of session " + session->name + (whole ? "" : ", until its end"));
+         fmt::format("a step at {} s of session {}{}", std::to_string(r.t_s[at]).substr(0, 6), session->name, whole ? "" : ", until its end"));
   }
 }
 
@@ -250,7 +252,7 @@ std::vector<Structure> structures(const View& v) {
     curves(s, u, true);
     if (std::set<double> few(u.data(), u.data() + std::min<Eigen::Index>(u.size(), 2000)); few.size() > 20)
       for (const double lag : k_lags_s)
-        keep(s, gain_of(l, {lagged_by(r, u, lag)}), 2, "in proportion, " + std::to_string(lag).substr(0, 3) + " s later");
+        keep(s, gain_of(l, {lagged_by(r, u, lag)}), 2, fmt::format("in proportion, {} s later", std::to_string(lag).substr(0, 3)));
   }
   out.erase(std::remove_if(out.begin(), out.end(), [](const Structure& s) { return s.form.empty(); }), out.end());
   return out;

@@ -1,5 +1,7 @@
 #include "engine/explain/model/mechanism.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
@@ -14,7 +16,7 @@ void check(const std::vector<Mechanism>& all) {
   std::set<const TermKind*> terms;
   for (const auto& m : all) {
     for (const char* text : {m.name, m.equation, m.words, m.separate})
-      if (text == nullptr) wrong(std::string(m.name != nullptr ? m.name : "a record") + " lacks a text");
+      if (text == nullptr) wrong(fmt::format("{} lacks a text", m.name != nullptr ? m.name : "a record"));
     const std::string name = m.name;
     if (!names.insert(name).second) wrong("two are called " + name);
     if (!m.grid || !m.columns || !m.parameters) wrong(name + " lacks a function");
@@ -23,12 +25,12 @@ void check(const std::vector<Mechanism>& all) {
       continue;
     }
     terms.insert(m.term);
-    if (name != m.term->name) wrong(name + " names the force term " + m.term->name);
+    if (name != m.term->name) wrong(fmt::format("{} names the force term {}", name, m.term->name));
     if (!m.from_term && !m.from_residual) wrong(name + " cannot be read from its force term");
   }
   for (const auto& m : all)
     for (const char* other : {m.variant_of, m.like_when_short})
-      if (other != nullptr && !names.contains(other)) wrong(std::string(m.name) + " speaks of " + other + ", which is not there");
+      if (other != nullptr && !names.contains(other)) wrong(fmt::format("{} speaks of {}, which is not there", m.name, other));
   const auto& kinds = term_kinds();
   if (std::set<const TermKind*>(kinds.begin(), kinds.end()) != terms) wrong("force terms and laws differ");
 }
@@ -72,7 +74,7 @@ int find_mechanism(const std::string& name) {
 
 int known_mechanism(const std::string& name) {
   const int at = find_mechanism(name);
-  if (at < 0) throw std::logic_error("there is no mechanism '" + name + "'");
+  if (at < 0) throw std::logic_error(fmt::format("there is no mechanism '{}'", name));
   return at;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/explain/recording/faults.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,14 +25,13 @@ void time_stamps(const Recording& r, std::vector<std::string>& faults) {
       const double d = r.t_s[i] - r.t_s[i - 1];
       if (d > 0.0) continue;
       ++(d < 0.0 ? backwards : repeated);
-      if (first.empty()) first = "session " + one_line(s.name) + " after " + plain_number(r.t_s[i - 1]) + " s";
+      if (first.empty()) first = fmt::format("session {} after {} s", one_line(s.name), plain_number(r.t_s[i - 1]));
     }
   if (backwards > 0)
-    faults.push_back("time stamps: " + std::to_string(backwards) + " run backwards, first in " + first +
-                     "; sort the rows by time or find out why they are mixed");
+    faults.push_back(
+        fmt::format("time stamps: {} run backwards, first in {}; sort the rows by time or find out why they are mixed", backwards, first));
   if (repeated > 0)
-    faults.push_back("time stamps: " + std::to_string(repeated) + " are repeated, first in " + first +
-                     "; give each row the time at which it was sampled");
+    faults.push_back(fmt::format("time stamps: {} are repeated, first in {}; give each row the time at which it was sampled", repeated, first));
 }
 
 void speed_against_position(const Recording& r, std::vector<std::string>& faults) {
@@ -40,18 +41,19 @@ void speed_against_position(const Recording& r, std::vector<std::string>& faults
   const double thousand = slope * 1000.0, thousandth = slope / 1000.0;
   for (const double unit : {thousand, thousandth})
     if (unit > 1.0 / k_unit_band && unit < k_unit_band) {
-      faults.push_back("units: x_mm moves " + plain_number(slope) +
-                       " times as far as v_mm_s says; one of x, v and t is in metres or milliseconds, convert it");
+      faults.push_back(fmt::format("units: x_mm moves {} times as far as v_mm_s says; one of x, v and t is in metres or milliseconds, convert it",
+                                   plain_number(slope)));
       return;
     }
   if (agree < 0.7 * agreement.expected_correlation) {
-    faults.push_back("time base: x_mm and the integral of v_mm_s have little in common (correlation " + plain_number(agree) +
-                     "); check that both belong to the same run");
+    faults.push_back(
+        fmt::format("time base: x_mm and the integral of v_mm_s have little in common (correlation {}); check that both belong to the same run",
+                    plain_number(agree)));
     return;
   }
   if (std::fabs(slope - 1.0) > k_time_tolerance + 4.0 * agreement.slope_sd)
-    faults.push_back("time base: x_mm moves " + plain_number(slope) +
-                     " times as far as the integral of v_mm_s over t_s says; correct the sampling rate");
+    faults.push_back(
+        fmt::format("time base: x_mm moves {} times as far as the integral of v_mm_s over t_s says; correct the sampling rate", plain_number(slope)));
 }
 
 void units(const Recording& r, std::vector<std::string>& faults) {
@@ -64,26 +66,27 @@ void units(const Recording& r, std::vector<std::string>& faults) {
     return;
   }
   if (xf < -k_against * std::sqrt(xx * ff)) {
-    faults.push_back("sign: f_n falls below zero as the tool presses deeper (" + plain_number(xf / xx) +
-                     " N/mm); a force that resists is positive, multiply f_n by -1");
+    faults.push_back(
+        fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, multiply f_n by -1",
+                    plain_number(xf / xx)));
     return;
   }
   if (r.rig.k_n_per_mm) {
     const double ratio = xf / xx / *r.rig.k_n_per_mm;
     if (ratio > 50.0 || (ratio > 0.0 && ratio < 0.02))
-      faults.push_back("units: force over penetration is " + plain_number(ratio) +
-                       " times k_n_per_mm of rig.toml; is x in metres or micrometres, or f in grams?");
+      faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; is x in metres or micrometres, or f in grams?",
+                                   plain_number(ratio)));
   }
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff();
   if (range < 0.02 && pressed > 0.1)
-    faults.push_back("units: all motion is within " + plain_number(range) + " mm and yet " + plain_number(pressed) +
-                     " N are reached; is x_mm in metres?");
-  if (range > 1000.0) faults.push_back("units: x_mm spans " + plain_number(range) + " mm; is it in micrometres?");
+    faults.push_back(
+        fmt::format("units: all motion is within {} mm and yet {} N are reached; is x_mm in metres?", plain_number(range), plain_number(pressed)));
+  if (range > 1000.0) faults.push_back(fmt::format("units: x_mm spans {} mm; is it in micrometres?", plain_number(range)));
   double length = 0.0, rows = 0.0;
   for (const auto& s : r.sessions) length += r.t_s[s.end - 1] - r.t_s[s.begin], rows += static_cast<double>(s.end - s.begin - 1);
   const double dt = rows > 0.0 ? length / rows : 0.0;
-  if (dt > 0.7) faults.push_back("time base: a row every " + plain_number(dt) + " s; is t_s in milliseconds?");
-  if (dt > 0.0 && dt < 1e-5) faults.push_back("time base: a row every " + plain_number(dt) + " s; is t_s in hours or minutes?");
+  if (dt > 0.7) faults.push_back(fmt::format("time base: a row every {} s; is t_s in milliseconds?", plain_number(dt)));
+  if (dt > 0.0 && dt < 1e-5) faults.push_back(fmt::format("time base: a row every {} s; is t_s in hours or minutes?", plain_number(dt)));
 }
 
 void clipping(const Recording& r, std::vector<std::string>& faults) {
@@ -92,8 +95,8 @@ void clipping(const Recording& r, std::vector<std::string>& faults) {
     const double limit = *r.rig.force_limit_n - std::max(r.rig.force_quantum_n, 1e-6 * *r.rig.force_limit_n);
     const double at = (r.f_n.abs() >= limit).cast<double>().sum();
     if (at > 2.0 && at > 1e-4 * n) {
-      faults.push_back("clipped force: " + plain_number(at) + " rows are at force_limit_n = " + plain_number(*r.rig.force_limit_n) +
-                       " N; use a larger range");
+      faults.push_back(fmt::format("clipped force: {} rows are at force_limit_n = {} N; use a larger range", plain_number(at),
+                                   plain_number(*r.rig.force_limit_n)));
       return;
     }
   }
@@ -106,8 +109,7 @@ void clipping(const Recording& r, std::vector<std::string>& faults) {
     if (i > 0 && r.f_n[i - 1] == top) ++in_runs;
   }
   if (static_cast<double>(at_top) > std::max(10.0, k_clipped_share * n) && in_runs * 2 > at_top)
-    faults.push_back("clipped force: " + std::to_string(at_top) + " rows show exactly the largest value, " + plain_number(top) +
-                     " N; use a larger range");
+    faults.push_back(fmt::format("clipped force: {} rows show exactly the largest value, {} N; use a larger range", at_top, plain_number(top)));
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ std::vector<std::string> data_faults(const Recording& r) {
   if (!r.exact_motion) speed_against_position(r, faults);
   units(r, faults);
   clipping(r, faults);
-  if (r.rows() < 200) faults.push_back("only " + std::to_string(r.rows()) + " rows; record for at least a minute");
+  if (r.rows() < 200) faults.push_back(fmt::format("only {} rows; record for at least a minute", r.rows()));
   return faults;
 }
 

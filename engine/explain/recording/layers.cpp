@@ -1,5 +1,7 @@
 #include "engine/explain/recording/layers.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <map>
@@ -65,8 +67,9 @@ void set_layers(Recording& r) {
   }
   std::string text;
   for (const auto& [name, kc] : fitted)
-    text += (text.empty() ? "" : "; ") + ("layer " + plain_number(name)) + (name == reference ? " (k and c below)" : "") + ": k " +
-            plain_number(std::round(1e4 * kc[0]) / 1e4) + " N/mm, c " + plain_number(std::round(1e4 * kc[1]) / 1e4) + " N s/mm";
+    text += fmt::format("{}{}{}: k {} N/mm, c {} N s/mm", text.empty() ? "" : "; ", "layer " + plain_number(name),
+                        name == reference ? " (k and c below)" : "", plain_number(std::round(1e4 * kc[0]) / 1e4),
+                        plain_number(std::round(1e4 * kc[1]) / 1e4));
   r.notes.push_back("layers have k and c of their own, words numbered in order of appearance: " + text);
 }
 

@@ -1,5 +1,7 @@
 #include "engine/explain/recording/session_recording.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,7 +46,7 @@ Force force_of_events(const SessionReader& session, double tick_s) {
   for (const auto& event : session.events()) {
     if (event.kind != k_measured_force_event) continue;
     const auto detail = parse_json_or_null(event.detail_json);
-    const std::string where = session.path() + ": event " + k_measured_force_event + " at tick " + std::to_string(event.tick);
+    const std::string where = fmt::format("{}: event {} at tick {}", session.path(), k_measured_force_event, event.tick);
     if (!detail.is_object() || !detail.contains("f_n") || !detail["f_n"].is_array())
       throw Error(where, "holds no list f_n", "record {\"f_n\": [...], \"every_ticks\": N}");
     const auto& told = member_of(detail, "every_ticks");
@@ -93,7 +95,7 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
       const TickInput& input = motion.inputs[i];
       const TickOutput out = step(simulation.model, simulation.state, input);
       if (!(make_tick_record(out) == motion.records[i]))
-        throw Error(path, "its replay differs from the record at tick " + std::to_string(tick), "see what `cavum replay --verify` says of it");
+        throw Error(path, fmt::format("its replay differs from the record at tick {}", tick), "see what `cavum replay --verify` says of it");
       double& worn = removed[input.point];
       worn += out.removed_count * simulation.state.tooth.leaf_volume_mm3();
       const Vec3 moved = simulation.state.estimate.tip_mm - last_tip;
@@ -128,7 +130,7 @@ Recording joined(const std::vector<std::vector<Row>>& contacts, std::size_t leas
     if (contact.size() < least) continue;
     const auto begin = static_cast<Eigen::Index>(rows.size());
     for (const auto& row : contact) rows.push_back(&row);
-    r.sessions.push_back({"contact " + std::to_string(r.sessions.size() + 1), begin, static_cast<Eigen::Index>(rows.size())});
+    r.sessions.push_back({fmt::format("contact {}", r.sessions.size() + 1), begin, static_cast<Eigen::Index>(rows.size())});
   }
   const auto series = [&rows](double Row::*field) {
     Series out(static_cast<Eigen::Index>(rows.size()));
@@ -155,7 +157,7 @@ Recording read_session_recording(const std::string& path, const std::string& for
   const SessionReader session(path);
   session.require_readable();
   if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(path, "was recorded under physics " + session.fact("physics_version") + ", this program has " + std::to_string(k_physics_version),
+    throw Error(path, fmt::format("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
                 "explain it with the program that recorded it");
   Simulation simulation = make_simulation(session.setup(), path);
   const double tick_s = simulation.model.config.tick_s;
@@ -175,8 +177,8 @@ Recording read_session_recording(const std::string& path, const std::string& for
   r.notes.push_back(rendered
                         ? "force: as rendered by the simulation, for the session holds no measured one. What is found is what rendering, safety and "
                           "the session's own force terms make of k X + c V; it says nothing about real tissue"
-                        : "force: " + measured.source + ". X and V are the simulation's");
-  r.notes.push_back(std::to_string(r.sessions.size()) + " contacts of half a second or more count as sessions; time in air is left out");
+                        : fmt::format("force: {}. X and V are the simulation's", measured.source));
+  r.notes.push_back(fmt::format("{} contacts of half a second or more count as sessions; time in air is left out", r.sessions.size()));
   return r;
 }
 

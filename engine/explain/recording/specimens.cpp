@@ -1,5 +1,7 @@
 #include "engine/explain/recording/specimens.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <vector>
 
@@ -70,9 +72,10 @@ Recording on_common_scale(const Recording& r) {
   out.rig.position_quantum_mm = 0.0;  // no longer one step for all; it was fine enough to be found again if it matters
   out.rig.force_quantum_n = 0.0;
   out.rig.force_limit_n.reset();
-  out.notes.push_back(std::to_string(r.sessions.size()) +
-                      " sessions differ in stiffness as different specimens do: each counts from its own surface, at the mean depth of " +
-                      fixed(depth, 3) + " mm and the mean peak of " + fixed(peak, 3) + " N; k, c and forces are on that scale");
+  out.notes.push_back(
+      fmt::format("{} sessions differ in stiffness as different specimens do: each counts from its own surface, at the mean depth of {} mm and the "
+                  "mean peak of {} N; k, c and forces are on that scale",
+                  r.sessions.size(), fixed(depth, 3), fixed(peak, 3)));
   return out;
 }
 

@@ -1,4 +1,6 @@
 // The explanation as JSON and as words.
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "engine/base/print.h"
@@ -18,7 +20,7 @@ std::string in_words(const Explanation& e) {
   if (e.verdict == "not_testable") return "these data cannot show anything either way: every mechanism that matters can hide behind k and c";
   if (e.verdict == "data_fault") return "the recording cannot be trusted, so nothing was explained";
   if (e.verdict == "unexplained") return "the force depends on something that no mechanism here describes";
-  const std::string more = e.unexplained ? ", and that is not all: something about " + e.unexplained->variable + " stays unexplained" : "";
+  const std::string more = e.unexplained ? fmt::format(", and that is not all: something about {} stays unexplained", e.unexplained->variable) : "";
   if (e.verdict == "alias") return "something is missing, but these data cannot tell which of several mechanisms it is" + more;
   return "the simulation lacks what is named below" + more;
 }
@@ -60,7 +62,7 @@ std::string left_over_words(const Explanation& e) {
 }
 
 std::string to_text(const Explanation& e) {
-  std::string out = "verdict: " + e.verdict + ". " + in_words(e) + ".\n";
+  std::string out = fmt::format("verdict: {}. {}.\n", e.verdict, in_words(e));
   for (const auto& f : e.data_faults) out += wrapped("fault: " + f);
   if (e.verdict == "data_fault") return out;
   for (const auto& c : e.causes) {

@@ -1,5 +1,7 @@
 #include "engine/explain/report/laws_page.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -29,7 +31,7 @@ std::string cell(const std::string& text) {
 template <class List, class Name>
 std::string listed(const List& list, const Name& name) {
   std::string out;
-  for (const auto& one : list) out += (out.empty() ? "`" : ", `") + std::string(name(one)) + "`";
+  for (const auto& one : list) out += fmt::format("{}{}`", out.empty() ? "`" : ", `", name(one));
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/explain/report/model_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -59,8 +61,8 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
   std::size_t terms = start.term_values.size();
   for (const auto& cause : e.causes) terms += !live_term(cause).first.empty();
   if (terms > k_max_terms)
-    throw Error("force model '" + start.name + "'",
-                "would have " + std::to_string(terms) + " terms, " + std::to_string(k_max_terms) + " are the most", "leave out the smallest");
+    throw Error(fmt::format("force model '{}'", start.name), fmt::format("would have {} terms, {} are the most", terms, k_max_terms),
+                "leave out the smallest");
   std::ostringstream out;
   out.precision(17);
   out << "# Written by `cavum explain`: verdict " << e.verdict
@@ -96,7 +98,7 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
     const bool own_phases = m.by_session && own.size() > 2;
     if (own_phases)
       effect({m.name, cause.term.shape, own}, "the same in this recording, each session with its phase: explain goes by this, an exam by the term");
-    if (name.empty()) effect({m.name, cause.term.shape, own}, std::string(m.equation) + ": of this recording, not felt in an exam");
+    if (name.empty()) effect({m.name, cause.term.shape, own}, fmt::format("{}: of this recording, not felt in an exam", m.equation));
   }
   return out.str();
 }

@@ -1,5 +1,7 @@
 #include "engine/explain/report/protocol.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -76,7 +78,7 @@ std::string protocol_motion_csv() {
 
 std::string protocol_page() {
   std::string rows;
-  for (const auto& m : mechanisms()) rows += std::string("<tr><td>") + m.name + "</td><td>" + m.words + "</td><td>" + m.separate + "</td></tr>\n";
+  for (const auto& m : mechanisms()) rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", m.name, m.words, m.separate);
   return R"(<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Recording protocol for cavum explain</title>
 <style>body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}td,th{text-align:left;vertical-align:top;padding:.2em .8em .2em 0;border-bottom:1px solid #ccc}table{border-collapse:collapse}</style></head><body>
 <h1>A recording from which causes can be told apart</h1>

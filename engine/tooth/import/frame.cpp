@@ -1,5 +1,7 @@
 #include "engine/tooth/import/frame.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -28,7 +30,7 @@ ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOpti
   if (!options.occlusal_axis && !(length(enamel_centroid - dentin_centroid) > 1e-6))
     throw Error("frame", "enamel and dentin have the same centroid, so there is no occlusal direction", "give --occlusal-axis x,y,z");
   const Vec3 z = options.occlusal_axis ? unit(*options.occlusal_axis, "--occlusal-axis") : normalized(enamel_centroid - dentin_centroid);
-  out.note = std::string("frame: occlusal axis ") + (options.occlusal_axis ? "given " : "from dentin to enamel centroid ") + text(z);
+  out.note = fmt::format("frame: occlusal axis {}{}", options.occlusal_axis ? "given " : "from dentin to enamel centroid ", text(z));
   const bool x_is_upright = std::fabs(z.x) > 0.9;
   const Vec3 wish = options.mesial_axis ? unit(*options.mesial_axis, "--mesial-axis") : x_is_upright ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
   const Vec3 across = wish - z * dot(z, wish);

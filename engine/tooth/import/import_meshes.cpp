@@ -1,5 +1,7 @@
 #include "engine/tooth/import/import_meshes.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -118,9 +120,9 @@ void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
   const auto touched = pulp_faces(grid.size, grid.tissue);
   const auto all = touched[k_air] + touched[k_enamel] + touched[k_dentin];
   if (all == 0) throw Error(paths.pulp, "the pulp is smaller than a leaf", "check the unit (mm), or use a smaller --leaf-mm");
-  require_layer_order(touched, paths.enamel + ", " + paths.dentin, "exchange --enamel and --dentin");
+  require_layer_order(touched, fmt::format("{}, {}", paths.enamel, paths.dentin), "exchange --enamel and --dentin");
   if (touched[k_air] * 5 > all)
-    throw Error(paths.pulp, "the pulp is not enclosed by the dentin: " + std::to_string(100 * touched[k_air] / all) + " % of its surface is bare",
+    throw Error(paths.pulp, fmt::format("the pulp is not enclosed by the dentin: {} % of its surface is bare", 100 * touched[k_air] / all),
                 "check which file is enamel, dentin and pulp, and that all share one frame");
 }
 

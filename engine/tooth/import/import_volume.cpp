@@ -1,5 +1,7 @@
 #include "engine/tooth/import/import_volume.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -156,8 +158,7 @@ void require_few_gray(const Volume& volume, const std::string& path) {
     bytes = bytes_of_volume(path);
   if (volume.voxels() > most_gray_voxels(bytes))
     throw Error(path,
-                "has " + std::to_string(volume.voxels()) + " voxels of gray, more than " + std::to_string(most_gray_voxels(bytes)) +
-                    ", the most for " + std::to_string(bytes) + " bytes of files",
+                fmt::format("has {} voxels of gray, more than {}, the most for {} bytes of files", volume.voxels(), most_gray_voxels(bytes), bytes),
                 "crop the volume to the tooth, or save it uncompressed");
 }
 

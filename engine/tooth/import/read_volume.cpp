@@ -1,6 +1,7 @@
 #include "engine/tooth/import/read_volume.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -66,13 +67,13 @@ class Reader {
     process_ = 0;
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
       return "took more of the processor's time than its limit";
-    if (WIFSIGNALED(status)) return std::string("was ended by ") + ::strsignal(WTERMSIG(status));
-    return "ended with status " + std::to_string(WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) return fmt::format("was ended by {}", ::strsignal(WTERMSIG(status)));
+    return fmt::format("ended with status {}", WEXITSTATUS(status));
   }
 
  private:
   [[noreturn]] static void fail(const std::string& program, int reason) {
-    throw Error(program, std::string("cannot be started (") + std::strerror(reason) + ")", "install Cavum again");
+    throw Error(program, fmt::format("cannot be started ({})", std::strerror(reason)), "install Cavum again");
   }
   int wait() const {
     int status = 0;
@@ -113,7 +114,7 @@ Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_m
   if (v.size.x < 4 || v.size.y < 4 || v.size.z < 4)
     throw Error(path, "not a volume: fewer than 4 voxels along an axis", "give all slices of the volume");
   for (std::size_t i = 0; i < v.gray.size(); ++i)
-    if (!std::isfinite(v.gray[i])) throw Error(path, "voxel " + std::to_string(i) + " is not a number", "export the volume again");
+    if (!std::isfinite(v.gray[i])) throw Error(path, fmt::format("voxel {} is not a number", i), "export the volume again");
 
   std::ostringstream note;
   const auto& s = v.spacing_mm;

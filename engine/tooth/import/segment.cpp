@@ -1,5 +1,7 @@
 #include "engine/tooth/import/segment.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -302,7 +304,7 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
   for (std::size_t i = 0; i < s.tissue.size(); ++i) {
     const double value = labels.gray[i];
     if (value != std::floor(value) || std::fabs(value) > 1e6)
-      throw Error(where, "not a label map: voxel " + std::to_string(i) + " is no whole number", "leave out --map to import a CT volume");
+      throw Error(where, fmt::format("not a label map: voxel {} is no whole number", i), "leave out --map to import a CT volume");
     const int label = static_cast<int>(value);
     const auto it = meaning.find(label);
     if (it != meaning.end())
@@ -315,7 +317,7 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
     int shown = 0;
     for (const int u : unknown)
       if (++shown <= 20) list += (list.empty() ? "" : ", ") + std::to_string(u);
-    throw Error(where, "labels without a meaning: " + list + (unknown.size() > 20 ? ", ..." : ""),
+    throw Error(where, fmt::format("labels without a meaning: {}{}", list, unknown.size() > 20 ? ", ..." : ""),
                 "name them in --map, as N=enamel, N=dentin, N=pulp or N=air");
   }
   count(s);
@@ -343,8 +345,8 @@ std::map<int, std::uint8_t> parse_label_map(const std::string& text) {
     for (const auto& t : standard_tissues())
       if (t.name == name) id = t.id;
     if (read.ec != std::errc{} || equal == std::string::npos || read.ptr != part.data() + equal || id == 255)
-      throw Error("--map", "cannot read '" + part + "'", "write 1=enamel,2=dentin,3=pulp (also air and periodontium)");
-    if (!map.emplace(label, id).second) throw Error("--map", "label " + std::to_string(label) + " is given twice", "give each label once");
+      throw Error("--map", fmt::format("cannot read '{}'", part), "write 1=enamel,2=dentin,3=pulp (also air and periodontium)");
+    if (!map.emplace(label, id).second) throw Error("--map", fmt::format("label {} is given twice", label), "give each label once");
   }
   if (map.empty()) throw Error("--map", "is empty", "write 1=enamel,2=dentin,3=pulp");
   return map;

@@ -1,5 +1,7 @@
 #include "engine/tooth/import/thresholds.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -117,8 +119,7 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
                                        [&](const Peak& a, const Peak& b) { return std::fabs(gray(a) - border) < std::fabs(gray(b) - border); });
   const auto hard_peaks = peaks.end() - medium - 1;
   if (peaks.empty() || hard_peaks < 2)
-    throw Error(where,
-                "no tooth found: fewer than two tissues stand out brighter than the medium (gray " + std::to_string(static_cast<int>(border)) + ")",
+    throw Error(where, fmt::format("no tooth found: fewer than two tissues stand out brighter than the medium (gray {})", static_cast<int>(border)),
                 "check the volume, or give --dentin-threshold and --enamel-threshold");
   const Peak& enamel = peaks.back();
   const auto dentin = std::max_element(medium + 1, peaks.end() - 1, [](const Peak& a, const Peak& b) { return a.mass < b.mass; });
@@ -129,7 +130,7 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
   out.hard = options.dentin.value_or((gray(*medium) + gray(*dentin)) / 2);
   out.enamel = options.enamel.value_or((gray(*dentin) + gray(enamel)) / 2);
   if (!(out.hard < out.enamel))
-    throw Error("--enamel-threshold", "is not above the dentin threshold " + std::to_string(out.hard), "enamel is the brighter tissue");
+    throw Error("--enamel-threshold", fmt::format("is not above the dentin threshold {:f}", out.hard), "enamel is the brighter tissue");
   out.enamel_surface = options.dentin ? out.hard : (gray(*medium) + gray(enamel)) / 2;
   out.pulp_surface = options.dentin ? out.hard : (pulp + gray(*dentin)) / 2;
   if (medium != peaks.begin()) out.dark = (pulp + gray(*medium)) / 2;

@@ -1,5 +1,7 @@
 #include "engine/tooth/make/formula_tooth.h"
 
+#include <fmt/core.h>
+
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/make/periodontium.h"
@@ -7,8 +9,7 @@
 namespace cavum {
 
 void check_choice(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    throw Error(name, "is " + std::to_string(value), "choose from " + std::to_string(low) + " to " + std::to_string(high));
+  if (!(value >= low && value <= high)) throw Error(name, fmt::format("is {:f}", value), fmt::format("choose from {:f} to {:f}", low, high));
 }
 
 TissueGrid formula_grid(const FormulaBox& box, double leaf_mm, double periodontium_mm, const std::string& name) {
@@ -31,8 +32,8 @@ Tooth finish_formula_tooth(TissueGrid& grid, const std::vector<float>& field, co
   const auto around = add_periodontium(grid, periodontium_mm);
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name = name;
-  tooth.source = source + "; leaf " + std::to_string(grid.leaf_mm) + " mm; ";
-  tooth.source += around > 0 ? "periodontium " + std::to_string(periodontium_mm) + " mm around the roots" : "no periodontium";
+  tooth.source = fmt::format("{}; leaf {:f} mm; ", source, grid.leaf_mm);
+  tooth.source += around > 0 ? fmt::format("periodontium {:f} mm around the roots", periodontium_mm) : "no periodontium";
   return tooth;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/tooth/make/make_block.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -37,7 +39,8 @@ constexpr double k_rounding_mm = 1e-9;  // 3 * 0.1 is a little more than 0.3
 void check_extent(double mm, double leaf_mm, const std::string& where, const std::string& named, const std::string& option) {
   if (!(mm > 0 && std::isfinite(mm))) throw Error(where, named + " must be larger than 0 mm", "give " + option);
   if (mm < leaf_mm - k_rounding_mm)
-    throw Error(where, named + " is " + plain_number(mm) + " mm, less than a leaf of " + plain_number(leaf_mm) + " mm", "use a smaller --leaf-mm");
+    throw Error(where, fmt::format("{} is {} mm, less than a leaf of {} mm", named, plain_number(mm), plain_number(leaf_mm)),
+                "use a smaller --leaf-mm");
 }
 
 void check_leaf(double leaf_mm, const std::string& where) {
@@ -47,18 +50,19 @@ void check_leaf(double leaf_mm, const std::string& where) {
 void check_tissue_name(const std::string& name, const std::string& where) {
   if (!is_plain_text(name)) throw Error(where, "the name of a tissue holds a control character or bytes that are no UTF-8", "use letters and digits");
   if (name == "air" || name == "solid" || name.empty())
-    throw Error(where, "a tissue cannot be named '" + name + "'", "name a tissue: enamel, dentin, pulp, or one of your own");
+    throw Error(where, fmt::format("a tissue cannot be named '{}'", name), "name a tissue: enamel, dentin, pulp, or one of your own");
 }
 
 void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm, const std::string& where) {
   double sum = 0.0;
   for (const auto& layer : layers) {
     check_tissue_name(layer.tissue, where);
-    check_extent(layer.thickness_mm, leaf_mm, where, "layer '" + layer.tissue + "'", "every layer a thickness such as 1.2");
+    check_extent(layer.thickness_mm, leaf_mm, where, fmt::format("layer '{}'", layer.tissue), "every layer a thickness such as 1.2");
     sum += layer.thickness_mm;
   }
   if (std::fabs(sum - size_mm.z) > 1e-6)
-    throw Error(where, "the layers are " + plain_number(sum) + " mm together, the height is " + plain_number(size_mm.z) + " mm", "make them equal");
+    throw Error(where, fmt::format("the layers are {} mm together, the height is {} mm", plain_number(sum), plain_number(size_mm.z)),
+                "make them equal");
 }
 
 /// The tissue of each layer; a name that is new gets the next free number.
@@ -83,7 +87,7 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
   const std::string where = "block";
   check_leaf(leaf_mm, where);
   for (const auto& [axis, mm] : {std::pair{"length", size_mm.x}, std::pair{"width", size_mm.y}, std::pair{"height", size_mm.z}})
-    check_extent(mm, leaf_mm, where, std::string("the ") + axis, "--size-mm 10,10,6, for example");
+    check_extent(mm, leaf_mm, where, fmt::format("the {}", axis), "--size-mm 10,10,6, for example");
   check_layers(size_mm, layers, leaf_mm, where);
   Tooth tooth;
   const std::vector<std::uint8_t> ids = number_tissues(layers, tooth.tissues, where);
@@ -123,9 +127,9 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
       }
   grid.make_consistent(tooth.tissues);
   tooth.octree = Octree(grid, tooth.tissues);
-  tooth.name = "block " + plain_number(size_mm.x) + " x " + plain_number(size_mm.y) + " x " + plain_number(size_mm.z) + " mm";
+  tooth.name = fmt::format("block {} x {} x {} mm", plain_number(size_mm.x), plain_number(size_mm.y), plain_number(size_mm.z));
   tooth.source = "make block; layers from the top:";
-  for (const auto& layer : layers) tooth.source += " " + layer.tissue + " " + plain_number(layer.thickness_mm) + " mm,";
+  for (const auto& layer : layers) tooth.source += fmt::format(" {} {} mm,", layer.tissue, plain_number(layer.thickness_mm));
   tooth.source.back() = ';';
   tooth.source += " origin at the centre of the top face";
   return tooth;
@@ -136,7 +140,7 @@ Tooth make_cube(double edge_mm, const std::string& tissue, double leaf_mm) {
   check_tissue_name(tissue, "cube");
   check_extent(edge_mm, leaf_mm, "cube", "the edge", "--edge-mm 10, for example");
   Tooth tooth = make_block({edge_mm, edge_mm, edge_mm}, {{tissue, edge_mm}}, leaf_mm);
-  tooth.name = tissue + " cube " + plain_number(edge_mm) + " mm";
+  tooth.name = fmt::format("{} cube {} mm", tissue, plain_number(edge_mm));
   return tooth;
 }
 
@@ -151,7 +155,7 @@ std::vector<Layer> parse_layers(const std::string& text) {
     const char* from = colon == std::string::npos ? end : part.data() + colon + 1;
     const auto read = std::from_chars(from, end, layer.thickness_mm);
     if (read.ec != std::errc{} || read.ptr != end)
-      throw Error("--layers", "cannot read '" + one_line(part) + "'", "write name:thickness, such as enamel:1.2,dentin:2.0");
+      throw Error("--layers", fmt::format("cannot read '{}'", one_line(part)), "write name:thickness, such as enamel:1.2,dentin:2.0");
     check_tissue_name(layer.tissue, "--layers");
     layers.push_back(layer);
   }

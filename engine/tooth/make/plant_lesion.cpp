@@ -1,5 +1,7 @@
 #include "engine/tooth/make/plant_lesion.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -40,8 +42,8 @@ Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
   tooth.tissues.push_back({id, "lesion", true});
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name += ", hidden lesion";
-  const auto triple = [](Vec3 v) { return plain_number(v.x) + "," + plain_number(v.y) + "," + plain_number(v.z); };
-  tooth.source += "; lesion in the dentin around " + triple(c) + ", radii " + triple(r) + " mm";
+  const auto triple = [](Vec3 v) { return fmt::format("{},{},{}", plain_number(v.x), plain_number(v.y), plain_number(v.z)); };
+  tooth.source += fmt::format("; lesion in the dentin around {}, radii {} mm", triple(c), triple(r));
   return tooth;
 }
 

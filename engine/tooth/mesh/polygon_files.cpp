@@ -1,5 +1,7 @@
 #include "engine/tooth/mesh/polygon_files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -45,7 +47,7 @@ std::optional<Number> number_in(std::string_view word) {
 
 double coordinate(std::string_view word, const std::string& where) {
   const auto value = number_in<double>(word);
-  if (!value) fail(where, "'" + one_line(std::string(word.substr(0, 40))) + "' is no coordinate");
+  if (!value) fail(where, fmt::format("'{}' is no coordinate", one_line(std::string(word.substr(0, 40)))));
   return *value;
 }
 
@@ -58,8 +60,7 @@ void add_polygon(Polygons& out, std::vector<std::uint32_t> corners, const std::s
 void require_corners(const Polygons& p, const std::string& name) {
   for (std::size_t i = 0; i < p.polygons.size(); ++i)
     for (const auto corner : p.polygons[i])
-      if (corner >= p.corners_mm.size())
-        fail(name, "face " + std::to_string(i + 1) + " names a corner that is not there (" + std::to_string(p.corners_mm.size()) + " are)");
+      if (corner >= p.corners_mm.size()) fail(name, fmt::format("face {} names a corner that is not there ({} are)", i + 1, p.corners_mm.size()));
 }
 
 // --- PLY
@@ -95,7 +96,7 @@ PlyType ply_type(std::string_view word, const std::string& where) {
                                                  {"double", "float64", {8, true, true}}}};
   for (const auto& k : k_known)
     if (word == k.old_name || word == k.new_name) return k.type;
-  fail(where, "'" + one_line(std::string(word.substr(0, 40))) + "' is no type of a PLY property");
+  fail(where, fmt::format("'{}' is no type of a PLY property", one_line(std::string(word.substr(0, 40)))));
 }
 
 /// The values behind a PLY's head, one after the other.
@@ -141,7 +142,7 @@ std::vector<PlyElement> read_ply_head(std::string_view& rest, PlyFormat& format,
   for (int number = 2;; ++number) {
     if (rest.empty()) fail(name, "is cut off within its head");
     std::string_view line = next_line(rest);
-    const std::string where = name + ":" + std::to_string(number);
+    const std::string where = fmt::format("{}:{}", name, number);
     const auto word = next_word(line);
     if (word == "end_header") break;
     if (word.empty() || word == "comment" || word == "obj_info") continue;
@@ -166,12 +167,12 @@ std::vector<PlyElement> read_ply_head(std::string_view& rest, PlyFormat& format,
       p.name = next_word(line);
       elements.back().properties.push_back(std::move(p));
     } else {
-      fail(where, "'" + one_line(std::string(word.substr(0, 40))) + "' means nothing in a PLY's head");
+      fail(where, fmt::format("'{}' means nothing in a PLY's head", one_line(std::string(word.substr(0, 40)))));
     }
   }
   if (!formatted) fail(name, "does not say whether it is ascii, binary_little_endian or binary_big_endian");
   for (const auto& e : elements)
-    if (e.properties.empty() && e.count > 0) fail(name, "promises " + std::to_string(e.count) + " of '" + one_line(e.name) + "' without a property");
+    if (e.properties.empty() && e.count > 0) fail(name, fmt::format("promises {} of '{}' without a property", e.count, one_line(e.name)));
   return elements;
 }
 
@@ -225,7 +226,7 @@ Polygons read_obj(const Bytes& file, const std::string& name) {
       ++number;
     }
     if (!joined.empty()) line = joined += line;
-    const std::string where = name + ":" + std::to_string(number);
+    const std::string where = fmt::format("{}:{}", name, number);
     const auto word = next_word(line);
     if (word == "v") {
       Vec3 p;
@@ -237,7 +238,7 @@ Polygons read_obj(const Bytes& file, const std::string& name) {
         const auto n = number_in<std::int32_t>(corner.substr(0, corner.find('/')));
         const auto known = static_cast<std::int64_t>(out.corners_mm.size());
         const std::int64_t index = !n || *n == 0 ? -1 : *n > 0 ? *n - std::int64_t{1} : known + *n;
-        if (index < 0) fail(where, "'" + one_line(std::string(corner.substr(0, 40))) + "' is no corner");
+        if (index < 0) fail(where, fmt::format("'{}' is no corner", one_line(std::string(corner.substr(0, 40)))));
         corners.push_back(static_cast<std::uint32_t>(index));
       }
       add_polygon(out, std::move(corners), where);
@@ -269,7 +270,7 @@ Polygons read_off(const Bytes& file, const std::string& name) {
   const auto corners = number_in<std::uint64_t>(next_word(line)), faces = number_in<std::uint64_t>(next_word(line));
   if (!corners || !faces) fail(name, "does not say how many corners and faces it holds");
   Polygons out;
-  const auto where = [&] { return name + ":" + std::to_string(number); };
+  const auto where = [&] { return fmt::format("{}:{}", name, number); };
   for (std::uint64_t i = 0; i < *corners; ++i) {
     line = line_with_words();
     Vec3 p;

@@ -1,5 +1,7 @@
 #include "engine/tooth/mesh/read_mesh.h"
 
+#include <fmt/core.h>
+
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
@@ -60,27 +62,26 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
       whole = whole || word == "endsolid";
     }
     if (begun != ended)
-      throw Error(name, "is cut off: it begins " + std::to_string(begun) + " facets and ends " + std::to_string(ended),
-                  "copy or export the whole file again");
+      throw Error(name, fmt::format("is cut off: it begins {} facets and ends {}", begun, ended), "copy or export the whole file again");
     if (begun > 0 && solid && !whole) throw Error(name, "is cut off: its 'endsolid' is missing", "copy or export the whole file again");
     return;
   }
   if (file.size() < k_stl_head)
-    throw Error(name, "is cut off: it has " + std::to_string(file.size()) + " bytes, and the head of a binary STL alone has 84",
+    throw Error(name, fmt::format("is cut off: it has {} bytes, and the head of a binary STL alone has 84", file.size()),
                 "copy or export the whole file again");
   const std::size_t held = (file.size() - k_stl_head) / k_stl_facet, said = stl_facets(file);
-  throw Error(name,
-              "says that it holds " + std::to_string(said) + (said == 1 ? " triangle" : " triangles") + ", and its length is that of " +
-                  std::to_string(held) + ((file.size() - k_stl_head) % k_stl_facet != 0 ? " and a part" : "") +
-                  (held < said ? ": it is cut off" : ": the count is wrong"),
-              "copy or export the whole file again, as STL");
+  throw Error(
+      name,
+      fmt::format("says that it holds {}{}, and its length is that of {}{}{}", said, said == 1 ? " triangle" : " triangles", held,
+                  (file.size() - k_stl_head) % k_stl_facet != 0 ? " and a part" : "", held < said ? ": it is cut off" : ": the count is wrong"),
+      "copy or export the whole file again, as STL");
 }
 
 /// OpenMesh walks around a corner for each triangle that it joins there: at one that 190,000 share it would walk for minutes.
 constexpr std::size_t k_most_at_corner = 2000;
 
 [[noreturn]] void fail_crowded(const std::string& name) {
-  throw Error(name, "more than " + std::to_string(k_most_at_corner) + " triangles meet at one corner", "remesh the surface in a mesh editor");
+  throw Error(name, fmt::format("more than {} triangles meet at one corner", k_most_at_corner), "remesh the surface in a mesh editor");
 }
 
 using Corner = std::array<float, 3>;
@@ -112,7 +113,7 @@ void require_numbers_in_stl(const Bytes& file, const std::string& name) {
         Corner c{};
         std::memcpy(c.data(), file.data() + k_stl_head + f * k_stl_facet + k_normal + i * sizeof c, sizeof c);
         for (float& value : c) {
-          if (!std::isfinite(value)) fail("facet " + std::to_string(f + 1));
+          if (!std::isfinite(value)) fail(fmt::format("facet {}", f + 1));
           value += 0.0F;  // no zero below zero
         }
         corners.push_back(c);
@@ -133,7 +134,7 @@ void require_numbers_in_stl(const Bytes& file, const std::string& name) {
         words >> word;
         char* end = nullptr;
         value = static_cast<float>(std::clamp(std::strtod(word.c_str(), &end), -1e30, 1e30)) + 0.0F;
-        if (!words || !std::isfinite(std::strtod(word.c_str(), nullptr)) || *end != '\0') fail("line " + std::to_string(number));
+        if (!words || !std::isfinite(std::strtod(word.c_str(), nullptr)) || *end != '\0') fail(fmt::format("line {}", number));
       }
       corners.push_back(c);
     }
@@ -254,7 +255,7 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
   for (const auto v : surface.vertices()) {  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
     const Vec3 p = point(surface, v);
     if (!surface.is_isolated(v) && (!is_finite(p) || length(p) > 1e6))
-      throw Error(path, "vertex " + std::to_string(v.idx()) + " is not a place: " + place(p), "export the mesh again, in mm");
+      throw Error(path, fmt::format("vertex {} is not a place: {}", v.idx(), place(p)), "export the mesh again, in mm");
   }
   std::size_t open_edges = 0;
   Vec3 open_at;
@@ -264,7 +265,7 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
     if (open_edges++ == 0) open_at = (point(surface, surface.from_vertex_handle(h)) + point(surface, surface.to_vertex_handle(h))) * 0.5;
   }
   if (open_edges > 0)
-    throw Error(path, "the surface is not closed: " + std::to_string(open_edges) + " open or non-manifold edges, one at " + place(open_at),
+    throw Error(path, fmt::format("the surface is not closed: {} open or non-manifold edges, one at {}", open_edges, place(open_at)),
                 "close the holes in a mesh editor and export again");
 
   ReadMesh out;
@@ -278,8 +279,8 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
     out.mesh.vertices_mm.push_back(p);
   }
   const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
-  if (isolated > 0) out.notes.push_back(path + ": " + std::to_string(isolated) + " unused vertices deleted");
-  if (pinched > 0) throw Error(path, std::to_string(pinched) + " non-manifold vertices", "repair the mesh in a mesh editor and export again");
+  if (isolated > 0) out.notes.push_back(fmt::format("{}: {} unused vertices deleted", path, isolated));
+  if (pinched > 0) throw Error(path, fmt::format("{} non-manifold vertices", pinched), "repair the mesh in a mesh editor and export again");
   for (const auto f : surface.faces()) {
     std::array<std::uint32_t, 3> t{};
     std::size_t i = 0;

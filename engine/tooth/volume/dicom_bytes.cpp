@@ -1,5 +1,7 @@
 #include "engine/tooth/volume/dicom_bytes.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -73,9 +75,7 @@ class Walk {
   [[noreturn]] void fail(const std::string& what) const { throw Error(where_, what, "use a complete copy of the slice"); }
 
   std::span<const std::uint8_t> take(std::uint64_t n) {
-    if (n > file_.size() - at_)
-      fail("truncated: an element at byte " + std::to_string(at_) + " has " + std::to_string(n) + " bytes, " + std::to_string(file_.size() - at_) +
-           " are there");
+    if (n > file_.size() - at_) fail(fmt::format("truncated: an element at byte {} has {} bytes, {} are there", at_, n, file_.size() - at_));
     const auto value = file_.subspan(at_, static_cast<std::size_t>(n));
     at_ += static_cast<std::size_t>(n);
     return value;
@@ -102,7 +102,7 @@ class Walk {
       static_cast<void>(take(2));
       e.length = number(4);
     } else {
-      if (e.vr[0] < 'A' || e.vr[0] > 'Z' || e.vr[1] < 'A' || e.vr[1] > 'Z') fail("damaged: no element begins at byte " + std::to_string(at_ - 6));
+      if (e.vr[0] < 'A' || e.vr[0] > 'Z' || e.vr[1] < 'A' || e.vr[1] > 'Z') fail(fmt::format("damaged: no element begins at byte {}", at_ - 6));
       e.length = number(2);
     }
     return e;
@@ -110,11 +110,11 @@ class Walk {
 
   /// Items up to the mark of their end.
   void skip_sequence(const Element& of, int depth) {
-    if (depth > k_deepest) fail("damaged: sequences are nested deeper than " + std::to_string(k_deepest));
+    if (depth > k_deepest) fail(fmt::format("damaged: sequences are nested deeper than {}", k_deepest));
     const bool was_explicit = explicit_;
     if (of.is("UN")) explicit_ = false;
     for (Element e = element(); e.tag != k_sequence_end; e = element()) {
-      if (e.tag != k_item) fail("damaged: a sequence holds something else than items, at byte " + std::to_string(at_));
+      if (e.tag != k_item) fail(fmt::format("damaged: a sequence holds something else than items, at byte {}", at_));
       if (e.length != k_undefined) {
         static_cast<void>(take(e.length));
         continue;
@@ -165,8 +165,8 @@ class Walk {
     }
     const std::uint64_t needed = (slice_.rows * slice_.columns * samples_ * slice_.frames * bits_ + 7) / 8, there = file_.size() - at_;
     if (there < e.length || e.length < needed)
-      fail("truncated: its picture needs " + std::to_string(std::max<std::uint64_t>(needed, e.length)) + " bytes, " +
-           std::to_string(std::min<std::uint64_t>(there, e.length)) + " are there");
+      fail(fmt::format("truncated: its picture needs {} bytes, {} are there", std::max<std::uint64_t>(needed, e.length),
+                       std::min<std::uint64_t>(there, e.length)));
     return slice_;
   }
 

@@ -1,5 +1,7 @@
 #include "engine/tooth/volume/tiff_bytes.h"
 
+#include <fmt/core.h>
+
 #include <vector>
 
 #include "engine/base/error.h"
@@ -31,8 +33,7 @@ class Walk {
   [[noreturn]] void fail(const std::string& what) const { throw Error(where_, what, "use a complete copy"); }
 
   std::uint64_t number(std::uint64_t at, std::uint64_t bytes) const {
-    if (at > file_.size() || bytes > file_.size() - at)
-      fail("truncated: it refers to byte " + std::to_string(at) + ", and has " + std::to_string(file_.size()));
+    if (at > file_.size() || bytes > file_.size() - at) fail(fmt::format("truncated: it refers to byte {}, and has {}", at, file_.size()));
     std::uint64_t n = 0;
     for (std::uint64_t i = 0; i < bytes; ++i) n |= static_cast<std::uint64_t>(file_[at + (big_endian_ ? bytes - 1 - i : i)]) << (8 * i);
     return n;
@@ -53,7 +54,7 @@ class Walk {
   /// Where the next page begins, 0 behind the last.
   std::uint64_t walk_page(std::uint64_t at) const {
     const std::uint64_t head = wide_ ? 8 : 2, size = wide_ ? 20 : 12, entries = number(at, head);
-    if (entries > 4096) fail("damaged: a page has " + std::to_string(entries) + " fields");
+    if (entries > 4096) fail(fmt::format("damaged: a page has {} fields", entries));
     Entry offsets, counts;
     for (std::uint64_t i = 0; i < entries; ++i) {
       const std::uint64_t e = at + head + i * size, tag = number(e, 2);
@@ -65,7 +66,7 @@ class Walk {
     const auto where = values(offsets), bytes = values(counts);
     for (std::size_t i = 0; i < where.size(); ++i)
       if (where[i] > file_.size() || bytes[i] > file_.size() - where[i])
-        fail("truncated: pixels of a page end beyond its " + std::to_string(file_.size()) + " bytes");
+        fail(fmt::format("truncated: pixels of a page end beyond its {} bytes", file_.size()));
     return number(at + head + entries * size, wide_ ? 8 : 4);
   }
 

@@ -1,5 +1,6 @@
 #include "engine/tooth/volume/volume_files.h"
 
+#include <fmt/core.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -64,9 +65,9 @@ std::uint64_t product(const std::string& numbers, const std::string& where) {
   std::istringstream in(numbers);
   std::uint64_t all = 1;
   for (double n = 0; in >> n;) {
-    if (!(n >= 1 && n < 1e6)) throw Error(where, "impossible size '" + numbers + "' in the header", "use an intact file");
+    if (!(n >= 1 && n < 1e6)) throw Error(where, fmt::format("impossible size '{}' in the header", numbers), "use an intact file");
     all *= static_cast<std::uint64_t>(n);
-    if (all > 1ULL << 40) throw Error(where, "impossible size '" + numbers + "' in the header", "use an intact file");
+    if (all > 1ULL << 40) throw Error(where, fmt::format("impossible size '{}' in the header", numbers), "use an intact file");
   }
   return all;
 }
@@ -85,12 +86,11 @@ std::uint64_t bytes_of_type(std::string type) {
 }
 
 void compare(const std::string& header, const std::string& data, std::uint64_t skip, std::uint64_t needed) {
-  if (!fs::is_regular_file(data)) throw Error(header, "its data file '" + data + "' is missing, or no ordinary file", "put it beside the header");
+  if (!fs::is_regular_file(data))
+    throw Error(header, fmt::format("its data file '{}' is missing, or no ordinary file", data), "put it beside the header");
   const auto held = static_cast<std::uint64_t>(fs::file_size(data));
   if (held < skip + needed)
-    throw Error(data,
-                "truncated: " + header + " promises " + std::to_string(needed) + " bytes of data, " + std::to_string(held > skip ? held - skip : 0) +
-                    " are there",
+    throw Error(data, fmt::format("truncated: {} promises {} bytes of data, {} are there", header, needed, held > skip ? held - skip : 0),
                 "use a complete copy");
 }
 
@@ -135,9 +135,7 @@ class Inflated {
       const auto n = take(std::min(k_portion, needed - held)).size();
       held += n;
       if (n == 0)
-        throw Error(file_,
-                    "truncated or damaged: " + header + " promises " + std::to_string(needed) + " bytes of data, " + std::to_string(held) +
-                        " can be unpacked",
+        throw Error(file_, fmt::format("truncated or damaged: {} promises {} bytes of data, {} can be unpacked", header, needed, held),
                     "use a complete copy");
     }
     static_cast<void>(take(k_portion));
@@ -197,10 +195,8 @@ void check_meta(const std::string& path) {
   const auto said = or_empty(h, "compresseddatasize");
   if (said.empty() && data != path) return;
   if (const std::uint64_t size = std::strtoull(said.c_str(), nullptr, 10); said.empty() || size < packed || size > fs::file_size(data) - skip)
-    throw Error(
-        path,
-        "its CompressedDataSize is " + (said.empty() ? "missing" : std::to_string(size)) + ", the data have " + std::to_string(packed) + " bytes",
-        "use an intact file");
+    throw Error(path, fmt::format("its CompressedDataSize is {}, the data have {} bytes", said.empty() ? "missing" : std::to_string(size), packed),
+                "use an intact file");
 }
 
 void check_nrrd(const std::string& path) {
@@ -283,7 +279,7 @@ void require_no_neighbour(const std::string& path) {
   if (!lower_path(path).ends_with(".nii.gz")) return;
   const std::string beside = path.substr(0, path.size() - 3);
   if (std::error_code none; std::filesystem::exists(beside, none))
-    throw Error(path, "lies beside " + beside + ", and ITK would read that instead", "move one of the two into another folder");
+    throw Error(path, fmt::format("lies beside {}, and ITK would read that instead", beside), "move one of the two into another folder");
 }
 
 }  // namespace cavum

@@ -1,5 +1,6 @@
 #include "engine/tooth/volume/volume_wire.h"
 
+#include <fmt/core.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -63,7 +64,7 @@ class Incoming {
       pollfd ready{fd_, POLLIN, 0};
       const int events = left > 0 ? ::poll(&ready, 1, static_cast<int>(left)) : 0;
       if (events < 0 && errno == EINTR) continue;
-      if (events == 0) fail("took longer than the limit of " + std::to_string(seconds_) + " s");
+      if (events == 0) fail(fmt::format("took longer than the limit of {} s", seconds_));
       const auto n = ::read(fd_, to.data(), to.size());
       if (n >= 0) return static_cast<std::size_t>(n);
       if (errno != EINTR && errno != EAGAIN) fail("broke off");
@@ -123,7 +124,7 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
     *n = rest.get<std::int32_t>();
     if (*n < 1 || *n > 1 << 16) in.fail("gave an impossible size");
   }
-  if (v.voxels() > most) in.fail("gave " + std::to_string(v.voxels()) + " voxels, more than the limit of " + std::to_string(most));
+  if (v.voxels() > most) in.fail(fmt::format("gave {} voxels, more than the limit of {}", v.voxels(), most));
   for (double& s : v.spacing_mm) s = rest.get<double>();
   for (Vec3* p : {&v.axis[0], &v.axis[1], &v.axis[2], &v.origin_mm}) {
     for (double* x : {&p->x, &p->y, &p->z}) *x = rest.get<double>();

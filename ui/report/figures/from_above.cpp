@@ -1,6 +1,7 @@
 #include "ui/report/figures/from_above.h"
 
 #include <cairo.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ std::string hex(Colour c) {
     const auto n = static_cast<unsigned>(std::lround(v * 255));
     return std::string{k_digits[n >> 4], k_digits[n & 15]};
   };
-  return "#" + byte(c.r) + byte(c.g) + byte(c.b);
+  return fmt::format("#{}{}{}", byte(c.r), byte(c.g), byte(c.b));
 }
 
 /// z of the highest solid leaf of each column, -1 without; x fastest.

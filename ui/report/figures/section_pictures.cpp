@@ -1,5 +1,7 @@
 #include "ui/report/figures/section_pictures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -26,7 +28,7 @@ std::string place_text(View view, double at_mm) {
   const char* name = view == View::mesio_distal ? "Mesio-distal, y = " : view == View::bucco_lingual ? "Bucco-lingual, x = " : "Horizontal, z = ";
   std::string number = fixed(at_mm, 2);
   if (number == "-0.00") number = "0.00";
-  return name + number + " mm";
+  return fmt::format("{}{} mm", name, number);
 }
 
 struct Worst {
@@ -59,8 +61,8 @@ std::vector<Wish> wishes(const Result& r, const GradeInput& input) {
   const auto over = worst(r, &WallMeasures::max_over_mm, &WallMeasures::worst_over);
   const auto under = worst(r, &WallMeasures::max_under_mm, &WallMeasures::worst_under);
   const auto named = [](const char* what, const Worst& w) {
-    return std::string("worst ") + what + ", " + fixed(w.mm, 2) + " mm at the " +
-           (w.wall == static_cast<std::size_t>(Wall::floor) ? "" : "wall towards ") + wall_name(static_cast<Wall>(w.wall));
+    return fmt::format("worst {}, {} mm at the {}{}", what, fixed(w.mm, 2), w.wall == static_cast<std::size_t>(Wall::floor) ? "" : "wall towards ",
+                       wall_name(static_cast<Wall>(w.wall)));
   };
   if (const PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const View v : {View::mesio_distal, View::bucco_lingual}) list.push_back({v, p.first.site_mm, p.tissue + " broken into here"});
@@ -78,7 +80,7 @@ std::vector<Wish> wishes(const Result& r, const GradeInput& input) {
   }
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {
-    const std::string place = "through the target at " + fixed(100 * share, 0) + " % of its ";
+    const std::string place = fmt::format("through the target at {} % of its ", fixed(100 * share, 0));
     list.push_back({View::horizontal, low + extent * share, place + "height"});
     list.push_back({View::mesio_distal, low + extent * share, place + "width"});
     list.push_back({View::bucco_lingual, low + extent * share, place + "length"});
@@ -95,7 +97,7 @@ std::array<std::string, 3> three_sections(const Result& r, const GradeInput& inp
   const double across = low.z + 0.35 * (high.z - low.z);
   const auto draw = [&](View view, double at_mm, const char* name) {
     return section_svg(input.before, &input.after, input.zones,
-                       {view, at_mm, k_scale_px_per_mm, name + fixed(at_mm, 2) + " mm", input.scenario.accommodations.high_contrast});
+                       {view, at_mm, k_scale_px_per_mm, fmt::format("{}{} mm", name, fixed(at_mm, 2)), input.scenario.accommodations.high_contrast});
   };
   return {draw(View::mesio_distal, at.y, "mesial-distal, y = "), draw(View::bucco_lingual, at.x, "buccal-lingual, x = "),
           draw(View::horizontal, across, "across, z = ")};
@@ -123,7 +125,7 @@ std::vector<SectionPicture> section_pictures(const Result& r, const GradeInput& 
     shown.push_back(key);
     SectionPicture p{w.view, at_of(w.view, w.through_mm), "", ""};
     const std::string place = place_text(p.view, p.at_mm);
-    p.title = place + ": " + w.why;
+    p.title = fmt::format("{}: {}", place, w.why);
     p.svg = section_svg(input.before, &input.after, input.zones,
                         {p.view, p.at_mm, k_scale_px_per_mm, place, input.scenario.accommodations.high_contrast});
     pictures.push_back(std::move(p));
@@ -134,7 +136,7 @@ std::vector<SectionPicture> section_pictures(const Result& r, const GradeInput& 
 std::string sections_svg(const Result& r, const GradeInput& input) {
   constexpr double k_margin_px = 10, k_text_px = 30;
   const auto group = [](double x, double y, const std::string& content) {
-    return "<g transform='translate(" + fixed(x, 0) + " " + fixed(y, 2) + ")'>" + content + "</g>\n";
+    return fmt::format("<g transform='translate({} {})'>{}</g>\n", fixed(x, 0), fixed(y, 2), content);
   };
   const auto pictures = three_sections(r, input);
   const std::string legend = legend_svg(true, input.scenario.accommodations.high_contrast);
@@ -146,10 +148,12 @@ std::string sections_svg(const Result& r, const GradeInput& input) {
     x += std::ceil(svg_px(p, "width='")) + k_margin_px;
   }
   const double width = std::max(x, svg_px(legend, "width='") + 2 * k_margin_px), all = height + 2 * k_text_px + k_margin_px;
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(width, 0) + "' height='" + fixed(all, 0) + "' viewBox='0 0 " + fixed(width, 0) +
-         " " + fixed(all, 0) + "' font-family='sans-serif'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='20' font-size='15'>" +
-         xml_text(r.scenario_title + ": " + fixed(r.volumes.target_removed_percent, 1) + " % of the target removed") + "</text>\n" + body +
-         group(k_margin_px, all - k_text_px, legend) + "</svg>\n";
+  return fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<rect width='100%' "
+      "height='100%' fill='#ffffff'/>\n<text x='10' y='20' font-size='15'>{}</text>\n{}{}</svg>\n",
+      fixed(width, 0), fixed(all, 0), fixed(width, 0), fixed(all, 0),
+      xml_text(fmt::format("{}: {} % of the target removed", r.scenario_title, fixed(r.volumes.target_removed_percent, 1))), body,
+      group(k_margin_px, all - k_text_px, legend));
 }
 
 }  // namespace cavum

@@ -1,5 +1,7 @@
 #include "ui/report/print/html_writer.h"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
@@ -30,21 +32,21 @@ class Writer {
 
   void operator()(const Heading& b) {
     const std::string tag = b.level > 2 ? "h3" : "h2";
-    h_ += "<" + tag + ">" + xml_text(b.text) + "</" + tag + ">\n";
+    h_ += fmt::format("<{}>{}</{}>\n", tag, xml_text(b.text), tag);
   }
   void operator()(const Paragraph& b) {
     const char* kind = b.kind == Paragraph::Kind::small ? " class='small'" : b.kind == Paragraph::Kind::note ? " class='note'" : "";
-    h_ += "<p" + std::string(kind) + ">" + (b.lead.empty() ? "" : "<b>" + xml_text(b.lead) + "</b>: ") + xml_text(b.text) + "</p>\n";
+    h_ += fmt::format("<p{}>{}{}</p>\n", kind, b.lead.empty() ? "" : fmt::format("<b>{}</b>: ", xml_text(b.lead)), xml_text(b.text));
   }
   void operator()(const Bullets& b) {
     h_ += b.small ? "<ul class='small'>\n" : "<ul>\n";
-    for (const auto& i : b.items) h_ += "<li>" + xml_text(i) + "</li>\n";
+    for (const auto& i : b.items) h_ += fmt::format("<li>{}</li>\n", xml_text(i));
     h_ += "</ul>\n";
   }
   void operator()(const ReportTable& b) {
-    h_ += "<table aria-label='" + xml_text(b.name) + "'><thead><tr>";
+    h_ += fmt::format("<table aria-label='{}'><thead><tr>", xml_text(b.name));
     for (const auto& c : b.columns)  // a heading of nothing is no heading
-      h_ += c.title.empty() ? "<td></td>" : "<th scope='col'" + std::string(c.number ? " class='n'" : "") + ">" + xml_text(c.title) + "</th>";
+      h_ += c.title.empty() ? "<td></td>" : fmt::format("<th scope='col'{}>{}</th>", c.number ? " class='n'" : "", xml_text(c.title));
     h_ += "</tr></thead><tbody>\n";
     for (const auto& row : b.rows) {
       h_ += row.lost ? "<tr class='lost'>" : "<tr>";
@@ -54,28 +56,29 @@ class Writer {
     h_ += "</tbody></table>\n";
   }
   void operator()(const VerdictBox& b) {
-    h_ += "<div class='verdict " + xml_text(b.verdict) + "'><div><b>" + xml_text(b.verdict) + "</b><br>" + xml_text(b.score);
-    for (const auto& line : b.lines) h_ += "<br><small>" + xml_text(line) + "</small>";
+    h_ += fmt::format("<div class='verdict {}'><div><b>{}</b><br>{}", xml_text(b.verdict), xml_text(b.verdict), xml_text(b.score));
+    for (const auto& line : b.lines) h_ += fmt::format("<br><small>{}</small>", xml_text(line));
     h_ += "</div><ul>";
-    for (const auto& reason : b.reasons) h_ += "<li>" + xml_text(reason) + "</li>";
+    for (const auto& reason : b.reasons) h_ += fmt::format("<li>{}</li>", xml_text(reason));
     h_ += "</ul></div>\n";
   }
   void operator()(const Pictures& b) {
     h_ += b.sections ? "<div class='sections'>\n" : "<div class='pictures'>\n";
-    for (const auto& p : b.list) h_ += p.title.empty() ? p.svg : "<figure>" + p.svg + "<figcaption>" + xml_text(p.title) + "</figcaption></figure>\n";
+    for (const auto& p : b.list)
+      h_ += p.title.empty() ? p.svg : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", p.svg, xml_text(p.title));
     h_ += "</div>\n";
   }
   void operator()(const LiveFigure& b) {
-    h_ += "<section id='" + b.id + "' aria-label='" + xml_text(b.title) + "'><p class='fallback'>" + xml_text(b.fallback) + "</p></section>\n";
+    h_ += fmt::format("<section id='{}' aria-label='{}'><p class='fallback'>{}</p></section>\n", b.id, xml_text(b.title), xml_text(b.fallback));
   }
 
  private:
   void cell(const TableCell& c, bool number) {
     h_ += number ? "<td class='n'>" : "<td>";
     if (c.jump) {
-      h_ += "<button class='jump' type='button' data-t='" + exact(c.jump->t_s) + "'";
-      if (const auto& p = c.jump->site_mm) h_ += " data-x='" + exact(p->x) + "' data-y='" + exact(p->y) + "' data-z='" + exact(p->z) + "'";
-      h_ += ">" + xml_text(c.text) + "</button>";
+      h_ += fmt::format("<button class='jump' type='button' data-t='{}'", exact(c.jump->t_s));
+      if (const auto& p = c.jump->site_mm) h_ += fmt::format(" data-x='{}' data-y='{}' data-z='{}'", exact(p->x), exact(p->y), exact(p->z));
+      h_ += fmt::format(">{}</button>", xml_text(c.text));
     } else {
       h_ += xml_text(c.text);
     }
@@ -87,16 +90,15 @@ class Writer {
 }  // namespace
 
 std::string html_of(const Document& d, const nlohmann::json& data) {
-  std::string h = "<!doctype html>\n<html lang='" + d.language +
-                  "'><head><meta charset='utf-8'><meta name='viewport' content='width=device-width,initial-scale=1'>\n"
-                  "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
-                  "img-src data: blob:\">\n<title>" +
-                  xml_text(d.title) + "</title>\n<style>" + std::string(page_style()) + "</style></head><body>\n<header><h1>" + xml_text(d.title) +
-                  "</h1>\n<p class='facts'>" + xml_text(d.subtitle) + "</p></header>\n<main>\n";
+  std::string h = fmt::format(
+      "<!doctype html>\n<html lang='{}'><head><meta charset='utf-8'><meta name='viewport' content='width=device-width,initial-scale=1'>\n"
+      "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data: "
+      "blob:\">\n<title>{}</title>\n<style>{}</style></head><body>\n<header><h1>{}</h1>\n<p class='facts'>{}</p></header>\n<main>\n",
+      d.language, xml_text(d.title), page_style(), xml_text(d.title), xml_text(d.subtitle));
   Writer write(h);
   for (const auto& block : d.blocks) std::visit(write, block);
   h += "</main>\n<footer>";
-  for (const auto& line : d.footer) h += "<p class='small'>" + xml_text(line) + "</p>";
+  for (const auto& line : d.footer) h += fmt::format("<p class='small'>{}</p>", xml_text(line));
   h += "</footer>\n<script type=\"application/json\" id=\"cavum-data\">";
   h += script_text(data);
   h += "</script>\n<script>";

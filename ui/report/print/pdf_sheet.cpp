@@ -1,6 +1,7 @@
 #include "ui/report/print/pdf_sheet.h"
 
 #include <cairo-pdf.h>
+#include <fmt/core.h>
 #include <gio/gio.h>
 #include <librsvg/rsvg.h>
 #include <pango/pangocairo.h>
@@ -90,7 +91,7 @@ struct PdfSheet::State {
     if (t.lead.empty()) {
       pango_layout_set_text(l.get(), text.c_str(), -1);
     } else {
-      const std::string markup = "<b>" + xml_text(one_line(t.lead)) + "</b>: " + xml_text(text);
+      const std::string markup = fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)), xml_text(text));
       pango_layout_set_markup(l.get(), markup.c_str(), -1);
     }
     return l;
@@ -128,7 +129,7 @@ struct PdfSheet::State {
     cairo_line_to(cairo, k_page_width - k_side, foot - 4);
     cairo_stroke(cairo);
     if (!document.footer.empty()) furniture(document.footer.front(), k_side, foot, width - 70, false);
-    furniture("page " + std::to_string(page) + (pages > 0 ? " of " + std::to_string(pages) : ""), k_page_width - k_side - 66, foot, 66, true);
+    furniture(fmt::format("page {}{}", page, pages > 0 ? fmt::format(" of {}", pages) : ""), k_page_width - k_side - 66, foot, 66, true);
   }
   void new_page() {
     cairo_show_page(cairo);
@@ -266,7 +267,7 @@ int PdfSheet::finish() {
     s_->finished = true;
   }
   if (const cairo_status_t status = cairo_surface_status(s_->surface); status != CAIRO_STATUS_SUCCESS)
-    throw Error("report", std::string("the PDF cannot be made: ") + cairo_status_to_string(status), "write the report as .html");
+    throw Error("report", fmt::format("the PDF cannot be made: {}", cairo_status_to_string(status)), "write the report as .html");
   return s_->page;
 }
 

@@ -1,5 +1,6 @@
 #include "engine/tooth/volume/itk/itk_volume.h"
 
+#include <fmt/core.h>
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImage.h>
@@ -80,7 +81,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 void require_voxels(std::uint64_t voxels, std::uint64_t bytes, const std::string& path) {
   if (voxels > most_voxels(bytes))
-    throw Error(path, "claims more than " + std::to_string(most_voxels(bytes)) + " voxels, the most for " + std::to_string(bytes) + " bytes of files",
+    throw Error(path, fmt::format("claims more than {} voxels, the most for {} bytes of files", most_voxels(bytes), bytes),
                 "crop the volume to the tooth, or save it uncompressed");
 }
 
@@ -147,9 +148,9 @@ void require_alike(const DicomSlice& first, const std::string& first_file, const
   for (const auto& [name, value] : first.common) {
     const auto found = other.common.find(name);
     if (found == other.common.end() || found->second != value)
-      throw Error(file, "has another " + name + " than " + first_file + " of the same series", "export the complete series again");
+      throw Error(file, fmt::format("has another {} than {} of the same series", name, first_file), "export the complete series again");
   }
-  throw Error(file, "has fields that " + first_file + " of the same series does not have", "export the complete series again");
+  throw Error(file, fmt::format("has fields that {} of the same series does not have", first_file), "export the complete series again");
 }
 
 bool is_dicom_file(const std::string& file) {
@@ -190,7 +191,7 @@ Read read_dicom(const std::string& folder, const std::string& series, const std:
   reader->Update();
   double deviation = 0.0;
   if (itk::ExposeMetaData<double>(reader->GetOutput()->GetMetaDataDictionary(), "ITK_non_uniform_sampling_deviation", deviation) && deviation > 1e-3)
-    throw Error(folder, "the slices of DICOM series " + series + " are not evenly spaced (off by up to " + std::to_string(deviation) + " mm)",
+    throw Error(folder, fmt::format("the slices of DICOM series {} are not evenly spaced (off by up to {:f} mm)", series, deviation),
                 "export the complete series again");
   out.image = reader->GetOutput();
   return out;
@@ -206,8 +207,7 @@ std::vector<std::string> files_of(const std::string& folder, std::uint64_t& byte
     bytes += entry.file_size();
     files.push_back(entry.path().string());
     if (files.size() > k_most_slice_files)
-      throw Error(folder, "holds more than " + std::to_string(k_most_slice_files) + " files",
-                  "give a folder with nothing but the slices of one volume");
+      throw Error(folder, fmt::format("holds more than {} files", k_most_slice_files), "give a folder with nothing but the slices of one volume");
   }
   std::sort(files.begin(), files.end(), natural_less);
   return files;
@@ -225,7 +225,7 @@ Read read_folder(const std::string& folder, std::uint64_t bytes, const std::vect
   names->SetDirectory(folder);
   const auto series = names->GetSeriesUIDs();
   if (series.size() > 1)
-    throw Error(folder, std::to_string(series.size()) + " DICOM series in one folder", "put the one to import into a folder of its own");
+    throw Error(folder, fmt::format("{} DICOM series in one folder", series.size()), "put the one to import into a folder of its own");
   const std::vector<std::string> slices = series.empty() ? std::vector<std::string>() : names->GetFileNames(series[0]);
   const std::set<std::string> known(slices.begin(), slices.end());
   const auto named_as_slice = [&](const std::string& file) { return !slices.empty() && lower_extension(file) == lower_extension(slices[0]); };
@@ -339,13 +339,13 @@ int send(const std::string& path, int fd, const Limit& set_limits) {
   } catch (const itk::ExceptionObject& e) {
     std::string what = e.GetDescription();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    error = Error(path, "cannot be read as a volume (" + what.substr(0, 200) + ")", k_intact).what();
+    error = Error(path, fmt::format("cannot be read as a volume ({})", what.substr(0, 200)), k_intact).what();
   } catch (const fs::filesystem_error& e) {
     error = Error(path, e.code().message(), "check the path and its permissions").what();
   } catch (const std::bad_alloc&) {
-    error = Error(path, "needs more memory than the limit of " + std::to_string(most_read_memory(bytes)) + " bytes", k_intact).what();
+    error = Error(path, fmt::format("needs more memory than the limit of {} bytes", most_read_memory(bytes)), k_intact).what();
   } catch (const std::exception& e) {
-    error = Error(path, std::string("cannot be read as a volume (") + e.what() + ")", k_intact).what();
+    error = Error(path, fmt::format("cannot be read as a volume ({})", e.what()), k_intact).what();
   }
   return send_volume_error(fd, error) ? 0 : 1;
 }
