@@ -1,5 +1,7 @@
 #include "engine/base/csv.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -36,7 +38,7 @@ CsvReader::CsvReader(std::string_view text, std::string where, const CsvForm& fo
   if (text_.starts_with(k_byte_order_mark)) text_.remove_prefix(k_byte_order_mark.size());
 }
 
-std::string CsvReader::at() const { return where_ + ":" + std::to_string(line_); }
+std::string CsvReader::at() const { return fmt::format("{}:{}", where_, line_); }
 
 void CsvReader::fail(const std::string& what, const std::string& what_to_do) const { throw Error(at(), what, what_to_do); }
 
@@ -77,7 +79,7 @@ void CsvReader::read_row() {
   for (;;) {
     fields_.push_back(read_field());
     if (fields_.size() > form_.most_fields)
-      fail("has more than " + std::to_string(form_.most_fields) + " " + form_.field_word, "leave out what is not asked for");
+      fail(fmt::format("has more than {} {}", form_.most_fields, form_.field_word), "leave out what is not asked for");
     if (at_ == text_.size() || text_[at_] != separator_) break;
     ++at_;
   }
@@ -129,9 +131,8 @@ void CsvReader::check_row() {
     columns_ = fields_.size();
     return;
   }
-  if (fields_.size() != columns_)
-    fail("has " + std::to_string(fields_.size()) + " " + form_.field_word + " for " + std::to_string(columns_) + " columns", "complete the row");
-  if (rows_++ == form_.most_rows) fail("is beyond the limit of " + std::to_string(form_.most_rows) + " rows", "split the table");
+  if (fields_.size() != columns_) fail(fmt::format("has {} {} for {} columns", fields_.size(), form_.field_word, columns_), "complete the row");
+  if (rows_++ == form_.most_rows) fail(fmt::format("is beyond the limit of {} rows", form_.most_rows), "split the table");
 }
 
 std::vector<CsvRow> parse_csv(std::string_view text, const std::string& where, const CsvForm& form) {

@@ -92,7 +92,7 @@ void add(Motion& motion, const MotionSample& sample, const CsvReader& in) {
   if (!motion.samples.empty() && !(sample.t_s > motion.samples.back().t_s)) in.fail("t_s does not grow", "sort the rows and remove repeated times");
   motion.samples.push_back(sample);
   if (motion.duration_s() > k_longest_s)
-    in.fail("t_s is " + plain_number(motion.duration_s()) + " s after the first row, more than a day",
+    in.fail(fmt::format("t_s is {} s after the first row, more than a day", plain_number(motion.duration_s())),
             "give seconds, and cut the file where the work ends");
 }
 

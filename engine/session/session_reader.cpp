@@ -102,7 +102,7 @@ void SessionReader::read(Bytes image) {
     check_schema(database, findings_);
   } catch (const Error& e) {
     if (!marked) throw Error(path_, "is an SQLite database, but not a Cavum session", "name a .cavum file that an exam wrote");
-    findings_.push_back(std::string("file: ") + e.what());
+    findings_.push_back(fmt::format("file: {}", e.what()));
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
@@ -125,8 +125,9 @@ void SessionReader::read_artifacts(Database& database) {
   read_table(database, "artifact", "seq, name, sha256, size_bytes, bytes", findings_, [&](const Statement& row) {
     rising(row, static_cast<std::int64_t>(artifacts_.size()), "artifact");
     Artifact a{row.text(1), row.fixed_blob<32>(2), row.blob(4)};
-    if (!names.insert(a.name).second) throw Error("artifact", "'" + a.name + "' is there twice", "use an intact copy");
-    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back("table artifact, '" + a.name + "': its size was changed");
+    if (!names.insert(a.name).second) throw Error("artifact", fmt::format("'{}' is there twice", a.name), "use an intact copy");
+    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size()))
+      findings_.push_back(fmt::format("table artifact, '{}': its size was changed", a.name));
     artifacts_.push_back(std::move(a));
   });
 }
@@ -137,10 +138,9 @@ void SessionReader::read_chunks(Database& database) {
       "removed_sha256, events_sha256, prev_sha256, sha256";
   read_table(database, "chunk", columns, findings_, [&](const Statement& row) {
     ChunkRow c = chunk_at(row, static_cast<std::int64_t>(chunks_.size()));
-    const std::string where = "table chunk, " + std::to_string(c.seq);
-    if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, std::to_string(c.ticks) + " ticks", "use an intact copy");
-    if (c.first_tick != ticks())
-      throw Error(where, "begins at tick " + std::to_string(c.first_tick) + " instead of " + std::to_string(ticks()), "use an intact copy");
+    const std::string where = fmt::format("table chunk, {}", c.seq);
+    if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, fmt::format("{} ticks", c.ticks), "use an intact copy");
+    if (c.first_tick != ticks()) throw Error(where, fmt::format("begins at tick {} instead of {}", c.first_tick, ticks()), "use an intact copy");
     chunks_.push_back(std::move(c));
   });
 }

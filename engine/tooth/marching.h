@@ -118,7 +118,7 @@ TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::sp
         }
         if (filled == 0 || filled == 8) continue;
         if (mesh.triangles.size() > k_most_triangles)
-          throw Error("surface", "has more than " + std::to_string(k_most_triangles) + " triangles", "use a tooth with larger leaves");
+          throw Error("surface", fmt::format("has more than {} triangles", k_most_triangles), "use a tooth with larger leaves");
         marching::add_cell({x, y, z}, in, edges, mesh.triangles);
       }
     }

@@ -118,7 +118,7 @@ void look_at_disagreements(ClassFigures& f, const std::map<std::string, const Fi
     ++i;
     if (std::fabs(off - limits->bias) > k_far * limits->sd)
       f.to_look_at.push_back(
-          {sat.at(candidate)->seq, candidate, "people gave " + fixed(program - off, 1) + " points, the program " + fixed(program, 1)});
+          {sat.at(candidate)->seq, candidate, fmt::format("people gave {} points, the program {}", fixed(program - off, 1), fixed(program, 1))});
   }
 }
 

@@ -61,7 +61,7 @@ void say_not_checked(const LedgerContent& content, const Registry& registry, boo
         "whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each");
 }
 
-std::string name_of(const FiledSession& s) { return "entry " + std::to_string(s.seq) + " (session of " + s.candidate + ")"; }
+std::string name_of(const FiledSession& s) { return fmt::format("entry {} (session of {})", s.seq, s.candidate); }
 
 enum class Recording { there, erased };
 
@@ -71,15 +71,16 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
   const std::string name = name_of(s), path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
-      out.findings.push_back(name + ": its recording is erased by entry " + std::to_string(*s.motion_erased_by) + ", and is still there: " + path +
-                             "; `cavum ledger erase` without more removes it");
+      out.findings.push_back(
+          fmt::format("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it", name,
+                      *s.motion_erased_by, path));
     return Recording::erased;
   }
   if (!std::filesystem::exists(path)) {
     if (erased_by(read_ledger(places).erased, s.seq, k_motion)) return Recording::erased;  // meanwhile
-    out.findings.push_back(name + ": its file is gone: " + path);
+    out.findings.push_back(fmt::format("{}: its file is gone: {}", name, path));
   } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {
-    out.findings.push_back(name + ": its file was changed: " + path);
+    out.findings.push_back(fmt::format("{}: its file was changed: {}", name, path));
   } else if (replay && s.findings.empty()) {
     check_again(s, image, path, name, grounds, out);
   }
@@ -97,20 +98,20 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      out.findings.push_back(name_of(s) + ": its file cannot be read: " + e.what());
+      out.findings.push_back(fmt::format("{}: its file cannot be read: {}", name_of(s), e.what()));
     }
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
-        out.remarks.push_back(
-            name_of(s) + ": is contested by entry " + std::to_string(other) + ", another ending of the same exam: " +
-            (s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
+        out.remarks.push_back(fmt::format(
+            "{}: is contested by entry {}, another ending of the same exam: {}", name_of(s), other,
+            s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
   }
   if (replay && filed_with_findings > 0)
     out.not_checked.push_back(fmt::format("{} sessions that were filed with findings are not simulated again", filed_with_findings));
   if (erased > 0)
-    out.not_checked.push_back(std::to_string(erased) + (erased == 1 ? " recording was" : " recordings were") +
-                              " erased, as entries say: whether motion gives their marks can no longer be shown");
+    out.not_checked.push_back(fmt::format("{}{} erased, as entries say: whether motion gives their marks can no longer be shown", erased,
+                                          erased == 1 ? " recording was" : " recordings were"));
 }
 
 /// Files that no entry knows.

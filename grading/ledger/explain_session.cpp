@@ -48,8 +48,8 @@ void say_replay(SessionExplanation& e, const SessionReader& session, const Schoo
 /// When and by whom the recording was closed.
 void say_closing(SessionExplanation& e, const SessionReader& session, const VerifyReport& report) {
   if (report.closed && report.intact)
-    e.proved.push_back("closed on " + utc_text(session.seal()->clocks.utc_ns) + " by station " + report.station_key +
-                       (session.fact(k_station_fact) == report.station_key ? ", which signed its beginning, too" : ""));
+    e.proved.push_back(fmt::format("closed on {} by station {}{}", utc_text(session.seal()->clocks.utc_ns), report.station_key,
+                                   session.fact(k_station_fact) == report.station_key ? ", which signed its beginning, too" : ""));
 }
 
 /// What the school promised, and whether this is it.
@@ -60,11 +60,14 @@ void say_ticket(SessionExplanation& e, const SessionReader& session, const Sessi
   for (auto& f : check_servo(setup.servo_toml, scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
   e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
   if (wrong.empty())
-    e.proved.push_back("the school with key " + ticket.public_key + " promised this exam to candidate " + ticket.candidate +
-                       ": scenario, tooth, rubric and accommodations are those of the ticket, and it began within its time");
+    e.proved.push_back(
+        fmt::format("the school with key {} promised this exam to candidate {}: scenario, tooth, rubric and accommodations are those of the ticket, "
+                    "and it began within its time",
+                    ticket.public_key, ticket.candidate));
   if (school_key.empty())
-    e.remarks.push_back("whether the key " + ticket.public_key.substr(0, 16) +
-                        "… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder");
+    e.remarks.push_back(fmt::format(
+        "whether the key {}… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder",
+        ticket.public_key.substr(0, 16)));
 }
 
 /// Of a session in which no ticket was found.
@@ -87,15 +90,16 @@ void say_circumstances(SessionExplanation& e, const SessionReader& session, cons
   for (const auto& r : check_clocks(session))
     e.remarks.push_back(fmt::format("from tick {} ({} s): {}", r.first_tick, fixed(static_cast<double>(r.first_tick) * 1e-3, 1), r.what));
   if (std::error_code none; std::filesystem::exists(path + "-wal", none) && std::filesystem::file_size(path + "-wal", none) > 0)
-    e.remarks.push_back("a log lies beside the file (" + path +
-                        "-wal) and was read with it: when something does not hold, look at the file without it");
+    e.remarks.push_back(
+        fmt::format("a log lies beside the file ({}-wal) and was read with it: when something does not hold, look at the file without it", path));
 }
 
 /// What no file can show.
 void say_limits(SessionExplanation& e, bool closed, const std::string& station_key) {
   if (closed)
-    e.remarks.push_back("whether station " + station_key.substr(0, 16) +
-                        "… is one of the school's is known to its ledger only: anybody can sign a recording with a key of their own");
+    e.remarks.push_back(
+        fmt::format("whether station {}… is one of the school's is known to its ledger only: anybody can sign a recording with a key of their own",
+                    station_key.substr(0, 16)));
   e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");
   e.remarks.emplace_back(
       "not shown by any file: that it was not ended before, where the station's memory was put back as it was, or its key was used by another "

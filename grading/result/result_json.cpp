@@ -218,18 +218,18 @@ Json to_json(const Result& r) {
 namespace {
 
 std::string verdict_text(const Result& r) {
-  std::string s = one_line(r.scenario_title + " (" + r.tooth_name + ")") + "\n";
-  s += "verdict: " + std::string(verdict_name(r.verdict)) + ", " + fixed(r.points, 1) + " of " + fixed(r.max_points, 1) + " points (± " +
-       fixed(r.points_bound, 1) + " if every figure were off by its whole bound)\n";
-  for (const auto& reason : r.verdict_reasons) s += "  " + one_line(reason) + "\n";
+  std::string s = one_line(fmt::format("{} ({})", r.scenario_title, r.tooth_name)) + "\n";
+  s += fmt::format("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)\n", verdict_name(r.verdict), fixed(r.points, 1),
+                   fixed(r.max_points, 1), fixed(r.points_bound, 1));
+  for (const auto& reason : r.verdict_reasons) s += fmt::format("  {}\n", one_line(reason));
   return s;
 }
 
 std::string criteria_text(const Result& r) {
   std::string s = "\n";
   for (const auto& c : r.criteria)
-    s += "  " + padded(one_line(c.id) + " ", 16) + padded(fixed(c.points, 1) + " / " + fixed(c.max, 1), 14) +
-         padded("± " + fixed(c.points_bound, 1), 9) + one_line(c.reason) + "\n";
+    s += fmt::format("  {}{}{}{}\n", padded(one_line(c.id) + " ", 16), padded(fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)), 14),
+                     padded("± " + fixed(c.points_bound, 1), 9), one_line(c.reason));
   return s;
 }
 
@@ -238,17 +238,18 @@ std::string volumes_text(const Result& r) {
   const auto volume = [&](const std::string& name, const Volume& v) {
     return fmt::format("  {}{} ± {} mm3\n", padded(name, 22), fixed(v.mm3, 2), fixed(v.bound_mm3, 2));
   };
-  std::string s = "\nvolumes\n" + volume("target", r.volumes.target) + "  " + padded("target removed", 22) +
-                  fixed(r.volumes.target_removed_percent, 1) + " ± " + fixed(r.volumes.target_removed_bound_percent, 1) + " %\n" +
-                  volume("missed", r.volumes.missed) + volume("removed", r.volumes.removed);
+  std::string s = fmt::format("\nvolumes\n{}  {}{} ± {} %\n{}{}", volume("target", r.volumes.target), padded("target removed", 22),
+                              fixed(r.volumes.target_removed_percent, 1), fixed(r.volumes.target_removed_bound_percent, 1),
+                              volume("missed", r.volumes.missed), volume("removed", r.volumes.removed));
   for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}) s += volume(zone_name(z), zone(z));
   s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(Zone::protected_));
-  s += "  " + padded("dice", 22) + fixed(r.volumes.dice, 3) + " ± " + fixed(r.volumes.dice_bound, 3) + "\n";
+  s += fmt::format("  {}{} ± {}\n", padded("dice", 22), fixed(r.volumes.dice, 3), fixed(r.volumes.dice_bound, 3));
   return s;
 }
 
 std::string walls_text(const Result& r) {
-  std::string s = "\nwalls, mm (+ = overcut)                       mean            p95   over  under (± " + fixed(r.shape.bound_mm, 2) + ")\n";
+  std::string s =
+      fmt::format("\nwalls, mm (+ = overcut)                       mean            p95   over  under (± {})\n", fixed(r.shape.bound_mm, 2));
   for (std::size_t w = 0; w < k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
     s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
@@ -292,17 +293,17 @@ std::string perforation_text(const Result& r) {
 }
 
 std::string motion_text(const Result& r) {
-  return "\ntime " + fixed(r.motion.time_s, 1) + " s (handpiece " + fixed(r.motion.handpiece_time_s, 1) + " s, idle " + fixed(r.motion.idle_s, 1) +
-         " s), way " + fixed(r.motion.path_mm, 0) + " mm, force " + fixed(r.motion.force_mean_n, 2) + " N mean, " + fixed(r.motion.force_peak_n, 2) +
-         " N peak\nsteps " + std::to_string(r.progress.steps_completed) + " of " + std::to_string(r.progress.steps) + ", violations " +
-         std::to_string(r.progress.violations) + ", ended: " + r.progress.finish + "\n";
+  return fmt::format("\ntime {} s (handpiece {} s, idle {} s), way {} mm, force {} N mean, {} N peak\nsteps {} of {}, violations {}, ended: {}\n",
+                     fixed(r.motion.time_s, 1), fixed(r.motion.handpiece_time_s, 1), fixed(r.motion.idle_s, 1), fixed(r.motion.path_mm, 0),
+                     fixed(r.motion.force_mean_n, 2), fixed(r.motion.force_peak_n, 2), r.progress.steps_completed, r.progress.steps,
+                     r.progress.violations, r.progress.finish);
 }
 
 }  // namespace
 
 std::string to_text(const Result& r) {
   std::string s = verdict_text(r) + criteria_text(r) + volumes_text(r) + walls_text(r) + cavity_text(r) + perforation_text(r) + motion_text(r);
-  for (const auto& note : r.notes) s += "note: " + one_line(note) + "\n";
+  for (const auto& note : r.notes) s += fmt::format("note: {}\n", one_line(note));
   return s;
 }
 

@@ -279,7 +279,7 @@ std::string find_tooth_file(const Scenario& scenario) {
   for (const auto& data : shipped_folders()) places.push_back(data / "teeth" / written);
   for (const fs::path& candidate : places)
     if (fs::exists(candidate, unreadable)) return candidate.lexically_normal().string();
-  throw Error(scenario.path, "the tooth file '" + scenario.tooth_file + "' is nowhere to be found",
+  throw Error(scenario.path, fmt::format("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
               "put it beside the scenario or in data/teeth, or name another with --tooth");
 }
 

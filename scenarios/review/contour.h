@@ -1,6 +1,8 @@
 // Where a field crosses zero, as the lines of an SVG path: marching squares.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <array>
 #include <string>
 #include <utility>
@@ -15,7 +17,7 @@ template <class Field>
 [[nodiscard]] std::string contour(int width, int height, const Field& field) {
   std::string path;
   const auto segment = [&](double ax, double ay, double bx, double by) {
-    path += "M" + svg_number(ax + 0.5) + " " + svg_number(height - ay - 0.5) + "L" + svg_number(bx + 0.5) + " " + svg_number(height - by - 0.5);
+    path += fmt::format("M{} {}L{} {}", svg_number(ax + 0.5), svg_number(height - ay - 0.5), svg_number(bx + 0.5), svg_number(height - by - 0.5));
   };
   std::vector<double> now(static_cast<std::size_t>(width)), next(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) next[static_cast<std::size_t>(x)] = field(x, 0);

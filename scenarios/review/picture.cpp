@@ -55,12 +55,12 @@ std::string section_lines_svg(const Section& section, const PictureSpec& spec, c
   svg += line(zone_contour(section, {Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), colours.leeway_line, px, colours.line_px, "");
   svg += line(target_contour(section), colours.target_line, px, 1.8 * colours.line_px, "");
   if (spec.guard == nullptr || section.from_above()) return svg;
-  const std::string dash = svg_number(5 / px) + " " + svg_number(3 / px);
+  const std::string dash = fmt::format("{} {}", svg_number(5 / px), svg_number(3 / px));
   return svg + line(guard_contour(section, *spec.guard), colours.guard_line, px, 1.4 * colours.line_px, dash.c_str());
 }
 
 std::string caption(double x, double y, const std::string& text, const char* anchor) {
-  return "<text x='" + svg_number(x) + "' y='" + svg_number(y) + "' font-size='11' fill='#444444' text-anchor='" + anchor + "'>" + text + "</text>\n";
+  return fmt::format("<text x='{}' y='{}' font-size='11' fill='#444444' text-anchor='{}'>{}</text>\n", svg_number(x), svg_number(y), anchor, text);
 }
 
 }  // namespace
@@ -72,15 +72,16 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   constexpr double k_caption_px = 16, k_scale_px = 18;  // bands above and below the picture
   const double title_px = (spec.title.empty() ? 0 : 20) + k_caption_px, width_px = section.width() * px,
                height_px = section.height() * px + k_scale_px;
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + svg_number(width_px) + "' height='" + svg_number(height_px + title_px) +
-                    "' viewBox='0 0 " + svg_number(width_px) + " " + svg_number(height_px + title_px) + "' font-family='sans-serif'>\n<title>" +
-                    xml_text(spec.title) + "</title>\n" + "<rect width='100%' height='100%' fill='#ffffff'/>\n";
-  if (!spec.title.empty()) svg += "<text x='4' y='15' font-size='13' fill='#222222'>" + xml_text(spec.title) + "</text>\n";
-  svg += "<g transform='translate(0 " + svg_number(title_px) + ") scale(" + svg_number(px) + ")'>\n";
-  svg += section_leaves_svg(section, spec, colours) + section_lines_svg(section, spec, colours, px) + "</g>\n";
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<title>{}</title>\n"
+      "<rect width='100%' height='100%' fill='#ffffff'/>\n",
+      svg_number(width_px), svg_number(height_px + title_px), svg_number(width_px), svg_number(height_px + title_px), xml_text(spec.title));
+  if (!spec.title.empty()) svg += fmt::format("<text x='4' y='15' font-size='13' fill='#222222'>{}</text>\n", xml_text(spec.title));
+  svg += fmt::format("<g transform='translate(0 {}) scale({})'>\n", svg_number(title_px), svg_number(px));
+  svg += fmt::format("{}{}</g>\n", section_leaves_svg(section, spec, colours), section_lines_svg(section, spec, colours, px));
   // a millimetre, and which way is which
   const double bottom = height_px + title_px;
-  svg += "<path d='M6 " + svg_number(bottom - 6) + "h" + svg_number(spec.scale_px_per_mm) + "' stroke='#222222' stroke-width='2'/>\n";
+  svg += fmt::format("<path d='M6 {}h{}' stroke='#222222' stroke-width='2'/>\n", svg_number(bottom - 6), svg_number(spec.scale_px_per_mm));
   svg += caption(10 + spec.scale_px_per_mm, bottom - 3, "1 mm", "start");
   svg += caption(width_px - 4, title_px - 4, spec.view == View::bucco_lingual ? "buccal &#8594;" : "mesial &#8594;", "end");
   svg += caption(4, title_px - 4, section.upright() ? "&#8593; occlusal" : "&#8593; buccal", "start");

@@ -1,5 +1,7 @@
 #include "scenarios/review/section_leaves.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 
@@ -11,7 +13,7 @@ struct Runs {
   std::map<std::string, std::string> path;  // by fill
   void add(const std::string& fill, int column, int row_from_top, int n) {
     if (fill.empty()) return;
-    path[fill] += "M" + std::to_string(column) + " " + std::to_string(row_from_top) + "h" + std::to_string(n) + "v1h-" + std::to_string(n) + "z";
+    path[fill] += fmt::format("M{} {}h{}v1h-{}z", column, row_from_top, n, n);
   }
 };
 
@@ -98,11 +100,11 @@ std::string section_leaves_svg(const Section& section, const PictureSpec& spec, 
     }
   }
   std::string svg;
-  for (const auto& [fill, path] : tissue.path) svg += "<path shape-rendering='crispEdges' fill='" + fill + "' d='" + path + "'/>\n";
+  for (const auto& [fill, path] : tissue.path) svg += fmt::format("<path shape-rendering='crispEdges' fill='{}' d='{}'/>\n", fill, path);
   for (const auto& [fill, path] : removed.path)
-    svg += "<path shape-rendering='crispEdges' fill='" + fill + "'" + (section.from_above() ? " fill-opacity='0.75'" : "") + " d='" + path + "'/>\n";
+    svg += fmt::format("<path shape-rendering='crispEdges' fill='{}'{} d='{}'/>\n", fill, section.from_above() ? " fill-opacity='0.75'" : "", path);
   for (const auto& [opacity, path] : shade.path)
-    svg += "<path shape-rendering='crispEdges' fill='#000000' fill-opacity='" + opacity + "' d='" + path + "'/>\n";
+    svg += fmt::format("<path shape-rendering='crispEdges' fill='#000000' fill-opacity='{}' d='{}'/>\n", opacity, path);
   return svg;
 }
 

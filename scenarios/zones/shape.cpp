@@ -374,7 +374,7 @@ ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outlin
       break;
   }
   const SurfaceHeights inside = surface_heights(surface(), outline);
-  if (inside.columns == 0) throw Error(where, "the outline lies beside the tooth '" + tooth_.name + "'", "move it over the crown");
+  if (inside.columns == 0) throw Error(where, fmt::format("the outline lies beside the tooth '{}'", tooth_.name), "move it over the crown");
   ColumnBottom below{surface(), (b.kind == Kind::below_lowest ? inside.lowest_mm : inside.mean_mm) - b.depth_mm};
   for (double& z : below.height_mm.value) z = b.kind == Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : below.outline_z_mm;
   return below;

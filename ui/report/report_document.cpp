@@ -108,7 +108,7 @@ void add_moments(Document& d, const ReportSource& s) {
   for (const auto& w : s.lost) {
     const auto& c = w.criterion;
     const double lost = c.max - c.points;
-    d.blocks.push_back(Heading{c.title + ": " + fixed(lost, lost < 0.05 ? 3 : 1) + " of " + fixed(c.max, 1) + " points lost", 3});
+    d.blocks.push_back(Heading{fmt::format("{}: {} of {} points lost", c.title, fixed(lost, lost < 0.05 ? 3 : 1), fixed(c.max, 1)), 3});
     ReportTable t{{{"Time", true, 1.2}, {"Place x, y, z, mm", true, 2}, {"What", false, 6}, {"How much", true, 1.7}, {"Points lost", true, 1.2}},
                   {},
                   "Moments behind " + c.title};

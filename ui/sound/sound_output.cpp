@@ -288,7 +288,7 @@ void SoundOutput::run(const std::shared_ptr<Shared>& shared) noexcept {
       shared->changed.wait_for(lock, unplugged ? 5s : 0s, [&] { return shared->stopped(); });
     } while (unplugged && !shared->stopped());
   } catch (const std::exception& e) {
-    shared->silent(std::string("sound failed: ") + e.what());
+    shared->silent(fmt::format("sound failed: {}", e.what()));
   }
   const std::lock_guard lock(shared->mutex);
   shared->ended = true;

@@ -74,7 +74,7 @@ void add_cube_set(const CubeSet& set, const std::string& colour, double largest_
       left.points.push_back({row.k_n_per_mm, 1000 * (row.with.mean - line.value[0] * row.k_n_per_mm - line.value[1]), 1000 * row.with.sd});
   }
   if (line.solved) {
-    force.series.push_back({set.name + ": " + equation(line), colour, Style::line, fitted_line(line, largest_k), 1.4});
+    force.series.push_back({fmt::format("{}: {}", set.name, equation(line)), colour, Style::line, fitted_line(line, largest_k), 1.4});
     force.series.push_back({"", colour, Style::line, fitted_line(set.without.line, largest_k), 0.7});
   }
   if (set.with.with_root.solved && line.solved)
@@ -114,8 +114,8 @@ std::string cube_svg(const CubeResult& r) {
   rest.width_px = 420;
   double largest = 0.1;
   for (const double k : r.options.k_n_per_mm) largest = std::max(largest, k);
-  force.series.push_back({"paper, eq. 6: F = " + fixed(k_paper_slope_mm, 3) + " k + " + fixed(k_paper_intercept_n, 3), k_paper_colour, Style::line,
-                          curve(largest, paper_force_n), 2.4});
+  force.series.push_back({fmt::format("paper, eq. 6: F = {} k + {}", fixed(k_paper_slope_mm, 3), fixed(k_paper_intercept_n, 3)), k_paper_colour,
+                          Style::line, curve(largest, paper_force_n), 2.4});
   for (std::size_t i = 0; i < r.sets.size(); ++i) add_cube_set(r.sets[i], k_colours[i % k_colours.size()], largest, force, rest);
   scale_cube_charts(force, rest, largest);
   const auto& m = r.options.machine;
@@ -209,7 +209,7 @@ std::string press_heading(const PressTable& table, const PressOptions& o) {
     for (std::size_t h = 0; h < o.hand_n_per_mm.size(); ++h) {
       const double x = table.press_x[b] + static_cast<double>(h * o.press_n.size()) * PressTable::k_w;
       body += svg_text(x + static_cast<double>(o.press_n.size()) * PressTable::k_w / 2, 74,
-                       "hand " + plain_number(1000 * o.hand_n_per_mm[h]) + " N/m", 11, "middle");
+                       fmt::format("hand {} N/m", plain_number(1000 * o.hand_n_per_mm[h])), 11, "middle");
       for (std::size_t p = 0; p < o.press_n.size(); ++p)
         body += svg_text(x + (static_cast<double>(p) + 0.5) * PressTable::k_w, 92, plain_number(o.press_n[p]) + " N", 10, "middle", "fill='#555555'");
     }
@@ -295,8 +295,8 @@ std::string press_svg(const PressResult& r) {
         if (last_k >= 0 && k != last_k) y += 6;
         last_k = k;
         const PressCell row{.k_n_per_mm = k, .damping = damping, .delay_ticks = delay};
-        body += svg_text(16, y + 13, "k " + plain_number(k) + ",  c " + damping_name(damping) + ",  delay " + std::to_string(delay), 11);
-        body += press_cells(table, r, row, y) + bounce_cells(table, r, row, y) + "\n";
+        body += svg_text(16, y + 13, fmt::format("k {},  c {},  delay {}", plain_number(k), damping_name(damping), delay), 11);
+        body += fmt::format("{}{}\n", press_cells(table, r, row, y), bounce_cells(table, r, row, y));
         y += PressTable::k_h;
       }
   y += 22;

@@ -147,7 +147,7 @@ void add_enrolment(CLI::App* station, EnrolOptions& enrol) {
                     "make a new key for this enrolled station, and ask for it to take the old one's place; --out as above");
   station->add_option(
       "--stylus", enrol.styluses,
-      "with --enrol or --replace-key: " + stylus_kinds().ids({StylusHand::person}) + "; only recordings of it count then; may be repeated");
+      fmt::format("with --enrol or --replace-key: {}; only recordings of it count then; may be repeated", stylus_kinds().ids({StylusHand::person})));
 }
 
 }  // namespace

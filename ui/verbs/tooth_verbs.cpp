@@ -191,7 +191,7 @@ Tooth make_layered(const BlockArgs& args) {
   Tooth layered = make_block(size, layers, args.leaf_mm);
   notice_unknown_tissues(layered);
   notice_part_leaves({size.x, size.y, size.z}, args.leaf_mm, "a side");
-  for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, args.leaf_mm, ("layer '" + layer.tissue + "'").c_str());
+  for (const auto& layer : layers) notice_part_leaves({layer.thickness_mm}, args.leaf_mm, fmt::format("layer '{}'", layer.tissue).c_str());
   return layered;
 }
 

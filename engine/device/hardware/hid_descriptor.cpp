@@ -129,16 +129,16 @@ class Parser {
         now_.most_unsigned = item.value;
         break;
       case 0x74:
-        if (item.value > k_most_report_bits) refuse(item.start, "a field of " + std::to_string(item.value) + " bits cannot be");
+        if (item.value > k_most_report_bits) refuse(item.start, fmt::format("a field of {} bits cannot be", item.value));
         now_.size_bits = item.value;
         break;
       case 0x84:
-        if (item.value == 0 || item.value > 255) refuse(item.start, "report number " + std::to_string(item.value) + " is none of 1 to 255");
+        if (item.value == 0 || item.value > 255) refuse(item.start, fmt::format("report number {} is none of 1 to 255", item.value));
         now_.report_id = static_cast<std::uint8_t>(item.value);
         layout_.numbered = true;
         break;
       case 0x94:
-        if (item.value > k_most_report_bits) refuse(item.start, std::to_string(item.value) + " fields in one report cannot be");
+        if (item.value > k_most_report_bits) refuse(item.start, fmt::format("{} fields in one report cannot be", item.value));
         now_.count = item.value;
         break;
       case 0xa4:

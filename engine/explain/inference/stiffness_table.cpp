@@ -43,7 +43,7 @@ double value_in(const CsvReader& row, std::size_t place, const TableColumn& colu
   const std::string_view cell = row.fields()[place];
   const std::optional<double> v = number_in_field(cell);
   if (!v || *v < column.least || (column.above && *v == column.least))
-    row.fail("'" + one_line(cell) + "' in column " + column.name + " is no number in range", "correct the row");
+    row.fail(fmt::format("'{}' in column {} is no number in range", one_line(cell), column.name), "correct the row");
   return *v;
 }
 
@@ -137,8 +137,7 @@ StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& 
 
   std::array<std::size_t, k_columns.size()> places{};
   for (std::size_t i = 0; line == CsvReader::Line::row && i < places.size(); ++i) {
-    if (!holds(in, k_columns[i].name))
-      in.fail(std::string("there is no column '") + k_columns[i].name + "'", "a table has k_n_per_mm, f_n and v_mm_s");
+    if (!holds(in, k_columns[i].name)) in.fail(fmt::format("there is no column '{}'", k_columns[i].name), "a table has k_n_per_mm, f_n and v_mm_s");
     places[i] = place_of(in, k_columns[i].name);
   }
   while (in.next_row())

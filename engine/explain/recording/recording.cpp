@@ -1,5 +1,7 @@
 #include "engine/explain/recording/recording.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -32,7 +34,7 @@ struct Reading {
 
   void add(std::string_view cell, const CsvReader& in) {
     const std::optional<double> number = number_in_field(cell);
-    if (!number && all_numbers) in.fail("'" + one_line(cell) + "' in column " + name + " is no finite number", "correct or remove the row");
+    if (!number && all_numbers) in.fail(fmt::format("'{}' in column {} is no finite number", one_line(cell), name), "correct or remove the row");
     values.push_back(number ? *number : is_missing(cell) ? last_after_missing() : word(cell));
   }
 
@@ -52,7 +54,7 @@ std::vector<Reading> columns_of(const CsvReader& heading, const ColumnNames& nam
     const auto mapped = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == theirs; });
     const std::string name = mapped != names.end() ? mapped->first : std::string(theirs);
     if (std::any_of(out.begin(), out.end(), [&](const Reading& c) { return c.name == name; }))
-      heading.fail("there are two columns '" + one_line(name) + "'", "rename one");
+      heading.fail(fmt::format("there are two columns '{}'", one_line(name)), "rename one");
     out.push_back({.name = name, .all_numbers = std::find(k_required.begin(), k_required.end(), name) != k_required.end()});
   }
   return out;
@@ -64,10 +66,10 @@ void require_columns(const CsvReader& heading, const std::vector<Reading>& colum
     return std::any_of(columns.begin(), columns.end(), [&](const Reading& c) { return c.name == name; });
   };
   for (const auto& [contract, theirs] : names)
-    if (!there(contract)) heading.fail("there is no column '" + one_line(theirs) + "'", "name a column of the header with --column");
+    if (!there(contract)) heading.fail(fmt::format("there is no column '{}'", one_line(theirs)), "name a column of the header with --column");
   for (const std::string required : k_required)
     if (!there(required) && (with_position || required != "x_mm"))
-      heading.fail("there is no column '" + required + "'", "rename it in the file, or use --column " + required + "=NAME");
+      heading.fail(fmt::format("there is no column '{}'", required), fmt::format("rename it in the file, or use --column {}=NAME", required));
 }
 
 /// The row of `in` belongs to the session of that name, which begins with it where the one before had another name.
@@ -75,9 +77,9 @@ void add_row(std::vector<SessionRows>& sessions, std::string_view name, const Cs
   const Eigen::Index row = sessions.empty() ? 0 : sessions.back().end;
   if (sessions.empty() || sessions.back().name != name) {
     if (std::any_of(sessions.begin(), sessions.end(), [&](const SessionRows& s) { return s.name == name; }))
-      in.fail("session '" + one_line(name) + "' is in two places", "sort the rows by session, then by time");
+      in.fail(fmt::format("session '{}' is in two places", one_line(name)), "sort the rows by session, then by time");
     if (sessions.size() == k_max_sessions)
-      in.fail("has more than " + std::to_string(k_max_sessions) + " sessions", "give column 'session' a name for each run, not for each row");
+      in.fail(fmt::format("has more than {} sessions", k_max_sessions), "give column 'session' a name for each run, not for each row");
     sessions.push_back({std::string(name), row, row});
   }
   sessions.back().end = row + 1;
@@ -85,12 +87,12 @@ void add_row(std::vector<SessionRows>& sessions, std::string_view name, const Cs
 
 /// Puts a column that was read where it belongs.
 void keep(const Reading& column, Recording& out) {
-  const std::string shown = "column '" + one_line(column.name) + "'";
+  const std::string shown = fmt::format("column '{}'", one_line(column.name));
   if (column.missing == column.values.size()) {
     out.notes.push_back(shown + " is empty and left out");
     return;
   }
-  if (column.missing > 0) out.notes.push_back(shown + ": " + std::to_string(column.missing) + " missing values repeat the last one");
+  if (column.missing > 0) out.notes.push_back(fmt::format("{}: {} missing values repeat the last one", shown, column.missing));
   Series values = Eigen::Map<const Series>(column.values.data(), static_cast<Eigen::Index>(column.values.size()));
   const std::array<std::pair<const char*, Series*>, 4> places{{{"t_s", &out.t_s}, {"x_mm", &out.x_mm}, {"f_n", &out.f_n}, {"v_mm_s", &out.v_mm_s}}};
   for (const auto& [name, place] : places)

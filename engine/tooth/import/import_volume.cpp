@@ -172,7 +172,7 @@ Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, c
     require_few_gray(volume, path);
     const auto levels = find_gray_levels(volume, options.thresholds, path);
     Segmentation s = segment(volume, levels, path);
-    const std::string how = "CT volume; " + levels.note + "; " + s.note;
+    const std::string how = fmt::format("CT volume; {}; {}", levels.note, s.note);
     return {std::move(s), how};
   }
   Segmentation s = from_labels(volume, options.labels, path);
@@ -194,7 +194,7 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
     if (t == k_dentin) dentin.add(volume.place_mm(v));
   });
   if ((enamel.n == 0 || dentin.n == 0) && !options.occlusal_axis)
-    throw Error(path, std::string("holds no ") + (enamel.n == 0 ? "enamel" : "dentin") + ", so there is no occlusal direction",
+    throw Error(path, fmt::format("holds no {}, so there is no occlusal direction", enamel.n == 0 ? "enamel" : "dentin"),
                 "give --occlusal-axis x,y,z");
   Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options), .origin = {}, .box = {}};
   Extent crown;
@@ -213,8 +213,7 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
 void require_size_of_a_tooth(const Volume& volume, const Extent& box, const std::string& path) {
   const Vec3 extent = box.high - box.low;
   if (const double longest = std::max({extent.x, extent.y, extent.z}); volume.spacing_assumed && !(longest > 4 && longest < 45))
-    throw Error(path, "the file gives no spacing, and the assumed 0.125 mm would make a tooth of " + std::to_string(longest) + " mm",
-                "give --spacing-mm");
+    throw Error(path, fmt::format("the file gives no spacing, and the assumed 0.125 mm would make a tooth of {:f} mm", longest), "give --spacing-mm");
 }
 
 }  // namespace

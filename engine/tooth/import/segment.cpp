@@ -160,7 +160,7 @@ HardBodies find_tooth(const Volume& volume, double hard_gray, const std::string&
   for (std::size_t i = 0; i < hard.size(); ++i) hard[i] = volume.gray[i] > hard_gray;
   found.bodies = bodies_of(volume.size, hard);
   if (found.bodies.voxels.size() < 2 || found.bodies.voxels[found.bodies.largest()] < 100)
-    throw Error(where, "no tooth found: nothing larger than 100 voxels is brighter than " + std::to_string(hard_gray),
+    throw Error(where, fmt::format("no tooth found: nothing larger than 100 voxels is brighter than {:f}", hard_gray),
                 "check the volume or --dentin-threshold");
   found.tooth = found.bodies.largest();
   found.in_tooth.resize(hard.size());
@@ -226,7 +226,7 @@ Mask voxels_of(const Segmentation& s, std::uint8_t tissue) {
 /// Bright specks, smaller than a fiftieth of the crown, are dentin.
 void drop_specks_of_enamel(Segmentation& s, double enamel_gray, const std::string& where) {
   const Bodies caps = bodies_of(s.size, voxels_of(s, k_enamel));
-  if (caps.voxels.size() < 2) throw Error(where, "no enamel found above gray " + std::to_string(enamel_gray), "check --enamel-threshold");
+  if (caps.voxels.size() < 2) throw Error(where, fmt::format("no enamel found above gray {:f}", enamel_gray), "check --enamel-threshold");
   const auto crown = caps.voxels[caps.largest()];
   for (std::size_t i = 0; i < s.tissue.size(); ++i)
     if (caps.number[i] != 0 && caps.voxels[caps.number[i]] * 50 < crown) s.tissue[i] = k_dentin;

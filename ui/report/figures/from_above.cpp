@@ -136,7 +136,7 @@ Bytes columns_png(const Columns& columns) {
 constexpr double k_top_px = 24, k_key_px = 190, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
 
 std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") {
-  return "<text x='" + fixed(x, 0) + "' y='" + fixed(y, 0) + "' text-anchor='" + anchor + "'>" + words + "</text>";
+  return fmt::format("<text x='{}' y='{}' text-anchor='{}'>{}</text>", fixed(x, 0), fixed(y, 0), anchor, words);
 }
 
 /// The bar of colours with its corner at `left` and `top`, and a millimetre of `mm_px` below it.
@@ -146,14 +146,14 @@ std::string key_svg(double left, double top, double mm_px) {
   constexpr double k_step_px = k_bar_height_px / k_steps;
   std::string svg;
   for (int i = 0; i < k_steps; ++i)
-    svg += "<rect x='" + fixed(left, 0) + "' y='" + fixed(top + i * k_step_px, 0) + "' width='" + fixed(k_bar_px, 0) + "' height='" +
-           fixed(k_step_px + 0.5, 1) + "' fill='" + hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))) + "'/>";
-  svg += "<rect x='" + fixed(left, 0) + "' y='" + fixed(top, 0) + "' width='" + fixed(k_bar_px, 0) + "' height='" + fixed(k_bar_height_px, 0) +
-         "' fill='none' stroke='#666666'/>\n";
+    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>", fixed(left, 0), fixed(top + i * k_step_px, 0), fixed(k_bar_px, 0),
+                       fixed(k_step_px + 0.5, 1), hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
+  svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>\n", fixed(left, 0), fixed(top, 0), fixed(k_bar_px, 0),
+                     fixed(k_bar_height_px, 0));
   svg += text_at(words, top + 14, fixed(k_colours_end_mm, 1) + " mm beyond") + text_at(words, top + k_bar_height_px / 2 + 5, "as planned") +
          text_at(words, top + k_bar_height_px - 4, fixed(k_colours_end_mm, 1) + " mm left");
-  svg += "\n<path d='M" + fixed(left, 0) + " " + fixed(top + k_bar_height_px + 34, 0) + "h" + fixed(mm_px, 1) +
-         "' stroke='#222222' stroke-width='2'/>" + text_at(left + mm_px + 8, top + k_bar_height_px + 40, "1 mm");
+  svg += fmt::format("\n<path d='M{} {}h{}' stroke='#222222' stroke-width='2'/>{}", fixed(left, 0), fixed(top + k_bar_height_px + 34, 0),
+                     fixed(mm_px, 1), text_at(left + mm_px + 8, top + k_bar_height_px + 40, "1 mm"));
   return svg;
 }
 
@@ -165,12 +165,13 @@ Picture picture_from_above(const GradeInput& input) {
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
   constexpr double k_font_px = 16;
   const double all_width = width + k_key_px, all_height = k_top_px + std::max(height, k_bar_height_px + 60);
-  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='" + fixed(all_width, 0) + "' height='" + fixed(all_height, 0) +
-                    "' viewBox='0 0 " + fixed(all_width, 0) + " " + fixed(all_height, 0) + "' font-family='sans-serif' font-size='" +
-                    fixed(k_font_px, 0) + "' fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n" +
-                    text_at(4, 17, "&#8593; buccal") + text_at(width - 4, 17, "mesial &#8594;", "end") + "\n";
-  svg += "<image x='0' y='" + fixed(k_top_px, 0) + "' width='" + fixed(width, 1) + "' height='" + fixed(height, 1) +
-         "' preserveAspectRatio='none' href='data:image/png;base64," + base64(columns_png(columns)) + "'/>\n";
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif' font-size='{}' "
+      "fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n{}{}\n",
+      fixed(all_width, 0), fixed(all_height, 0), fixed(all_width, 0), fixed(all_height, 0), fixed(k_font_px, 0), text_at(4, 17, "&#8593; buccal"),
+      text_at(width - 4, 17, "mesial &#8594;", "end"));
+  svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
+                     fixed(width, 1), fixed(height, 1), base64(columns_png(columns)));
   svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n</svg>\n";
   return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut"};
 }
