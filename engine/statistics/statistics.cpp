@@ -31,7 +31,17 @@ double correlation(std::span<const double> a, std::span<const double> b) noexcep
 
 double normal_cdf(double z) noexcept { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-MeanSd mean_sd(std::span<const double> values) noexcept { return {mean(values), std::sqrt(variance(values))}; }
+// Summed in shares, unlike mean(): the figures that the rigs have published are of this sum, to the last bit.
+MeanSd mean_sd(std::span<const double> values) noexcept {
+  MeanSd out;
+  const auto n = static_cast<double>(values.size());
+  for (const double v : values) out.mean += v / n;
+  if (values.size() < 2) return out;
+  double squares = 0.0;
+  for (const double v : values) squares += (v - out.mean) * (v - out.mean);
+  out.sd = std::sqrt(squares / (n - 1.0));
+  return out;
+}
 
 Fit fit_columns(std::span<const std::vector<double>> columns, std::span<const double> y) noexcept {
   Fit fit;
