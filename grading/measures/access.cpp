@@ -111,7 +111,7 @@ void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures&
       }
   }
   const double leaf_mm3 = zones.leaf_volume_mm3();
-  m.overhang = Volume{static_cast<double>(leaves.size()) * leaf_mm3, 0.5 * static_cast<double>(border) * leaf_mm3};
+  m.overhang = BoundedVolume{static_cast<double>(leaves.size()) * leaf_mm3, 0.5 * static_cast<double>(border) * leaf_mm3};
   if (!leaves.empty()) m.overhang_middle_mm = sum / static_cast<double>(leaves.size());
   m.overhang_pieces = pieces_of(left, leaves, zones, leaf_mm3, [](std::uint8_t) { return true; });
   std::stable_sort(m.overhang_pieces.begin(), m.overhang_pieces.end(), [](const Piece& a, const Piece& b) { return a.part > b.part; });

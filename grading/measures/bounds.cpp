@@ -10,8 +10,8 @@
 namespace cavum {
 namespace {
 
-double less(const Volume& v) noexcept { return std::max(0.0, v.mm3 - v.bound_mm3); }
-double more(const Volume& v) noexcept { return v.mm3 + v.bound_mm3; }
+double less(const BoundedVolume& v) noexcept { return std::max(0.0, v.mm3 - v.bound_mm3); }
+double more(const BoundedVolume& v) noexcept { return v.mm3 + v.bound_mm3; }
 /// a / (a + b), 1 when there is neither.
 double share(double a, double b) noexcept { return a + b > 0 ? a / (a + b) : 1.0; }
 
@@ -46,12 +46,12 @@ std::vector<double> all_own(const WallValues& v) {
 
 }  // namespace
 
-double share_bound_percent(const Volume& in, const Volume& missed) noexcept {
+double share_bound_percent(const BoundedVolume& in, const BoundedVolume& missed) noexcept {
   const double now = share(in.mm3, missed.mm3);
   return 100 * std::max(share(more(in), less(missed)) - now, now - share(less(in), more(missed)));
 }
 
-double dice_bound(const Volume& in, const Volume& missed, const Volume& beyond) noexcept {
+double dice_bound(const BoundedVolume& in, const BoundedVolume& missed, const BoundedVolume& beyond) noexcept {
   const double now = share(2 * in.mm3, missed.mm3 + beyond.mm3);
   return std::max(share(2 * more(in), less(missed) + less(beyond)) - now, now - share(2 * less(in), more(missed) + more(beyond)));
 }

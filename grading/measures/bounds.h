@@ -9,9 +9,9 @@
 namespace cavum {
 
 /// Bound of 100 I / (I + M), percent: the share of the target that was removed, I removed and M missed of it. Both ends keep within 0 to 100.
-[[nodiscard]] double share_bound_percent(const Volume& in_target, const Volume& missed) noexcept;
+[[nodiscard]] double share_bound_percent(const BoundedVolume& in_target, const BoundedVolume& missed) noexcept;
 /// Bound of Dice = 2 I / (2 I + M + O): I removed of the target, M missed of it, O removed beyond it.
-[[nodiscard]] double dice_bound(const Volume& in_target, const Volume& missed, const Volume& beyond) noexcept;
+[[nodiscard]] double dice_bound(const BoundedVolume& in_target, const BoundedVolume& missed, const BoundedVolume& beyond) noexcept;
 
 /// A value on a wall, and whether its place may as well belong to another wall, or to this one from another.
 struct WallValues {

@@ -227,7 +227,7 @@ TargetCount count_target(const GradeInput& input, const RemovedMap& removed, con
 }
 
 /// With the bound of half a leaf over its border.
-Volume volume_of(const Count& c, double leaf_mm3) { return {c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; }
+BoundedVolume volume_of(const Count& c, double leaf_mm3) { return {c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; }
 
 void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const ZoneMap& zones) {
   const double leaf_mm3 = zones.leaf_volume_mm3();
@@ -240,8 +240,8 @@ void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCou
 
 /// The share of the target that was removed, and Dice.
 void put_shares(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target) {
-  const Volume& in_target = v.zone[static_cast<std::size_t>(Zone::target)].removed;
-  Volume beyond;
+  const BoundedVolume& in_target = v.zone[static_cast<std::size_t>(Zone::target)].removed;
+  BoundedVolume beyond;
   for (std::size_t z = 0; z < k_zones; ++z)
     if (z != static_cast<std::size_t>(Zone::target)) {
       beyond.mm3 += v.zone[z].removed.mm3;

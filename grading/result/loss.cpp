@@ -96,7 +96,7 @@ Loss removed_in_zones(const Result& r, const Asked& a) { return removed_in(r, a.
 
 Loss missed_and_beyond(const Result& r, const Asked& a) {
   Loss over = removed_in(r, a.marking->zones);
-  const Volume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
+  const BoundedVolume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
   Loss not_cut = missed(r);
   if (over.first.tick < 0) return not_cut;
   return {fmt::format("{}; {} mm3 removed beyond the target, {}", not_cut.text, fixed(r.volumes.removed.mm3 - in_target.mm3, 2), over.text),

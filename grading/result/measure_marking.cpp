@@ -9,14 +9,14 @@
 namespace cavum {
 namespace {
 
-MetricValue of_volume(const Volume& v) { return {v.mm3, v.bound_mm3}; }
+MetricValue of_volume(const BoundedVolume& v) { return {v.mm3, v.bound_mm3}; }
 MetricValue exactly(double v) { return {v, 0.0}; }
 
 /// All that was removed in the row's zones.
 MetricValue in_zones(const Result& r, const Asked& a) {
   MetricValue sum{0.0, 0.0};
   for (const Zone z : a.marking->zones) {
-    const Volume& v = r.volumes.zone[static_cast<std::size_t>(z)].removed;
+    const BoundedVolume& v = r.volumes.zone[static_cast<std::size_t>(z)].removed;
     *sum.value += v.mm3;
     sum.bound += v.bound_mm3;
   }

@@ -25,29 +25,30 @@ struct Trace {
 };
 
 /// A volume and half a leaf over its border: the true volume lies within ± bound.
-struct Volume {
+struct BoundedVolume {
   double mm3 = 0.0, bound_mm3 = 0.0;
 };
 
 /// What was removed in one zone.
 struct ZoneVolume {
-  Volume removed;
+  BoundedVolume removed;
   std::array<double, k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
   Trace first;                                    ///< first leaf removed there, all of it or a part
 };
 
 struct VolumeMeasures {
-  Volume target, removed, missed;
+  BoundedVolume target, removed, missed;
   double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
   double dice = 0.0, dice_bound = 0.0;
   std::array<ZoneVolume, k_zones> zone;  ///< by Zone
   std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
-  std::array<Volume, 256> tissue;              ///< removed, by tissue id
+  std::array<BoundedVolume, 256> tissue;       ///< removed, by tissue id
   std::array<Trace, 256> tissue_first;         ///< first leaf removed of each
   std::array<Trace, k_walls + 1> target_last;  ///< last leaf of the target removed towards each wall
   /// R without T, L and C: in no zone, or protected wherever that lies.
-  [[nodiscard]] Volume outside() const noexcept {
-    const Volume &none = zone[static_cast<std::size_t>(Zone::none)].removed, &guarded = zone[static_cast<std::size_t>(Zone::protected_)].removed;
+  [[nodiscard]] BoundedVolume outside() const noexcept {
+    const BoundedVolume &none = zone[static_cast<std::size_t>(Zone::none)].removed,
+                        &guarded = zone[static_cast<std::size_t>(Zone::protected_)].removed;
     return {none.mm3 + guarded.mm3, none.bound_mm3 + guarded.bound_mm3};
   }
 };
@@ -86,13 +87,13 @@ struct Piece {
 
 /// Straight-line access; see grading/measures/access.h.
 struct AccessMeasures {
-  std::optional<Volume> overhang;                ///< roof left above the aim; none when the target holds none of it
+  std::optional<BoundedVolume> overhang;         ///< roof left above the aim; none when the target holds none of it
   std::optional<double> canals_covered_percent;  ///< of the canals' mouths; none without canals
   double canals_bound_percent = 0.0;
   Vec3 overhang_middle_mm, canals_covered_mm;  ///< middle of what is left over, and of the mouths under it
   std::vector<Piece> overhang_pieces;          ///< mm3, the largest first
   std::vector<Piece> canal_mouths;             ///< covered leaves of all, in the order of the tooth's leaves
-  Volume floor_cut;                            ///< hard tissue removed below the target
+  BoundedVolume floor_cut;                     ///< hard tissue removed below the target
   Trace floor_first;
   std::optional<double> target_taper_deg;
   double target_taper_bound_deg = 0.0;

@@ -235,7 +235,7 @@ std::string criteria_text(const Result& r) {
 
 std::string volumes_text(const Result& r) {
   const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
-  const auto volume = [&](const std::string& name, const Volume& v) {
+  const auto volume = [&](const std::string& name, const BoundedVolume& v) {
     return fmt::format("  {}{} ± {} mm3\n", padded(name, 22), fixed(v.mm3, 2), fixed(v.bound_mm3, 2));
   };
   std::string s = fmt::format("\nvolumes\n{}  {}{} ± {} %\n{}{}", volume("target", r.volumes.target), padded("target removed", 22),

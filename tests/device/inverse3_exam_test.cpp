@@ -29,7 +29,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-bool comes_true(const std::function<bool()>& condition) { return testing_device::comes_true(condition, 100s); }
+bool comes_true_in_an_exam(const std::function<bool()>& condition) { return testing_device::comes_true(condition, 100s); }
 
 class Inverse3Exam : public ::testing::Test {
  protected:
@@ -126,7 +126,7 @@ TEST_F(Inverse3Exam, IsPlacedByFourMarksAndACrownAtTheEdgeOfItsReachIsNamed) {
     int asked = 0;
     for (const Vec3 mark : {Vec3{0, 0, 0}, Vec3{20, 0, 0}, Vec3{0, 20, 0}, Vec3{0, 0, 20}}) {
       ++asked;
-      EXPECT_TRUE(comes_true([&] {
+      EXPECT_TRUE(comes_true_in_an_exam([&] {
         int count = 0;
         std::istringstream lines(read_text_file(said));
         for (std::string line; std::getline(lines, line);) count += line.starts_with("hold the tip") ? 1 : 0;
@@ -152,7 +152,7 @@ TEST_F(Inverse3Exam, IsTakenWhileTheServiceIsBegunAgainGradedAndReplays) {
   const pid_t child = start_exam();
   {
     const Foot foot(pedal);
-    EXPECT_TRUE(comes_true([&] { return ticks() >= 1000; })) << said();
+    EXPECT_TRUE(comes_true_in_an_exam([&] { return ticks() >= 1000; })) << said();
     double felt_n = 0.0;
     drill([&] {
       felt_n = std::max(felt_n, service_.force_n().z);
@@ -161,9 +161,9 @@ TEST_F(Inverse3Exam, IsTakenWhileTheServiceIsBegunAgainGradedAndReplays) {
     EXPECT_GT(felt_n, 0.05) << "the tooth was felt, upwards";
     const std::int64_t before = ticks();
     service_.stop();
-    EXPECT_TRUE(comes_true([&] { return ticks() >= before + 1500; })) << "the exam goes on without it";
+    EXPECT_TRUE(comes_true_in_an_exam([&] { return ticks() >= before + 1500; })) << "the exam goes on without it";
     service_.start();
-    EXPECT_TRUE(comes_true([&] { return service_.lines() == 1; }));
+    EXPECT_TRUE(comes_true_in_an_exam([&] { return service_.lines() == 1; }));
     int status = 0;
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
@@ -193,13 +193,13 @@ TEST_F(Inverse3Exam, AKilledProgramLeavesNoForce) {
   testing_device::EmulatedPedal pedal;
   const pid_t child = start_exam();
   const Foot foot(pedal);
-  EXPECT_TRUE(comes_true([&] { return ticks() >= 500; })) << said();
+  EXPECT_TRUE(comes_true_in_an_exam([&] { return ticks() >= 500; })) << said();
   drill([&] { return length(service_.force_n()) > 0.2; });
   EXPECT_GT(length(service_.force_n()), 0.0);
   ::kill(child, SIGKILL);
   int status = 0;
   ::waitpid(child, &status, 0);
-  EXPECT_TRUE(comes_true([&] { return service_.lines() == 0 && length(service_.force_n()) == 0.0; }))
+  EXPECT_TRUE(comes_true_in_an_exam([&] { return service_.lines() == 0 && length(service_.force_n()) == 0.0; }))
       << "the system closes its line, and the service lets go";
 }
 

@@ -28,7 +28,7 @@ const char k_box_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
-const Volume& zone_volume(const Result& r, Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
+const BoundedVolume& zone_volume(const Result& r, Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
 const WallMeasures& wall(const Result& r, Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
 
 TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {

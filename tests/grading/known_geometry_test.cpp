@@ -20,6 +20,7 @@ using testing::dentin_block;
 using testing::scenario_text;
 using testing_basics::drawn_seed;
 
+constexpr double k_leaf = 0.05, k_top = 6.0;  // bodies rise this far from their lower face, beyond the block
 constexpr int k_poses = 20;
 
 /// A body standing at `at`, its axis tilted by `tilt` towards `azimuth` and turned about it by `turn` (radians).
@@ -190,7 +191,7 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
   Carved c(scenario_text(k.target_toml), block);
   c.carve(k.cut, 0);
   const Result r = c.graded();
-  const auto volume = [&](const char* name, const Volume& found, double truth, double scale) {
+  const auto volume = [&](const char* name, const BoundedVolume& found, double truth, double scale) {
     worst.volume_percent = std::max(worst.volume_percent, 100 * std::fabs(found.mm3 - truth) / scale);
     worst.of_volume_bound = std::max(worst.of_volume_bound, std::fabs(found.mm3 - truth) / found.bound_mm3);
     EXPECT_NEAR(found.mm3, truth, 0.005 * scale) << name;
@@ -199,7 +200,7 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
   volume("target", r.volumes.target, k.target_mm3, k.target_mm3);
   volume("removed", r.volumes.removed, k.removed_mm3, k.removed_mm3);
   volume("target removed", r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed, k.target_mm3, k.target_mm3);
-  Volume beyond;  // the zones beyond the target, which are thin: against what was removed
+  BoundedVolume beyond;  // the zones beyond the target, which are thin: against what was removed
   for (std::size_t z = 0; z < k_zones; ++z) {
     if (z == static_cast<std::size_t>(Zone::target)) continue;
     beyond.mm3 += r.volumes.zone[z].removed.mm3;

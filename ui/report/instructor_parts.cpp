@@ -21,7 +21,7 @@ std::string bounded(double v, double bound, int digits, const std::string& unit)
 void add_volumes(Document& d, const Result& r) {
   d.blocks.push_back(Heading{"Volumes"});
   ReportTable t{{{"What", false, 4}, {"Volume", true, 3}, {"First at", true, 1.4}, {"Place x, y, z, mm", true, 2.2}}, {}, "Volumes"};
-  const auto volume = [&](const std::string& name, const Volume& v, const Trace& first = {}) {
+  const auto volume = [&](const std::string& name, const BoundedVolume& v, const Trace& first = {}) {
     t.rows.push_back({{{name},
                        {bounded(v.mm3, v.bound_mm3, 2, "mm³")},
                        first.tick < 0 ? TableCell{""} : time_cell(first.tick, first.site_mm),

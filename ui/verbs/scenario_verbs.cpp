@@ -62,8 +62,8 @@ int check(const Options& o) {
 }
 
 /// Volumes of the zones in the tooth, each with half a leaf over its border; the target's by parts of leaves, as it is graded.
-std::array<Volume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zones) {
-  std::array<Volume, k_zones> volumes{};
+std::array<BoundedVolume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zones) {
+  std::array<BoundedVolume, k_zones> volumes{};
   const double leaf_mm3 = zones.leaf_volume_mm3();
   const IVec3 size = tooth.octree.size();
   for (int z = 0; z < size.z; ++z)
@@ -72,7 +72,7 @@ std::array<Volume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zone
         const IVec3 leaf{x, y, z};
         const Zone own = zones.zone(leaf);
         if (own == Zone::none) continue;
-        Volume& v = volumes[static_cast<std::size_t>(own)];
+        BoundedVolume& v = volumes[static_cast<std::size_t>(own)];
         v.mm3 += leaf_mm3;
         for (const IVec3 step : k_six_neighbours)
           if (zones.zone(leaf + step) != own) {

@@ -6,16 +6,12 @@
 #include <ctime>
 
 #include "engine/base/error.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
 
-std::string repeated(const std::string& what, std::size_t times) {
-  std::string out;
-  out.reserve(what.size() * times);
-  for (std::size_t i = 0; i < times; ++i) out += what;
-  return out;
-}
+using testing_basics::repeated;
 
 std::string nested(std::size_t depth) { return repeated("[", depth) + repeated("]", depth); }
 

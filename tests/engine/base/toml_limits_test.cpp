@@ -11,15 +11,10 @@ namespace cavum {
 namespace {
 
 using namespace testing_engine;
-
-std::string repeated(const std::string& what, std::size_t times) {
-  std::string out;
-  for (std::size_t i = 0; i < times; ++i) out += what;
-  return out;
-}
+using testing_basics::repeated;
 
 std::string refused(const std::string& text) {
-  return error_of([&] { (void)parse_toml(text, "f.toml"); });
+  return testing_engine::error_of([&] { (void)parse_toml(text, "f.toml"); });
 }
 
 TEST(TomlLimits, LongNamesAreRefusedWhereverTheyStand) {

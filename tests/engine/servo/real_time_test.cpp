@@ -242,12 +242,12 @@ TEST(RealTime, WhereStepsTakeLongerThanAPeriodTheDeviceIsStillReadAndTheRestIsCo
   EXPECT_EQ(static_cast<std::int64_t>(run.ticks.size()), run.report.ticks);
 }
 
-/// Steady cutting at 0.25 mm/s and a press on the simulated Omni, at a tick length, without a clock.
-struct Steady {
+/// SteadyCut cutting at 0.25 mm/s and a press on the simulated Omni, at a tick length, without a clock.
+struct SteadyCut {
   double x_mm, cutting_n, press_n, press_x_mm;
 };
-Steady steady(double tick_s) {
-  Steady s{};
+SteadyCut steady(double tick_s) {
+  SteadyCut s{};
   const Tooth tooth = make_cube(6, "dentin", 0.05);
   {
     Rig rig(tooth, {diamond_point("cylinder-flat-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, tick_s);
@@ -279,7 +279,7 @@ Steady steady(double tick_s) {
 }
 
 TEST(RealTime, At4KilohertzThePhysicsIsThatOf1KilohertzWithin1Percent) {
-  const Steady slow = steady(0.001), fast = steady(0.00025);
+  const SteadyCut slow = steady(0.001), fast = steady(0.00025);
   std::printf("1 kHz: X %.4f mm, %.4f N cutting, %.4f N and %.4f mm pressing; 4 kHz: %.4f, %.4f, %.4f, %.4f\n", slow.x_mm, slow.cutting_n,
               slow.press_n, slow.press_x_mm, fast.x_mm, fast.cutting_n, fast.press_n, fast.press_x_mm);
   EXPECT_NEAR(fast.x_mm / slow.x_mm, 1.0, 0.01);

@@ -36,6 +36,14 @@ std::string error_of(const Action& action) {
   return {};
 }
 
+/// `what`, `times` times in a row.
+inline std::string repeated(const std::string& what, std::size_t times) {
+  std::string out;
+  out.reserve(what.size() * times);
+  for (std::size_t i = 0; i < times; ++i) out += what;
+  return out;
+}
+
 /// A folder that goes away with the test.
 class Folder {
  public:

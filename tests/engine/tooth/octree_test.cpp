@@ -39,12 +39,12 @@ std::uint64_t carve_dense(TissueGrid& grid, const std::vector<Tissue>& tissues, 
   return removed;
 }
 
-Tooth small_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
+Tooth layered_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
 
 TEST(Octree, EqualsDenseGridAfterRandomCarves) {
   Random random(testing_tooth::drawn_seed("Octree.EqualsDenseGridAfterRandomCarves"));
   for (int round = 0; round < 6; ++round) {
-    Tooth tooth = small_block();
+    Tooth tooth = layered_block();
     TissueGrid dense = tooth.octree.to_grid();
     ASSERT_EQ(Octree(dense, tooth.tissues).to_grid().tissue, dense.tissue);
     tooth.octree.reserve_edits(20000);
@@ -73,7 +73,7 @@ TEST(Octree, EqualsDenseGridAfterRandomCarves) {
 
 TEST(Octree, AnswersPointQueriesAsTheDenseGridDoes) {
   Random random(testing_tooth::drawn_seed("Octree.AnswersPointQueriesAsTheDenseGridDoes"));
-  const Tooth tooth = small_block();
+  const Tooth tooth = layered_block();
   const TissueGrid dense = tooth.octree.to_grid();
   Octree::Cursor cursor;
   for (int i = 0; i < 20000; ++i) {
@@ -89,7 +89,7 @@ TEST(Octree, AnswersPointQueriesAsTheDenseGridDoes) {
 
 TEST(Octree, NeverCallsABoxClearThatHoldsSolid) {
   Random random(testing_tooth::drawn_seed("Octree.NeverCallsABoxClearThatHoldsSolid"));
-  const Tooth tooth = small_block();
+  const Tooth tooth = layered_block();
   const TissueGrid dense = tooth.octree.to_grid();
   int clear = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -110,7 +110,7 @@ TEST(Octree, NeverCallsABoxClearThatHoldsSolid) {
 
 TEST(Octree, MixesTheTissuesOfTheEightLeavesAroundAPlace) {
   Random random(testing_tooth::drawn_seed("Octree.MixesTheTissuesOfTheEightLeavesAroundAPlace"));
-  const Tooth tooth = small_block();
+  const Tooth tooth = layered_block();
   const TissueGrid dense = tooth.octree.to_grid();
   Octree::Cursor cursor;
   for (int i = 0; i < 20000; ++i) {
@@ -138,7 +138,7 @@ TEST(Octree, MixesTheTissuesOfTheEightLeavesAroundAPlace) {
 // An octree that was damaged before it was signed must still not crash the reader.
 TEST(Octree, DamagedBytesNeverCrash) {
   Random random(testing_tooth::drawn_seed("Octree.DamagedBytesNeverCrash"));
-  const Tooth tooth = small_block();
+  const Tooth tooth = layered_block();
   ByteWriter out;
   tooth.octree.write(out);
   int refused = 0;

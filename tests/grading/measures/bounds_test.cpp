@@ -111,7 +111,7 @@ TEST(Bounds, AMeanIsBoundedByWhatCountsToEitherOfTwoWalls) {
 }
 
 TEST(Bounds, HoldBothEndsOfWhatAFigureIsMadeOf) {
-  const Volume in{8, 1}, missed{2, 0.5}, beyond{1, 0.25};
+  const BoundedVolume in{8, 1}, missed{2, 0.5}, beyond{1, 0.25};
   EXPECT_NEAR(share_bound_percent(in, missed), 80 - 700.0 / 9.5, 1e-9);  // 7 of 9.5; the other end is 9 of 10.5
   EXPECT_NEAR(dice_bound(in, missed, beyond), 16.0 / 19 - 14.0 / (14 + 2.5 + 1.25), 1e-9);
   EXPECT_DOUBLE_EQ(share_bound_percent({8, 1}, {0, 0}), 0);       // nothing missed, for certain
