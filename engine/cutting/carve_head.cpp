@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/hash.h"
+#include "engine/tooth/octree_edit.h"
 
 namespace cavum {
 namespace {

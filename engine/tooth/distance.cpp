@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/tooth/marching.h"
 
 namespace cavum {
 namespace {

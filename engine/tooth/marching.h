@@ -1,4 +1,4 @@
-// Template of the marching tetrahedra. Included by surface_mesh.h only.
+// Marching tetrahedra: the closed surface between the points of a lattice that are in a body and those that are not.
 #pragma once
 
 #include <fmt/core.h>
@@ -97,8 +97,12 @@ void add_cell(IVec3 cell, const std::array<bool, 8>& in, Edges& edges, std::vect
 
 }  // namespace marching
 
+/// Marching tetrahedra over a lattice of points, x fastest. `inside[i]` != 0 marks points in the body; the
+/// lattice's outermost points must be outside. `fraction(a, b)` places the crossing between a (inside) and
+/// b (outside), 0 at a, 1 at b, exclusive. Point (i,j,k) lies at first_mm + step_mm·(i,j,k).
 template <class Fraction>
-TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside, const Fraction& fraction) {
+[[nodiscard]] TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside,
+                                            const Fraction& fraction) {
   constexpr std::size_t k_most_triangles = 8'000'000;  // a molar at a leaf of 0.025 mm has 4 million; some 100 bytes each
   TriangleMesh mesh;
   const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);

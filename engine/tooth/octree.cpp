@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/tooth/octree_edit.h"
 
 namespace cavum {
 

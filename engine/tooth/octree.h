@@ -346,5 +346,3 @@ class Octree::Plan {
 };
 
 }  // namespace cavum
-
-#include "engine/tooth/octree_edit.h"

@@ -1,4 +1,4 @@
-// Templates of the octree: carving by a shape and visiting cubes. Included by octree.h only.
+// Carving the octree by a shape, and visiting its cubes: the templates that octree.h declares. Who carves or visits includes this.
 #pragma once
 
 #include <algorithm>

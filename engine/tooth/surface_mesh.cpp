@@ -6,6 +6,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/tooth/marching.h"
+#include "engine/tooth/octree_edit.h"
 
 namespace cavum {
 namespace {

@@ -24,13 +24,6 @@ struct TriangleMesh {
 /// Six times the signed volume divided by six: mm3, positive when the faces look outwards.
 [[nodiscard]] double signed_volume_mm3(const TriangleMesh& mesh);
 
-/// Marching tetrahedra over a lattice of points, x fastest. `inside[i]` != 0 marks points in the body; the
-/// lattice's outermost points must be outside. `fraction(a, b)` places the crossing between a (inside) and
-/// b (outside), 0 at a, 1 at b, exclusive. Point (i,j,k) lies at first_mm + step_mm·(i,j,k).
-template <class Fraction>
-[[nodiscard]] TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside,
-                                            const Fraction& fraction);
-
 /// Surface of one tissue by name, or of "solid" (all solid tissues together). Always closed and outward.
 /// Throws Error when the tooth has no such tissue or none of it is left.
 [[nodiscard]] TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue);
@@ -42,5 +35,3 @@ template <class Fraction>
 void write_mesh_file(const TriangleMesh& mesh, const std::string& path);
 
 }  // namespace cavum
-
-#include "engine/tooth/marching.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/tooth/octree_edit.h"
 #include "grading/measures/solid_surface.h"
 
 namespace cavum {

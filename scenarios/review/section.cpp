@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/tooth/octree_edit.h"
+
 namespace cavum {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/leaf_parts.h"
 #include "scenarios/zones/shape.h"
 #include "scenarios/zones/target_surface.h"

@@ -8,6 +8,7 @@
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "engine/tooth/distance_transform.h"
+#include "engine/tooth/octree_edit.h"
 
 namespace cavum {
 namespace {

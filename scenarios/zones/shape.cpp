@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/distance_transform.h"
+#include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/mesh_body.h"
 #include "scenarios/zones/outline.h"
 

@@ -4,6 +4,7 @@
 
 #include "engine/cutting/carve_head.h"
 #include "engine/tooth/make/make_block.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/random.h"
 #include "engine/tooth/make/make_molar.h"
+#include "engine/tooth/octree_edit.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/surface_patches.h"
 #include "tests/bench/thread_clock.h"

@@ -8,6 +8,7 @@
 #include "engine/session/chain.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/engine/session/fixture.h"
 
 namespace cavum {

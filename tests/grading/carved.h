@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/tooth/octree_edit.h"
 #include "grading/grade.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/zones/zone_map.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/tooth/octree_edit.h"
 #include "grading/measures/cut_surface.h"
 #include "grading/result/result_json.h"
 #include "scenarios/file/measures.h"

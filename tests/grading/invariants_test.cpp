@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/base/random.h"
+#include "engine/tooth/octree_edit.h"
 #include "grading/result/result_json.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"

@@ -1,7 +1,7 @@
 """Usage: check_rooms.py ROOMS SOURCE_DIR. ROOMS has a line for each room: name|folder|rooms below|sources.
 
 Prints what is wrong and exits with 1: a source that includes a header of a room that is not below its own; a room that is above itself; a source that no
-room compiles; a header or source in a folder that is no room; a header that is not there.
+room compiles; a header or source in a folder that is no room; a header that is not there; headers that include each other in a circle.
 """
 import re
 import sys
@@ -30,6 +30,24 @@ def all_below(rooms, name, seen):
     return seen
 
 
+def circles(includes):
+    """The shortest circle through each file that is in one, from its first name in the alphabet; each circle once."""
+    out = set()
+    for begin in sorted(includes):
+        ways, seen = [[begin]], set()
+        while ways:
+            way = ways.pop(0)
+            if begin in includes.get(way[-1], ()):
+                at = way.index(min(way))
+                out.add(tuple(way[at:] + way[:at]))
+                break
+            for there in sorted(includes.get(way[-1], ())):
+                if there not in seen:
+                    seen.add(there)
+                    ways.append(way + [there])
+    return sorted(out)
+
+
 def problems(rooms, root):
     out = []
     root = Path(root)
@@ -38,6 +56,7 @@ def problems(rooms, root):
     for name in rooms:
         if name in all_below(rooms, name, set()):
             out.append(f"room {name} is above itself")
+    includes = {}
     for top in TOPS:
         for path in sorted([*(root / top).rglob("*.h"), *(root / top).rglob("*.cpp")]):
             file, folder = str(path.relative_to(root)), str(path.parent.relative_to(root))
@@ -48,7 +67,8 @@ def problems(rooms, root):
             if path.suffix == ".cpp" and file not in compiled:
                 out.append(f"{file}: no room compiles it")
             allowed = all_below(rooms, room_of[folder], {room_of[folder]})
-            for included in INCLUDE.findall(path.read_text(errors="replace")):
+            includes[file] = INCLUDE.findall(path.read_text(errors="replace"))
+            for included in includes[file]:
                 if not (root / included).is_file():
                     out.append(f"{file}: includes {included}, which is not there")
                     continue
@@ -57,7 +77,7 @@ def problems(rooms, root):
                     continue
                 if other not in allowed:
                     out.append(f"{file}: includes {included} of {other}, which is not below {room_of[folder]}")
-    return out
+    return out + [" includes ".join([*circle, circle[0]]) for circle in circles(includes)]
 
 
 def main():

@@ -55,6 +55,12 @@ class CheckRooms(unittest.TestCase):
         self.write("engine/high/b.cpp", '#include "engine/low/gone.h"\n')
         self.assertEqual(self.found(), ["engine/high/b.cpp: includes engine/low/gone.h, which is not there"])
 
+    def test_headers_that_include_each_other(self):
+        self.write("engine/low/a.h", '#include "engine/low/b.h"\n')
+        self.write("engine/low/b.h", '#include "engine/low/c.h"\n')
+        self.write("engine/low/c.h", '#include "engine/low/a.h"\n')
+        self.assertEqual(self.found(), ["engine/low/a.h includes engine/low/b.h includes engine/low/c.h includes engine/low/a.h"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
 #include "scenarios/file/surface_files.h"
 #include "scenarios/review/check.h"

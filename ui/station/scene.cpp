@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
 
+#include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
 #include "ui/station/instrument_mesh.h"
 

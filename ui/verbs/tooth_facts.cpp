@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "engine/base/text.h"
+#include "engine/tooth/octree_edit.h"
 
 namespace cavum {
 namespace {

@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "engine/tooth/make/make_block.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {

@@ -12,6 +12,7 @@
 #include "engine/tooth/distance.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_molar.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/engine/support/engine_testing.h"
 #include "tests/engine/tooth/tooth_testing.h"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/tooth/octree_edit.h"
 #include "tests/grading/carved.h"
 
 namespace cavum {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/tooth/octree_edit.h"
 #include "grading/result/result_json.h"
 #include "grading/words/why.h"
 #include "scenarios/file/rubric_check.h"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/file.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum {

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/tooth/octree_edit.h"
 #include "ui/report/figures/packed_array.h"
 
 namespace cavum {

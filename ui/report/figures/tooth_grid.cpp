@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/error.h"
+#include "engine/tooth/octree_edit.h"
 #include "grading/measures/removed_map.h"
 
 namespace cavum {

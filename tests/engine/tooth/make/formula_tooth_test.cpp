@@ -11,6 +11,7 @@
 #include "engine/tooth/make/make_incisor.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/make/make_premolar.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {

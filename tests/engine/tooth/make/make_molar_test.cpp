@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "engine/tooth/distance_transform.h"
+#include "engine/tooth/octree_edit.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
