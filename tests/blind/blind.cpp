@@ -157,6 +157,7 @@ bool hold(const std::vector<Outcome>& outcomes) {
     const int least = least_expected(r.trials, bound);
     const bool ok = r.successes >= least;
     good = good && ok;
+    if (r.trials == 0) continue;  // not asked for today
     std::printf("%-46s %5.2f %8d/%-4d %5.2f %6d/%-4d %5.2f %8d  %s%s\n", r.name.c_str(), r.promise, before.successes, before.trials, measured,
                 r.successes, r.trials, r.value(), least, ok ? "" : "WORSE",
                 is_short               ? "  short of the promise"

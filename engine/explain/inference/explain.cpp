@@ -186,6 +186,15 @@ void put_figures(Explanation& e, const Step& first, const Step& last) {
   e.after = last.view;
 }
 
+/// What is named, alone or as what fits as well, was testable in the end: the first look had not taken the other causes out yet.
+void drop_named_untestable(Explanation& e) {
+  std::erase_if(e.not_testable, [&](const NotTestable& n) {
+    return std::any_of(e.causes.begin(), e.causes.end(), [&](const Cause& c) {
+      return n.mechanism == mechanism_of(c.term).name || std::find(c.aliases.begin(), c.aliases.end(), n.mechanism) != c.aliases.end();
+    });
+  });
+}
+
 /// Something may be left over beside the causes; when it is more than what was found, they are not the answer.
 void drop_lesser_causes(Explanation& e, const Step& last) {
   if (!e.unexplained || e.causes.empty()) return;
@@ -222,6 +231,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   if (one_way) alias_offsets(e.causes);
   put_figures(e, first, search.step);
   drop_lesser_causes(e, search.step);
+  drop_named_untestable(e);
   conclude(e, one_way);
   compare_with_rig(e, e.recording->rig, e.recording->v_mm_s.size() > 0);
   if (options.progress) options.progress(1.0);

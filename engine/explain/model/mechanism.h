@@ -130,12 +130,12 @@ struct Mechanism {
 /// bur_id. `carried`: it goes on where a session begins to count anew with the same point.
 [[nodiscard]] Series removed_since_new_mm3(const Scene& scene, bool carried);
 
-// Families, one file each; together they are `mechanisms()`, in this order.
-[[nodiscard]] std::vector<Mechanism> offset_mechanisms();    ///< bias drift contact_offset
-[[nodiscard]] std::vector<Mechanism> friction_mechanisms();  ///< coulomb_friction stribeck_friction viscous_friction
-[[nodiscard]] std::vector<Mechanism> sensor_mechanisms();    ///< gravity_posture inertia gain_error cross_talk delay low_pass saturation
-[[nodiscard]] std::vector<Mechanism> play_mechanisms();      ///< backlash hysteresis
-[[nodiscard]] std::vector<Mechanism> tissue_mechanisms();    ///< series_compliance nonlinear_stiffness hidden_layer graded_stiffness anisotropy …
-[[nodiscard]] std::vector<Mechanism> cutting_mechanisms();   ///< edge_force wear run_out chatter coolant thermal_softening
+// Families, one file each; together they are `mechanisms()`, in this order (docs/laws.md).
+[[nodiscard]] std::vector<Mechanism> offset_mechanisms();
+[[nodiscard]] std::vector<Mechanism> friction_mechanisms();
+[[nodiscard]] std::vector<Mechanism> sensor_mechanisms();
+[[nodiscard]] std::vector<Mechanism> play_mechanisms();
+[[nodiscard]] std::vector<Mechanism> tissue_mechanisms();
+[[nodiscard]] std::vector<Mechanism> cutting_mechanisms();
 
 }  // namespace cavum::explain

@@ -116,6 +116,7 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   const std::string found = mechanism_at(e.causes[0].term.mechanism).name;
   const auto& aliases = e.causes[0].aliases;
   EXPECT_TRUE(found == c.name || std::find(aliases.begin(), aliases.end(), c.name) != aliases.end()) << to_text(e);
+  EXPECT_TRUE(std::none_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == found; })) << to_text(e);
 
   const std::string toml = extended_model_toml(e, paper());
   const ForceModel extended = parse_force_model(toml, "extended.toml");
