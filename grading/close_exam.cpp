@@ -5,9 +5,9 @@
 #include "grading/result/result_json.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::grading {
 
-ClosedExam grade_and_close(Exam& exam) {
+ClosedExam grade_and_close(scenarios::Exam& exam) {
   exam.recorder().flush();
   ClosedExam closed;
   closed.graded = load_for_grading(SessionReader(exam.recorder().image(), exam.recorder().path()), exam.tooth_now());
@@ -16,4 +16,4 @@ ClosedExam grade_and_close(Exam& exam) {
   return closed;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

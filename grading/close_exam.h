@@ -7,9 +7,11 @@
 #include "grading/grade.h"
 #include "grading/session_input.h"
 
-namespace cavum {
-
+namespace cavum::scenarios {
 class Exam;
+}
+
+namespace cavum::grading {
 
 struct ClosedExam {
   std::unique_ptr<GradedSession> graded;  ///< what the result was made from
@@ -18,6 +20,6 @@ struct ClosedExam {
 
 /// `exam` is over. Throws Error when it cannot be graded or sealed (DatabaseError: the disk refuses; make room or move the recorder, and call again);
 /// the session then stays open and can be resumed.
-[[nodiscard]] ClosedExam grade_and_close(Exam& exam);
+[[nodiscard]] ClosedExam grade_and_close(scenarios::Exam& exam);
 
-}  // namespace cavum
+}  // namespace cavum::grading

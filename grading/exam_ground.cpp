@@ -4,7 +4,7 @@
 
 #include "engine/base/hash.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 constexpr std::size_t k_kept = 4;  // some 50 MB each at 0.05 mm
@@ -23,14 +23,14 @@ std::string content_of(const SessionSetup& session) {
 
 }  // namespace
 
-std::shared_ptr<const ExamGround> ExamGrounds::of(const Scenario& scenario, const SessionSetup& session, const std::string& where) {
+std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where) {
   const std::string content = content_of(session);
   Kept& kept = by_content_[content];
   if (!kept.ground) {
     try {
       auto made = std::make_shared<ExamGround>();
       made->tooth = load_tooth(session.tooth, where + ": tooth");
-      made->zones = build_zones(scenario, made->tooth);
+      made->zones = scenarios::build_zones(scenario, made->tooth);
       kept.ground = std::move(made);
     } catch (...) {
       by_content_.erase(content);
@@ -45,4 +45,4 @@ std::shared_ptr<const ExamGround> ExamGrounds::of(const Scenario& scenario, cons
   return ground;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

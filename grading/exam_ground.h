@@ -10,18 +10,18 @@
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct ExamGround {
   Tooth tooth;  ///< before the first tick
-  ZoneMap zones;
+  scenarios::ZoneMap zones;
 };
 
 /// Keeps the last few grounds that were asked for.
 class ExamGrounds {
  public:
   /// `scenario` is what the session's text and attachments say. Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
-  [[nodiscard]] std::shared_ptr<const ExamGround> of(const Scenario& scenario, const SessionSetup& session, const std::string& where);
+  [[nodiscard]] std::shared_ptr<const ExamGround> of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where);
 
  private:
   struct Kept {
@@ -32,4 +32,4 @@ class ExamGrounds {
   std::uint64_t asked_ = 0;
 };
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -21,23 +21,23 @@
 #include "scenarios/exam/runner.h"
 #include "scenarios/file/accommodations.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
-bool is_kind(const SessionEvent& e, ExamEventKind kind) { return e.kind == event_name(kind); }
+bool is_kind(const SessionEvent& e, scenarios::ExamEventKind kind) { return e.kind == scenarios::event_name(kind); }
 
 ProgressMeasures measure_progress(const GradeInput& input) {
   ProgressMeasures p;
   p.steps = static_cast<int>(input.scenario.steps.size());
   for (const auto& e : input.events) {
-    p.steps_completed += is_kind(e, ExamEventKind::step_completed) ? 1 : 0;
-    p.steps_failed += is_kind(e, ExamEventKind::step_failed) || is_kind(e, ExamEventKind::step_time_limit) ? 1 : 0;
-    if (is_kind(e, ExamEventKind::point_not_allowed) || is_kind(e, ExamEventKind::over_speed)) {
+    p.steps_completed += is_kind(e, scenarios::ExamEventKind::step_completed) ? 1 : 0;
+    p.steps_failed += is_kind(e, scenarios::ExamEventKind::step_failed) || is_kind(e, scenarios::ExamEventKind::step_time_limit) ? 1 : 0;
+    if (is_kind(e, scenarios::ExamEventKind::point_not_allowed) || is_kind(e, scenarios::ExamEventKind::over_speed)) {
       if (p.violations++ == 0) p.first_violation.tick = e.tick;
     }
-    if (!is_kind(e, ExamEventKind::finished)) continue;
-    for (const Finish f : {Finish::completed, Finish::failed, Finish::time, Finish::ended})
-      if (e.detail_json.find(fmt::format("\"{}\"", finish_name(f))) != std::string::npos) p.finish = finish_name(f);
+    if (!is_kind(e, scenarios::ExamEventKind::finished)) continue;
+    for (const scenarios::Finish f : {scenarios::Finish::completed, scenarios::Finish::failed, scenarios::Finish::time, scenarios::Finish::ended})
+      if (e.detail_json.find(fmt::format("\"{}\"", scenarios::finish_name(f))) != std::string::npos) p.finish = scenarios::finish_name(f);
   }
   return p;
 }
@@ -46,15 +46,15 @@ ProgressMeasures measure_progress(const GradeInput& input) {
 std::vector<PauseMeasure> find_pauses(const GradeInput& input, std::int64_t ticks) {
   std::vector<PauseMeasure> list;
   for (const auto& e : input.events) {
-    if (is_kind(e, ExamEventKind::pause_started)) list.push_back({e.tick, ticks});
-    if (is_kind(e, ExamEventKind::pause_ended) && !list.empty()) list.back().end = std::min(e.tick, ticks);
+    if (is_kind(e, scenarios::ExamEventKind::pause_started)) list.push_back({e.tick, ticks});
+    if (is_kind(e, scenarios::ExamEventKind::pause_ended) && !list.empty()) list.back().end = std::min(e.tick, ticks);
   }
   return list;
 }
 
 LateWork find_late_work(const GradeInput& input) {
   for (const auto& e : input.events) {
-    if (e.kind != k_late_work) continue;
+    if (e.kind != scenarios::k_late_work) continue;
     const auto detail = parse_json_or_null(e.detail_json);
     if (detail.is_object()) return {whole_in(detail, "ticks"), whole_in(detail, "pedal_ticks")};
   }
@@ -67,17 +67,17 @@ std::string seconds(std::int64_t ticks) { return fixed(static_cast<double>(ticks
 void note_steps(const GradeInput& input, Result& r) {
   std::size_t step = 0;
   for (const auto& e : input.events) {
-    const bool late = is_kind(e, ExamEventKind::step_time_limit), failed = is_kind(e, ExamEventKind::step_failed);
+    const bool late = is_kind(e, scenarios::ExamEventKind::step_time_limit), failed = is_kind(e, scenarios::ExamEventKind::step_failed);
     if ((late || failed) && step < input.scenario.steps.size()) {
-      const StepSpec& s = input.scenario.steps[step];
+      const scenarios::StepSpec& s = input.scenario.steps[step];
       const std::string at = " at " + when({e.tick, {}});
       if (failed)
         r.notes.push_back(fmt::format("step '{}' failed{}: {}", s.id, at, s.fail_when));
       else
         r.notes.push_back(fmt::format("step '{}' ran out of its time{}{}", s.id, at,
-                                      s.time_limit_s ? ": its limit was " + seconds(step_limit_ticks(input.scenario, s)) : ""));
+                                      s.time_limit_s ? ": its limit was " + seconds(scenarios::step_limit_ticks(input.scenario, s)) : ""));
     }
-    step += late || failed || is_kind(e, ExamEventKind::step_completed) ? 1 : 0;
+    step += late || failed || is_kind(e, scenarios::ExamEventKind::step_completed) ? 1 : 0;
   }
 }
 
@@ -94,12 +94,12 @@ double lost_s(std::span<const SessionEvent> events) {
 void note_time(const GradeInput& input, Result& r) {
   std::string refused;
   for (const auto& e : input.events) {
-    if (!is_kind(e, ExamEventKind::pause_refused)) continue;
+    if (!is_kind(e, scenarios::ExamEventKind::pause_refused)) continue;
     const bool turned =
         e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) && input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
     refused += fmt::format("{}tick {}{}", refused.empty() ? "" : ", ", e.tick, turned ? ": the handpiece turned" : ": none was left");
   }
-  if (const auto text = accommodations_text(r.accommodations); !text.empty())
+  if (const auto text = scenarios::accommodations_text(r.accommodations); !text.empty())
     r.notes.push_back(fmt::format("accommodations: {}; the limit was {}", text, seconds(r.limit_ticks)));
   if (!r.pauses.empty()) {
     std::string list;
@@ -142,7 +142,7 @@ void compare_with_final_tooth(const GradeInput& input, const RemovedMap& removed
 
 }  // namespace
 
-Result grade(const GradeInput& input, const RubricSpec& rubric) {
+Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
   if (input.inputs.size() != input.records.size()) throw Error("grading", "as many inputs as records are needed", "use a whole session");
   Result r;
   r.scenario_id = input.scenario.id;
@@ -151,8 +151,8 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.tissues = input.before.tissues;
   r.leaf_mm = input.zones.leaf_mm();
   r.accommodations = input.scenario.accommodations;
-  r.limit_ticks = input.sat_under_ticks >= 0 ? input.sat_under_ticks : exam_limit_ticks(input.scenario);
-  if (const auto limit = exam_limit_ticks(input.scenario); limit != r.limit_ticks)
+  r.limit_ticks = input.sat_under_ticks >= 0 ? input.sat_under_ticks : scenarios::exam_limit_ticks(input.scenario);
+  if (const auto limit = scenarios::exam_limit_ticks(input.scenario); limit != r.limit_ticks)
     r.notes.push_back(fmt::format("the exam ran under a limit of {}; the scenario it is marked by has {}, which was not applied",
                                   seconds(r.limit_ticks), seconds(limit)));
   const std::int64_t ticks = counted_ticks(static_cast<std::int64_t>(input.inputs.size()), input.events);
@@ -165,13 +165,13 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   r.access = measure_access(input, removed, last_tick);
   r.over_pulp = measure_over_pulp(input, removed, last_tick);
   r.pauses = find_pauses(input, ticks);
-  for (const auto& e : input.events) r.pauses_refused += is_kind(e, ExamEventKind::pause_refused) ? 1 : 0;
+  for (const auto& e : input.events) r.pauses_refused += is_kind(e, scenarios::ExamEventKind::pause_refused) ? 1 : 0;
   r.late_work = find_late_work(input);
   r.motion = measure_motion(input, ticks, r.pauses);
   r.motion.lost_s = lost_s(input.events);
   for (const auto& leaf : input.removed) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
   r.perforation = measure_perforation(input, input.inputs.empty() ? last_tick : ticks);
-  const PerforationSpec& spec = input.scenario.perforation;
+  const scenarios::PerforationSpec& spec = input.scenario.perforation;
   for (const auto& [names, truth] : {std::pair(&spec.aims, &r.perforation.aim), std::pair(&spec.faults, &r.perforation.fault)})
     for (const auto& t : r.tissues)
       if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
@@ -186,4 +186,4 @@ Result grade(const GradeInput& input, const RubricSpec& rubric) {
   return r;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -5,9 +5,9 @@
 #include "grading/measures/grade_input.h"
 #include "grading/result/mark.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// `rubric` may be another than the scenario's own.
-[[nodiscard]] Result grade(const GradeInput& input, const RubricSpec& rubric);
+[[nodiscard]] Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -13,7 +13,7 @@
 #include "grading/session_input.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using nlohmann::json;
@@ -24,7 +24,8 @@ constexpr std::size_t k_most_named = 12;  // differences: more of them say nothi
 bool is_runners(const std::string& kind) {
   static const std::set<std::string> k_kinds = [] {
     std::set<std::string> kinds;
-    for (int k = 0; k <= static_cast<int>(ExamEventKind::pause_refused); ++k) kinds.insert(event_name(static_cast<ExamEventKind>(k)));
+    for (int k = 0; k <= static_cast<int>(scenarios::ExamEventKind::pause_refused); ++k)
+      kinds.insert(scenarios::event_name(static_cast<scenarios::ExamEventKind>(k)));
     return kinds;
   }();
   return k_kinds.contains(kind);
@@ -33,7 +34,8 @@ bool is_runners(const std::string& kind) {
 /// Tick at which the candidate, or who took the exam up, ended it by hand; -1 = nobody did.
 std::int64_t ended_by_hand(const std::vector<SessionEvent>& events) {
   for (const auto& e : events)
-    if (e.kind == event_name(ExamEventKind::finished) && text_in(parse_json_or_null(e.detail_json), "how") == finish_name(Finish::ended))
+    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::finished) &&
+        text_in(parse_json_or_null(e.detail_json), "how") == scenarios::finish_name(scenarios::Finish::ended))
       return e.tick;
   return -1;
 }
@@ -71,7 +73,7 @@ class EventsAgain {
     return findings;
   }
 
-  [[nodiscard]] std::vector<std::string> servo_findings() const { return check_servo(setup_.servo_toml, scenario_); }
+  [[nodiscard]] std::vector<std::string> servo_findings() const { return scenarios::check_servo(setup_.servo_toml, scenario_); }
   [[nodiscard]] const Tooth& start_tooth() const noexcept { return ground_->tooth; }
   /// Those of the motion, and what else the station recorded.
   [[nodiscard]] std::vector<SessionEvent> events() const {
@@ -93,16 +95,16 @@ class EventsAgain {
   /// As an exam records them: each once, from the runner's list.
   void take() {
     for (; taken_ < state_->event_count; ++taken_) {
-      const ExamEvent& e = state_->events[taken_];
-      again_.push_back({e.tick, event_name(e.kind), event_detail(e, scenario_, ground_->tooth)});
+      const scenarios::ExamEvent& e = state_->events[taken_];
+      again_.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, scenario_, ground_->tooth)});
     }
   }
 
   SessionSetup setup_;
-  Scenario scenario_;
+  scenarios::Scenario scenario_;
   std::shared_ptr<const ExamGround> ground_;
-  Runner runner_;
-  std::unique_ptr<RunnerState> state_ = std::make_unique<RunnerState>();
+  scenarios::Runner runner_;
+  std::unique_ptr<scenarios::RunnerState> state_ = std::make_unique<scenarios::RunnerState>();
   std::uint32_t taken_ = 0;
   std::vector<SessionEvent> recorded_, again_;
   std::int64_t ended_;
@@ -209,4 +211,4 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -10,7 +10,7 @@
 #include "engine/session/verify.h"
 #include "grading/exam_ground.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct SchoolMark {
   VerifyReport replay;                ///< the file, its chain and signature, and the motion
@@ -29,4 +29,4 @@ struct SchoolMark {
 /// In what two results differ, most important first: verdict, points, each criterion, then further figures by name. Empty when they are the same.
 [[nodiscard]] std::vector<std::string> result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -9,7 +9,7 @@
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   const SessionReader reader(path);
@@ -23,10 +23,10 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
 }
 
-Scenario scenario_in(const SessionSetup& setup, const std::string& where) {
-  Scenario scenario = parse_scenario(setup.scenario_toml, where + ": scenario", Reading::recorded);
-  use_surfaces(scenario, setup.attachments);
-  scenario.accommodations = granted(scenario.accommodations, setup.notes, where + ": accommodations");
+scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where) {
+  scenarios::Scenario scenario = scenarios::parse_scenario(setup.scenario_toml, where + ": scenario", scenarios::Reading::recorded);
+  scenarios::use_surfaces(scenario, setup.attachments);
+  scenario.accommodations = scenarios::granted(scenario.accommodations, setup.notes, where + ": accommodations");
   return scenario;
 }
 
@@ -40,8 +40,8 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   const SessionSetup setup = reader.setup();
   auto s = std::make_unique<GradedSession>();
   s->scenario = scenario_in(setup, path);
-  s->sat_under_ticks = exam_limit_ticks(s->scenario);
-  s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : parse_rubric(setup.rubric_toml, path + ": rubric");
+  s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
+  s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : scenarios::parse_rubric(setup.rubric_toml, path + ": rubric");
   const auto ground = grounds.of(s->scenario, setup, path);
   s->before = {ground, &ground->tooth};
   s->after = std::move(after);
@@ -57,22 +57,22 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   return s;
 }
 
-void use_scenario(GradedSession& session, Scenario scenario, bool another_task) {
+void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool another_task) {
   if (!another_task && scenario.id != session.scenario.id)
     throw Error(scenario.path,
                 fmt::format("this is the task '{}', and {} was an exam in '{}'", scenario.id, session.facts.session_file, session.scenario.id),
                 "name its corrected scenario, or add --another-task to mark the work by this one all the same");
-  require_tissues(scenario, *session.before);
-  require_same_surfaces(scenario, session.scenario);
-  scenario.accommodations = granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
-  session.zones = std::make_shared<const ZoneMap>(build_zones(scenario, *session.before));
+  scenarios::require_tissues(scenario, *session.before);
+  scenarios::require_same_surfaces(scenario, session.scenario);
+  scenario.accommodations = scenarios::granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
+  session.zones = std::make_shared<const scenarios::ZoneMap>(scenarios::build_zones(scenario, *session.before));
   session.rubric = scenario.rubric;
   session.scenario = std::move(scenario);
 }
 
-void use_rubric(GradedSession& session, RubricSpec rubric) {
-  require_none(not_in_this_exam(rubric, session.scenario, *session.before));
+void use_rubric(GradedSession& session, scenarios::RubricSpec rubric) {
+  scenarios::require_none(scenarios::not_in_this_exam(rubric, session.scenario, *session.before));
   session.rubric = std::move(rubric);
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

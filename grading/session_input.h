@@ -9,7 +9,7 @@
 #include "grading/exam_ground.h"
 #include "grading/grade.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// What a reader is told of a session beside its figures.
 struct ReportFacts {
@@ -21,11 +21,11 @@ struct ReportFacts {
 };
 
 struct GradedSession {
-  Scenario scenario;
-  RubricSpec rubric;                    ///< of the session: its own, else the scenario's
+  scenarios::Scenario scenario;
+  scenarios::RubricSpec rubric;         ///< of the session: its own, else the scenario's
   std::shared_ptr<const Tooth> before;  ///< may be shared by all who sat the exam
   Tooth after;
-  std::shared_ptr<const ZoneMap> zones;
+  std::shared_ptr<const scenarios::ZoneMap> zones;
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
   std::vector<RemovedAt> removed;
@@ -44,13 +44,13 @@ struct GradedSession {
 /// The same with tooth and zones out of `grounds`.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);
 /// The session's scenario with its surfaces and with what was granted to the candidate. Throws Error.
-[[nodiscard]] Scenario scenario_in(const SessionSetup& setup, const std::string& where);
+[[nodiscard]] scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
 /// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, when an STL that the session ran
 /// with is another one by now, or when the scenario is that of another task (its id differs) and `another_task` does not allow that.
-void use_scenario(GradedSession& session, Scenario scenario, bool another_task = false);
+void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool another_task = false);
 /// The same for a rubric; throws ProblemsError naming every criterion that measures what the exam does not have.
-void use_rubric(GradedSession& session, RubricSpec rubric);
+void use_rubric(GradedSession& session, scenarios::RubricSpec rubric);
 
-}  // namespace cavum
+}  // namespace cavum::grading

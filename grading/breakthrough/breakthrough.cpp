@@ -8,7 +8,7 @@
 #include "grading/breakthrough/drill_frames.h"
 #include "grading/breakthrough/freed_places.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 constexpr double k_as_likely_as_not = 0.5;
@@ -176,4 +176,4 @@ std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, 
   return Finder(inputs, records, settings).run();
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

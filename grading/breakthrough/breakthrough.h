@@ -27,7 +27,7 @@
 
 #include "grading/breakthrough/expected_force.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct BreakthroughSettings {
   double sure_from = 0.5;  ///< events below this sureness are left out, 0..1
@@ -74,4 +74,4 @@ struct Breakthrough {
 [[nodiscard]] std::vector<Breakthrough> find_breakthroughs(std::span<const TickInput> inputs, std::span<const TickRecord> records,
                                                            const BreakthroughSettings& settings = {});
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -6,7 +6,7 @@
 #include "engine/base/pose.h"
 #include "grading/measures/motion.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 constexpr double k_pedal_on = 0.05;
@@ -64,4 +64,4 @@ double force_size_n(std::span<const DrillFrame> frames, std::int64_t last, std::
   return std::sqrt(std::max(0.0, dot(mean, mean) - frames[static_cast<std::size_t>(last)].noise_n2 / static_cast<double>(ticks)));
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

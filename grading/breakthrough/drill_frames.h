@@ -8,7 +8,7 @@
 #include "engine/base/vec.h"
 #include "engine/servo/tick.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 inline constexpr std::int64_t k_frame_ticks = 10;
 inline constexpr double k_frame_s = k_frame_ticks * k_tick_s;
@@ -32,4 +32,4 @@ struct DrillFrame {
 /// Its size without what noise adds to it, N.
 [[nodiscard]] double force_size_n(std::span<const DrillFrame> frames, std::int64_t last, std::int64_t count) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 constexpr double k_least_n = 0.05;         // of a force that shows direction, stiffness or contact
@@ -89,4 +89,4 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   if (median_.ready() && expected_n_ < -level_n_) forget();  // twice its penetration back: it has left the tissue
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -16,7 +16,7 @@
 
 #include "grading/breakthrough/drill_frames.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct ExpectedForceSettings {
   double stiffness_n_per_mm = 0.8;        ///< k before anything was measured (docs/physics.md section 2)
@@ -80,4 +80,4 @@ class ExpectedForce {
   bool fresh_ = true;
 };
 
-}  // namespace cavum
+}  // namespace cavum::grading

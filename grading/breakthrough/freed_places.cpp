@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 constexpr double k_edge_mm = 0.15;
@@ -42,4 +42,4 @@ bool FreedPlaces::ahead(Vec3 from, Vec3 to, double near_mm, std::int64_t frame) 
   return false;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

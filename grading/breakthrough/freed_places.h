@@ -6,7 +6,7 @@
 
 #include "engine/base/vec.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Places where the tip moved without force, in cells of 0.15 mm, each with the frame when it first did.
 class FreedPlaces {
@@ -21,4 +21,4 @@ class FreedPlaces {
   std::map<IVec3, std::int64_t> first_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::grading

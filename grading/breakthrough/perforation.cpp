@@ -5,7 +5,7 @@
 
 #include "grading/breakthrough/breakthrough.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 // Tissue is felt a leaf and a half ahead: at slow feed the fall begins some tenths of a second before the first leaf goes.
@@ -18,7 +18,7 @@ Vec3 place_of(const TickRecord& r) { return {r.proxy_nm[0] * 1e-6, r.proxy_nm[1]
 
 PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ticks) {
   PerforationMeasures p;
-  const PerforationSpec& spec = input.scenario.perforation;
+  const scenarios::PerforationSpec& spec = input.scenario.perforation;
   p.has_aims = !spec.aims.empty();
   std::array<int, 256> role{};  // 1 aim, 2 fault
   for (const auto& t : input.before.tissues) {
@@ -61,4 +61,4 @@ PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ti
   return p;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -25,10 +25,10 @@ constexpr int k_shuffles = 9999;
 double max_in(const json& result) { return result.at("score").at("max").get<double>(); }
 
 /// As the exam was sat; of an exam without any sealed result, as the first who counts was marked.
-ExamScale scale_of(const Registry& registry, const std::string& exam, const std::map<std::string, const FiledSession*>& sat) {
-  const auto own = own_scales(registry);
+ledger::ExamScale scale_of(const ledger::Registry& registry, const std::string& exam, const std::map<std::string, const ledger::FiledSession*>& sat) {
+  const auto own = ledger::own_scales(registry);
   const auto at = own.find(exam);
-  return at != own.end() ? at->second : scale_in(sat.begin()->second->result);
+  return at != own.end() ? at->second : ledger::scale_in(sat.begin()->second->result);
 }
 
 /// On the scale of the class.
@@ -44,7 +44,7 @@ struct GivenMarks {
   std::vector<double> ratings, rated;  // each rating, and the program's points of the same candidate
 };
 
-GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<HumanMark>& marks) {
+GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const std::vector<HumanMark>& marks) {
   GivenMarks given;
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
@@ -71,7 +71,7 @@ struct MarkPairs {
   [[nodiscard]] std::size_t incomplete() const { return program.size() - by_judge.size(); }
 };
 
-MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const FiledSession*>& sat, const ClassFigures& f, double band) {
+MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const ledger::FiledSession*>& sat, const ClassFigures& f, double band) {
   MarkPairs pairs;
   for (const auto& [candidate, by_judge] : given.by_candidate) {
     const double own = points_in(sat.at(candidate)->result, f.max_points);
@@ -109,7 +109,8 @@ void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs
 }
 
 /// Candidates whom program and people see further apart than the others.
-void look_at_disagreements(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const GivenMarks& given, const MarkPairs& pairs) {
+void look_at_disagreements(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const GivenMarks& given,
+                           const MarkPairs& pairs) {
   const auto& limits = f.agreement.limits;
   if (!limits || limits->sd <= 0) return;
   std::size_t i = 0;
@@ -122,11 +123,11 @@ void look_at_disagreements(ClassFigures& f, const std::map<std::string, const Fi
   }
 }
 
-std::vector<WallFigures> walls_of(const std::map<std::string, const FiledSession*>& sat) {
+std::vector<WallFigures> walls_of(const std::map<std::string, const ledger::FiledSession*>& sat) {
   std::vector<WallFigures> out;
-  for (std::size_t w = 0; w < k_walls; ++w) {
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     WallFigures f;
-    f.wall = wall_name(static_cast<Wall>(w));
+    f.wall = scenarios::wall_name(static_cast<scenarios::Wall>(w));
     for (const auto& [candidate, s] : sat) {
       const json wall = s->result.value("walls", json::object()).value(f.wall, json::object());
       if (!wall.value("mean_mm", json()).is_number() || !wall.value("p95_mm", json()).is_number()) continue;
@@ -144,7 +145,7 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const FiledSession
 }
 
 /// Of the sessions that count: what a person should see for himself, whatever the points say; and those that do not count, with the reason.
-void look_at_sessions(ClassFigures& f, const Registry& registry, const std::map<std::string, const FiledSession*>& sat) {
+void look_at_sessions(ClassFigures& f, const ledger::Registry& registry, const std::map<std::string, const ledger::FiledSession*>& sat) {
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
     const char* const counts = s.chosen ? "counts, for a person chose it" : "does not count";
@@ -180,8 +181,8 @@ std::vector<std::string> criteria_ids(const json& result) {
 }
 
 /// A result marked by the exam's own scale; the first one where there is none.
-const json& result_on(const ExamScale& scale, const std::map<std::string, const FiledSession*>& sat) {
-  const auto by_own = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return scale_in(s.second->result) == scale; });
+const json& result_on(const ledger::ExamScale& scale, const std::map<std::string, const ledger::FiledSession*>& sat) {
+  const auto by_own = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return ledger::scale_in(s.second->result) == scale; });
   return (by_own == sat.end() ? sat.begin() : by_own)->second->result;
 }
 
@@ -193,7 +194,7 @@ struct ClassPoints {
 };
 
 /// Counts the verdicts, too. `any`: whose criteria are compared.
-ClassPoints points_of(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const json& any) {
+ClassPoints points_of(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const json& any) {
   ClassPoints all;
   for (const auto& [candidate, s] : sat) {
     const double points = points_in(s->result, f.max_points);
@@ -211,7 +212,7 @@ ClassPoints points_of(ClassFigures& f, const std::map<std::string, const FiledSe
 }
 
 /// Mean and spread, and who lies far from them.
-void put_points(ClassFigures& f, const std::map<std::string, const FiledSession*>& sat, const std::vector<double>& in_order) {
+void put_points(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const std::vector<double>& in_order) {
   f.n = in_order.size();
   f.mean = cohort::mean(in_order);
   if (f.n >= 2) f.sd = std::sqrt(variance(in_order));
@@ -269,7 +270,7 @@ void put_few(ClassFigures& f, const Matrix& by_criterion) {
 
 }  // namespace
 
-std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& exam, const std::string& where,
+std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& identities, const std::string& exam, const std::string& where,
                                    double max_points) {
   const auto rows = parse_csv(text, where);
   const auto at = [&](const CsvRow& row) { return fmt::format("{}:{}", where, row.line); };
@@ -307,21 +308,23 @@ std::vector<HumanMark> parse_marks(const std::string& text, Identities& identiti
   return out;
 }
 
-std::map<std::string, const FiledSession*> counting_sessions(const Registry& registry, const std::string& exam) {
-  std::map<std::string, const FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
+std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam) {
+  std::map<std::string, const ledger::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
     if (s.scenario_id == exam && !s.doubtful() && s.result.is_object()) sat[s.candidate] = &s;
   if (sat.empty()) throw Error(fmt::format("exam '{}'", one_line(exam)), "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
   return sat;
 }
 
-double points_of_exam(const Registry& registry, const std::string& exam) { return scale_of(registry, exam, counting_sessions(registry, exam)).max; }
+double points_of_exam(const ledger::Registry& registry, const std::string& exam) {
+  return scale_of(registry, exam, counting_sessions(registry, exam)).max;
+}
 
-ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
+ClassFigures class_figures(const ledger::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
   ClassFigures f;
   f.exam = exam;
   const auto sat = counting_sessions(registry, exam);
-  const ExamScale scale = scale_of(registry, exam, sat);
+  const ledger::ExamScale scale = scale_of(registry, exam, sat);
   f.max_points = scale.max;
   f.pass_points = scale.max * scale.pass_percent / 100;
   const json& any = result_on(scale, sat);

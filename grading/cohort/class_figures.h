@@ -22,8 +22,8 @@ struct HumanMark {
 };
 /// CSV `candidate,judge,points[,rating]`, candidates by pseudonym or the school's own number. Throws Error(where:line: column …) for anything else,
 /// and for points below 0 or above `max_points`: nothing of such a file is taken.
-[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, Identities& identities, const std::string& exam, const std::string& where,
-                                                 double max_points);
+[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& identities, const std::string& exam,
+                                                 const std::string& where, double max_points);
 
 struct CriterionFigures {
   std::string id, metric;
@@ -88,11 +88,12 @@ struct ClassFigures {
 
 /// Who sat an exam, by candidate. Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody
 /// sat it.
-[[nodiscard]] std::map<std::string, const FiledSession*> counting_sessions(const Registry& registry, const std::string& exam);
+[[nodiscard]] std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam);
 /// What most of them were marked out of.
-[[nodiscard]] double points_of_exam(const Registry& registry, const std::string& exam);
+[[nodiscard]] double points_of_exam(const ledger::Registry& registry, const std::string& exam);
 /// Over the sessions that count. `borderline`: the rating that means so. Throws Error when nobody sat the exam.
-[[nodiscard]] ClassFigures class_figures(const Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline);
+[[nodiscard]] ClassFigures class_figures(const ledger::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks,
+                                         double borderline);
 [[nodiscard]] nlohmann::json to_json(const ClassFigures& figures);
 /// The same for people to read.
 [[nodiscard]] std::string to_text(const ClassFigures& figures);

@@ -60,9 +60,9 @@ double ClassMap::percent(IVec3 leaf) const noexcept {
   const IVec3 l = leaf - low_;
   if (sessions_ == 0 || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return 0;
   const double removed = 100.0 * count_[index(leaf)] / static_cast<double>(sessions_);
-  const Zone zone = zones_->zone(leaf);
-  if (zone == Zone::target) return removed - 100;
-  return zone == Zone::leeway_sides || zone == Zone::leeway_bottom ? 0 : removed;
+  const scenarios::Zone zone = zones_->zone(leaf);
+  if (zone == scenarios::Zone::target) return removed - 100;
+  return zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom ? 0 : removed;
 }
 
 namespace {
@@ -74,7 +74,7 @@ std::string task_of(const SessionReader& reader) {
 }
 
 std::vector<IVec3> counted_leaves(const SessionReader& reader) {
-  const auto ticks = counted_ticks(reader.ticks(), reader.events());
+  const auto ticks = grading::counted_ticks(reader.ticks(), reader.events());
   std::vector<IVec3> out;
   for (const auto& r : reader.removed())
     if (r.tick < ticks) out.push_back(r.leaf.leaf());
@@ -83,7 +83,7 @@ std::vector<IVec3> counted_leaves(const SessionReader& reader) {
 
 }  // namespace
 
-std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPlaces& places, const std::string& exam) {
+std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const ledger::LedgerPlaces& places, const std::string& exam) {
   auto out = std::make_unique<ClassTooth>();
   struct Task {
     std::string path;  // of one of its sessions
@@ -92,7 +92,7 @@ std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPl
   std::map<std::string, Task> tasks;
   for (const auto& [candidate, session] : counting_sessions(registry, exam)) {
     try {
-      const std::string path = recording_of(places, *session);
+      const std::string path = ledger::recording_of(places, *session);
       if (to_hex(sha256(read_file(path))) != session->file_sha256) throw Error(path, "was changed since it was filed", "put an intact copy back");
       const SessionReader reader(path);
       reader.require_readable();
@@ -112,10 +112,10 @@ std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPl
         fmt::format("see `cavum ledger verify {}`", places.folder));
   const SessionReader reader(most->second.path);
   const SessionSetup setup = reader.setup();
-  out->scenario = parse_scenario(setup.scenario_toml, most->second.path + ": scenario", Reading::recorded);
-  use_surfaces(out->scenario, setup.attachments);
+  out->scenario = scenarios::parse_scenario(setup.scenario_toml, most->second.path + ": scenario", scenarios::Reading::recorded);
+  scenarios::use_surfaces(out->scenario, setup.attachments);
   out->tooth = load_tooth(setup.tooth, most->second.path + ": tooth");
-  out->zones = build_zones(out->scenario, out->tooth);
+  out->zones = scenarios::build_zones(out->scenario, out->tooth);
   out->map = std::make_unique<ClassMap>(out->zones);
   for (const auto& cavity : most->second.cavities) out->map->add(cavity);
   for (const auto& [key, task] : tasks)

@@ -15,7 +15,7 @@ namespace cavum::cohort {
 class ClassMap {
  public:
   /// `zones` of the exam that all of them sat.
-  explicit ClassMap(const ZoneMap& zones) : zones_(&zones) {}
+  explicit ClassMap(const scenarios::ZoneMap& zones) : zones_(&zones) {}
   /// One more cavity: each leaf once.
   void add(const std::vector<IVec3>& removed);
 
@@ -31,7 +31,7 @@ class ClassMap {
   void reach(IVec3 low, IVec3 high);  // [low, high)
   [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept;
 
-  const ZoneMap* zones_;
+  const scenarios::ZoneMap* zones_;
   std::size_t sessions_ = 0;
   IVec3 low_, size_;
   std::vector<std::uint16_t> count_;
@@ -39,14 +39,14 @@ class ClassMap {
 
 /// The tooth that a class was examined on, with the map of its cavities.
 struct ClassTooth {
-  Scenario scenario;
+  scenarios::Scenario scenario;
   Tooth tooth;
-  ZoneMap zones;
+  scenarios::ZoneMap zones;
   std::unique_ptr<ClassMap> map;
   std::size_t left_out = 0;           ///< that sat the same exam with another text, tooth or leaf than most
   std::vector<std::string> findings;  ///< sessions whose files are gone or changed: they are not in the map
 };
 /// Reads the filed sessions that count for one exam (counting_sessions). Throws Error when none of them can be read.
-[[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const Registry& registry, const LedgerPlaces& places, const std::string& exam);
+[[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const ledger::LedgerPlaces& places, const std::string& exam);
 
 }  // namespace cavum::cohort

@@ -28,26 +28,26 @@ struct Student {
 };
 
 void sit(const Student& student, const std::string& scenario) {
-  ExamOptions options;
+  scenarios::ExamOptions options;
   options.candidate = student.candidate;
   options.device = "simulated Omni, operator " + student.skill;
   options.source = {"operator", student.skill};
   options.position_quantum_mm = OmniModel{}.quantum_mm;
-  options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {k_ticket_note, student.ticket}};
-  const auto setup = prepare_exam(scenario, options);
-  auto hands = make_simulated_candidate(*setup, student.skill, student.seed, OmniModel{});
-  const auto exam = Exam::start(*setup, student.path, hands.start_mm());
-  run_exam(*exam, hands);
-  static_cast<void>(grade_and_close(*exam));
+  options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {ledger::k_ticket_note, student.ticket}};
+  const auto setup = scenarios::prepare_exam(scenario, options);
+  auto hands = scenarios::make_simulated_candidate(*setup, student.skill, student.seed, OmniModel{});
+  const auto exam = scenarios::Exam::start(*setup, student.path, hands.start_mm());
+  scenarios::run_exam(*exam, hands);
+  static_cast<void>(grading::grade_and_close(*exam));
 }
 
 }  // namespace
 
-ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities& identities, const std::function<void(int)>& done) {
+ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, ledger::Identities& identities, const std::function<void(int)>& done) {
   make_private_folder(wanted.sessions);
-  const auto setup = prepare_exam(wanted.scenario, {});
+  const auto setup = scenarios::prepare_exam(wanted.scenario, {});
   const std::int64_t now = read_clocks().utc_ns;
-  const Ticket ticket = promise(*setup, ledger.content(), now - k_day_ns, now + k_day_ns);
+  const ledger::Ticket ticket = ledger::promise(*setup, ledger.content(), now - k_day_ns, now + k_day_ns);
 
   Random random(wanted.seed);
   std::vector<int> level(static_cast<std::size_t>(wanted.n));
@@ -61,7 +61,7 @@ ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities
     s.candidate = identities.enrol(fmt::format("simulated-{}-{}", wanted.seed, i + 1), "", ticket.exam, ledger.key());
     s.path = fmt::format("{}/{}.cavum", wanted.sessions, file_name_of(s.candidate));
     if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
-    s.ticket = issue(ledger, ticket, s.candidate);
+    s.ticket = ledger::issue(ledger, ticket, s.candidate);
     students.push_back(std::move(s));
   }
 
@@ -82,7 +82,7 @@ ClassSat simulate_class(const SimulatedClass& wanted, Ledger& ledger, Identities
         const std::lock_guard lock(mutex);
         ++out.sat;
         out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[mine].path));
-        if (file_session(ledger, students[mine].path, {.simulated = true}).seq) ++out.filed;
+        if (ledger::file_session(ledger, students[mine].path, {.simulated = true}).seq) ++out.filed;
         done(out.sat);
       } catch (...) {
         const std::lock_guard lock(mutex);

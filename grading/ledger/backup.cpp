@@ -19,7 +19,7 @@
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/merkle.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 namespace fs = std::filesystem;
@@ -277,4 +277,4 @@ void restore(const std::string& backup, const std::string& folder, const Restore
   sync_folder_of(folder);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

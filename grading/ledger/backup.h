@@ -6,7 +6,7 @@
 
 #include "grading/ledger/ledger.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct Backup {
   std::string ledger_id;
@@ -45,4 +45,4 @@ struct RestorePlan {
 /// were lost and `reason` does not say why the school accepts it; one line of UTF-8, 1000 bytes at most.
 void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -10,7 +10,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -66,4 +66,4 @@ std::string let_begin(Ledger& ledger, const std::string& nonce, const std::strin
 
 std::string begin_path(const std::string& ticket_path) { return std::filesystem::path(ticket_path).replace_extension(".begin").string(); }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

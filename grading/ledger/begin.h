@@ -8,7 +8,7 @@
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// Note of a session that holds the word it was begun with.
 inline constexpr char k_begin_note[] = "begin";
@@ -28,4 +28,4 @@ struct Begin {
 /// Where the word lies for a station: beside the ticket, NAME.begin for NAME.ticket.
 [[nodiscard]] std::string begin_path(const std::string& ticket_path);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -8,7 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// The most bytes: no mail address is longer.
 inline constexpr std::size_t k_longest_candidate = 254;
@@ -25,4 +25,4 @@ inline void require_candidate_id(const std::string& where, const std::string& id
   if (!is_plain_text(id)) throw Error(where, "holds a control character or bytes that are no UTF-8", "use letters and digits");
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -19,23 +19,23 @@
 #include "grading/ledger/school_keys.h"
 #include "grading/school_mark.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 namespace {
 
 /// Simulates and marks a filed session again: it must hold, and be marked as it was. `image` is the file.
-void check_again(const FiledSession& s, const Bytes& image, const std::string& path, const std::string& name, ExamGrounds& grounds,
+void check_again(const FiledSession& s, const Bytes& image, const std::string& path, const std::string& name, grading::ExamGrounds& grounds,
                  LedgerCheck& out) {
-  const SchoolMark mark = mark_again(SessionReader(image, path), grounds);
+  const grading::SchoolMark mark = grading::mark_again(SessionReader(image, path), grounds);
   for (const auto& f : mark.findings) out.findings.push_back(fmt::format("{}: {}", name, f));
-  const auto differ = s.filed.is_object() && mark.result.is_object() ? result_differences(s.filed, mark.result) : std::vector<std::string>();
+  const auto differ = s.filed.is_object() && mark.result.is_object() ? grading::result_differences(s.filed, mark.result) : std::vector<std::string>();
   if (differ.empty()) return;
   const std::string more = differ.size() > 1 ? fmt::format("; and {} more", differ.size() - 1) : "";
-  if (s.grading_version == k_grading_version)
+  if (s.grading_version == grading::k_grading_version)
     out.findings.push_back(fmt::format("{}: the result that was filed is not what marking it gives: filed {}{}", name, differ[0], more));
   else
     out.remarks.push_back(fmt::format("{}: was marked by grading version {}; version {} gives another result: filed {}{}", name, s.grading_version,
-                                      k_grading_version, differ[0], more));
+                                      grading::k_grading_version, differ[0], more));
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.
@@ -66,8 +66,8 @@ std::string name_of(const FiledSession& s) { return fmt::format("entry {} (sessi
 enum class Recording { there, erased };
 
 /// One filed recording: there and unchanged, or erased as an entry says. `gone`: hashes of the recordings that nothing needs any more.
-Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, bool replay, ExamGrounds& grounds,
-                          LedgerCheck& out) {
+Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, bool replay,
+                          grading::ExamGrounds& grounds, LedgerCheck& out) {
   const std::string name = name_of(s), path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
@@ -89,7 +89,7 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
 
 /// All of them, and how many could not be shown again.
 void check_recordings(const LedgerPlaces& places, const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
-  ExamGrounds grounds;
+  grading::ExamGrounds grounds;
   std::size_t filed_with_findings = 0, erased = 0;
   const auto gone = erased_recordings(content);
   for (const auto& s : registry.sessions) {
@@ -199,4 +199,4 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

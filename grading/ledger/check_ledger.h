@@ -6,7 +6,7 @@
 
 #include "grading/ledger/ledger_content.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct LedgerCheck {
   std::vector<std::string> findings;     ///< what does not hold
@@ -22,4 +22,4 @@ struct LedgerCheck {
 void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerContent& content, const std::string& key_path,
                  const std::string& public_key_path);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

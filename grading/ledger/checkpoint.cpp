@@ -9,7 +9,7 @@
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 constexpr std::string_view k_origin = "cavum.ledger/", k_time = "utc_ns ";
@@ -116,4 +116,4 @@ Checkpoint checkpoint_in(const nlohmann::json& told, const std::string& id, cons
   return p;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

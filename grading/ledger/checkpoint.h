@@ -12,7 +12,7 @@
 #include "engine/base/hash.h"
 #include "grading/ledger/signed_note.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct Checkpoint {
   std::uint64_t size = 0;  ///< number of entries
@@ -56,4 +56,4 @@ struct ReadCheckpoint {
 [[nodiscard]] Checkpoint checkpoint_in(const nlohmann::json& told, const std::string& ledger_id, const std::string& public_key,
                                        const std::string& where);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

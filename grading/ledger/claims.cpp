@@ -14,7 +14,7 @@
 #include "grading/ledger/begin.h"
 #include "grading/ledger/candidate_id.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -215,4 +215,4 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
   return findings;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

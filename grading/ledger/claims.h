@@ -8,7 +8,7 @@
 #include "engine/session/session_reader.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct FilingOptions {
   bool without_ticket = false;  ///< for exams that nobody promised: practice, or before tickets were used
@@ -35,4 +35,4 @@ struct FilingOptions {
 /// hand.
 [[nodiscard]] std::string simulated_by(const SessionReader& session, const SessionSetup& setup);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

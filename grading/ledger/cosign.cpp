@@ -14,7 +14,7 @@
 #include "grading/ledger/merkle.h"
 #include "grading/ledger/school_keys.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 constexpr std::size_t k_longest_proof = 63;
@@ -220,4 +220,4 @@ void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>&
                                       strange == 1 ? " cosignature is of a cosigner" : " cosignatures are of cosigners", known_cosigners_path()));
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -8,7 +8,7 @@
 
 #include "grading/ledger/history.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// What goes to a cosigner: the body of C2SP's tlog-witness request, "old SIZE", the consistency proof from there, an empty line, the checkpoint's
 /// note. `since` 0 for a first one. Throws Error when the ledger has not so many entries.
@@ -54,4 +54,4 @@ struct CosignedNoteCheck {
 void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, std::vector<std::string>& findings,
                         std::vector<std::string>& not_checked);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -9,7 +9,7 @@
 #include "engine/base/text.h"
 #include "engine/base/write_file.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -151,4 +151,4 @@ std::size_t remove_erased_recordings(const LedgerContent& c, const LedgerPlaces&
   return removed;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

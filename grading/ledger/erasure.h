@@ -11,7 +11,7 @@
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// What entries say was erased; adds findings for what they name and cannot be erased.
 [[nodiscard]] Erased read_erased(const std::vector<LedgerEntry>& entries, std::vector<std::string>& findings);
@@ -41,4 +41,4 @@ std::size_t remove_forgotten(const LedgerContent& content, Identities& identitie
 /// Removes those that are still there, after a crash, or in a backup of before. Returns how many. Throws Error when one cannot be removed.
 std::size_t remove_erased_recordings(const LedgerContent& content, const LedgerPlaces& places);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

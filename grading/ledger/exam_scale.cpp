@@ -6,7 +6,7 @@
 
 #include "engine/base/json_fields.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 using nlohmann::json;
 
@@ -34,4 +34,4 @@ std::map<std::string, ExamScale> own_scales(const Registry& registry) {
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

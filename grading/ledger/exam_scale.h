@@ -7,7 +7,7 @@
 
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct ExamScale {
   double max = 0, pass_percent = 0, borderline_percent = 0;
@@ -18,4 +18,4 @@ struct ExamScale {
 /// Of each exam's sealed results the most frequent scale, the first filed of two as frequent; an exam without any is left out.
 [[nodiscard]] std::map<std::string, ExamScale> own_scales(const Registry& registry);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -16,7 +16,7 @@
 #include "grading/session_input.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 namespace {
 
@@ -31,7 +31,7 @@ void or_damage(SessionExplanation& e, const Say& say) {
 }
 
 /// What the chain of the recording and the replay of its motion prove.
-void say_replay(SessionExplanation& e, const SessionReader& session, const SchoolMark& mark) {
+void say_replay(SessionExplanation& e, const SessionReader& session, const grading::SchoolMark& mark) {
   const VerifyReport& report = mark.replay;
   if (report.intact) {
     e.proved.push_back(
@@ -57,7 +57,7 @@ void say_ticket(SessionExplanation& e, const SessionReader& session, const Sessi
                 const std::string& school_key) {
   const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
   auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
-  for (auto& f : check_servo(setup.servo_toml, scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
+  for (auto& f : scenarios::check_servo(setup.servo_toml, grading::scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
   e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
   if (wrong.empty())
     e.proved.push_back(
@@ -113,8 +113,9 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   SessionExplanation e;
   e.file = path;
   const SessionReader session(path);
-  ExamGrounds grounds;
-  const SchoolMark mark = session.closed() ? mark_again(session, grounds) : SchoolMark{verify_session(path), {}, {}, {}, {}};
+  grading::ExamGrounds grounds;
+  const grading::SchoolMark mark =
+      session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}, {}};
   e.findings = session.closed() ? mark.findings : mark.replay.findings;
   say_replay(e, session, mark);
   for (const auto& r : mark.remarks) e.remarks.push_back(r);
@@ -153,4 +154,4 @@ std::string to_text(const SessionExplanation& e) {
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

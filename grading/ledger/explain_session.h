@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct SessionExplanation {
   std::string file;
@@ -20,4 +20,4 @@ struct SessionExplanation {
 [[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed = true);
 [[nodiscard]] std::string to_text(const SessionExplanation& explanation);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -8,7 +8,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -81,4 +81,4 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   return g;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -4,7 +4,7 @@
 
 #include "grading/ledger/exam_scale.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct ExportedGrade {
   nlohmann::json grade;            ///< the points, or 0 where the exam was failed although the points would pass by themselves
@@ -17,4 +17,4 @@ struct ExportedGrade {
 /// Of a released result (`shown` is an object).
 [[nodiscard]] ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -14,7 +14,7 @@
 #include "grading/ledger/exported_grade.h"
 #include "grading/ledger/history.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -209,4 +209,4 @@ std::string tidy_csv(const Registry& registry) {
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -8,7 +8,7 @@
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// Moodle's grade import (CSV, first row names): "ID number", for each exam the grade that counts, verdict, points, one column
 /// for each criterion, and feedback, as exported_grade has them: all of an exam on one scale, and 0 where the exam was failed whatever the points
@@ -39,4 +39,4 @@ namespace cavum {
 /// chosen, verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.
 [[nodiscard]] std::string tidy_csv(const Registry& registry);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -12,17 +12,17 @@
 #include "grading/school_mark.h"
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
 
 constexpr std::int64_t k_longest_refused_ticks = 600'000;  // 10 minutes, simulated in some 3 s
 
-std::string scenario_id_of(const SessionSetup& setup, const SchoolMark& mark) {
+std::string scenario_id_of(const SessionSetup& setup, const grading::SchoolMark& mark) {
   if (mark.result.is_object()) return text_in(member_of(mark.result, "scenario"), "id");
   try {
-    return parse_scenario(setup.scenario_toml, "scenario.toml", Reading::recorded).id;
+    return scenarios::parse_scenario(setup.scenario_toml, "scenario.toml", scenarios::Reading::recorded).id;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -37,7 +37,7 @@ std::vector<std::string> on_lines(std::vector<std::string> texts) {
 }
 
 /// The entry's body, as far as the recording and its mark give it.
-json body_of(const SessionReader& session, const SessionSetup& setup, const SchoolMark& mark, const std::string& file_sha256) {
+json body_of(const SessionReader& session, const SessionSetup& setup, const grading::SchoolMark& mark, const std::string& file_sha256) {
   return {{"candidate", one_line(setup.candidate)},
           {"chain_sha256", to_hex(session.seal()->chain_sha256)},
           {"file_sha256", file_sha256},
@@ -47,7 +47,7 @@ json body_of(const SessionReader& session, const SessionSetup& setup, const Scho
           {"simulated", one_line(simulated_by(session, setup))},
           {"source", {{"kind", one_line(setup.source.kind)}, {"name", one_line(setup.source.name)}, {"serial", one_line(setup.source.serial)}}},
           {"result", mark.result},
-          {"grading_version", k_grading_version},
+          {"grading_version", grading::k_grading_version},
           {"physics_version", session.number("physics_version", 0)},
           {"remarks", on_lines(mark.remarks)},
           {"scenario_id", scenario_id_of(setup, mark)},
@@ -57,7 +57,7 @@ json body_of(const SessionReader& session, const SessionSetup& setup, const Scho
 
 }  // namespace
 
-Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, ExamGrounds& grounds) {
+Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, grading::ExamGrounds& grounds) {
   Filing out;
   ledger.refresh();
   const Bytes image = read_session_image(path, out.findings);
@@ -80,7 +80,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
                                        fixed(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
     return out;
   }
-  const SchoolMark mark = mark_again(session, grounds);
+  const grading::SchoolMark mark = grading::mark_again(session, grounds);
   out.findings.insert(out.findings.end(), mark.findings.begin(), mark.findings.end());
   out.remarks = mark.remarks;
   out.findings.insert(out.findings.end(), claimed.begin(), claimed.end());
@@ -109,4 +109,4 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -10,7 +10,7 @@
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct Filing {
   std::vector<std::string> findings;  ///< why it was not filed, or with what it was; empty for a sound session
@@ -21,10 +21,10 @@ struct Filing {
 /// folder and enters it with the school's own mark. The file is read once: the bytes that are checked, with a log that lay beside them, are those
 /// that are kept and hashed. The entry is written after they are on disk. `grounds` are shared by a class. Throws Error when the file cannot be read
 /// as a session, DatabaseError when the disk refuses.
-[[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options, ExamGrounds& grounds);
+[[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options, grading::ExamGrounds& grounds);
 [[nodiscard]] inline Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options = {}) {
-  ExamGrounds grounds;
+  grading::ExamGrounds grounds;
   return file_session(ledger, session, options, grounds);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

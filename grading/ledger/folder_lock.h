@@ -12,7 +12,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 class FolderLock {
  public:
@@ -32,4 +32,4 @@ class FolderLock {
   int fd_ = -1;
 };
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -11,7 +11,7 @@
 #include "grading/ledger/merkle.h"
 #include "grading/ledger/witness.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -152,4 +152,4 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
         fmt::format("the ledger's first {} entries are not those of {}: history was rewritten", other->size, utc_text(other->utc_ns)));
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

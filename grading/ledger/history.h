@@ -8,7 +8,7 @@
 
 #include "grading/ledger/ledger_content.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// Where a ledger goes on from a backup: what its `restore` entry says.
 struct RestoredHere {
@@ -49,4 +49,4 @@ void check_checkpoints(LedgerContent& content);
 /// The same of what this computer's witness remembers.
 void check_witness(LedgerContent& content, const std::vector<Checkpoint>& witnessed);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -9,7 +9,7 @@
 #include "engine/base/write_file.h"
 #include "grading/ledger/candidate_id.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 constexpr std::int64_t k_application_id = 0x43617649;  // "CavI"
@@ -161,4 +161,4 @@ bool Identities::forget(const std::string& pseudonym) {
   return true;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

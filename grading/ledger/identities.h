@@ -10,7 +10,7 @@
 #include "engine/session/sqlite.h"
 #include "grading/ledger/ledger_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct Identity {
   std::string pseudonym;
@@ -42,4 +42,4 @@ class Identities {
   Database database_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::ledger

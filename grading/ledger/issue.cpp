@@ -11,9 +11,9 @@
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
-Ticket promise(const ExamSetup& setup, const LedgerContent& ledger, std::int64_t not_before_utc_ns, std::int64_t not_after_utc_ns) {
+Ticket promise(const scenarios::ExamSetup& setup, const LedgerContent& ledger, std::int64_t not_before_utc_ns, std::int64_t not_after_utc_ns) {
   Ticket t;
   t.ledger = ledger.id;
   t.public_key = ledger.public_key;
@@ -82,4 +82,4 @@ std::vector<Person> parse_people(const std::string& text, const std::string& whe
   return people;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -8,10 +8,11 @@
 #include "grading/ledger/ticket.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// A ticket for this exam as it was made ready, without candidate and number.
-[[nodiscard]] Ticket promise(const ExamSetup& setup, const LedgerContent& ledger, std::int64_t not_before_utc_ns, std::int64_t not_after_utc_ns);
+[[nodiscard]] Ticket promise(const scenarios::ExamSetup& setup, const LedgerContent& ledger, std::int64_t not_before_utc_ns,
+                             std::int64_t not_after_utc_ns);
 /// Thrown by issue(): the candidate has a ticket for the exam already.
 class TicketIsLive : public Error {
  public:
@@ -34,4 +35,4 @@ struct Person {
 /// twice.
 [[nodiscard]] std::vector<Person> parse_people(const std::string& text, const std::string& where);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

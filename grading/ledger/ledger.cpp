@@ -12,7 +12,7 @@
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/school_keys.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 using nlohmann::json;
 
@@ -147,4 +147,4 @@ const LedgerEntry& Ledger::append_signed(const std::string& kind, const MakeBody
   return content_.entries.back();
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

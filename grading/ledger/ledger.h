@@ -15,7 +15,7 @@
 #include "grading/ledger/registry.h"
 #include "grading/ledger/witness.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// What a ledger is opened for: to add to it, to write of it what the school signs or knows by name, or to let it go on from a backup, which the
 /// witness is not asked about.
@@ -63,4 +63,4 @@ class Ledger {
   GrowingRegistry registry_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -19,7 +19,7 @@
 #include "grading/ledger/school_keys.h"
 #include "grading/ledger/witness.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -300,4 +300,4 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
   return c;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -16,7 +16,7 @@
 #include "grading/ledger/checkpoint.h"
 #include "grading/ledger/opening.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// What an entry takes out of the file: hashes of openings, and entries whose result lies in them as it did before format 5.
 struct TakenOut {
@@ -103,4 +103,4 @@ enum class AskWitness { yes, no };
 /// The tree's leaves, in order.
 [[nodiscard]] std::vector<Sha256> leaves_of(const LedgerContent& content);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -8,7 +8,7 @@
 
 #include "grading/ledger/ledger_schema.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 static_assert(k_ledger_migrations.size() == k_ledger_format);
@@ -117,4 +117,4 @@ void insert_cosignature(Database& db, std::uint64_t size, const std::string& lin
   db.prepare("INSERT OR IGNORE INTO cosignature (size, line) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, line).run();
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -3,7 +3,7 @@
 
 #include "grading/ledger/ledger_content.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// Version of the ledger's tables (SQLite `user_version`).
 inline constexpr int k_ledger_format = 5;
@@ -34,4 +34,4 @@ void check_schema(Database& database, std::vector<std::string>& findings);
 /// The same of a database that could not be read: nothing when not even that can be told.
 [[nodiscard]] std::vector<std::string> schema_findings(Database& database) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::ledger

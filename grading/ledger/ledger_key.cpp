@@ -8,7 +8,7 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 std::string school_key_path() { return station_path("school.key"); }
 
@@ -91,4 +91,4 @@ std::string old_pseudonym_of(const SigningKey& school, std::span<const std::uint
   return pseudonym_from(hmac(std::span(school.secret_key).first(32), message));
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -11,7 +11,7 @@
 #include "engine/base/bytes.h"
 #include "engine/session/station_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// $CAVUM_HOME/school.key, or ~/.config/cavum/school.key.
 [[nodiscard]] std::string school_key_path();
@@ -45,4 +45,4 @@ template <std::size_t N>
 /// A pseudonym as it was made before there was one for each exam: HMAC-SHA-256 of `salt` and `identity` under the school's seed.
 [[nodiscard]] std::string old_pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace cavum {
+namespace cavum::ledger {
 
 inline constexpr std::array<const char*, 5> k_ledger_migrations = {
     R"(CREATE TABLE entry (      -- append only
@@ -67,4 +67,4 @@ CREATE VIEW session AS SELECT e.seq, e.text ->> '$.body.candidate' AS candidate,
   coalesce(e.attachment ->> '$.score.max', o.text ->> '$.value.score.max') AS points_max
   FROM entry e LEFT JOIN opening o ON o.sha256 = e.text ->> '$.body.opens.result' WHERE e.text ->> '$.kind' = 'session';)"};
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -6,7 +6,7 @@
 
 #include "engine/base/bytes.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 /// Largest power of two below n, n > 1.
@@ -112,4 +112,4 @@ bool is_consistent(std::uint64_t old_size, const Sha256& old_root, std::uint64_t
   return last == 0 && from_old == old_root && from_new == new_root;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -9,7 +9,7 @@
 
 #include "engine/base/hash.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// SHA-256(0x00 || entry).
 [[nodiscard]] Sha256 leaf_hash(std::span<const std::uint8_t> entry);
@@ -30,4 +30,4 @@ namespace cavum {
 [[nodiscard]] bool is_consistent(std::uint64_t old_size, const Sha256& old_root, std::uint64_t new_size, const Sha256& new_root,
                                  std::span<const Sha256> proof);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -6,7 +6,7 @@
 #include "engine/base/json_reader.h"
 #include "grading/ledger/ledger_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 using nlohmann::json;
 
@@ -24,4 +24,4 @@ json opened_value(const std::string& text, const std::string& sha256, const std:
   return j.at("value");
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

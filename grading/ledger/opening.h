@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct Opening {
   std::string sha256;  ///< of `text`, hexadecimal: what an entry or a ticket names
@@ -25,4 +25,4 @@ inline constexpr char k_motion[] = "motion", k_result[] = "result", k_sealed[] =
 /// Of an entry, by its number: what was erased of it, and the entry that says so.
 using Erased = std::map<std::uint64_t, std::map<std::string, std::uint64_t>>;
 
-}  // namespace cavum
+}  // namespace cavum::ledger

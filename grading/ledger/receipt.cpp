@@ -11,7 +11,7 @@
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -92,4 +92,4 @@ std::vector<std::string> check_receipt(const json& receipt, const std::string& p
   return findings;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -4,7 +4,7 @@
 
 #include "grading/ledger/ledger_content.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// {ledger, public_key, entry, seq, inclusion[], checkpoint}: shows without the ledger that entry `seq` is in it. With `from_size`, 1 to the number
 /// of entries, also {consistency: {from, proof[]}}: that the first `from_size` entries are the beginning of it. Throws std::out_of_range.
@@ -13,4 +13,4 @@ namespace cavum {
 /// content also whether that still begins with what the receipt saw.
 [[nodiscard]] std::vector<std::string> check_receipt(const nlohmann::json& receipt, const std::string& public_key, const LedgerContent* ledger);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

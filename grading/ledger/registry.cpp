@@ -11,7 +11,7 @@
 #include "grading/ledger/begin.h"
 #include "grading/ledger/erasure.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 using nlohmann::json;
 
@@ -236,4 +236,4 @@ const Registry& GrowingRegistry::of(const LedgerContent& content) {
   return reader_->so_far();
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

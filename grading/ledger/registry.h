@@ -11,7 +11,7 @@
 #include "grading/ledger/stations.h"
 #include "grading/ledger/ticket.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// A result beside the sealed one.
 struct Regrade {
@@ -98,4 +98,4 @@ class GrowingRegistry {
 /// Path of a session's recording. Throws Error when it was erased.
 [[nodiscard]] std::string recording_of(const LedgerPlaces& places, const FiledSession& session);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

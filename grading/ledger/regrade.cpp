@@ -6,7 +6,7 @@
 #include "engine/base/text.h"
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 constexpr char k_rubric[] = "rubric.toml", k_scenario[] = "scenario.toml", k_attachment[] = "attachment/";
@@ -17,12 +17,12 @@ RegradeBasis read_basis(const std::string& rubric_path, const std::string& scena
   RegradeBasis basis;
   if (!scenario_path.empty()) {
     basis.scenario_toml = read_text_file(scenario_path);
-    Scenario s = parse_scenario(basis.scenario_toml, scenario_path);
-    require_none(read_surfaces(s, basis.surfaces));
+    scenarios::Scenario s = scenarios::parse_scenario(basis.scenario_toml, scenario_path);
+    scenarios::require_none(scenarios::read_surfaces(s, basis.surfaces));
   }
   if (!rubric_path.empty()) {
     basis.rubric_toml = read_text_file(rubric_path);
-    static_cast<void>(parse_rubric(basis.rubric_toml, rubric_path));
+    static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, rubric_path));
   }
   return basis;
 }
@@ -43,16 +43,16 @@ std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regra
   return basis;
 }
 
-std::optional<Scenario> scenario_of(const RegradeBasis& basis, const std::string& where) {
+std::optional<scenarios::Scenario> scenario_of(const RegradeBasis& basis, const std::string& where) {
   if (basis.scenario_toml.empty()) return {};
-  Scenario s = parse_scenario(basis.scenario_toml, where, Reading::recorded);
-  use_surfaces(s, basis.surfaces);
+  scenarios::Scenario s = scenarios::parse_scenario(basis.scenario_toml, where, scenarios::Reading::recorded);
+  scenarios::use_surfaces(s, basis.surfaces);
   return s;
 }
 
-std::optional<RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where) {
+std::optional<scenarios::RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where) {
   if (basis.rubric_toml.empty()) return {};
-  return parse_rubric(basis.rubric_toml, where);
+  return scenarios::parse_rubric(basis.rubric_toml, where);
 }
 
 const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
@@ -77,4 +77,4 @@ const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nl
       documents);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

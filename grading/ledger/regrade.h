@@ -9,11 +9,11 @@
 #include "grading/ledger/registry.h"
 #include "scenarios/file/surface_files.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct RegradeBasis {
   std::string rubric_toml, scenario_toml;  ///< empty: none; with both, the scenario's zones and the rubric count
-  SurfaceFiles surfaces;                   ///< of the scenario
+  scenarios::SurfaceFiles surfaces;        ///< of the scenario
 };
 
 /// Reads the files; an empty path is none. Throws Error when one is no rubric or scenario, or an STL is missing.
@@ -21,8 +21,8 @@ struct RegradeBasis {
 /// What the ledger keeps of a regrade; nothing when it was entered before the ledger kept any.
 [[nodiscard]] std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regrade& regrade);
 /// As it is marked by; nothing when the basis has none. `where` names it in errors.
-[[nodiscard]] std::optional<Scenario> scenario_of(const RegradeBasis& basis, const std::string& where);
-[[nodiscard]] std::optional<RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where);
+[[nodiscard]] std::optional<scenarios::Scenario> scenario_of(const RegradeBasis& basis, const std::string& where);
+[[nodiscard]] std::optional<scenarios::RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where);
 
 /// The most bytes of a reason.
 inline constexpr std::size_t k_longest_reason = 2000;
@@ -31,4 +31,4 @@ inline constexpr std::size_t k_longest_reason = 2000;
 const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
                                  const std::string& reason);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

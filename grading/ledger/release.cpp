@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 template <class T>
@@ -83,4 +83,4 @@ Release release_results(Ledger& ledger, const ReleaseWish& wish) {
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

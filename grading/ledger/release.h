@@ -5,7 +5,7 @@
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct ReleaseWish {
   bool all = false;                          ///< what is neither filed with findings nor contested
@@ -23,4 +23,4 @@ struct Release {
 /// Enters their release; nothing when there are none.
 Release release_results(Ledger& ledger, const ReleaseWish& wish);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -13,7 +13,7 @@
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -106,4 +106,4 @@ std::string replace_school_key(const std::string& folder, const std::string& pat
 
 void limit_school_key(Ledger& ledger, std::int64_t until_utc_ns, const std::string& reason) { ledger.change_key(ledger.key(), until_utc_ns, reason); }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -7,7 +7,7 @@
 
 #include "grading/ledger/ledger_content.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 class Ledger;
 
@@ -35,4 +35,4 @@ std::string replace_school_key(const std::string& folder, const std::string& key
 /// Enters until when the present key is good (0 = without end). Throws Error.
 void limit_school_key(Ledger& ledger, std::int64_t until_utc_ns, const std::string& reason);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -9,7 +9,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/ledger_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 constexpr std::size_t k_longest_note = 1'000'000, k_most_signatures = 100, k_longest_name = 254, k_time_bytes = 8, k_signature_bytes = 64;
@@ -186,4 +186,4 @@ NoteVerdict check_note(const SignedNote& note, const NoteKey& key) {
   return verdict;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

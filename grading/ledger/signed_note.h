@@ -12,7 +12,7 @@
 #include "engine/base/bytes.h"
 #include "engine/session/station_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// One line under a note: "— NAME base64(key id, signature)". A cosignature begins with its time, 8 bytes, big-endian.
 struct NoteSignature {
@@ -68,4 +68,4 @@ enum class NoteVerdict { absent, holds, broken };
 /// Nothing when it is not canonical: other characters, padding left out, bits set that stand for nothing.
 [[nodiscard]] std::optional<Bytes> from_base64(const std::string& text);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -16,7 +16,7 @@
 #include "grading/ledger/begin.h"
 #include "grading/ledger/ledger_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 std::string station_school_key() {
   const std::string pinned = school_public_key_path();
@@ -43,10 +43,11 @@ HeldTicket read_ticket(const std::string& path) {
   return held;
 }
 
-void use_ticket(const HeldTicket& held, ExamOptions& options) {
+void use_ticket(const HeldTicket& held, scenarios::ExamOptions& options) {
   if (!options.candidate.empty() && options.candidate != held.ticket.candidate)
     throw Error("--candidate " + options.candidate, fmt::format("the ticket {} is for {}", held.path, held.ticket.candidate), "leave the option out");
-  if (!notes_of(options.grant).empty()) throw Error(held.path, "says itself what is granted", "leave out extra time, handedness and contrast");
+  if (!scenarios::notes_of(options.grant).empty())
+    throw Error(held.path, "says itself what is granted", "leave out extra time, handedness and contrast");
   options.candidate = held.ticket.candidate;
   options.notes.insert(options.notes.end(), held.ticket.grant.begin(), held.ticket.grant.end());
   options.notes.emplace_back(k_ticket_note, held.text);
@@ -167,4 +168,4 @@ void forget_use(const HeldTicket& held) noexcept {
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

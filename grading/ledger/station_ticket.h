@@ -9,7 +9,7 @@
 #include "grading/ledger/ticket.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 struct HeldTicket {
   Ticket ticket;
@@ -26,7 +26,7 @@ struct HeldTicket {
 [[nodiscard]] HeldTicket read_ticket(const std::string& path);
 /// Candidate and accommodations are the ticket's, and the session will hold it. Throws Error when `options` names another candidate or grants
 /// anything itself.
-void use_ticket(const HeldTicket& held, ExamOptions& options);
+void use_ticket(const HeldTicket& held, scenarios::ExamOptions& options);
 /// Throws Error, all reasons in it, when what was prepared is not what the ticket promises, this is not its time, or the ticket asks for the ledger's
 /// word to begin and there is none.
 void require_promised(const HeldTicket& held, const SessionSetup& setup);
@@ -60,4 +60,4 @@ template <class Begin>
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -12,7 +12,7 @@
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -203,4 +203,4 @@ const LedgerEntry& revoke_station(Ledger& ledger, const std::string& public_key,
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

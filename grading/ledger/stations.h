@@ -11,7 +11,7 @@
 #include "engine/session/motion_source.h"
 #include "engine/session/station_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 class Ledger;
 struct LedgerEntry;
@@ -63,4 +63,4 @@ const LedgerEntry& enrol_station(Ledger& ledger, const std::string& request, std
 /// before.
 const LedgerEntry& revoke_station(Ledger& ledger, const std::string& public_key, const std::string& reason);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -10,7 +10,7 @@
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/opening.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
@@ -144,4 +144,4 @@ std::int64_t parse_utc(const std::string& text, const std::string& where) {
   return (((days_since_1970(year, month, day) * 24 + hour) * 60 + minute) * 60 + second) * 1'000'000'000;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

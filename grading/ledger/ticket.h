@@ -11,7 +11,7 @@
 #include "engine/session/session.h"
 #include "engine/session/station_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// Note of a session that holds its ticket's text.
 inline constexpr char k_ticket_note[] = "ticket";
@@ -54,4 +54,4 @@ enum class GrantIs { with_it, apart };
 /// "2026-11-21T09:00Z" or "2026-11-21T09:00:00Z" in ns since 1970; throws Error(`where`, ...).
 [[nodiscard]] std::int64_t parse_utc(const std::string& text, const std::string& where);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -15,7 +15,7 @@
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_key.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 std::string witness_path(const std::string& ledger_id) { return station_path("witness/" + file_name_of(ledger_id)); }
 
@@ -66,4 +66,4 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
                 "make the folder writable; the next entry tells it again");
 }
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -4,7 +4,7 @@
 
 #include "grading/ledger/ledger_content.h"
 
-namespace cavum {
+namespace cavum::ledger {
 
 /// $CAVUM_HOME/witness/ID, or below ~/.config/cavum: one line for each checkpoint, "size root utc_ns signature", root in hexadecimal digits. The
 /// signature, in base64, is the one under the checkpoint's note; lines of before format 4 have none.
@@ -16,4 +16,4 @@ namespace cavum {
 /// Adds a line, synced. Throws Error when that cannot be done; the next entry tells it again.
 void tell_witness(const std::string& ledger_id, const Checkpoint& checkpoint);
 
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -7,13 +7,13 @@
 #include "grading/measures/bounds.h"
 #include "grading/measures/cut_surface.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 /// A mark for each leaf of the zones' box.
 class Marks {
  public:
-  explicit Marks(const ZoneMap& zones)
+  explicit Marks(const scenarios::ZoneMap& zones)
       : low_(zones.low()),
         size_(zones.size()),
         mark_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0) {}
@@ -41,7 +41,7 @@ class Marks {
 
 /// Connected pieces of marked leaves (over corners, too), in their order; the marks are used up. `counts(mark)`: whether a leaf counts to `part`.
 template <class Counts>
-std::vector<Piece> pieces_of(Marks& marks, const std::vector<IVec3>& leaves, const ZoneMap& zones, double worth, const Counts& counts) {
+std::vector<Piece> pieces_of(Marks& marks, const std::vector<IVec3>& leaves, const scenarios::ZoneMap& zones, double worth, const Counts& counts) {
   std::vector<Piece> pieces;
   std::vector<IVec3> next;
   for (const IVec3 first : leaves) {
@@ -83,7 +83,7 @@ Marks aim_leaves(const GradeInput& input) {
 }
 
 void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   const Octree& tree = input.before.octree;
   const Vec3 down = zones.approach() * (-0.5 * zones.leaf_mm());
   Marks left(zones);
@@ -93,7 +93,7 @@ void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures&
     any_aim = any_aim || aim.at(leaf) != 0;
     if (!input.after.is_solid(input.after.tissue(leaf))) return;
     Vec3 p = zones.centre_mm(leaf);
-    for (IVec3 below = leaf; zones.zone(below) == Zone::target; p += down, below = tree.leaf_at(p))
+    for (IVec3 below = leaf; zones.zone(below) == scenarios::Zone::target; p += down, below = tree.leaf_at(p))
       if (aim.at(below) != 0) {
         left.set(leaf, 1);
         leaves.push_back(leaf);
@@ -105,7 +105,7 @@ void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures&
   Vec3 sum;
   for (const IVec3 leaf : leaves) {
     sum += zones.centre_mm(leaf);
-    for (const IVec3 step : k_six_neighbours)
+    for (const IVec3 step : scenarios::k_six_neighbours)
       if (left.at(leaf + step) == 0) {
         ++border;
         break;
@@ -120,17 +120,17 @@ void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures&
 
 void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
   constexpr std::uint8_t k_open = 1, k_covered = 2;
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   const Octree& tree = input.before.octree;
   const Vec3 up = zones.approach() * (0.5 * zones.leaf_mm());
   Marks mouth(zones);
   std::vector<IVec3> mouths;
   double covered = 0, border = 0;
   Vec3 sum;
-  zones.for_each_leaf([&](IVec3 leaf, Zone zone) {
-    if (zone == Zone::target || aim.at(leaf) == 0 || zones.wall(leaf) != Wall::floor) return;
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone zone) {
+    if (zone == scenarios::Zone::target || aim.at(leaf) == 0 || zones.wall(leaf) != scenarios::Wall::floor) return;
     Vec3 p = zones.centre_mm(leaf);
-    if (zones.zone(tree.leaf_at(p + up * 2.0)) != Zone::target) return;
+    if (zones.zone(tree.leaf_at(p + up * 2.0)) != scenarios::Zone::target) return;
     bool blocked = false;
     for (IVec3 above = leaf; zones.in_box(above) && !blocked; p += up, above = tree.leaf_at(p))
       blocked = input.after.is_solid(input.after.tissue(above));
@@ -154,14 +154,14 @@ void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m
 }
 
 void measure_floor(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, AccessMeasures& m) {
-  const ZoneMap& zones = input.zones;
-  const auto below = [&](IVec3 leaf) { return zones.zone(leaf) != Zone::target && zones.wall(leaf) == Wall::floor; };
+  const scenarios::ZoneMap& zones = input.zones;
+  const auto below = [&](IVec3 leaf) { return zones.zone(leaf) != scenarios::Zone::target && zones.wall(leaf) == scenarios::Wall::floor; };
   std::uint64_t count = 0, border = 0;
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
     if (!input.before.octree.is_solid(r.leaf.tissue) || !below(leaf)) return;
     if (count++ == 0) m.floor_first = {r.tick, zones.centre_mm(leaf)};
-    for (const IVec3 step : k_six_neighbours)
+    for (const IVec3 step : scenarios::k_six_neighbours)
       if (!removed.has(leaf + step) || !below(leaf + step)) {
         ++border;
         break;
@@ -172,15 +172,15 @@ void measure_floor(const GradeInput& input, const RemovedMap& removed, std::int6
 
 void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
   constexpr double k_cos_45 = 0.70710678118654752440;
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   const double leaf = zones.leaf_mm();
   double up = 0, across = 0;
-  std::vector<WallHeight> walls(k_walls + 1);
+  std::vector<WallHeight> walls(scenarios::k_walls + 1);
   zones.for_each_target_leaf([&](IVec3 at) {
     bool at_wall = false;
-    for (const IVec3 step : k_six_neighbours)
-      at_wall = at_wall || (zones.zone(at + step) != Zone::target && before.is_solid(before.tissue(at + step)));
+    for (const IVec3 step : scenarios::k_six_neighbours)
+      at_wall = at_wall || (zones.zone(at + step) != scenarios::Zone::target && before.is_solid(before.tissue(at + step)));
     if (!at_wall) return;
     const Vec3 p = zones.centre_mm(at);
     const auto slope = [&](Vec3 step) { return zones.distance_mm(p + step * leaf) - zones.distance_mm(p - step * leaf); };
@@ -211,4 +211,4 @@ AccessMeasures measure_access(const GradeInput& input, const RemovedMap& removed
   return m;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

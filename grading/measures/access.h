@@ -8,7 +8,7 @@
 #include "grading/measures/grade_input.h"
 #include "grading/measures/removed_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Rules. Overhang: hard leaves of the target left standing that have a leaf of the aim below them within the target. Mouth of a canal: a
 /// leaf of the aim just below the target's floor whose next leaf above belongs to the target; it is covered when the straight line from it out of
@@ -16,4 +16,4 @@ namespace cavum {
 /// walls where tissue stands beyond them, as `measure_shape` takes that of the cut.
 [[nodiscard]] AccessMeasures measure_access(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick);
 
-}  // namespace cavum
+}  // namespace cavum::grading

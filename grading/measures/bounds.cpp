@@ -7,7 +7,7 @@
 #include "engine/statistics/statistics.h"
 #include "grading/measures/cut_surface.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 double less(const BoundedVolume& v) noexcept { return std::max(0.0, v.mm3 - v.bound_mm3); }
@@ -81,4 +81,4 @@ double taper_bound_deg(const std::vector<WallHeight>& walls, double leaf_mm) noe
   return places > 0 ? atan_deg(slope / places) : 0.0;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -6,7 +6,7 @@
 
 #include "grading/result/result.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Bound of 100 I / (I + M), percent: the share of the target that was removed, I removed and M missed of it. Both ends keep within 0 to 100.
 [[nodiscard]] double share_bound_percent(const BoundedVolume& in_target, const BoundedVolume& missed) noexcept;
@@ -32,4 +32,4 @@ struct WallHeight {
 /// their places.
 [[nodiscard]] double taper_bound_deg(const std::vector<WallHeight>& walls, double leaf_mm) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -5,7 +5,7 @@
 #include "grading/measures/solid_surface.h"
 #include "scenarios/zones/relief.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 /// How far inside an area each column's topmost leaf lies (leaves, negative outside), over a box of columns.
@@ -79,12 +79,12 @@ TopArea area_around(const GradeInput& input, const RemovedMap& removed, std::int
 }  // namespace
 
 Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
-  const ColumnMap surface = surface_relief(input.before);
+  const scenarios::ColumnMap surface = scenarios::surface_relief(input.before);
   TopArea cut = area_around(input, removed, last_tick);
   TopArea target = cut, common = cut, either = cut;
   for (int y = 0; y < cut.ny; ++y)
     for (int x = 0; x < cut.nx; ++x) {
-      const int top = top_leaf(surface, input.before.octree, cut.x0 + x, cut.y0 + y);
+      const int top = scenarios::top_leaf(surface, input.before.octree, cut.x0 + x, cut.y0 + y);
       const IVec3 leaf{cut.x0 + x, cut.y0 + y, top};
       const double in_cut = top < 0 ? -1.0 : removed.has(leaf) ? gone_by(input.after, leaf) : -stays_by(input.after, leaf);
       const double in_target = top < 0 ? -1.0 : -input.zones.distance_mm(leaf) / input.zones.leaf_mm();
@@ -98,4 +98,4 @@ Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std
   return {extent_of(cut), extent_of(target), extent_of(common), extent_of(either)};
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

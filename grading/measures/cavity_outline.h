@@ -5,7 +5,7 @@
 #include "grading/measures/grade_input.h"
 #include "grading/measures/removed_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Smallest and largest x and y of an area, in leaves from the tooth's corner.
 struct Extent {
@@ -21,4 +21,4 @@ struct Outlines {
 };
 [[nodiscard]] Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -8,7 +8,7 @@
 #include "grading/measures/cavity_outline.h"
 #include "grading/measures/solid_surface.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 double atan_deg(double t) noexcept {
   const double a = std::fabs(t);
@@ -30,9 +30,9 @@ struct Sample {
 };
 
 /// Walls that a place may belong to: its own, and those within a leaf.
-unsigned walls_around(const ZoneMap& zones, IVec3 leaf) {
+unsigned walls_around(const scenarios::ZoneMap& zones, IVec3 leaf) {
   unsigned walls = 1u << static_cast<unsigned>(zones.wall(leaf));
-  for (const IVec3 step : k_six_neighbours) walls |= 1u << static_cast<unsigned>(zones.wall(leaf + step));
+  for (const IVec3 step : scenarios::k_six_neighbours) walls |= 1u << static_cast<unsigned>(zones.wall(leaf + step));
   return walls;
 }
 
@@ -55,19 +55,19 @@ WallMeasures summary(std::vector<Sample>& samples) {
 
 /// The surface that was left, wall by wall.
 struct WallSurface {
-  std::array<std::vector<Sample>, k_walls> samples;
-  std::array<WallValues, k_walls> values;  // the same deviations, for the bounds
-  std::vector<WallHeight> sides = std::vector<WallHeight>(k_side_walls);
+  std::array<std::vector<Sample>, scenarios::k_walls> samples;
+  std::array<WallValues, scenarios::k_walls> values;  // the same deviations, for the bounds
+  std::vector<WallHeight> sides = std::vector<WallHeight>(scenarios::k_side_walls);
   double up = 0, across = 0;  // sums of the side walls' normals
 
   /// A place of the wall `own` that may belong to any wall of the set `around`.
-  void count(Wall own, unsigned around, double deviation) {
+  void count(scenarios::Wall own, unsigned around, double deviation) {
     const auto w = static_cast<std::size_t>(own);
-    for (std::size_t i = 0; i < k_walls; ++i)
+    for (std::size_t i = 0; i < scenarios::k_walls; ++i)
       if ((around >> i & 1u) != 0) (i != w ? values[i].of_others : around == 1u << i ? values[i].sure : values[i].own).push_back(deviation);
   }
   /// A place of a side wall, for its taper; `normal` out of the solid.
-  void lean(Wall side, Vec3 place, Vec3 normal) {
+  void lean(scenarios::Wall side, Vec3 place, Vec3 normal) {
     WallHeight& wall = sides[static_cast<std::size_t>(side)];
     wall.places += 1;
     wall.low_mm = std::min(wall.low_mm, place.z);
@@ -79,7 +79,7 @@ struct WallSurface {
 
 /// One sample for each removed leaf with solid tissue left beside it: its place on the surface, and how far that lies from the target's.
 WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   WallSurface surface;
   Octree::Cursor cursor;
@@ -90,31 +90,32 @@ WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std
     const double deviation = zones.distance_mm(place);
     if (!before.is_solid(r.leaf.tissue) && deviation > 0) return;
     const IVec3 where = zones.in_box(before.leaf_at(place)) ? before.leaf_at(place) : leaf;
-    const Wall wall = zones.wall(where);
+    const scenarios::Wall wall = zones.wall(where);
     surface.count(wall, walls_around(zones, where), deviation);
-    if (wall == Wall::opening) return;
+    if (wall == scenarios::Wall::opening) return;
     surface.samples[static_cast<std::size_t>(wall)].push_back({deviation, r.tick, place});
-    if (wall != Wall::floor && std::fabs(normal.z) < 0.70710678118654752440) surface.lean(wall, place, normal);
+    if (wall != scenarios::Wall::floor && std::fabs(normal.z) < 0.70710678118654752440) surface.lean(wall, place, normal);
   });
   return surface;
 }
 
 /// The removed hard leaf that lies furthest beyond the target, towards each wall.
-std::array<Sample, k_walls> furthest_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
-  std::array<Sample, k_walls> furthest{};
+std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+  std::array<Sample, scenarios::k_walls> furthest{};
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
-    const Wall towards = input.zones.wall(leaf);
-    if (!input.before.octree.is_solid(r.leaf.tissue) || towards == Wall::opening) return;
+    const scenarios::Wall towards = input.zones.wall(leaf);
+    if (!input.before.octree.is_solid(r.leaf.tissue) || towards == scenarios::Wall::opening) return;
     Sample& best = furthest[static_cast<std::size_t>(towards)];
     if (const double beyond = input.zones.distance_mm(leaf); beyond > best.deviation_mm) best = {beyond, r.tick, input.zones.centre_mm(leaf)};
   });
   return furthest;
 }
 
-std::array<WallMeasures, k_walls> wall_measures(WallSurface& surface, const std::array<Sample, k_walls>& furthest, double bound_mm) {
-  std::array<WallMeasures, k_walls> walls;
-  for (std::size_t w = 0; w < k_walls; ++w) {
+std::array<WallMeasures, scenarios::k_walls> wall_measures(WallSurface& surface, const std::array<Sample, scenarios::k_walls>& furthest,
+                                                           double bound_mm) {
+  std::array<WallMeasures, scenarios::k_walls> walls;
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     walls[w] = summary(surface.samples[w]);
     walls[w].mean_bound_mm = bound_mm + mean_bound(surface.values[w]);
     walls[w].p95_bound_mm = bound_mm + p95_bound(surface.values[w]);
@@ -138,12 +139,12 @@ Deepest deepest_cut(const GradeInput& input, const RemovedMap& removed, std::int
     const double down = after.is_solid(after.tissue(under)) ? gone_by(after, leaf) / (gone_by(after, leaf) + stays_by(after, under)) : 0.5;
     const double bottom = input.zones.centre_mm(leaf).z - down * input.zones.leaf_mm();
     deepest.anywhere_mm = std::min(deepest.anywhere_mm, bottom);
-    if (input.zones.zone(leaf) == Zone::target) deepest.in_target_mm = std::min(deepest.in_target_mm, bottom);
+    if (input.zones.zone(leaf) == scenarios::Zone::target) deepest.in_target_mm = std::min(deepest.in_target_mm, bottom);
   });
   return deepest;
 }
 
-double target_bottom_mm(const ZoneMap& zones) {
+double target_bottom_mm(const scenarios::ZoneMap& zones) {
   double bottom = zones.target_high_mm().z;
   zones.for_each_target_leaf([&](IVec3 leaf) {
     const double inside = std::max(-zones.distance_mm(leaf), 0.01 * zones.leaf_mm()), below = zones.distance_mm(leaf + IVec3{0, 0, -1});
@@ -169,7 +170,7 @@ void put_outline(ShapeMeasures& m, const Outlines& o, double leaf_mm) {
                   {(o.common.low_y - o.either.low_y) * leaf_mm, (o.target.low_y - o.cut.low_y) * leaf_mm}}};
 }
 
-void put_depth(ShapeMeasures& m, const ZoneMap& zones, const Deepest& cut, bool anything_removed) {
+void put_depth(ShapeMeasures& m, const scenarios::ZoneMap& zones, const Deepest& cut, bool anything_removed) {
   const double target_bottom = target_bottom_mm(zones), opening = zones.opening_z_mm();
   m.target_depth_mm = opening - target_bottom;
   if (anything_removed) m.depth_mm = opening - cut.anywhere_mm;
@@ -192,4 +193,4 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   return m;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

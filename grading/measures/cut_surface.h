@@ -5,7 +5,7 @@
 #include "grading/measures/grade_input.h"
 #include "grading/measures/removed_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Rules: a removed leaf with remaining solid tissue beside it is one sample; its place on the surface is found from the distance
 /// that the octree keeps. Its wall is that of the target's nearest surface. The natural wall of a tissue that is not solid (pulp)
@@ -17,4 +17,4 @@ namespace cavum {
 /// Angle whose tangent is `t`, degrees; by arithmetic alone, error below 1e-9.
 [[nodiscard]] double atan_deg(double t) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::grading

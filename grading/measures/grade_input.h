@@ -9,13 +9,13 @@
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Everything a grade depends on. `inputs` and `records` are of one length; `removed` is in order of ticks.
 struct GradeInput {
-  const Scenario& scenario;
+  const scenarios::Scenario& scenario;
   const Tooth& before;
-  const ZoneMap& zones;
+  const scenarios::ZoneMap& zones;
   const Octree& after;
   std::span<const TickInput> inputs;
   std::span<const TickRecord> records;
@@ -27,4 +27,4 @@ struct GradeInput {
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.
 [[nodiscard]] std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events);
 
-}  // namespace cavum
+}  // namespace cavum::grading

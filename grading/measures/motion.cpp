@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 // positions are recorded to a nanometre and forces to a micronewton in each axis: half of that, times sqrt(3)
 constexpr double k_rounded_mm = 0.87e-6, k_rounded_n = 0.87e-6;
@@ -89,4 +89,4 @@ MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const
   return m;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

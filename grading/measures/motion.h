@@ -3,7 +3,7 @@
 
 #include "grading/measures/grade_input.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// The handpiece counts as turning from this speed on, 1/min.
 inline constexpr std::int32_t k_turning_rpm = 1000;
@@ -26,4 +26,4 @@ struct TickSpan {
 /// `ticks`: how many count.
 [[nodiscard]] MotionMeasures measure_motion(const GradeInput& input, std::int64_t ticks, const std::vector<PauseMeasure>& pauses = {});
 
-}  // namespace cavum
+}  // namespace cavum::grading

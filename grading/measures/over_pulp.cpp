@@ -7,7 +7,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "grading/measures/solid_surface.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 constexpr double k_far_mm = 1e9;
@@ -69,8 +69,8 @@ OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& re
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
-    const bool lays_bare =
-        std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours), [&](IVec3 step) { return pulp[before.tissue(leaf + step)]; });
+    const bool lays_bare = std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                                       [&](IVec3 step) { return pulp[before.tissue(leaf + step)]; });
     if (pulp[r.leaf.tissue] || lays_bare) {
       m.dentin_mm = 0.0;
       m.thinnest = {r.tick, before.centre_mm(leaf)};
@@ -92,4 +92,4 @@ OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& re
   return m;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace cavum {
+namespace cavum::grading {
 
 RemovedMap::RemovedMap(std::span<const RemovedAt> removed, std::int64_t last_tick) {
   IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
@@ -28,4 +28,4 @@ RemovedMap::RemovedMap(std::span<const RemovedAt> removed, std::int64_t last_tic
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

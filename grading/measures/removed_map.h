@@ -7,7 +7,7 @@
 
 #include "engine/session/session_reader.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 class RemovedMap {
  public:
@@ -68,4 +68,4 @@ void for_each_removed(std::span<const RemovedAt> list, const RemovedMap& removed
     if (r.tick <= last_tick && removed.tick(r.leaf.leaf()) == r.tick) visit(r);
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

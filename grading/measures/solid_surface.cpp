@@ -4,10 +4,11 @@
 
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 bool beside_solid(const Octree& tree, IVec3 leaf) {
-  return std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours), [&](IVec3 step) { return tree.is_solid(tree.tissue(leaf + step)); });
+  return std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                     [&](IVec3 step) { return tree.is_solid(tree.tissue(leaf + step)); });
 }
 
 SurfacePlace surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {
@@ -21,4 +22,4 @@ SurfacePlace surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) 
 double gone_by(const Octree& after, IVec3 leaf) { return std::max(decode_distance(after.distance_code(leaf)), 0.01); }
 double stays_by(const Octree& after, IVec3 leaf) { return std::max(-decode_distance(after.distance_code(leaf)), 0.01); }
 
-}  // namespace cavum
+}  // namespace cavum::grading

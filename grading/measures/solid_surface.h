@@ -3,7 +3,7 @@
 
 #include "engine/tooth/octree.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// One of the six neighbours is solid.
 [[nodiscard]] bool beside_solid(const Octree& tree, IVec3 leaf);
@@ -20,4 +20,4 @@ struct SurfacePlace {
 [[nodiscard]] double gone_by(const Octree& after, IVec3 leaf);
 [[nodiscard]] double stays_by(const Octree& after, IVec3 leaf);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -6,7 +6,7 @@
 #include "grading/measures/bounds.h"
 #include "scenarios/zones/leaf_parts.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 /// A step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut exactly along the target's
@@ -17,9 +17,9 @@ constexpr double k_code = k_distance_band_leaves / k_distance_far;
 struct Share {
   bool all_or_nothing = true;
   bool all = false;
-  LeafParts parts;  // otherwise
+  scenarios::LeafParts parts;  // otherwise
   explicit Share(bool is_all) : all(is_all) {}
-  explicit Share(const LeafParts& p) : all_or_nothing(false), parts(p) {}
+  explicit Share(const scenarios::LeafParts& p) : all_or_nothing(false), parts(p) {}
 };
 
 /// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
@@ -34,20 +34,20 @@ class Shares {
     const bool gone = removed_.has(leaf);
     if (late_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
     const double centre = decode_distance(input_.after.distance_code(leaf));
-    if (gone ? centre > k_parts_reach_leaves : centre < -k_parts_reach_leaves) return Share(gone);
-    LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
-    for (double& p : parts) p = share_beyond(p);
+    if (gone ? centre > scenarios::k_parts_reach_leaves : centre < -scenarios::k_parts_reach_leaves) return Share(gone);
+    scenarios::LeafParts parts = scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
+    for (double& p : parts) p = scenarios::share_beyond(p);
     if (gone) return Share(parts);
-    const LeafParts before = leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l)); });
-    for (std::size_t i = 0; i < k_parts; ++i) parts[i] = std::min(parts[i], share_beyond(-before[i]));
+    const scenarios::LeafParts before = scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l)); });
+    for (std::size_t i = 0; i < scenarios::k_parts; ++i) parts[i] = std::min(parts[i], scenarios::share_beyond(-before[i]));
     return Share(parts);
   }
   /// Part of the leaf that lies nearer to the target than `level_mm`, or inside it.
   [[nodiscard]] Share within(IVec3 leaf, double level_mm) const {
     const double centre = (level_mm - input_.zones.distance_mm(leaf)) / leaf_mm_;
-    if (std::fabs(centre) > k_parts_reach_leaves) return Share(centre > 0);
-    LeafParts parts = leaf_parts(leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
-    for (double& p : parts) p = share_beyond(p);
+    if (std::fabs(centre) > scenarios::k_parts_reach_leaves) return Share(centre > 0);
+    scenarios::LeafParts parts = scenarios::leaf_parts(leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
+    for (double& p : parts) p = scenarios::share_beyond(p);
     return Share(parts);
   }
 
@@ -62,14 +62,14 @@ double sum(const Share& share) {
   if (share.all_or_nothing) return share.all ? 1.0 : 0.0;
   double s = 0;
   for (const double p : share.parts) s += p;
-  return s / k_parts;
+  return s / scenarios::k_parts;
 }
 double sum_of_both(const Share& a, const Share& b) {
   if (a.all_or_nothing) return a.all ? sum(b) : 0.0;
   if (b.all_or_nothing) return b.all ? sum(a) : 0.0;
   double s = 0;
-  for (std::size_t i = 0; i < k_parts; ++i) s += std::min(a.parts[i], b.parts[i]);
-  return s / k_parts;
+  for (std::size_t i = 0; i < scenarios::k_parts; ++i) s += std::min(a.parts[i], b.parts[i]);
+  return s / scenarios::k_parts;
 }
 
 /// Leaves, as a sum of shares, and how many of them lie on a border.
@@ -81,12 +81,12 @@ struct Count {
 /// Gives each zone what of a leaf was removed in it, in leaves; returns the sum.
 template <class Give>
 double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std::uint8_t held, const Give& give) {
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   const Share gone = shares.removed(leaf, held);
   const double total = sum(gone);
   if (!(total > 0)) return 0;
-  const Zone own = zones.zone(leaf);
-  const auto part = [&](Zone z, double share) {
+  const scenarios::Zone own = zones.zone(leaf);
+  const auto part = [&](scenarios::Zone z, double share) {
     if (share > 0) give(z, share);
   };
   if (shares.late() || !zones.in_box(leaf)) {
@@ -94,20 +94,20 @@ double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std:
     return total;
   }
   const double target = sum_of_both(gone, shares.within(leaf, 0));
-  part(Zone::target, target);
-  if (own == Zone::protected_) {
-    part(Zone::protected_, total - target);
+  part(scenarios::Zone::target, target);
+  if (own == scenarios::Zone::protected_) {
+    part(scenarios::Zone::protected_, total - target);
     return total;
   }
-  const ZoneSpec& spec = input.scenario.zones;
-  const bool bottom = zones.wall(leaf) == Wall::floor;
+  const scenarios::ZoneSpec& spec = input.scenario.zones;
+  const bool bottom = zones.wall(leaf) == scenarios::Wall::floor;
   const double leeway_mm = bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm;
   const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
   const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
   const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
-  part(bottom ? Zone::leeway_bottom : Zone::leeway_sides, leeway - target);
-  part(bottom ? Zone::container_bottom : Zone::container_sides, container - leeway);
-  part(Zone::none, total - container);
+  part(bottom ? scenarios::Zone::leeway_bottom : scenarios::Zone::leeway_sides, leeway - target);
+  part(bottom ? scenarios::Zone::container_bottom : scenarios::Zone::container_sides, container - leeway);
+  part(scenarios::Zone::none, total - container);
   return total;
 }
 
@@ -136,7 +136,8 @@ bool removed_late(const GradeInput& input, std::int64_t last_tick) {
 
 /// Something that stayed lies beside the leaf, or it did itself.
 bool beside_what_stayed(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
-  return tick < 0 || std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours), [&](IVec3 step) { return !removed.has(leaf + step); });
+  return tick < 0 || std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                                 [&](IVec3 step) { return !removed.has(leaf + step); });
 }
 
 /// When a leaf went; of one that is gone in part, when the last leaf beside it did.
@@ -147,8 +148,8 @@ std::int64_t tick_of(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
 
 }  // namespace
 
-bool on_border(const ZoneMap& zones, const RemovedMap& removed, IVec3 leaf) {
-  return std::any_of(std::begin(k_six_neighbours), std::end(k_six_neighbours),
+bool on_border(const scenarios::ZoneMap& zones, const RemovedMap& removed, IVec3 leaf) {
+  return std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
                      [&](IVec3 step) { return !removed.has(leaf + step) || zones.zone(leaf + step) != zones.zone(leaf); });
 }
 
@@ -156,7 +157,7 @@ namespace {
 
 /// What was removed, in leaves.
 struct RemovedCount {
-  std::array<Count, k_zones> zone{};
+  std::array<Count, scenarios::k_zones> zone{};
   std::array<Count, 256> tissue{};
   Count all;
 };
@@ -164,7 +165,7 @@ struct RemovedCount {
 /// Counts it by zone, wall and tissue; `v` gets the walls' parts and when each began. `seen` are the leaves that may be gone in part.
 RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, const Shares& shares, RemovedMap::Marks& seen,
                            VolumeMeasures& v) {
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   RemovedCount count;
   for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
     const bool edge = beside_what_stayed(removed, leaf, tick);
@@ -176,8 +177,8 @@ RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, s
     }
     const std::int64_t when = tick_of(removed, leaf, tick);
     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
-    if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == Zone::target) last = {tick, zones.centre_mm(leaf)};
-    const double total = share_out(input, shares, leaf, held, [&](Zone z, double share) {
+    if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == scenarios::Zone::target) last = {tick, zones.centre_mm(leaf)};
+    const double total = share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share) {
       const auto i = static_cast<std::size_t>(z);
       count.zone[i].leaves += share;
       count.zone[i].border += edge || share < 1 ? 1 : 0;
@@ -199,14 +200,14 @@ struct TargetCount {
 
 /// Counts both; `v` gets the walls' parts. `seen` are the leaves that may be gone in part.
 TargetCount count_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, VolumeMeasures& v) {
-  const ZoneMap& zones = input.zones;
+  const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
-  const double leaf_mm3 = zones.leaf_volume_mm3(), reach_mm = k_parts_reach_leaves * zones.leaf_mm();
+  const double leaf_mm3 = zones.leaf_volume_mm3(), reach_mm = scenarios::k_parts_reach_leaves * zones.leaf_mm();
   TargetCount count;
-  zones.for_each_leaf([&](IVec3 leaf, Zone z) {
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone z) {
     const double d = zones.distance_mm(leaf);
-    if (z != Zone::target && (shares.late() || d > reach_mm)) return;
-    if (z != Zone::target && before.tissue(leaf) == k_air) return;
+    if (z != scenarios::Zone::target && (shares.late() || d > reach_mm)) return;
+    if (z != scenarios::Zone::target && before.tissue(leaf) == k_air) return;
     const Share in = shares.late() || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
     const double share = sum(in);
     if (share < k_code) return;
@@ -219,7 +220,8 @@ TargetCount count_target(const GradeInput& input, const RemovedMap& removed, con
     count.missed.leaves += left;
     v.missed_by_wall_mm3[wall] += left * leaf_mm3;
     bool edge = left < 1;
-    for (const IVec3 step : k_six_neighbours) edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != Zone::target;
+    for (const IVec3 step : scenarios::k_six_neighbours)
+      edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != scenarios::Zone::target;
     count.missed.border += edge ? 1 : 0;
     if (edge) v.missed_bound_by_wall_mm3[wall] += 0.5 * leaf_mm3;
   });
@@ -229,9 +231,9 @@ TargetCount count_target(const GradeInput& input, const RemovedMap& removed, con
 /// With the bound of half a leaf over its border.
 BoundedVolume volume_of(const Count& c, double leaf_mm3) { return {c.leaves * leaf_mm3, 0.5 * static_cast<double>(c.border) * leaf_mm3}; }
 
-void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const ZoneMap& zones) {
+void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const scenarios::ZoneMap& zones) {
   const double leaf_mm3 = zones.leaf_volume_mm3();
-  for (std::size_t z = 0; z < k_zones; ++z) v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3);
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z) v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3);
   for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume_of(removed.tissue[t], leaf_mm3);
   v.target = volume_of({target.leaves, zones.target_border_leaves()}, leaf_mm3);
   v.removed = volume_of(removed.all, leaf_mm3);
@@ -240,10 +242,10 @@ void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCou
 
 /// The share of the target that was removed, and Dice.
 void put_shares(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target) {
-  const BoundedVolume& in_target = v.zone[static_cast<std::size_t>(Zone::target)].removed;
+  const BoundedVolume& in_target = v.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
   BoundedVolume beyond;
-  for (std::size_t z = 0; z < k_zones; ++z)
-    if (z != static_cast<std::size_t>(Zone::target)) {
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z)
+    if (z != static_cast<std::size_t>(scenarios::Zone::target)) {
       beyond.mm3 += v.zone[z].removed.mm3;
       beyond.bound_mm3 += v.zone[z].removed.bound_mm3;
     }
@@ -262,7 +264,7 @@ void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, 
   for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
     const bool edge = beside_what_stayed(removed, leaf, tick);
     const std::int64_t when = tick_of(removed, leaf, tick);
-    share_out(input, shares, leaf, held, [&](Zone z, double share) {
+    share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share) {
       visit({leaf, held, when, z, share * input.zones.leaf_volume_mm3(), edge || share < 1});
     });
   });
@@ -279,4 +281,4 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
   return v;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

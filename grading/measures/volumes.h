@@ -6,7 +6,7 @@
 #include "grading/measures/grade_input.h"
 #include "grading/measures/removed_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Rules. A part (leaf_parts.h) of a leaf that held solid tissue is removed where the octree's distance says so; leaves of pulp and the
 /// tooth's natural surface count whole, as labelled. A part belongs to the target, leeway or container by its own distance from the
@@ -19,15 +19,15 @@ struct RemovedShare {
   IVec3 leaf;
   std::uint8_t tissue = 0;
   std::int64_t tick = 0;  ///< of a leaf that is gone in part only: when the last leaf beside it went
-  Zone zone = Zone::none;
+  scenarios::Zone zone = scenarios::Zone::none;
   double mm3 = 0.0;
   bool border = false;  ///< half a leaf of it is uncertain
 };
 /// Something else begins beside a removed leaf: tissue that stayed, or another zone.
-[[nodiscard]] bool on_border(const ZoneMap& zones, const RemovedMap& removed, IVec3 leaf);
+[[nodiscard]] bool on_border(const scenarios::ZoneMap& zones, const RemovedMap& removed, IVec3 leaf);
 /// Every share that `measure_volumes` counts: those of a zone add up to its volume there, half a leaf for each at a border to its bound. Not in order
 /// of time.
 void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
                             const std::function<void(const RemovedShare&)>& visit);
 
-}  // namespace cavum
+}  // namespace cavum::grading

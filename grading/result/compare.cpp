@@ -9,7 +9,7 @@
 #include "engine/base/text.h"
 #include "grading/result/result_json.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -27,7 +27,7 @@ auto* find(List& list, const std::string& id) {
   return found == list.end() ? nullptr : &*found;
 }
 
-void changes_of_spec(const CriterionSpec& a, const CriterionSpec& b, std::vector<std::string>& why) {
+void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b, std::vector<std::string>& why) {
   const auto say = [&](const char* what, const std::string& from, const std::string& to) {
     why.push_back(fmt::format("{} {} -> {}", what, from, to));
   };
@@ -72,7 +72,8 @@ std::string signed_points(double difference) {
   return text == "-0.0" || text[0] != '-' ? "+" + fixed(std::fabs(difference), 1) : text;
 }
 
-Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now, const RubricSpec& new_rubric) {
+Comparison compare(const OldResult& sealed, const Result& again, const scenarios::RubricSpec& old_rubric, const Result& now,
+                   const scenarios::RubricSpec& new_rubric) {
   Comparison c;
   c.before = sealed;
   c.verdict = verdict_name(now.verdict);
@@ -101,8 +102,8 @@ Comparison compare(const OldResult& sealed, const Result& again, const RubricSpe
       d.old_points = o->points;
       d.old_max = o->max;
       d.old_value = o->value;
-      const CriterionSpec* was = find(old_rubric.criteria, n.id);
-      const CriterionSpec* is = find(new_rubric.criteria, n.id);
+      const scenarios::CriterionSpec* was = find(old_rubric.criteria, n.id);
+      const scenarios::CriterionSpec* is = find(new_rubric.criteria, n.id);
       if (was != nullptr && is != nullptr) changes_of_spec(*was, *is, d.why);
       if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.emplace_back("measured against the new scenario");
       if (a != nullptr && (!same(a->value, o->value) || !same(a->points, o->points))) {
@@ -185,4 +186,4 @@ std::string to_text(const Comparison& c) {
   return s;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

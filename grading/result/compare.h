@@ -10,7 +10,7 @@
 #include "grading/result/result.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// What a sealed result says, as far as an appeal needs it.
 struct OldCriterion {
@@ -48,8 +48,8 @@ struct Comparison {
 
 /// `again` is the session graded by this program with its own scenario and rubric: what differs between it and the sealed
 /// result comes from the program, the rest from the new rubric or scenario.
-[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const RubricSpec& old_rubric, const Result& now,
-                                 const RubricSpec& new_rubric);
+[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const scenarios::RubricSpec& old_rubric, const Result& now,
+                                 const scenarios::RubricSpec& new_rubric);
 
 /// "+1.5", "-0.3", "+0.0".
 [[nodiscard]] std::string signed_points(double difference);
@@ -60,4 +60,4 @@ struct Comparison {
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] std::string to_text(const Comparison& comparison);
 
-}  // namespace cavum
+}  // namespace cavum::grading

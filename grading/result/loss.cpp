@@ -8,14 +8,15 @@
 #include "engine/base/text.h"
 #include "grading/result/measure_marking.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 std::string when(const Trace& t) { return fmt::format("{} s (tick {})", fixed(t.t_s(), 2), t.tick); }
 std::string place(Vec3 p) { return fmt::format("[{}, {}, {}] mm", fixed(p.x, 2), fixed(p.y, 2), fixed(p.z, 2)); }
 std::string wall_text(std::size_t wall) {
-  return wall == static_cast<std::size_t>(Wall::opening) ? "the occlusal side"
-         : wall == static_cast<std::size_t>(Wall::floor) ? "the floor"
-                                                         : fmt::format("the {} wall", wall_name(static_cast<Wall>(wall)));
+  return wall == static_cast<std::size_t>(scenarios::Wall::opening) ? "the occlusal side"
+         : wall == static_cast<std::size_t>(scenarios::Wall::floor)
+             ? "the floor"
+             : fmt::format("the {} wall", scenarios::wall_name(static_cast<scenarios::Wall>(wall)));
 }
 
 std::string amount_text(double value, double bound, int digits, const std::string& unit) {
@@ -24,7 +25,7 @@ std::string amount_text(double value, double bound, int digits, const std::strin
 
 namespace {
 
-std::size_t largest(const std::array<double, k_walls + 1>& by_wall) {
+std::size_t largest(const std::array<double, scenarios::k_walls + 1>& by_wall) {
   return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) - by_wall.begin());
 }
 
@@ -37,12 +38,12 @@ Loss missed(const Result& r) {
           last};
 }
 
-Loss removed_in(const Result& r, const std::vector<Zone>& zones) {
+Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
   Loss loss;
   double most = 0;
   std::size_t wall = 0;
-  Zone worst = zones.front();
-  for (const Zone z : zones) {
+  scenarios::Zone worst = zones.front();
+  for (const scenarios::Zone z : zones) {
     const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
     const auto w = largest(v.by_wall_mm3);
     if (v.by_wall_mm3[w] > most) {
@@ -52,8 +53,9 @@ Loss removed_in(const Result& r, const std::vector<Zone>& zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = fmt::format("most of it {} at {} ({} mm3)", worst == Zone::none ? "outside all zones" : fmt::format("in {}", zone_name(worst)),
-                          wall_text(wall), fixed(most, 2));
+  loss.text = fmt::format("most of it {} at {} ({} mm3)",
+                          worst == scenarios::Zone::none ? "outside all zones" : fmt::format("in {}", scenarios::zone_name(worst)), wall_text(wall),
+                          fixed(most, 2));
   if (loss.first.tick >= 0) loss.text += fmt::format(", beginning at {} at {}", when(loss.first), place(loss.first.site_mm));
   return loss;
 }
@@ -96,7 +98,7 @@ Loss removed_in_zones(const Result& r, const Asked& a) { return removed_in(r, a.
 
 Loss missed_and_beyond(const Result& r, const Asked& a) {
   Loss over = removed_in(r, a.marking->zones);
-  const BoundedVolume& in_target = r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed;
+  const BoundedVolume& in_target = r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
   Loss not_cut = missed(r);
   if (over.first.tick < 0) return not_cut;
   return {fmt::format("{}; {} mm3 removed beyond the target, {}", not_cut.text, fixed(r.volumes.removed.mm3 - in_target.mm3, 2), over.text),
@@ -104,9 +106,10 @@ Loss missed_and_beyond(const Result& r, const Asked& a) {
 }
 
 Loss at_walls(const Result& r, const Asked& a) {
-  const WallFigure figure = a.measure.figure;
+  const scenarios::WallFigure figure = a.measure.figure;
   const std::size_t first = a.measure.first_wall, end = first + a.measure.walls;
-  const bool over = figure == WallFigure::max_over, under = figure == WallFigure::max_under, p95 = figure == WallFigure::p95;
+  const bool over = figure == scenarios::WallFigure::max_over, under = figure == scenarios::WallFigure::max_under,
+             p95 = figure == scenarios::WallFigure::p95;
   const auto size = [&](const WallMeasures& m) { return wall_figure(m, figure); };
   std::size_t worst = end;
   for (std::size_t w = first; w < end; ++w) {
@@ -197,4 +200,4 @@ Loss first_violation(const Result& r, const Asked&) {
 
 }  // namespace reason
 
-}  // namespace cavum
+}  // namespace cavum::grading

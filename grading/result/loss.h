@@ -5,7 +5,7 @@
 
 #include "grading/result/result.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct Asked;
 
@@ -45,4 +45,4 @@ namespace reason {
 [[nodiscard]] std::string place(Vec3 p);
 [[nodiscard]] std::string wall_text(std::size_t wall);
 
-}  // namespace cavum
+}  // namespace cavum::grading

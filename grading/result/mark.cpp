@@ -9,7 +9,7 @@
 #include "grading/result/loss.h"
 #include "grading/result/measure_marking.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 struct Work {
@@ -20,7 +20,7 @@ struct Work {
 };
 
 /// How much of the work was done that a criterion judges the care of.
-Work work_done(const Result& r, const Measure& measure) {
+Work work_done(const Result& r, const scenarios::Measure& measure) {
   const auto towards = [&](std::size_t first, std::size_t end, const std::string& where) -> Work {
     double all = 0, missed = 0, bound = 0;
     for (std::size_t w = first; w < end; ++w) {
@@ -32,12 +32,12 @@ Work work_done(const Result& r, const Measure& measure) {
     if (!(r.volumes.target.mm3 > 0)) return {};
     return {r.volumes.target_removed_percent, "", r.volumes.target_removed_bound_percent};
   };
-  if (measure.judges == Judges::work) return {};
+  if (measure.judges == scenarios::Judges::work) return {};
   // a distance at some of the walls; volumes, also of what lies below the floor, ask for all of the work
-  if (measure.walls > 0 && measure.walls < k_walls)
+  if (measure.walls > 0 && measure.walls < scenarios::k_walls)
     return towards(measure.first_wall, measure.first_wall + measure.walls,
                    " towards " + (measure.walls == 1 ? wall_text(measure.first_wall) : "the side walls"));
-  return towards(0, k_walls + 1, "");
+  return towards(0, scenarios::k_walls + 1, "");
 }
 
 /// Digits that it takes to tell a value from another one and from nothing.
@@ -51,12 +51,12 @@ int digits_for(double value, double other) {
 }
 
 /// The question whether something was broken into that must not be: what force and tissue may disagree on.
-bool asks_for_perforation(const Result& r, const Measure& measure) {
+bool asks_for_perforation(const Result& r, const scenarios::Measure& measure) {
   if (measure.tissue.empty()) return measure.counts_faults;
   return r.perforation.fault.perforated && measure.tissue == r.perforation.fault.tissue;
 }
 
-CriterionResult mark_one(const Result& r, const CriterionSpec& c) {
+CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   const Asked a = asked(c.metric, c.full);
   CriterionResult out;
   out.id = c.id;
@@ -142,7 +142,7 @@ Standing standing_of(const Result& r, bool in_favour) {
 
 }  // namespace
 
-void mark(Result& r, const RubricSpec& rubric) {
+void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.criteria.clear();
   r.verdict_reasons.clear();
   r.points = r.max_points = r.points_bound = 0;
@@ -186,7 +186,7 @@ void mark(Result& r, const RubricSpec& rubric) {
     r.verdict_reasons.push_back(what + (open ? ": a person decides" : "; the exam is failed either way"));
   }
   if (r.perforation.fault.perforated &&
-      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, known_measure(c.metric)); }))
+      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, scenarios::known_measure(c.metric)); }))
     r.verdict_reasons.push_back(r.perforation.fault.tissue + " was opened, which is a fault, and no criterion of this rubric asks for it");
   for (const auto& note : r.notes)
     if (note.find("a person must") != std::string::npos) {
@@ -195,4 +195,4 @@ void mark(Result& r, const RubricSpec& rubric) {
     }
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

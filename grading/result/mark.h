@@ -7,7 +7,7 @@
 #include "grading/result/result.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Value of a measure by its name in scenarios/file/measures.h (`touched_NAME_mm3` for any tissue); none when it cannot be
 /// measured. Throws Error when there is no such measure.
@@ -22,6 +22,6 @@ struct MetricValue {
 inline constexpr double k_care_counts_percent = 50.0;
 
 /// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
-void mark(Result& result, const RubricSpec& rubric);
+void mark(Result& result, const scenarios::RubricSpec& rubric);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 MetricValue of_volume(const BoundedVolume& v) { return {v.mm3, v.bound_mm3}; }
@@ -15,7 +15,7 @@ MetricValue exactly(double v) { return {v, 0.0}; }
 /// All that was removed in the row's zones.
 MetricValue in_zones(const Result& r, const Asked& a) {
   MetricValue sum{0.0, 0.0};
-  for (const Zone z : a.marking->zones) {
+  for (const scenarios::Zone z : a.marking->zones) {
     const BoundedVolume& v = r.volumes.zone[static_cast<std::size_t>(z)].removed;
     *sum.value += v.mm3;
     sum.bound += v.bound_mm3;
@@ -25,12 +25,12 @@ MetricValue in_zones(const Result& r, const Asked& a) {
 
 /// The largest figure of the measure's walls. The true one lies between the largest of the lower ends of all walls and the largest of the upper ends.
 MetricValue worst_wall(const Result& r, const Asked& a) {
-  const WallFigure figure = a.measure.figure;
+  const scenarios::WallFigure figure = a.measure.figure;
   std::optional<double> worst;
   double low = 0, high = 0;
   for (std::size_t w = a.measure.first_wall; w < a.measure.first_wall + a.measure.walls; ++w) {
     const WallMeasures& wall = r.shape.wall[w];
-    if (wall.samples == 0 && figure != WallFigure::max_over) continue;  // no overcut where nothing was cut
+    if (wall.samples == 0 && figure != scenarios::WallFigure::max_over) continue;  // no overcut where nothing was cut
     const double v = wall_figure(wall, figure), bound = wall_bound_mm(r.shape, wall, figure);
     if (a.measure.walls == 1) return {v, bound};
     low = worst ? std::max(low, v - bound) : v - bound;
@@ -57,9 +57,10 @@ MetricValue fault_events(const Result& r, const Asked&) {
 }
 
 /// Every zone; without the target, what lies beyond it.
-std::vector<Zone> all_zones(bool with_target) {
-  std::vector<Zone> zones{Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none};
-  if (with_target) zones.insert(zones.begin(), Zone::target);
+std::vector<scenarios::Zone> all_zones(bool with_target) {
+  std::vector<scenarios::Zone> zones{scenarios::Zone::leeway_sides,     scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides,
+                                     scenarios::Zone::container_bottom, scenarios::Zone::protected_,    scenarios::Zone::none};
+  if (with_target) zones.insert(zones.begin(), scenarios::Zone::target);
   return zones;
 }
 
@@ -67,7 +68,7 @@ using R = const Result&;
 using A = const Asked&;
 
 /// What was removed in some zones. `json` null: it has no place of its own.
-MeasureMarking in_zones_row(const char* measure, std::vector<Zone> zones, const char* json = nullptr) {
+MeasureMarking in_zones_row(const char* measure, std::vector<scenarios::Zone> zones, const char* json = nullptr) {
   return {.measure = measure,
           .value = in_zones,
           .reason = reason::removed_in_zones,
@@ -96,14 +97,15 @@ std::vector<MeasureMarking> volume_markings() {
        .zones = all_zones(true),
        .json = "/volumes/",
        .bound_json = "/volumes/bounds/"},
-      in_zones_row("outside_mm3", {Zone::none, Zone::protected_}, "/volumes/"),
-      in_zones_row("protected_mm3", {Zone::protected_}, "/volumes/"),
-      in_zones_row("leeway_sides_mm3", {Zone::leeway_sides}, "/volumes/overcut/"),
-      in_zones_row("leeway_bottom_mm3", {Zone::leeway_bottom}, "/volumes/overcut/"),
-      in_zones_row("container_sides_mm3", {Zone::container_sides}, "/volumes/overcut/"),
-      in_zones_row("container_bottom_mm3", {Zone::container_bottom}, "/volumes/overcut/"),
-      in_zones_row("container_mm3", {Zone::container_sides, Zone::container_bottom}),
-      in_zones_row("overcut_mm3", {Zone::container_sides, Zone::container_bottom, Zone::protected_, Zone::none}),
+      in_zones_row("outside_mm3", {scenarios::Zone::none, scenarios::Zone::protected_}, "/volumes/"),
+      in_zones_row("protected_mm3", {scenarios::Zone::protected_}, "/volumes/"),
+      in_zones_row("leeway_sides_mm3", {scenarios::Zone::leeway_sides}, "/volumes/overcut/"),
+      in_zones_row("leeway_bottom_mm3", {scenarios::Zone::leeway_bottom}, "/volumes/overcut/"),
+      in_zones_row("container_sides_mm3", {scenarios::Zone::container_sides}, "/volumes/overcut/"),
+      in_zones_row("container_bottom_mm3", {scenarios::Zone::container_bottom}, "/volumes/overcut/"),
+      in_zones_row("container_mm3", {scenarios::Zone::container_sides, scenarios::Zone::container_bottom}),
+      in_zones_row("overcut_mm3",
+                   {scenarios::Zone::container_sides, scenarios::Zone::container_bottom, scenarios::Zone::protected_, scenarios::Zone::none}),
       {.measure = "dice",
        .value = [](R r, A) -> MetricValue {
          return {r.volumes.dice, r.volumes.dice_bound};
@@ -112,7 +114,7 @@ std::vector<MeasureMarking> volume_markings() {
        .zones = all_zones(false),
        .json = "/volumes/",
        .bound_json = "/volumes/bounds/"},
-      {.measure = k_wall_family, .value = worst_wall, .reason = reason::at_walls},
+      {.measure = scenarios::k_wall_family, .value = worst_wall, .reason = reason::at_walls},
   };
 }
 
@@ -261,7 +263,7 @@ std::vector<MeasureMarking> conduct_markings() {
        .json = "/perforation/truth/volume_mm3",
        .bound_json = "/perforation/truth/bound_mm3"},
       {.measure = "perforation_events", .value = fault_events, .reason = reason::fault_felt},
-      {.measure = k_tissue_family, .value = of_tissue, .reason = reason::tissue_touched},
+      {.measure = scenarios::k_tissue_family, .value = of_tissue, .reason = reason::tissue_touched},
       {.measure = "steps_completed",
        .value = [](R r, A) { return exactly(r.progress.steps_completed); },
        .reason = reason::figure_alone,
@@ -280,17 +282,18 @@ std::vector<MeasureMarking> conduct_markings() {
   };
 }
 
-std::string place_in(const char* pointer, const Measure& m) {
+std::string place_in(const char* pointer, const scenarios::Measure& m) {
   if (pointer == nullptr) return "";
   const std::string place = pointer;
   return place.ends_with('/') ? place + m.name : place;
 }
 
 /// The families' places: the wall's or the tissue's object, in it the figure's or the tissue's name.
-std::string family_place(const Measure& m, bool bound) {
+std::string family_place(const scenarios::Measure& m, bool bound) {
   if (!m.tissue.empty()) return fmt::format("{}/tissue_mm3/{}", bound ? "/volumes/bounds" : "/volumes", m.tissue);
   if (m.walls != 1) return "";
-  return fmt::format("/walls/{}{}{}", wall_name(static_cast<Wall>(m.first_wall)), bound ? "/bounds/" : "/", wall_figure_name(m.figure));
+  return fmt::format("/walls/{}{}{}", scenarios::wall_name(static_cast<scenarios::Wall>(m.first_wall)), bound ? "/bounds/" : "/",
+                     scenarios::wall_figure_name(m.figure));
 }
 
 }  // namespace
@@ -302,7 +305,7 @@ std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows) {
       throw std::logic_error(fmt::format("measure_marking: {} lacks name, value or reason", row.measure != nullptr ? row.measure : "a row"));
     keys.emplace_back(row.measure);
   }
-  require_row_for_each(keys, "measure_marking");
+  scenarios::require_row_for_each(keys, "measure_marking");
   return rows;
 }
 
@@ -316,7 +319,7 @@ const std::vector<MeasureMarking>& measure_markings() {
   return k_rows;
 }
 
-const MeasureMarking& marking_of(const Measure& measure) {
+const MeasureMarking& marking_of(const scenarios::Measure& measure) {
   const std::string key = measure.key();
   for (const auto& row : measure_markings())
     if (row.measure == key) return row;
@@ -324,31 +327,33 @@ const MeasureMarking& marking_of(const Measure& measure) {
 }
 
 Asked asked(const std::string& metric, double full) {
-  Asked a{known_measure(metric), nullptr, full};
+  Asked a{scenarios::known_measure(metric), nullptr, full};
   a.marking = &marking_of(a.measure);
   return a;
 }
 
-std::string json_place(const Measure& m) { return m.family != nullptr ? family_place(m, false) : place_in(marking_of(m).json, m); }
-std::string bound_json_place(const Measure& m) { return m.family != nullptr ? family_place(m, true) : place_in(marking_of(m).bound_json, m); }
+std::string json_place(const scenarios::Measure& m) { return m.family != nullptr ? family_place(m, false) : place_in(marking_of(m).json, m); }
+std::string bound_json_place(const scenarios::Measure& m) {
+  return m.family != nullptr ? family_place(m, true) : place_in(marking_of(m).bound_json, m);
+}
 
-double wall_figure(const WallMeasures& w, WallFigure figure) noexcept {
+double wall_figure(const WallMeasures& w, scenarios::WallFigure figure) noexcept {
   switch (figure) {
-    case WallFigure::mean:
+    case scenarios::WallFigure::mean:
       return w.mean_mm;
-    case WallFigure::p95:
+    case scenarios::WallFigure::p95:
       return w.p95_mm;
-    case WallFigure::max_over:
+    case scenarios::WallFigure::max_over:
       return w.max_over_mm;
-    case WallFigure::max_under:
+    case scenarios::WallFigure::max_under:
       break;
   }
   return w.max_under_mm;
 }
 
-double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w, WallFigure figure) noexcept {
+double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w, scenarios::WallFigure figure) noexcept {
   if (w.samples == 0) return shape.bound_mm;
-  return figure == WallFigure::mean ? w.mean_bound_mm : figure == WallFigure::p95 ? w.p95_bound_mm : shape.bound_mm;
+  return figure == scenarios::WallFigure::mean ? w.mean_bound_mm : figure == scenarios::WallFigure::p95 ? w.p95_bound_mm : shape.bound_mm;
 }
 
 MetricValue metric_value(const Result& r, const std::string& metric) {
@@ -356,4 +361,4 @@ MetricValue metric_value(const Result& r, const std::string& metric) {
   return a.marking->value(r, a);
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

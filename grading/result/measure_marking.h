@@ -11,13 +11,13 @@
 #include "grading/result/result.h"
 #include "scenarios/file/measures.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct MeasureMarking;
 
 /// A measure as a criterion asks for it.
 struct Asked {
-  Measure measure;
+  scenarios::Measure measure;
   const MeasureMarking* marking = nullptr;
   double full = 0.0;  ///< value with full marks
 };
@@ -29,7 +29,7 @@ struct MeasureMarking {
   /// In one line, and where it began; an empty one where the figure says all there is. Called when there is a value.
   Loss (*reason)(const Result& result, const Asked& asked) = nullptr;
   /// It is of what was removed in these zones.
-  std::vector<Zone> zones{};
+  std::vector<scenarios::Zone> zones{};
   /// JSON pointers into the result; one that ends in / goes on with the measure's name. Null: it has no place of its own.
   const char* json = nullptr;
   const char* bound_json = nullptr;
@@ -40,16 +40,16 @@ struct MeasureMarking {
 [[nodiscard]] const std::vector<MeasureMarking>& measure_markings();
 /// `rows`, held against the measures in that way.
 [[nodiscard]] std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows);
-[[nodiscard]] const MeasureMarking& marking_of(const Measure& measure);
+[[nodiscard]] const MeasureMarking& marking_of(const scenarios::Measure& measure);
 
 /// Throws Error when there is no measure of that name.
 [[nodiscard]] Asked asked(const std::string& metric, double full);
 /// Its pointer in the JSON, and its bound's; empty without one.
-[[nodiscard]] std::string json_place(const Measure& measure);
-[[nodiscard]] std::string bound_json_place(const Measure& measure);
+[[nodiscard]] std::string json_place(const scenarios::Measure& measure);
+[[nodiscard]] std::string bound_json_place(const scenarios::Measure& measure);
 
 /// A figure of a wall, and its bound, mm.
-[[nodiscard]] double wall_figure(const WallMeasures& wall, WallFigure figure) noexcept;
-[[nodiscard]] double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& wall, WallFigure figure) noexcept;
+[[nodiscard]] double wall_figure(const WallMeasures& wall, scenarios::WallFigure figure) noexcept;
+[[nodiscard]] double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& wall, scenarios::WallFigure figure) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -12,7 +12,7 @@
 #include "scenarios/exam/runner.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
 inline constexpr int k_grading_version = 1;
@@ -32,23 +32,23 @@ struct BoundedVolume {
 /// What was removed in one zone.
 struct ZoneVolume {
   BoundedVolume removed;
-  std::array<double, k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
-  Trace first;                                    ///< first leaf removed there, all of it or a part
+  std::array<double, scenarios::k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
+  Trace first;                                               ///< first leaf removed there, all of it or a part
 };
 
 struct VolumeMeasures {
   BoundedVolume target, removed, missed;
   double target_removed_percent = 0.0, target_removed_bound_percent = 0.0;
   double dice = 0.0, dice_bound = 0.0;
-  std::array<ZoneVolume, k_zones> zone;  ///< by Zone
-  std::array<double, k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
-  std::array<BoundedVolume, 256> tissue;       ///< removed, by tissue id
-  std::array<Trace, 256> tissue_first;         ///< first leaf removed of each
-  std::array<Trace, k_walls + 1> target_last;  ///< last leaf of the target removed towards each wall
+  std::array<ZoneVolume, scenarios::k_zones> zone;  ///< by Zone
+  std::array<double, scenarios::k_walls + 1> target_by_wall_mm3{}, missed_by_wall_mm3{}, missed_bound_by_wall_mm3{};
+  std::array<BoundedVolume, 256> tissue;                  ///< removed, by tissue id
+  std::array<Trace, 256> tissue_first;                    ///< first leaf removed of each
+  std::array<Trace, scenarios::k_walls + 1> target_last;  ///< last leaf of the target removed towards each wall
   /// R without T, L and C: in no zone, or protected wherever that lies.
   [[nodiscard]] BoundedVolume outside() const noexcept {
-    const BoundedVolume &none = zone[static_cast<std::size_t>(Zone::none)].removed,
-                        &guarded = zone[static_cast<std::size_t>(Zone::protected_)].removed;
+    const BoundedVolume &none = zone[static_cast<std::size_t>(scenarios::Zone::none)].removed,
+                        &guarded = zone[static_cast<std::size_t>(scenarios::Zone::protected_)].removed;
     return {none.mm3 + guarded.mm3, none.bound_mm3 + guarded.bound_mm3};
   }
 };
@@ -63,7 +63,7 @@ struct WallMeasures {
 };
 
 struct ShapeMeasures {
-  std::array<WallMeasures, k_walls> wall;
+  std::array<WallMeasures, scenarios::k_walls> wall;
   double bound_mm = 0.0;                                           ///< of every place on a surface, and so of a distance between two
   std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface
   double taper_bound_deg = 0.0;
@@ -204,7 +204,7 @@ struct Result {
   PerforationMeasures perforation;
   MotionMeasures motion;
   ProgressMeasures progress;
-  Accommodations accommodations;
+  scenarios::Accommodations accommodations;
   Trace end;                     ///< last tick that counts, and where the tip was
   std::int64_t limit_ticks = 0;  ///< of the exam's clock, with what was granted
   std::vector<PauseMeasure> pauses;
@@ -216,4 +216,4 @@ struct Result {
 
 [[nodiscard]] inline const char* verdict_name(Verdict v) noexcept { return v == Verdict::pass ? "pass" : v == Verdict::fail ? "fail" : "review"; }
 
-}  // namespace cavum
+}  // namespace cavum::grading

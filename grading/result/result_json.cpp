@@ -11,7 +11,7 @@
 #include "grading/result/mark.h"
 #include "grading/result/measure_marking.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
 
@@ -37,9 +37,9 @@ Json truth_json(const PerforationTruth& t) {
 
 Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
   Json figures = Json::object(), bounds = Json::object();
-  for (const WallFigure f : k_wall_figures) {
-    figures[wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_figure(w, f)));
-    bounds[wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_bound_mm(shape, w, f)));
+  for (const scenarios::WallFigure f : scenarios::k_wall_figures) {
+    figures[scenarios::wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_figure(w, f)));
+    bounds[scenarios::wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_bound_mm(shape, w, f)));
   }
   figures["bounds"] = bounds;
   figures["samples"] = w.samples;
@@ -52,7 +52,7 @@ Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
 
 /// Puts the measures whose place is directly in one of these objects there, in the order of the table. Counts are not among them.
 void put_values(Json& j, const Result& r, std::initializer_list<const char*> objects) {
-  for (const auto& m : measures()) {
+  for (const auto& m : scenarios::measures()) {
     if (m.family != nullptr || marking_of(m).whole) continue;
     const std::string at = json_place(m);
     for (const std::string object : objects)
@@ -61,7 +61,7 @@ void put_values(Json& j, const Result& r, std::initializer_list<const char*> obj
 }
 /// The same of bounds.
 void put_bounds(Json& j, const Result& r, const std::string& object) {
-  for (const auto& m : measures()) {
+  for (const auto& m : scenarios::measures()) {
     if (m.family != nullptr) continue;
     const std::string at = bound_json_place(m);
     if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object) j[Json::json_pointer(at)] = rounded(metric_value(r, m.name).bound);
@@ -110,7 +110,8 @@ void put_volumes(Json& j, const Result& r) {
 
 void put_shape(Json& j, const Result& r) {
   j["walls"] = Json::object();
-  for (std::size_t w = 0; w < k_walls; ++w) j["walls"][wall_name(static_cast<Wall>(w))] = wall_json(r.shape.wall[w], r.shape);
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w)
+    j["walls"][scenarios::wall_name(static_cast<scenarios::Wall>(w))] = wall_json(r.shape.wall[w], r.shape);
   put_values(j, r, {"/shape/"});
   j["shape"].update({{"target_length_mm", rounded(r.shape.target_length_mm)},
                      {"target_width_mm", rounded(r.shape.target_width_mm)},
@@ -130,7 +131,7 @@ void put_access(Json& j, const Result& r) {
 
 /// Only where it is asked for: a session graded before this was known grades to the same text.
 void put_pulp(Json& j, const Result& r) {
-  const auto asks = [](const CriterionResult& c) { return json_place(known_measure(c.metric)).starts_with("/pulp/"); };
+  const auto asks = [](const CriterionResult& c) { return json_place(scenarios::known_measure(c.metric)).starts_with("/pulp/"); };
   if (std::none_of(r.criteria.begin(), r.criteria.end(), asks)) return;
   put_values(j, r, {"/pulp/"});
   j["pulp"].update({{"thinnest_site_mm", place_of(r.over_pulp.thinnest)}, {"thinnest_tick", tick_of(r.over_pulp.thinnest)}});
@@ -166,7 +167,7 @@ Json pauses_json(const Result& r) {
 /// Only where there is something to say: a session graded before these were known grades to the same text.
 void put_what_there_was(Json& j, const Result& r) {
   const auto& a = r.accommodations;
-  if (a != Accommodations{}) {
+  if (a != scenarios::Accommodations{}) {
     j["accommodations"] = {{"extra_time_percent", a.extra_time_percent},
                            {"extra_time_s", a.extra_time_s},
                            {"left_handed", a.left_handed},
@@ -234,15 +235,17 @@ std::string criteria_text(const Result& r) {
 }
 
 std::string volumes_text(const Result& r) {
-  const auto zone = [&](Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
+  const auto zone = [&](scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
   const auto volume = [&](const std::string& name, const BoundedVolume& v) {
     return fmt::format("  {}{} ± {} mm3\n", padded(name, 22), fixed(v.mm3, 2), fixed(v.bound_mm3, 2));
   };
   std::string s = fmt::format("\nvolumes\n{}  {}{} ± {} %\n{}{}", volume("target", r.volumes.target), padded("target removed", 22),
                               fixed(r.volumes.target_removed_percent, 1), fixed(r.volumes.target_removed_bound_percent, 1),
                               volume("missed", r.volumes.missed), volume("removed", r.volumes.removed));
-  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}) s += volume(zone_name(z), zone(z));
-  s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(Zone::protected_));
+  for (const scenarios::Zone z :
+       {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
+    s += volume(scenarios::zone_name(z), zone(z));
+  s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(scenarios::Zone::protected_));
   s += fmt::format("  {}{} ± {}\n", padded("dice", 22), fixed(r.volumes.dice, 3), fixed(r.volumes.dice_bound, 3));
   return s;
 }
@@ -250,9 +253,9 @@ std::string volumes_text(const Result& r) {
 std::string walls_text(const Result& r) {
   std::string s =
       fmt::format("\nwalls, mm (+ = overcut)                       mean            p95   over  under (± {})\n", fixed(r.shape.bound_mm, 2));
-  for (std::size_t w = 0; w < k_walls; ++w) {
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    s += "  " + padded(wall_name(static_cast<Wall>(w)), 34);
+    s += "  " + padded(scenarios::wall_name(static_cast<scenarios::Wall>(w)), 34);
     if (m.samples == 0)
       s += "not cut\n";
     else
@@ -307,4 +310,4 @@ std::string to_text(const Result& r) {
   return s;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -6,7 +6,7 @@
 
 #include "grading/result/result.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Every name is always present; a figure that could not be measured is null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Result& result);
@@ -15,4 +15,4 @@ namespace cavum {
 /// To a millionth, so that a figure reads the same wherever it is printed; never -0.
 [[nodiscard]] double rounded(double v);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -14,9 +14,9 @@
 #include "grading/words/moments.h"
 #include "grading/words/moments_of_measure.h"
 
-namespace cavum {
+namespace cavum::grading {
 
-LossFinder::LossFinder(const GradeInput& input, const Result& result, const CriterionSpec& spec, Why& why)
+LossFinder::LossFinder(const GradeInput& input, const Result& result, const scenarios::CriterionSpec& spec, Why& why)
     : in_(input), r_(result), spec_(spec), why_(why), asked_(asked(spec.metric, spec.full)) {
   end_ = static_cast<std::int64_t>(std::min(input.inputs.size(), input.records.size()));
   for (const auto& e : input.events)
@@ -86,7 +86,7 @@ void LossFinder::removed_moments(std::vector<WhyItem> items) {
   list_largest(std::move(items));
 }
 
-std::vector<WhyItem> LossFinder::in_zones(const std::vector<Zone>& zones) const {
+std::vector<WhyItem> LossFinder::in_zones(const std::vector<scenarios::Zone>& zones) const {
   std::vector<RemovedShare> shares;
   for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
     if (std::find(zones.begin(), zones.end(), s.zone) != zones.end()) shares.push_back(s);
@@ -99,7 +99,7 @@ void LossFinder::missed(double points) {
     double sum = 0;
     Vec3 middle;
   };
-  std::array<Part, k_walls + 1> parts;
+  std::array<Part, scenarios::k_walls + 1> parts;
   const RemovedMap removed(in_.removed, end_ - 1);
   in_.zones.for_each_target_leaf([&](IVec3 leaf) {
     if (removed.has(leaf)) return;
@@ -107,7 +107,7 @@ void LossFinder::missed(double points) {
     p.sum += 1;
     p.middle += in_.zones.centre_mm(leaf);
   });
-  for (std::size_t w = 0; w <= k_walls; ++w) {
+  for (std::size_t w = 0; w <= scenarios::k_walls; ++w) {
     const double mm3 = r_.volumes.missed_by_wall_mm3[w];
     if (!(mm3 > 0)) continue;
     const Part& p = parts[w];
@@ -123,8 +123,9 @@ void LossFinder::missed(double points) {
   }
 }
 
-void LossFinder::walls(std::size_t first, std::size_t end, std::optional<WallFigure> figure) {
-  const bool under = figure == WallFigure::max_under, over = figure == WallFigure::max_over || figure == WallFigure::p95;
+void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenarios::WallFigure> figure) {
+  const bool under = figure == scenarios::WallFigure::max_under,
+             over = figure == scenarios::WallFigure::max_over || figure == scenarios::WallFigure::p95;
   const double full = std::max(0.0, spec_.full);
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
@@ -144,7 +145,7 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<WallFig
   std::vector<RemovedShare> shares;
   for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
     const auto w = static_cast<std::size_t>(in_.zones.wall(s.leaf));
-    if (s.zone != Zone::target && w >= first && w < end && in_.before.octree.is_solid(s.tissue) && in_.zones.distance_mm(s.leaf) > full)
+    if (s.zone != scenarios::Zone::target && w >= first && w < end && in_.before.octree.is_solid(s.tissue) && in_.zones.distance_mm(s.leaf) > full)
       shares.push_back(s);
   });
   list_largest(removal_moments(in_.zones, std::move(shares)));
@@ -285,7 +286,7 @@ void LossFinder::missed_target() { missed(spec_.points - why_.criterion.points);
 void LossFinder::removed_in_zones() { removed_moments(in_zones(asked_.marking->zones)); }
 
 void LossFinder::at_walls() {
-  const Measure& m = asked_.measure;
+  const scenarios::Measure& m = asked_.measure;
   walls(m.first_wall, m.first_wall + m.walls, m.figure);
 }
 
@@ -295,19 +296,20 @@ void LossFinder::depth() { shape("depth", r_.shape.depth_mm, r_.shape.target_dep
 
 void LossFinder::taper() {
   fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
-  walls(0, k_side_walls, {});
+  walls(0, scenarios::k_side_walls, {});
 }
 
 void LossFinder::taper_error() {
   fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
   fact("mean slope of the target's side walls", r_.access.target_taper_deg, "degrees", {}, r_.access.target_taper_bound_deg);
-  walls(0, k_side_walls, {});
+  walls(0, scenarios::k_side_walls, {});
 }
 
 void LossFinder::floor_cut() {
   removed_moments(whole_leaves([&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
-    return in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.zone(leaf) != Zone::target && in_.zones.wall(leaf) == Wall::floor;
+    return in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.zone(leaf) != scenarios::Zone::target &&
+           in_.zones.wall(leaf) == scenarios::Wall::floor;
   }));
 }
 
@@ -351,4 +353,4 @@ void LossFinder::pressed_above(double force) {
       fmt::format("pressed with more than {} N", fixed(force, 2)), Stretch::peak_force));
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

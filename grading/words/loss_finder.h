@@ -9,12 +9,12 @@
 #include "grading/result/measure_marking.h"
 #include "grading/words/why.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 class LossFinder {
  public:
   /// All of them must outlive it; `why` is what it writes to.
-  LossFinder(const GradeInput& input, const Result& result, const CriterionSpec& spec, Why& why);
+  LossFinder(const GradeInput& input, const Result& result, const scenarios::CriterionSpec& spec, Why& why);
   /// The moments of the criterion's measure, and what points they leave unsaid.
   void find();
 
@@ -47,11 +47,11 @@ class LossFinder {
   [[nodiscard]] double points_at(double value) const;
   void removed_moments(std::vector<WhyItem> items);
   /// By parts of leaves, as the zones' volumes are counted.
-  [[nodiscard]] std::vector<WhyItem> in_zones(const std::vector<Zone>& zones) const;
+  [[nodiscard]] std::vector<WhyItem> in_zones(const std::vector<scenarios::Zone>& zones) const;
   [[nodiscard]] std::vector<WhyItem> whole_leaves(const std::function<bool(const RemovedAt&)>& counts) const;
   /// `points`: what is lost by it altogether.
   void missed(double points);
-  void walls(std::size_t first, std::size_t end, std::optional<WallFigure> figure);
+  void walls(std::size_t first, std::size_t end, std::optional<scenarios::WallFigure> figure);
   void shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error);
   void pressed_above(double force);
   void leave_out(const WhyItem& item);
@@ -61,10 +61,10 @@ class LossFinder {
 
   const GradeInput& in_;
   const Result& r_;
-  const CriterionSpec& spec_;
+  const scenarios::CriterionSpec& spec_;
   Why& why_;
   Asked asked_;
   std::int64_t end_ = 0;
 };
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -7,44 +7,44 @@
 #include "grading/result/measure_marking.h"
 #include "grading/words/moments_of_measure.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
-const char* better_words(Better better) {
+const char* better_words(scenarios::Better better) {
   switch (better) {
-    case Better::less:
+    case scenarios::Better::less:
       return "less";
-    case Better::more:
+    case scenarios::Better::more:
       return "more";
-    case Better::by_task:
+    case scenarios::Better::by_task:
       break;
   }
   return "as the task says";
 }
 
-const char* needs_words(Needs needs) {
+const char* needs_words(scenarios::Needs needs) {
   switch (needs) {
-    case Needs::nothing:
+    case scenarios::Needs::nothing:
       return "";
-    case Needs::protection:
+    case scenarios::Needs::protection:
       return "something protected";
-    case Needs::leeway_sides:
+    case scenarios::Needs::leeway_sides:
       return "a leeway at the sides";
-    case Needs::leeway_bottom:
+    case scenarios::Needs::leeway_bottom:
       return "a leeway below";
-    case Needs::container_sides:
+    case scenarios::Needs::container_sides:
       return "a container at the sides";
-    case Needs::container_bottom:
+    case scenarios::Needs::container_bottom:
       return "a container below";
-    case Needs::container:
+    case scenarios::Needs::container:
       return "a container";
-    case Needs::aim:
+    case scenarios::Needs::aim:
       return "an aim";
-    case Needs::fault:
+    case scenarios::Needs::fault:
       return "a fault";
-    case Needs::force_limit:
+    case scenarios::Needs::force_limit:
       return "a force limit";
-    case Needs::pulp:
+    case scenarios::Needs::pulp:
       break;
   }
   return "a tooth with pulp";
@@ -65,16 +65,16 @@ std::string measures_page() {
          "| measure | unit | better | judges | ends at | what it is | needs | JSON | `--why` lists |\n"
          "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   bool tissues = false;
-  for (const auto& listed : measures()) {
+  for (const auto& listed : scenarios::measures()) {
     if (!listed.tissue.empty() && tissues) continue;
     tissues = tissues || !listed.tissue.empty();
-    const Measure m = listed.tissue.empty() ? listed : tissue_measure("TISSUE");
+    const scenarios::Measure m = listed.tissue.empty() ? listed : scenarios::tissue_measure("TISSUE");
     const char* ends = m.most != nullptr ? m.most->words : m.tissue.empty() ? "" : "the tissue";
-    out << "| " << code(m.name) << " | " << m.unit << " | " << better_words(m.better) << " | " << (m.judges == Judges::work ? "work" : "care")
-        << " | " << ends << " | " << m.words << " | " << needs_words(m.needs) << " | " << code(json_place(m)) << " | " << moments_of(m).words
-        << " |\n";
+    out << "| " << code(m.name) << " | " << m.unit << " | " << better_words(m.better) << " | "
+        << (m.judges == scenarios::Judges::work ? "work" : "care") << " | " << ends << " | " << m.words << " | " << needs_words(m.needs) << " | "
+        << code(json_place(m)) << " | " << moments_of(m).words << " |\n";
   }
   return out.str();
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace cavum {
+namespace cavum::grading {
 
 /// Markdown: one row for each measure of scenarios/file/measures.h, one for all tissues; docs/measures.md.
 [[nodiscard]] std::string measures_page();
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -10,14 +10,14 @@
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 namespace {
 
 struct Moment {
   std::int64_t from = 0, to = 0;
-  std::array<double, k_zones> by_zone{};
-  std::array<double, k_walls + 1> by_wall{};
+  std::array<double, scenarios::k_zones> by_zone{};
+  std::array<double, scenarios::k_walls + 1> by_wall{};
   double sum = 0.0, bound = 0.0, furthest_mm = -1e9;
   IVec3 at;
 };
@@ -25,13 +25,14 @@ struct Moment {
 std::string text_of(const Moment& m) {
   const auto wall = static_cast<std::size_t>(std::max_element(m.by_wall.begin(), m.by_wall.end()) - m.by_wall.begin());
   std::vector<std::size_t> zones;
-  for (std::size_t z = 0; z < k_zones; ++z)
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z)
     if (m.by_zone[z] > 0) zones.push_back(z);
   std::stable_sort(zones.begin(), zones.end(), [&](std::size_t a, std::size_t b) { return m.by_zone[a] > m.by_zone[b]; });
   std::string text = "removed";
   for (std::size_t i = 0; i < zones.size(); ++i) {
-    const std::string name =
-        static_cast<Zone>(zones[i]) == Zone::none ? "outside all zones" : fmt::format("in {}", zone_name(static_cast<Zone>(zones[i])));
+    const std::string name = static_cast<scenarios::Zone>(zones[i]) == scenarios::Zone::none
+                                 ? "outside all zones"
+                                 : fmt::format("in {}", scenarios::zone_name(static_cast<scenarios::Zone>(zones[i])));
     text += (i == 0 ? " " : ", ") + (zones.size() > 1 ? fixed(m.by_zone[zones[i]], 3) + " mm3 " : "") + name;
   }
   text += ", most of it at " + wall_text(wall);
@@ -41,7 +42,7 @@ std::string text_of(const Moment& m) {
 
 }  // namespace
 
-std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedShare> shares) {
+std::vector<WhyItem> removal_moments(const scenarios::ZoneMap& zones, std::vector<RemovedShare> shares) {
   std::stable_sort(shares.begin(), shares.end(), [](const RemovedShare& a, const RemovedShare& b) { return a.tick < b.tick; });
   std::vector<Moment> moments;
   for (const auto& s : shares) {
@@ -172,4 +173,4 @@ std::vector<WhyItem> keep_largest(std::vector<WhyItem>& items) {
   return dropped;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -9,11 +9,11 @@
 #include "grading/measures/volumes.h"
 #include "grading/words/why.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// What was removed, gathered while at most k_moment_gap_ticks lie between: amount = its volume, mm3, and its bound; place = the leaf furthest beyond
 /// the target; said are the zones that it lies in, each with its volume when they are several, and the wall that most of it lies at.
-[[nodiscard]] std::vector<WhyItem> removal_moments(const ZoneMap& zones, std::vector<RemovedShare> shares);
+[[nodiscard]] std::vector<WhyItem> removal_moments(const scenarios::ZoneMap& zones, std::vector<RemovedShare> shares);
 /// The same of removed leaves before tick `end` that count, taken whole.
 [[nodiscard]] std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, const std::function<bool(const RemovedAt&)>& counts);
 
@@ -35,4 +35,4 @@ enum class Stretch { duration, peak_force };
 /// Keeps the k_most_moments items of the largest amount in their order, of equal ones the earlier; returns those that went. Every item has an amount.
 std::vector<WhyItem> keep_largest(std::vector<WhyItem>& items);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace cavum {
+namespace cavum::grading {
 
 std::vector<MomentsOfMeasure> checked_moments(std::vector<MomentsOfMeasure> rows) {
   std::vector<std::string> keys;
@@ -14,7 +14,7 @@ std::vector<MomentsOfMeasure> checked_moments(std::vector<MomentsOfMeasure> rows
       throw std::logic_error(fmt::format("moments_of_measure: {} lacks name, words or list", row.measure != nullptr ? row.measure : "a row"));
     keys.emplace_back(row.measure);
   }
-  require_row_for_each(keys, "moments_of_measure");
+  scenarios::require_row_for_each(keys, "moments_of_measure");
   return rows;
 }
 
@@ -32,7 +32,7 @@ const std::vector<MomentsOfMeasure>& moments_of_measures() {
       {.measure = "container_mm3", .words = "what was removed there", .list = &LossFinder::removed_in_zones},
       {.measure = "overcut_mm3", .words = "what was removed there", .list = &LossFinder::removed_in_zones},
       {.measure = "dice", .words = "what stayed, what was removed beyond", .list = &LossFinder::dice},
-      {.measure = k_wall_family, .words = "the walls' figures, furthest places, what was cut beyond", .list = &LossFinder::at_walls},
+      {.measure = scenarios::k_wall_family, .words = "the walls' figures, furthest places, what was cut beyond", .list = &LossFinder::at_walls},
       {.measure = "outline_length_mm", .words = "both ends, when they were cut", .list = &LossFinder::length},
       {.measure = "outline_length_error_mm", .words = "both ends, when they were cut", .list = &LossFinder::length},
       {.measure = "outline_width_mm", .words = "both ends, when they were cut", .list = &LossFinder::width},
@@ -54,7 +54,7 @@ const std::vector<MomentsOfMeasure>& moments_of_measures() {
       {.measure = "perforated", .words = "by tissue and by force", .list = &LossFinder::perforation},
       {.measure = "perforation_volume_mm3", .words = "by tissue and by force", .list = &LossFinder::perforation},
       {.measure = "perforation_events", .words = "by tissue and by force", .list = &LossFinder::perforation},
-      {.measure = k_tissue_family, .words = "what was removed of it", .list = &LossFinder::tissue},
+      {.measure = scenarios::k_tissue_family, .words = "what was removed of it", .list = &LossFinder::tissue},
       {.measure = "path_mm", .words = "events", .list = &LossFinder::steps},
       {.measure = "steps_completed", .words = "events", .list = &LossFinder::steps},
       {.measure = "steps_failed", .words = "events", .list = &LossFinder::steps},
@@ -63,11 +63,11 @@ const std::vector<MomentsOfMeasure>& moments_of_measures() {
   return k_rows;
 }
 
-const MomentsOfMeasure& moments_of(const Measure& measure) {
+const MomentsOfMeasure& moments_of(const scenarios::Measure& measure) {
   const std::string key = measure.key();
   for (const auto& row : moments_of_measures())
     if (row.measure == key) return row;
   throw std::logic_error("moments_of_measure: no row for the measure " + key);
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

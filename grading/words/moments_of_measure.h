@@ -6,7 +6,7 @@
 #include "grading/words/loss_finder.h"
 #include "scenarios/file/measures.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 struct MomentsOfMeasure {
   const char* measure = nullptr;  ///< its key
@@ -18,6 +18,6 @@ struct MomentsOfMeasure {
 [[nodiscard]] const std::vector<MomentsOfMeasure>& moments_of_measures();
 /// `rows`, held against the measures in that way.
 [[nodiscard]] std::vector<MomentsOfMeasure> checked_moments(std::vector<MomentsOfMeasure> rows);
-[[nodiscard]] const MomentsOfMeasure& moments_of(const Measure& measure);
+[[nodiscard]] const MomentsOfMeasure& moments_of(const scenarios::Measure& measure);
 
-}  // namespace cavum
+}  // namespace cavum::grading

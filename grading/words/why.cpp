@@ -7,9 +7,9 @@
 #include "engine/base/error.h"
 #include "grading/words/loss_finder.h"
 
-namespace cavum {
+namespace cavum::grading {
 
-Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric, const std::string& criterion_id) {
+Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric, const std::string& criterion_id) {
   Why w;
   std::string known;
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i) {
@@ -26,4 +26,4 @@ Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric,
   throw Error("--why", fmt::format("the rubric has no criterion '{}'", criterion_id), "use one of: " + known);
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

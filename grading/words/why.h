@@ -9,7 +9,7 @@
 
 #include "grading/measures/grade_input.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 /// One moment, or one fact without a moment (tick -1).
 struct WhyItem {
@@ -36,9 +36,9 @@ inline constexpr std::size_t k_most_moments = 20;
 inline constexpr double k_least_moment_mm3 = 0.0005;  ///< a smaller volume is not worth a line: it would read 0.000
 
 /// Throws Error naming all criteria when the rubric has none of that id.
-[[nodiscard]] Why why(const GradeInput& input, const Result& result, const RubricSpec& rubric, const std::string& criterion_id);
+[[nodiscard]] Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric, const std::string& criterion_id);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const Why& why);
 [[nodiscard]] std::string to_text(const Why& why);
 
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -10,7 +10,7 @@
 #include "grading/result/result_json.h"
 #include "grading/words/why.h"
 
-namespace cavum {
+namespace cavum::grading {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -85,4 +85,4 @@ std::string to_text(const Why& w) {
   return s;
 }
 
-}  // namespace cavum
+}  // namespace cavum::grading

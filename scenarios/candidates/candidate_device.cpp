@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 CandidateDevice::CandidateDevice(Candidate candidate, const OmniModel& omni)
     : candidate_(std::move(candidate)), omni_(omni), state_(make_omni_state(candidate_.hands.start_mm())), start_mm_(candidate_.hands.start_mm()) {
@@ -37,4 +37,4 @@ std::unique_ptr<CandidateDevice> make_candidate_device(const ExamSetup& setup, c
   return std::make_unique<CandidateDevice>(make_candidate(skill, setup.scenario, setup.zones, setup.tooth, tray, seed), OmniModel{});
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 #include "scenarios/candidates/operator.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 class CandidateDevice final : public ServoDevice {
  public:
@@ -40,4 +40,4 @@ class CandidateDevice final : public ServoDevice {
 /// Operator of this skill (see make_skill) for an exam. Throws Error when no point of its tray fits into the target.
 [[nodiscard]] std::unique_ptr<CandidateDevice> make_candidate_device(const ExamSetup& setup, const std::string& skill, std::uint64_t seed);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

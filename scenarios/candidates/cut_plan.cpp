@@ -5,7 +5,7 @@
 
 #include "engine/tooth/distance_transform.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr double k_above_mm = 1.0;      // height of the ways through the air over the tooth
@@ -231,4 +231,4 @@ std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth,
   return {{air, false, false}, {from, true, false}, {to, true, false}, {air, false, false}};
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

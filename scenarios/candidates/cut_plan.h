@@ -8,7 +8,7 @@
 
 #include "scenarios/candidates/reach_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 struct Waypoint {
   Vec3 tip_mm;
@@ -30,4 +30,4 @@ struct PlanOptions {
 /// to 0.8 mm beyond its surface: the way of a careless candidate. Empty when none lies within 6 mm.
 [[nodiscard]] std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth, const ReachMap& reach, std::uint8_t fault);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

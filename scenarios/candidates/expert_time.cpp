@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 // Fitted to runs of the expert on the shipped tasks and on the templates; tests/scenarios/advice_test compares them again.
@@ -92,4 +92,4 @@ double expert_time_s(const std::vector<Waypoint>& tooth_way, const Mat3& held, c
   return time_s;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -9,10 +9,10 @@
 #include "scenarios/candidates/cut_plan.h"
 #include "scenarios/candidates/operator.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Seconds for `way` with `tool`, held as `held` turns it (from its frame to the tooth's), at full speed of the handpiece.
 [[nodiscard]] double expert_time_s(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const ContactTool& tool,
                                    const Skill& skill);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr double k_free_speed_mm_s = 5.0;     // through the air near the tooth
@@ -268,4 +268,4 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
   return {Operator(skill, std::move(way), zones.approach(), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -13,7 +13,7 @@
 #include "scenarios/candidates/cut_plan.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// What distinguishes an expert from a novice.
 struct Skill {
@@ -107,4 +107,4 @@ struct Candidate {
 [[nodiscard]] Candidate make_candidate(const std::string& skill, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                                        const std::vector<ContactTool>& tray, std::uint64_t seed);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -6,7 +6,7 @@
 
 #include "engine/tooth/distance_transform.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// True when the head of a point held as in `map`, with its tip at `tip`, would remove some of the target.
@@ -200,4 +200,4 @@ double coverage(const FreeRoom& room, const ReachMap& map, const ContactTool& to
   return all > 0 ? reached / all : 0;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

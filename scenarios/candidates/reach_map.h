@@ -8,7 +8,7 @@
 #include "engine/contact/contact_tool.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// How far an expert lets the point reach beyond the target's surface.
 inline constexpr MarginSpec k_expert_margin{0.03, 0.03};
@@ -50,4 +50,4 @@ struct FreeRoom {
 /// Share of the target, 0..1, that the point can remove when its tip goes everywhere the map allows.
 [[nodiscard]] double coverage(const FreeRoom& room, const ReachMap& reach, const ContactTool& tool);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 SimulatedCandidate::SimulatedCandidate(Candidate candidate, const OmniModel& omni)
     : candidate_(std::move(candidate)), omni_(omni), state_(make_omni_state(candidate_.hands.start_mm())) {}
@@ -73,4 +73,4 @@ void run_exam(Exam& exam, InputSource& source, const std::function<void(const Ex
     exam.note_late(rest.ticks, rest.pedal_ticks);
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 #include "scenarios/candidates/operator.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Something that gives the input of each tick.
 class InputSource {
@@ -68,4 +68,4 @@ class PlayedMotion final : public InputSource {
 /// every 50 ticks.
 void run_exam(Exam& exam, InputSource& input, const std::function<void(const Exam&, double progress)>& watch = {});
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -13,7 +13,7 @@
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 namespace fs = std::filesystem;
@@ -266,4 +266,4 @@ void Exam::note_late(std::int64_t ticks, std::int64_t pedal_ticks) {
 
 void Exam::close(const std::string& result_json) { recorder_->close(save_tooth(tooth_now()), result_json); }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

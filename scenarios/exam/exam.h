@@ -15,7 +15,7 @@
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// A file that ships with Cavum, by folder and name ("points", "round-1.0.toml"): looked for in $CAVUM_DATA, beside
 /// `near_file`'s folder (../points of data/scenarios/x.toml), in ./data, and where Cavum was built or installed.
@@ -122,4 +122,4 @@ class Exam {
   std::string problem_, second_place_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
     : LiveExam(setup, Exam::start(setup, path, first_tip_mm), device, options) {}
@@ -95,4 +95,4 @@ const LiveReport& LiveExam::finish() {
   return report_;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -13,7 +13,7 @@
 #include "engine/session/session_writer.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// What a window shows: a copy, never more than a few milliseconds old.
 struct LiveView {
@@ -105,4 +105,4 @@ class LiveExam {
   LiveView view_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -7,7 +7,7 @@
 
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string& second_place,
                                       const std::function<std::unique_ptr<Exam>(const std::string& path)>& begin) {
@@ -34,4 +34,4 @@ std::string rescue_place(const std::string& path) {
   return place;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

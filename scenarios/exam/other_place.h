@@ -8,7 +8,7 @@
 
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// What `begin` returns at `path`; where that disk refuses already, at `second_place` unless that is empty: an event `moved` of 0 ticks says why, and
 /// the recorder's path says where. Either way the exam knows its second place. Throws what `begin` throws when neither takes it.
@@ -18,4 +18,4 @@ namespace cavum {
 /// A place in the folder for temporary files ($TMPDIR) that nobody has used, named after the session at `path`: for when nobody answers.
 [[nodiscard]] std::string rescue_place(const std::string& path);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -7,7 +7,7 @@
 #include "engine/base/error.h"
 #include "scenarios/file/names.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// Ticks that the exam's clock has counted: pauses stand outside.
@@ -234,4 +234,4 @@ const std::string& Runner::instruction(const RunnerState& state) const noexcept 
   return state.finish == Finish::running && at < scenario_.steps.size() ? scenario_.steps[at].instruction : k_over;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -16,7 +16,7 @@
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 enum class ExamEventKind : std::uint8_t {
   step_started,       ///< index = step
@@ -123,4 +123,4 @@ class Runner {
 /// The same of a step that has a limit of its own.
 [[nodiscard]] std::int64_t step_limit_ticks(const Scenario& scenario, const StepSpec& step) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr const char* k_percent = "accommodation.extra_time_percent";
@@ -80,4 +80,4 @@ std::string accommodations_text(const Accommodations& a) {
   return text;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -9,7 +9,7 @@
 
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Accommodations of one exam: what is set replaces what the file says.
 struct Grant {
@@ -28,4 +28,4 @@ void require_sound(const Grant& grant, const std::string& where);
 /// "25 % and 60 s extra time, left-handed, high-contrast colours"; empty when nothing is granted.
 [[nodiscard]] std::string accommodations_text(const Accommodations& a);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 const char* kind_of(const toml::node& node) {
@@ -267,4 +267,4 @@ void CheckedTable::finish() {
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -12,7 +12,7 @@
 #include "engine/base/vec.h"
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Items of one list, of texts or of tables: a tray, steps, criteria, bodies. Some are compared with all others, and each body with each leaf.
 inline constexpr std::size_t k_most_items = 100;
@@ -84,4 +84,4 @@ class CheckedTable {
 /// The word of `words` closest to `wrong`, as "did you mean 'x'?", or a list of all when none is close.
 [[nodiscard]] std::string suggestion(const std::string& wrong, const std::vector<std::string>& words);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -11,7 +11,7 @@
 
 #include "scenarios/file/expression.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using Text = std::string_view;
@@ -195,4 +195,4 @@ Outlook judge_condition(const std::string& text, const std::map<std::string, Val
   return left && right ? compare(*left, t.substr(f.at, f.length), *right) : Outlook::perhaps;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

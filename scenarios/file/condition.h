@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Values that a live quantity can have.
 struct ValueRange {
@@ -31,4 +31,4 @@ struct ConditionFault {
 /// joined by && and ||; everything else is `perhaps`.
 [[nodiscard]] Outlook judge_condition(const std::string& text, const std::map<std::string, ValueRange>& ranges);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -13,7 +13,7 @@
 #include "engine/base/text.h"
 #include "engine/base/toml_limits.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr const char* k_elsewhere = "change it in a text editor";
@@ -298,4 +298,4 @@ TextChange remove_point(const std::string& text, const std::string& path, const 
   return change;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

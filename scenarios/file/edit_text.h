@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// So many bytes of a text by others.
 struct TextChange {
@@ -34,4 +34,4 @@ struct TextChange {
 /// Takes a point out of the list at `place`, with its comma; comments beside it stay. The last one stays.
 [[nodiscard]] TextChange remove_point(const std::string& text, const std::string& path, const std::string& place, std::size_t index);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 double smaller(double a, double b) { return a < b ? a : b; }
@@ -93,4 +93,4 @@ std::vector<std::string> names_in_expression(const std::string& text) {
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

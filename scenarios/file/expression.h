@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// A compiled expression over a table of doubles. It reads the table by address: the table must stay
 /// where it is, and its size must not change, as long as the expression lives.
@@ -34,4 +34,4 @@ class Expression {
 /// Names that stand before a bracket, in their order.
 [[nodiscard]] std::vector<std::string> functions_in_expression(const std::string& text);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

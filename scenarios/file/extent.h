@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 inline constexpr double k_no_end = 1e300;
 
@@ -54,4 +54,4 @@ inline constexpr Most one{&ExamExtent::one, "1"};
 inline constexpr Most no_end{&ExamExtent::no_end, "no end"};
 }  // namespace most
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 #include "engine/base/error.h"
 #include "scenarios/file/names.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// A figure of walls: of one, of the floor, of the four side walls together, of all together; null: not asked of those.
@@ -263,4 +263,4 @@ void require_row_for_each(const std::vector<std::string>& keys, const std::strin
       throw std::logic_error(fmt::format("{}: a row for {}, which is no measure", table, key));
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -10,7 +10,7 @@
 #include "scenarios/file/extent.h"
 #include "scenarios/file/wall.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Which of two values is better.
 enum class Better { less, more, by_task };
@@ -67,4 +67,4 @@ struct Measure {
 /// Throws std::logic_error unless `keys`, those of the rows of a table, are the keys of all measures, each once. `table` names it.
 void require_row_for_each(const std::vector<std::string>& keys, const std::string& table);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -7,7 +7,7 @@
 
 #include "scenarios/file/extent.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 struct LiveQuantity {
   std::string_view name, unit, meaning;
@@ -44,4 +44,4 @@ inline constexpr std::array<LiveQuantity, 22> k_live_quantities{{
 /// Tissues that most teeth have: whose names are proposed when one is misspelt.
 inline constexpr std::array<std::string_view, 4> k_usual_tissues{"enamel", "dentin", "pulp", "periodontium"};
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -16,7 +16,7 @@
 #include "scenarios/file/parse_zones.h"
 #include "scenarios/file/surface_files.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 void check_measure(CheckedTable& t, const std::string& metric, const ProblemList& problems) {
@@ -322,4 +322,4 @@ Problem problem_at(const Scenario& s, const std::string& place, const std::strin
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

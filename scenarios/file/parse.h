@@ -10,7 +10,7 @@
 #include "engine/tooth/tooth.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// One mistake, or a warning of what is legal but unwise: `where` is file:line:column.
 struct Problem {
@@ -59,4 +59,4 @@ void require_tissues(const Scenario& scenario, const Tooth& tooth);
 /// working directory. Throws Error when none is there.
 [[nodiscard]] std::string find_tooth_file(const Scenario& scenario);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -10,7 +10,7 @@
 #include "scenarios/file/expression.h"
 #include "scenarios/file/names.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 void check_condition(CheckedTable& t, const char* key, const std::string& text, const ProblemList& problems) {
@@ -107,4 +107,4 @@ void check_pause_button(const Scenario& s, ProblemList& problems) {
     }
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

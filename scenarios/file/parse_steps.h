@@ -8,7 +8,7 @@
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Where the values of a file stand, by their path in it.
 using Places = std::map<std::string, Place>;
@@ -23,4 +23,4 @@ using Places = std::map<std::string, Place>;
 /// The button of pauses cannot also be asked for in a condition.
 void check_pause_button(const Scenario& scenario, ProblemList& problems);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr double k_largest_mm = 100.0;
@@ -283,4 +283,4 @@ ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& plac
   return z;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

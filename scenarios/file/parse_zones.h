@@ -4,8 +4,8 @@
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 [[nodiscard]] ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& places, ProblemList& problems);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

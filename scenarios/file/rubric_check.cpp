@@ -9,7 +9,7 @@
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 Problem problem_of(const RubricSpec& rubric, Place at, const std::string& what, const std::string& what_to_do) {
@@ -79,4 +79,4 @@ std::vector<Problem> turned_round(const RubricSpec& rubric) {
   return problems;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -6,7 +6,7 @@
 
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// A mistake for each criterion whose measure asks for what this exam does not have: a tissue of the tooth, something protected, a leeway or
 /// container of that side, an aim or a fault under [perforation], a force limit. In the order of the rubric.
@@ -15,4 +15,4 @@ namespace cavum {
 /// A warning for each criterion that gives its full marks to the worse value.
 [[nodiscard]] std::vector<Problem> turned_round(const RubricSpec& rubric);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

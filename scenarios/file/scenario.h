@@ -14,8 +14,10 @@
 #include "engine/base/vec.h"
 
 namespace cavum {
-
 struct TriangleMesh;
+}
+
+namespace cavum::scenarios {
 
 /// Which leaves of a tissue a shape speaks of. The chamber of a pulp is what lies above its floor: the
 /// level where, going down from the widest slice, the pulp parts into canals or narrows to a third.
@@ -170,4 +172,4 @@ struct Scenario {
   std::map<std::string, Place> places;  ///< by "time_limit_s", "points/2", "steps/0/complete_when", "zones/target/1", "rubric/criteria/3/metric" ...
 };
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

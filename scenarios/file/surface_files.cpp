@@ -11,7 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/tooth/mesh/read_mesh.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr std::size_t k_most_bytes = 32u << 20;
@@ -101,4 +101,4 @@ void require_same_surfaces(const Scenario& scenario, const Scenario& recorded) {
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

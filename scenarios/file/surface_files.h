@@ -9,7 +9,7 @@
 #include "engine/base/bytes.h"
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Bytes by the name that the scenario writes, each once.
 using SurfaceFiles = std::vector<std::pair<std::string, Bytes>>;
@@ -24,4 +24,4 @@ void use_surfaces(Scenario& scenario, const SurfaceFiles& files);
 /// Throws Error when `scenario` names a file that `recorded` ran with and its content is another one by now.
 void require_same_surfaces(const Scenario& scenario, const Scenario& recorded);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

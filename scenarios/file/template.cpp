@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// A tooth that tasks are written for. A new tooth is a new line here, with a line in k_tasks for each task it is good for.
@@ -381,4 +381,4 @@ std::string scenario_template(const std::string& tooth_word, const std::string& 
   return s;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

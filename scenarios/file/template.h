@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// A tooth and a task that there is a template for.
 struct TemplateChoice {
@@ -15,4 +15,4 @@ struct TemplateChoice {
 /// A whole scenario with comments, without mistakes on its tooth. Throws Error listing the choices for any other combination.
 [[nodiscard]] std::string scenario_template(const std::string& tooth, const std::string& task);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Towards where the target's nearest surface faces. The opening (occlusal) is no wall.
 enum class Wall : std::uint8_t { mesial, distal, buccal, lingual, floor, opening };
@@ -15,4 +15,4 @@ inline constexpr std::size_t k_side_walls = 4;  ///< the first of them; the floo
   return k_names[static_cast<std::size_t>(wall)];
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

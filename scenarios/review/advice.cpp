@@ -19,7 +19,7 @@
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/zones/relief.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
@@ -381,4 +381,4 @@ std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const 
   return a.take();
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

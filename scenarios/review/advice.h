@@ -9,7 +9,7 @@
 #include "scenarios/file/parse.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Everything to warn of, in no order. `points` are the allowed ones, in the scenario's order. `expert_s` becomes the time that the
 /// built-in expert will need, about, when it can do the task at all.
@@ -19,4 +19,4 @@ namespace cavum {
 /// What of it speaks of the rubric, when another one than the scenario's own is to mark an exam.
 [[nodiscard]] std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, const Tooth& tooth, const ZoneMap& zones);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

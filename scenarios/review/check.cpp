@@ -13,7 +13,7 @@
 #include "scenarios/file/surface_files.h"
 #include "scenarios/review/advice.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// `where: what; what to do` of an Error as a problem at `place`; where the Error itself names a line of `path`, that stands.
@@ -113,4 +113,4 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
   return checked;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 struct CheckedScenario {
   std::vector<Problem> problems;     ///< mistakes and warnings, in the order of the file
@@ -19,4 +19,4 @@ struct CheckedScenario {
 /// `tooth_file`: lay the zones into this tooth instead of the scenario's own. Throws Error when that one cannot be read.
 [[nodiscard]] CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file = "");
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

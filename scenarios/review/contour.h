@@ -10,7 +10,7 @@
 
 #include "scenarios/review/picture_colours.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// `field(x, y)` on a window's leaf centres, y upwards. The path is in leaf units, y downwards; empty where nothing crosses.
 template <class Field>
@@ -46,4 +46,4 @@ template <class Field>
   return path;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -11,7 +11,7 @@
 #include "scenarios/review/section_leaves.h"
 #include "scenarios/zones/shape.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 std::string line(const std::string& path, const char* colour, double leaf_px, double width_px, const char* dash) {
@@ -129,4 +129,4 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
       svg_number(width), svg_number(height), xml_text(fmt::format("{}: {}", scenario.title, tooth.name)), body, svg_number(height - 30), legend);
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

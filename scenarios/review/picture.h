@@ -8,7 +8,7 @@
 #include "engine/tooth/tooth.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 class Shape;
 
@@ -47,4 +47,4 @@ struct PictureSpec {
 /// The key to the colours of PictureSpec::heat_percent, an `<svg>` element.
 [[nodiscard]] std::string heat_legend_svg();
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -9,7 +9,7 @@
 #include "engine/base/text.h"
 #include "scenarios/review/picture.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 // Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
@@ -132,4 +132,4 @@ std::string legend_svg(bool with_removed, bool high_contrast) {
   return key_svg(entries);
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -6,7 +6,7 @@
 
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 struct Palette {
   const char *enamel, *dentin, *pulp, *periodontium, *other;
@@ -29,4 +29,4 @@ inline constexpr double k_least_heat_percent = 5;
 /// With two digits at most, as short as they allow.
 [[nodiscard]] std::string svg_number(double v);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -4,7 +4,7 @@
 
 #include "engine/tooth/octree_edit.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 int top_of(const Octree& tree, int x, int y) {
@@ -85,4 +85,4 @@ bool Section::beside_tooth(int column, int row) const noexcept {
 
 bool Section::air(int column, int row) const noexcept { return from_above() ? top(column, row) < 0 : before.tissue(leaf(column, row)) == k_air; }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

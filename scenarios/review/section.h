@@ -5,7 +5,7 @@
 
 #include "scenarios/review/picture.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 class Section {
  public:
@@ -46,4 +46,4 @@ class Section {
   std::vector<int> top_, top_after_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// Leaves of one colour as one path of runs.
@@ -108,4 +108,4 @@ std::string section_leaves_svg(const Section& section, const PictureSpec& spec, 
   return svg;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

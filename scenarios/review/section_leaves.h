@@ -6,9 +6,9 @@
 #include "scenarios/review/picture_colours.h"
 #include "scenarios/review/section.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// One SVG path for each colour, in leaf units.
 [[nodiscard]] std::string section_leaves_svg(const Section& section, const PictureSpec& spec, const Palette& colours);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

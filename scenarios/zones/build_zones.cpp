@@ -10,7 +10,7 @@
 #include "scenarios/zones/target_surface.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 struct TargetBox {
@@ -281,4 +281,4 @@ void ZoneBuilder::lay_shares() {
 
 ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) { return ZoneBuilder(scenario, tooth).build(); }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

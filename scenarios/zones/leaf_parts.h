@@ -8,7 +8,7 @@
 
 #include "engine/base/vec.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 inline constexpr int k_parts_per_edge = 4, k_parts = 64;
 /// Beyond this distance (leaves) from the centre, a surface does not pass through a leaf or the ramp around its parts.
@@ -41,4 +41,4 @@ template <class Value>
 /// How much of a part lies where a distance (leaves, at its centre) is positive: exact for a plane across an axis.
 [[nodiscard]] inline double share_beyond(double leaves) noexcept { return std::clamp(0.5 + k_parts_per_edge * leaves, 0.0, 1.0); }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -7,7 +7,7 @@
 
 #include "engine/tooth/distance.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 // The sign is found on whole numbers, a millionth of a millimetre apart, so that a line through an edge or a corner is decided
@@ -140,4 +140,4 @@ double MeshBody::distance_mm(Vec3 p) const noexcept {
   return sum + length(q - c) * lattice_.leaf_mm;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -7,7 +7,7 @@
 #include "engine/tooth/surface_mesh.h"
 #include "scenarios/zones/shape.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 class MeshBody final : public Shape {
  public:
@@ -25,4 +25,4 @@ class MeshBody final : public Shape {
 /// Counts what MeshBody will do with this surface: the leaves of its box, and for each triangle those near it. Throws Error beyond a limit.
 void count_mesh_body(const Tooth& tooth, const TriangleMesh& mesh, ZoneWork& work);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -6,7 +6,7 @@
 
 #include "engine/tooth/distance_transform.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 class Circle final : public Outline {
@@ -128,4 +128,4 @@ std::unique_ptr<Outline> make_outline(const OutlineSpec& spec, Vec3 centre, cons
   return std::make_unique<Shadow>(*shadow, spec.offset_mm, spec.rounding_mm);
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

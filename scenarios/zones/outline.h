@@ -7,7 +7,7 @@
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/relief.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 class Outline {
  public:
@@ -23,4 +23,4 @@ class Outline {
 /// Distance of point `p` from the segment `a`-`b`; z counts too.
 [[nodiscard]] double segment_distance(Vec3 p, Vec3 a, Vec3 b) noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

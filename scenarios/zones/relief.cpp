@@ -10,7 +10,7 @@
 #include "engine/tooth/distance_transform.h"
 #include "engine/tooth/octree_edit.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 // The floor of a chamber, from slices one leaf high, going down from the widest.
@@ -268,4 +268,4 @@ ColumnMap distance_to_edge(const ColumnMap& like, const std::vector<std::uint8_t
   return map;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

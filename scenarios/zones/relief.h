@@ -9,7 +9,7 @@
 #include "engine/tooth/tooth.h"
 #include "scenarios/file/scenario.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// A value per column of leaves (x fastest), with bilinear reading between the columns' centres.
 struct ColumnMap {
@@ -58,4 +58,4 @@ struct CanalMouth {
 /// side; accurate to half a leaf.
 [[nodiscard]] ColumnMap distance_to_edge(const ColumnMap& like, const std::vector<std::uint8_t>& inside, int padding);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

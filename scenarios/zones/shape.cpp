@@ -16,7 +16,7 @@
 #include "scenarios/zones/mesh_body.h"
 #include "scenarios/zones/outline.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// Distance of a body that is the meeting of two independent directions.
@@ -381,4 +381,4 @@ ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outlin
   return below;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

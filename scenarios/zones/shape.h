@@ -11,7 +11,7 @@
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/zone_work.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 class Outline;
 
@@ -63,4 +63,4 @@ class ShapeMaker {
   std::unique_ptr<Cache> cache_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -7,7 +7,7 @@
 #include "engine/tooth/distance_transform.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 struct OnSurface {
@@ -108,4 +108,4 @@ std::vector<NearestPlace> nearest_places(const ShapeField& shape) {
   return nearest;
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -8,7 +8,7 @@
 #include "engine/base/vec.h"
 #include "scenarios/file/wall.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Calls `visit(index, cell)` for every cell of a box, x fastest.
 template <class Visit>
@@ -45,4 +45,4 @@ struct NearestPlace {
 /// perpendicular on the surface's tangent there. Both are put on the surface by the shape's own value, so neither is a leaf's raster.
 [[nodiscard]] std::vector<NearestPlace> nearest_places(const ShapeField& shape);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr double k_cos_45 = 0.70710678118654752440;
@@ -51,4 +51,4 @@ Wall ZoneMap::wall(IVec3 leaf) const noexcept {
   return static_cast<Wall>(wall_[index(in)]);
 }
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

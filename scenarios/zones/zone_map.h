@@ -16,7 +16,7 @@
 #include "scenarios/file/scenario.h"
 #include "scenarios/file/wall.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 enum class Zone : std::uint8_t { none, target, leeway_sides, leeway_bottom, container_sides, container_bottom, protected_ };
 inline constexpr std::size_t k_zones = 7;
@@ -131,4 +131,4 @@ class ZoneMap {
 /// the tooth lacks a tissue that a zone refers to, and beyond a limit of zone_work.h.
 [[nodiscard]] ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth);
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

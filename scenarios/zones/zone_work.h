@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 
 /// Leaves of the box around the target with its leeway and container, all in the tooth: 1000 mm3 at 0.05 mm. The shipped tasks have at most 3
 /// million.
@@ -46,4 +46,4 @@ class ZoneWork {
   std::uint64_t body_leaves_ = 0, steps_ = 0;
 };
 
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -33,31 +33,31 @@ int main(int argc, char** argv) {
   ::setenv("CAVUM_HOME", home.c_str(), 1);
   int code = 0;
   try {
-    const SigningKey key = load_school_key(school_key_path(), true);
+    const SigningKey key = ledger::load_school_key(ledger::school_key_path(), true);
     cohort::SimulatedClass wanted;
     wanted.scenario = argv[1];
     wanted.sessions = home + "/sessions";
     wanted.n = argc == 3 ? std::atoi(argv[2]) : 200;
     {
-      Ledger::create(home + "/sat", "school", key);
-      Ledger ledger(home + "/sat", key);
-      Identities identities(home + "/sat/identities.db", true);
+      ledger::Ledger::create(home + "/sat", "school", key);
+      ledger::Ledger ledger(home + "/sat", key);
+      ledger::Identities identities(home + "/sat/identities.db", true);
       static_cast<void>(cohort::simulate_class(wanted, ledger, identities, [](int) {}));
     }
     // filed in a ledger that has promised as many exams; these are another ledger's, so each is filed with that finding
-    Ledger::create(home + "/filed", "school", key);
-    Ledger ledger(home + "/filed", key);
-    const Ticket ticket = promise(*prepare_exam(wanted.scenario, {}), ledger.content(), 0, 1);
-    for (int i = 0; i < wanted.n; ++i) static_cast<void>(issue(ledger, ticket, "C-" + std::to_string(i)));
+    ledger::Ledger::create(home + "/filed", "school", key);
+    ledger::Ledger ledger(home + "/filed", key);
+    const ledger::Ticket ticket = ledger::promise(*scenarios::prepare_exam(wanted.scenario, {}), ledger.content(), 0, 1);
+    for (int i = 0; i < wanted.n; ++i) static_cast<void>(ledger::issue(ledger, ticket, "C-" + std::to_string(i)));
     std::set<std::string> files;
     for (const auto& f : std::filesystem::directory_iterator(wanted.sessions)) files.insert(f.path().string());
     double replay = 0, filing = 0;
-    ExamGrounds grounds;
+    grading::ExamGrounds grounds;
     for (const auto& file : files) {  // in turns: a machine that slows down slows both
       const double a = cpu_seconds();
       if (!verify_session(file).verified) throw Error(file, "is not verified", "this is a defect");
       const double b = cpu_seconds();
-      if (!file_session(ledger, file, {true, true, true}, grounds).seq) throw Error(file, "was not filed", "this is a defect");
+      if (!ledger::file_session(ledger, file, {true, true, true}, grounds).seq) throw Error(file, "was not filed", "this is a defect");
       replay += b - a;
       filing += cpu_seconds() - b;
     }

@@ -50,14 +50,14 @@ int main(int argc, char** argv) {
       return 2;
     }
     const double start = seconds();
-    const auto session = cavum::load_for_grading(argv[1]);
+    const auto session = cavum::grading::load_for_grading(argv[1]);
     const double loaded = seconds(), loaded_mb = peak_mb();
     const int runs = argc > 2 ? std::atoi(argv[2]) : 5;
     double best = 1e9, best_cpu = 1e9;
-    cavum::Result result;
+    cavum::grading::Result result;
     for (int i = 0; i < runs; ++i) {
       const double from = seconds(), cpu = cpu_seconds();
-      result = cavum::grade(session->input(), session->rubric);
+      result = cavum::grading::grade(session->input(), session->rubric);
       best = std::min(best, seconds() - from);
       best_cpu = std::min(best_cpu, cpu_seconds() - cpu);
     }

@@ -28,8 +28,8 @@ void sign_request(json& asked) {
 }  // namespace
 
 void fuzz_entries(Data data) {
-  static Identities identities(work_folder() + "/entries-identities.db", true);
-  LedgerContent content = school_ledger();
+  static ledger::Identities identities(work_folder() + "/entries-identities.db", true);
+  ledger::LedgerContent content = school_ledger();
   std::istringstream lines(text_of(data));
   for (std::string line; std::getline(lines, line) && content.entries.size() < 40;) {
     const auto space = line.find(' ');
@@ -37,7 +37,7 @@ void fuzz_entries(Data data) {
     json body = parse_json_or_null(line.substr(space + 1), k_json_part);
     if (!body.is_object()) continue;
     if (body.contains("asked")) sign_request(body["asked"]);
-    LedgerEntry e;
+    ledger::LedgerEntry e;
     e.seq = content.entries.size();
     e.kind = line.substr(0, space);
     e.body = std::move(body);
@@ -45,11 +45,11 @@ void fuzz_entries(Data data) {
     content.entries.push_back(std::move(e));
   }
   try {
-    const Registry registry = read_registry(content);
+    const ledger::Registry registry = ledger::read_registry(content);
     int left_out = 0;
-    static_cast<void>(moodle_csv(registry, identities, left_out, true));
-    static_cast<void>(lti_scores(registry, identities, true).dump(-1, ' ', false, json::error_handler_t::replace));
-    static_cast<void>(tidy_csv(registry));
+    static_cast<void>(ledger::moodle_csv(registry, identities, left_out, true));
+    static_cast<void>(ledger::lti_scores(registry, identities, true).dump(-1, ' ', false, json::error_handler_t::replace));
+    static_cast<void>(ledger::tidy_csv(registry));
   } catch (const Error&) {
   }
 }
@@ -77,7 +77,7 @@ std::vector<Bytes> entries_seeds() {
   const auto release = [](std::uint64_t seq) { return "release " + json{{"results", {seq}}}.dump() + "\n"; };
   const std::string invited =
       "station " + json{{"action", "invite"}, {"name", "Seat 3"}, {"code_key", key}, {"until_utc_ns", 1'900'000'000'000'000'000}}.dump() + "\n";
-  const auto asked = parse_json_or_null(station_request(station_key(), school, {{"device", "Omni", "7"}}, new_station_code()));
+  const auto asked = parse_json_or_null(ledger::station_request(station_key(), school, {{"device", "Omni", "7"}}, ledger::new_station_code()));
   const std::string enrolled = "station " + json{{"action", "enrol"}, {"asked", asked}, {"until_utc_ns", 0}}.dump() + "\n";
   const std::string revoked = "station " + json{{"action", "revoke"}, {"public_key", key}, {"reason", "lost"}}.dump() + "\n";
   return {bytes_of("ticket " + small_ticket() + "\n" + filed + release(3)), bytes_of(filed + regraded + release(2) + release(3)),

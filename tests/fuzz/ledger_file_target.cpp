@@ -25,10 +25,10 @@ struct Files {
 const Files& sound_files() {
   static const Files k_files = [] {
     const std::string folder = work_folder() + "/logged";
-    Ledger::create(folder, "School", school_key());
-    Ledger ledger(folder, school_key());  // while it is open its log stays
-    ledger.append("ticket", [](const LedgerContent&) { return nlohmann::json::parse(small_ticket()); });
-    static_cast<void>(invite_station(ledger, "Seat 3", 1'900'000'000'000'000'000));
+    ledger::Ledger::create(folder, "School", school_key());
+    ledger::Ledger ledger(folder, school_key());  // while it is open its log stays
+    ledger.append("ticket", [](const ledger::LedgerContent&) { return nlohmann::json::parse(small_ticket()); });
+    static_cast<void>(ledger::invite_station(ledger, "Seat 3", 1'900'000'000'000'000'000));
     const std::string path = ledger.places().database();
     return Files{read_file(path), read_file(path + "-wal")};
   }();
@@ -100,7 +100,7 @@ void fuzz_ledger(Data data) {
     data = data.subspan(k_head + length);
   }
   if ((flags & 1) != 0) right_checksums(files.log);
-  const LedgerPlaces places{work_folder() + "/read"};
+  const ledger::LedgerPlaces places{work_folder() + "/read"};
   std::filesystem::create_directories(places.folder);
   std::filesystem::remove(places.database() + "-shm");
   write(places.database(), files.database);
@@ -109,9 +109,9 @@ void fuzz_ledger(Data data) {
     if ((flags & 2) != 0) {
       std::vector<std::string> findings;
       Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
-      static_cast<void>(read_registry(read_content(copy, places.database(), AskWitness::no)));
+      static_cast<void>(ledger::read_registry(ledger::read_content(copy, places.database(), ledger::AskWitness::no)));
     } else {
-      static_cast<void>(read_registry(read_ledger(places, AskWitness::no)));
+      static_cast<void>(ledger::read_registry(ledger::read_ledger(places, ledger::AskWitness::no)));
     }
   } catch (const Error&) {
   }

@@ -101,7 +101,7 @@ Tooth small_tooth() {
 SessionSetup small_setup() {
   static_cast<void>(work_folder());
   SessionSetup setup;
-  setup.candidate = parse_ticket(small_ticket(), "", "ticket").candidate;
+  setup.candidate = ledger::parse_ticket(small_ticket(), "", "ticket").candidate;
   setup.device = "none";
   setup.scenario_toml = "title = \"drill\"\n";
   setup.force_model_toml = data_text("materials/paper.toml");
@@ -109,7 +109,7 @@ SessionSetup small_setup() {
   setup.points_toml = {data_text("points/round-1.0.toml")};
   setup.tooth = save_tooth(small_tooth());
   setup.first_tip_nm = motion_at(0).tip_nm;
-  setup.notes = {{"room", "4"}, {k_ticket_note, small_ticket()}};
+  setup.notes = {{"room", "4"}, {ledger::k_ticket_note, small_ticket()}};
   return setup;
 }
 
@@ -124,13 +124,13 @@ const SigningKey& station_key() {
 }
 
 const SigningKey& school_key() {
-  static const SigningKey k_key = load_school_key(work_folder() + "/school.key", true);
+  static const SigningKey k_key = ledger::load_school_key(work_folder() + "/school.key", true);
   return k_key;
 }
 
 const std::string& small_ticket() {
   static const std::string k_text = [] {
-    Ticket t;
+    ledger::Ticket t;
     t.ledger = std::string(32, '1');
     t.exam = "drill";
     t.candidate = "C-7K3M-92PQ-XD4V";
@@ -140,17 +140,17 @@ const std::string& small_ticket() {
     t.artifacts = {{"scenario.toml", std::string(64, '3')}};
     t.grant = {{"extra_time_percent", "25"}};
     t.public_key = to_hex(school_key().public_key);
-    return sign_ticket(t, school_key());
+    return ledger::sign_ticket(t, school_key());
   }();
   return k_text;
 }
 
-const LedgerContent& school_ledger() {
-  static const LedgerContent k_content = [] {
+const ledger::LedgerContent& school_ledger() {
+  static const ledger::LedgerContent k_content = [] {
     const std::string folder = work_folder() + "/ledger";
-    Ledger::create(folder, "School", school_key());
-    Ledger ledger(folder, school_key());
-    ledger.append("ticket", [](const LedgerContent&) { return without_grant(small_ticket()); });
+    ledger::Ledger::create(folder, "School", school_key());
+    ledger::Ledger ledger(folder, school_key());
+    ledger.append("ticket", [](const ledger::LedgerContent&) { return ledger::without_grant(small_ticket()); });
     return ledger.content();
   }();
   return k_content;

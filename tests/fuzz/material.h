@@ -22,7 +22,7 @@ void read_all_ticks(const SessionReader& session);
 [[nodiscard]] const SigningKey& station_key();
 /// The school that issued the ticket, and what its ledger holds.
 [[nodiscard]] const SigningKey& school_key();
-[[nodiscard]] const LedgerContent& school_ledger();
+[[nodiscard]] const ledger::LedgerContent& school_ledger();
 [[nodiscard]] const std::string& small_ticket();
 /// A result as grading writes it, with two criteria.
 [[nodiscard]] std::string small_result();

@@ -11,25 +11,25 @@
 namespace cavum::fuzz {
 namespace {
 
-const std::vector<NoteKey>& known_cosigners() {
-  static const std::vector<NoteKey> k_known{{"cosigner.example", NoteKind::cosignature, station_key().public_key}};
+const std::vector<ledger::NoteKey>& known_cosigners() {
+  static const std::vector<ledger::NoteKey> k_known{{"cosigner.example", ledger::NoteKind::cosignature, station_key().public_key}};
   return k_known;
 }
 
-Cosigner cosigner() { return {"cosigner.example", station_key(), work_folder() + "/cosigned", to_hex(school_key().public_key)}; }
+ledger::Cosigner cosigner() { return {"cosigner.example", station_key(), work_folder() + "/cosigned", to_hex(school_key().public_key)}; }
 
 /// The text of a note with the school's own signature under it, whatever it says.
 std::string signed_by_school(const std::string& request) {
   const auto gap = request.find("\n\n"), end = request.find("\n\n", gap == std::string::npos ? gap : gap + 2);
   if (gap == std::string::npos || end == std::string::npos) return request;
   const std::string text = request.substr(gap + 2, end + 1 - gap - 2);
-  return request.substr(0, gap + 2) + write_note({text, {sign_note(text, ledger_origin(school_ledger().id), school_key())}});
+  return request.substr(0, gap + 2) + ledger::write_note({text, {ledger::sign_note(text, ledger::ledger_origin(school_ledger().id), school_key())}});
 }
 
 void try_to_cosign(const std::string& request) {
-  const Cosigned made = cosign(cosigner(), request, "request", 1'800'000'000);
+  const ledger::Cosigned made = ledger::cosign(cosigner(), request, "request", 1'800'000'000);
   // what was signed has the school's signature, and is taken by whoever knows the cosigner
-  if (made.findings.empty() && check_cosigned(made.note, known_cosigners(), school_ledger()).cosignatures.empty()) std::abort();
+  if (made.findings.empty() && ledger::check_cosigned(made.note, known_cosigners(), school_ledger()).cosignatures.empty()) std::abort();
 }
 
 }  // namespace
@@ -40,20 +40,20 @@ void fuzz_notes(Data data) {
   try {
     switch (data[0] % 6) {
       case 0: {
-        const SignedNote note = parse_note(text, "note");
-        if (write_note(parse_note(write_note(note), "note")) != write_note(note)) std::abort();
-        static_cast<void>(check_note(note, checkpoint_key(school_ledger().id, school)));
-        for (const auto& line : note.signatures) static_cast<void>(cosigned_at(line));
+        const ledger::SignedNote note = ledger::parse_note(text, "note");
+        if (ledger::write_note(ledger::parse_note(ledger::write_note(note), "note")) != ledger::write_note(note)) std::abort();
+        static_cast<void>(ledger::check_note(note, ledger::checkpoint_key(school_ledger().id, school)));
+        for (const auto& line : note.signatures) static_cast<void>(ledger::cosigned_at(line));
         break;
       }
       case 1:
-        static_cast<void>(key_line(parse_key_line(text, "key")));
+        static_cast<void>(ledger::key_line(ledger::parse_key_line(text, "key")));
         break;
       case 2:
-        static_cast<void>(signature_line(parse_signature_line(text, "line")));
+        static_cast<void>(ledger::signature_line(ledger::parse_signature_line(text, "line")));
         break;
       case 3:
-        static_cast<void>(check_cosigned(text, known_cosigners(), school_ledger()));
+        static_cast<void>(ledger::check_cosigned(text, known_cosigners(), school_ledger()));
         break;
       case 4:
         try_to_cosign(text);
@@ -66,20 +66,20 @@ void fuzz_notes(Data data) {
 }
 
 std::vector<Bytes> notes_seeds() {
-  const LedgerContent& ledger = school_ledger();
+  const ledger::LedgerContent& ledger = school_ledger();
   const auto with = [](char kind, const std::string& text) { return bytes_of(kind + text); };
-  const std::string note = checkpoint_note(ledger.id, ledger.public_key, ledger.checkpoints.back());
-  const std::string text = checkpoint_text(ledger.id, ledger.checkpoints.back());
-  SignedNote cosigned = parse_note(note, "note");
-  cosigned.signatures.push_back(cosign_note(text, "cosigner.example", station_key(), 1'800'000'000));
+  const std::string note = ledger::checkpoint_note(ledger.id, ledger.public_key, ledger.checkpoints.back());
+  const std::string text = ledger::checkpoint_text(ledger.id, ledger.checkpoints.back());
+  ledger::SignedNote cosigned = ledger::parse_note(note, "note");
+  cosigned.signatures.push_back(ledger::cosign_note(text, "cosigner.example", station_key(), 1'800'000'000));
   std::vector<Bytes> seeds{with(0, note),
-                           with(0, write_note(cosigned)),
-                           with(1, key_line(known_cosigners()[0])),
-                           with(1, key_line(checkpoint_key(ledger.id, ledger.public_key))),
-                           with(2, signature_line(cosigned.signatures[1])),
-                           with(3, write_note(cosigned))};
+                           with(0, ledger::write_note(cosigned)),
+                           with(1, ledger::key_line(known_cosigners()[0])),
+                           with(1, ledger::key_line(ledger::checkpoint_key(ledger.id, ledger.public_key))),
+                           with(2, ledger::signature_line(cosigned.signatures[1])),
+                           with(3, ledger::write_note(cosigned))};
   for (const char kind : {char{4}, char{5}})
-    for (const std::uint64_t since : {std::uint64_t{0}, std::uint64_t{1}}) seeds.push_back(with(kind, cosign_request(ledger, since)));
+    for (const std::uint64_t since : {std::uint64_t{0}, std::uint64_t{1}}) seeds.push_back(with(kind, ledger::cosign_request(ledger, since)));
   return seeds;
 }
 

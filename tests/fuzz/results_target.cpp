@@ -9,8 +9,8 @@ namespace cavum::fuzz {
 
 void fuzz_results(Data data) {
   const std::string text = text_of(data), school = to_hex(school_key().public_key);
-  for (const LedgerContent* ledger : {static_cast<const LedgerContent*>(nullptr), &school_ledger()})
-    static_cast<void>(check_results(text, school, ledger));
+  for (const ledger::LedgerContent* ledger : {static_cast<const ledger::LedgerContent*>(nullptr), &school_ledger()})
+    static_cast<void>(ledger::check_results(text, school, ledger));
   auto facts = parse_json_or_null(text);
   if (!facts.is_object()) return;
   facts.erase("signature");
@@ -18,17 +18,17 @@ void fuzz_results(Data data) {
   try {
     const std::string signed_text = "CVRESULT" + facts.dump();
     facts["signature"] = to_hex(school_key().sign(bytes_of(signed_text)));
-    static_cast<void>(check_results(facts.dump(), school, &school_ledger()));
+    static_cast<void>(ledger::check_results(facts.dump(), school, &school_ledger()));
   } catch (const nlohmann::json::exception&) {  // our own writing of a text that is no UTF-8
   }
 }
 
 std::vector<Bytes> results_seeds() {
   static_cast<void>(school_ledger());
-  const Ledger ledger(work_folder() + "/ledger", school_key());
-  Registry registry = read_registry(ledger.content());
-  const std::string none = signed_results(registry, ledger);
-  FiledSession s;
+  const ledger::Ledger ledger(work_folder() + "/ledger", school_key());
+  ledger::Registry registry = ledger::read_registry(ledger.content());
+  const std::string none = ledger::signed_results(registry, ledger);
+  ledger::FiledSession s;
   s.seq = s.result_seq = 1;
   s.candidate = "C-7K3M-92PQ-XD4V";
   s.file_sha256 = s.chain_sha256 = std::string(64, 'a');
@@ -36,7 +36,7 @@ std::vector<Bytes> results_seeds() {
   s.released = true;
   s.findings = {"a finding"};
   registry.sessions.push_back(s);
-  return {bytes_of(none), bytes_of(signed_results(registry, ledger))};
+  return {bytes_of(none), bytes_of(ledger::signed_results(registry, ledger))};
 }
 
 }  // namespace cavum::fuzz

@@ -11,14 +11,14 @@ namespace cavum::fuzz {
 void fuzz_scenario(Data data) {
   const std::string text = text_of(data);
   const Tooth tooth;
-  for (const Reading reading : {Reading::to_be_run, Reading::recorded}) {
-    const ReadScenario read = read_scenario(text, "scenario.toml", reading);
+  for (const scenarios::Reading reading : {scenarios::Reading::to_be_run, scenarios::Reading::recorded}) {
+    const scenarios::ReadScenario read = scenarios::read_scenario(text, "scenario.toml", reading);
     for (const auto& problem : read.problems) static_cast<void>(problem.text());
-    static_cast<void>(missing_tissues(read.scenario, tooth));
+    static_cast<void>(scenarios::missing_tissues(read.scenario, tooth));
     if (!read.problems.empty() && read.scenario.places.empty()) break;  // no TOML
   }
   try {
-    static_cast<void>(parse_rubric(text, "rubric.toml"));
+    static_cast<void>(scenarios::parse_rubric(text, "rubric.toml"));
   } catch (const Error&) {
   }
 }

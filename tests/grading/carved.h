@@ -13,9 +13,9 @@
 namespace cavum::testing {
 
 struct Carved {
-  Scenario scenario;
+  scenarios::Scenario scenario;
   Tooth before;
-  ZoneMap zones;
+  scenarios::ZoneMap zones;
   Octree after;
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
@@ -23,11 +23,14 @@ struct Carved {
   std::vector<SessionEvent> events;
 
   Carved(const std::string& scenario_toml, Tooth tooth)
-      : scenario(parse_scenario(scenario_toml, "s.toml")), before(std::move(tooth)), zones(build_zones(scenario, before)), after(before.octree) {
+      : scenario(scenarios::parse_scenario(scenario_toml, "s.toml")),
+        before(std::move(tooth)),
+        zones(scenarios::build_zones(scenario, before)),
+        after(before.octree) {
     after.reserve_edits(60000);
   }
-  [[nodiscard]] GradeInput input() const { return {scenario, before, zones, after, inputs, records, removed, events}; }
-  [[nodiscard]] Result graded() const { return grade(input(), scenario.rubric); }
+  [[nodiscard]] grading::GradeInput input() const { return {scenario, before, zones, after, inputs, records, removed, events}; }
+  [[nodiscard]] grading::Result graded() const { return grading::grade(input(), scenario.rubric); }
 
   /// Removes a shape (signed distance, mm) in the given tick.
   template <class Shape>

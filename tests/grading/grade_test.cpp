@@ -11,7 +11,7 @@
 #include "scenarios/file/measures.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::box_hole;
@@ -29,8 +29,8 @@ const char k_box_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
-const BoundedVolume& zone_volume(const Result& r, Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
-const WallMeasures& wall(const Result& r, Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
+const BoundedVolume& zone_volume(const Result& r, scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
+const WallMeasures& wall(const Result& r, scenarios::Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
 
 TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 4, 0.05));
@@ -48,9 +48,9 @@ TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);  // every removed leaf lies in exactly one zone
   // the ring of the leeway beside the target: 1.5 to 1.7 mm, down to the floor and the corner of its bottom
   const double ring = std::numbers::pi * (1.7 * 1.7 - 1.5 * 1.5) * 2;
-  EXPECT_NEAR(zone_volume(r, Zone::leeway_sides).mm3, ring, 0.12 * ring);
+  EXPECT_NEAR(zone_volume(r, scenarios::Zone::leeway_sides).mm3, ring, 0.12 * ring);
   const double under = std::numbers::pi * 2.25 * 0.3;
-  EXPECT_NEAR(zone_volume(r, Zone::leeway_bottom).mm3, under, 0.2 * under);
+  EXPECT_NEAR(zone_volume(r, scenarios::Zone::leeway_bottom).mm3, under, 0.2 * under);
 }
 
 TEST(Grade, WallDistancesAreThoseOfTheShapesWithinTheBound) {
@@ -58,11 +58,11 @@ TEST(Grade, WallDistancesAreThoseOfTheShapesWithinTheBound) {
   // mesial 0.30 over, distal 0.12 under, buccal 0.07 over, lingual exact, floor 0.22 over
   c.carve(box_hole(-1.38, 1.80, -1.0, 1.07, -2.22), 0);
   const Result r = c.graded();
-  EXPECT_NEAR(wall(r, Wall::mesial).p95_mm, 0.30, r.shape.bound_mm);
-  EXPECT_NEAR(wall(r, Wall::distal).max_under_mm, 0.12, r.shape.bound_mm);
-  EXPECT_NEAR(wall(r, Wall::buccal).mean_mm, 0.07, r.shape.bound_mm);
-  EXPECT_NEAR(wall(r, Wall::lingual).mean_mm, 0.0, r.shape.bound_mm);
-  EXPECT_NEAR(wall(r, Wall::floor).mean_mm, 0.22, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, scenarios::Wall::mesial).p95_mm, 0.30, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, scenarios::Wall::distal).max_under_mm, 0.12, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, scenarios::Wall::buccal).mean_mm, 0.07, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, scenarios::Wall::lingual).mean_mm, 0.0, r.shape.bound_mm);
+  EXPECT_NEAR(wall(r, scenarios::Wall::floor).mean_mm, 0.22, r.shape.bound_mm);
   EXPECT_NEAR(*r.shape.length_mm, 3.18, r.shape.bound_mm);
   EXPECT_NEAR(*r.shape.width_mm, 2.07, r.shape.bound_mm);
   EXPECT_NEAR(*r.shape.depth_mm, 2.22, r.shape.bound_mm);
@@ -76,7 +76,7 @@ TEST(Grade, SurfaceIsFoundBetweenLeaves) {
   for (const double radius : {1.500, 1.510, 1.520, 1.530, 1.540}) {
     Carved c(scenario_text(round_target(1.5, 2)), dentin_block(3, 3, 0.05));
     c.carve(round_hole(0, 0, radius, -2), 0);
-    const double mean = wall(c.graded(), Wall::mesial).mean_mm;
+    const double mean = wall(c.graded(), scenarios::Wall::mesial).mean_mm;
     EXPECT_NEAR(mean, radius - 1.5, 0.02) << radius;
     EXPECT_GT(mean, before) << radius;
     before = mean;
@@ -106,7 +106,7 @@ TEST(Grade, NamesTheWallAndTheTickWhereTheLossBegan) {
   EXPECT_EQ(sides.first.tick, 2345);
   EXPECT_NE(sides.reason.find("mesial wall"), std::string::npos) << sides.reason;
   EXPECT_NE(sides.reason.find("tick 2345"), std::string::npos) << sides.reason;
-  EXPECT_EQ(wall(r, Wall::mesial).worst_over.tick, 2345);
+  EXPECT_EQ(wall(r, scenarios::Wall::mesial).worst_over.tick, 2345);
   EXPECT_EQ(r.criteria.at(0).reason, "full marks");
 }
 
@@ -126,7 +126,7 @@ TEST(Grade, ResultIsTheSameTwice) {
 
 TEST(Grade, PointsRunLinearlyFromFullToZero) {
   Result r;
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}};
   for (const auto& [time, points] : {std::pair{50.0, 10.0}, {100.0, 10.0}, {150.0, 7.5}, {200.0, 5.0}, {300.0, 0.0}, {400.0, 0.0}}) {
     r.motion.time_s = time;
@@ -138,7 +138,7 @@ TEST(Grade, PointsRunLinearlyFromFullToZero) {
 TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
   Result r;
   r.motion.time_s = 200;
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}, {"f", "f", "force_peak_n", 0, 1, 10, {}, {}}};
   const auto verdict = [&](double pass, double band, bool compensatory) {
     rubric.pass_percent = pass;
@@ -157,7 +157,7 @@ TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
 }
 
 TEST(Verdict, SaysWhatItsOwnBoundsLeaveOpen) {
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.pass_percent = 60;
   rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}};
   const auto said = [&](double time_s, double bound_s) {
@@ -177,7 +177,7 @@ TEST(Verdict, SaysWhatItsOwnBoundsLeaveOpen) {
 }
 
 TEST(Verdict, AFailByACriticalCriterionDoesNotNameTheSumAsItsReason) {
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.pass_percent = 40;
   rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, 150.0, {}}};
   Result r;
@@ -196,12 +196,12 @@ Result with_perforation(bool force, bool tissue) {
   if (force) r.perforation.events.emplace_back().fault = true;
   return r;
 }
-const CriterionSpec k_half_time{"t", "t", "time_s", 100, 300, 10, {}, {}};
-const CriterionSpec k_critical_time{"t", "t", "time_s", 100, 300, 10, 150.0, {}};
-const CriterionSpec k_critical_perforation{"p", "p", "perforated", 0, 1, 10, 0.5, {}};
+const scenarios::CriterionSpec k_half_time{"t", "t", "time_s", 100, 300, 10, {}, {}};
+const scenarios::CriterionSpec k_critical_time{"t", "t", "time_s", 100, 300, 10, 150.0, {}};
+const scenarios::CriterionSpec k_critical_perforation{"p", "p", "perforated", 0, 1, 10, 0.5, {}};
 
 TEST(Verdict, ForceAgainstTissueGoesToReviewWhereItMatters) {
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.criteria = {k_half_time};
   rubric.pass_percent = 40;
   const auto verdict = [&](bool force, bool tissue) {
@@ -220,7 +220,7 @@ TEST(Verdict, ForceAgainstTissueGoesToReviewWhereItMatters) {
 }
 
 TEST(Verdict, ACriticalPerforationIsReviewedInDoubtAndFailsWhenForceAndTissueAgree) {
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.criteria = {k_half_time, k_critical_perforation};
   rubric.pass_percent = 10;
   Result r = with_perforation(true, true);
@@ -239,7 +239,7 @@ TEST(Verdict, ACriticalPerforationIsReviewedInDoubtAndFailsWhenForceAndTissueAgr
 }
 
 TEST(Verdict, AnotherCriticalFailureFailsWhateverForceAndTissueSay) {
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.criteria = {k_critical_time, k_critical_perforation};
   rubric.pass_percent = 10;
   for (const bool force : {false, true})
@@ -298,13 +298,13 @@ TEST(Grade, AFigureOfSeveralWallsIsSaidOfTheWallThatHasIt) {
   c.carve(box_hole(-1.7, -1.5, -0.1, 0.1, -0.2), 300);  // the distal one is hardly cut
   const Result r = c.graded();
   const auto& walls_result = r.criteria.back();
-  EXPECT_GT(wall(r, Wall::buccal).max_over_mm, 0.75);
+  EXPECT_GT(wall(r, scenarios::Wall::buccal).max_over_mm, 0.75);
   EXPECT_NEAR(*walls_result.value, 0.5, 0.05);
   EXPECT_NE(walls_result.reason.find("the mesial wall"), std::string::npos) << walls_result.reason;
   EXPECT_EQ(walls_result.first.tick, 100);
   // and its bound is what the walls together leave open, not the widest of them
   double low = -1e9, high = -1e9;
-  for (const Wall w : {Wall::mesial, Wall::distal, Wall::buccal, Wall::lingual}) {
+  for (const scenarios::Wall w : {scenarios::Wall::mesial, scenarios::Wall::distal, scenarios::Wall::buccal, scenarios::Wall::lingual}) {
     low = std::max(low, wall(r, w).p95_mm - wall(r, w).p95_bound_mm);
     high = std::max(high, wall(r, w).p95_mm + wall(r, w).p95_bound_mm);
   }
@@ -326,7 +326,7 @@ TEST(Grade, AnErrorOfTheOutlineIsSaidEndByEnd) {
 
 TEST(Grade, SmallFiguresHaveTheDigitsThatTellThemFromFullMarks) {
   Result r;
-  RubricSpec rubric;
+  scenarios::RubricSpec rubric;
   rubric.criteria = {{"t", "t", "time_s", 0.001, 0.003, 10, {}, {}}};
   r.motion.time_s = 0.0012;
   mark(r, rubric);
@@ -439,7 +439,7 @@ TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
   Carved c(scenario_text(guard + "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 1]\n"), chambered_block(0.1));
   c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -4), 1);  // the container ends at -1.2; the pulp's roof lies at -3
   const Result r = c.graded();
-  EXPECT_NEAR(zone_volume(r, Zone::protected_).mm3, 1, 0.05);
+  EXPECT_NEAR(zone_volume(r, scenarios::Zone::protected_).mm3, 1, 0.05);
   EXPECT_NEAR(*metric_value(r, "protected_mm3").value, 1, 0.05);
   EXPECT_NEAR(r.volumes.tissue[k_pulp].mm3, 1, 0.05);
   double sum = 0;
@@ -449,10 +449,11 @@ TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
   EXPECT_NEAR(*metric_value(r, "outside_mm3").value, 4 - 1.2, 0.05);
   EXPECT_NEAR(to_json(r)["volumes"]["outside_mm3"].get<double>(), 4 - 1.2, 0.05);
   double others = 0;
-  for (const Zone z : {Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom})
+  for (const scenarios::Zone z : {scenarios::Zone::target, scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom,
+                                  scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
     others += zone_volume(r, z).mm3;
   EXPECT_NEAR(*metric_value(r, "outside_mm3").value, r.volumes.removed.mm3 - others, 1e-9);
-  EXPECT_EQ(r.volumes.zone[static_cast<std::size_t>(Zone::protected_)].first.tick, 1);
+  EXPECT_EQ(r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::protected_)].first.tick, 1);
 }
 
 TEST(Grade, JsonHoldsEveryPromisedNameEvenForAnUntouchedTooth) {
@@ -503,9 +504,9 @@ TEST(Grade, EveryNamedMetricCanBeComputed) {
   Carved c(scenario_text(k_box_target), chambered_block(0.1));
   c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -3.2), 1);
   const Result r = c.graded();
-  for (const auto& m : measures()) EXPECT_NO_THROW(static_cast<void>(metric_value(r, m.name))) << m.name;
+  for (const auto& m : scenarios::measures()) EXPECT_NO_THROW(static_cast<void>(metric_value(r, m.name))) << m.name;
   EXPECT_THROW(static_cast<void>(metric_value(r, "nonsense")), Error);
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -13,7 +13,7 @@
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::Carved;
@@ -110,8 +110,8 @@ std::vector<Figure> turnable(const Result& r) {
                            {"percent", r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent},
                            {"depth", r.shape.depth_mm.value_or(-1), r.shape.bound_mm},
                            {"pulp", r.volumes.tissue[k_pulp].mm3, r.volumes.tissue[k_pulp].bound_mm3 + k_grazed_mm3}};
-  for (std::size_t z = 0; z < k_zones; ++z)
-    list.push_back({zone_name(static_cast<Zone>(z)), r.volumes.zone[z].removed.mm3, r.volumes.zone[z].removed.bound_mm3, 1.0});
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z)
+    list.push_back({scenarios::zone_name(static_cast<scenarios::Zone>(z)), r.volumes.zone[z].removed.mm3, r.volumes.zone[z].removed.bound_mm3, 1.0});
   double over = 0, under = 0;
   for (const auto& w : r.shape.wall) {
     over = std::max(over, w.max_over_mm);
@@ -141,7 +141,7 @@ TEST(Invariant, TurningAndMirroringToothAndScenarioTogetherChangesNothing) {
     const auto balls = random_balls(random, 8);
     const Result first = graded_after({}, balls, 0.1);
     // quarter turns: walls change places, no figure its value (rounding apart)
-    const std::array<Wall, 4> around{Wall::mesial, Wall::buccal, Wall::distal, Wall::lingual};
+    const std::array<scenarios::Wall, 4> around{scenarios::Wall::mesial, scenarios::Wall::buccal, scenarios::Wall::distal, scenarios::Wall::lingual};
     for (int quarter = 0; quarter < 4; ++quarter)
       for (const bool mirrored : {false, true}) {
         const std::array<double, 4> cosine{1, 0, -1, 0}, sine{0, 1, 0, -1};
@@ -192,7 +192,7 @@ TEST(Invariant, CuttingMoreOfTheTargetNeverLowersItsCriteria) {
     constexpr double k_rounding = 1e-9;  // of sums in another order
     constexpr double k_sliver = 1e-4;    // points: a cut that ends on the target's border takes slivers of leaves beyond it, and Dice counts them
     for (const auto& b : random_balls(random, 10)) {
-      const ZoneMap& zones = c.zones;  // only inside the target, and all the deeper the better
+      const scenarios::ZoneMap& zones = c.zones;  // only inside the target, and all the deeper the better
       c.carve([&](Vec3 p) { return std::max(length(p - b.at) - b.radius, zones.distance_mm(p)); }, tick++);
       const Result r = c.graded();
       EXPECT_GE(r.volumes.target_removed_percent, percent - k_rounding) << "seed " << seed << " round " << round;
@@ -214,7 +214,7 @@ TEST(Invariant, CuttingOutsideTheTargetRaisesNoCriterion) {
   Random random(seed);
   for (int round = 0; round < 8; ++round) {
     Carved c = moved_scene({}, 0.1);
-    const ZoneMap& zones = c.zones;
+    const scenarios::ZoneMap& zones = c.zones;
     std::int64_t tick = 0;
     for (const auto& b : random_balls(random, static_cast<int>(random.below(8))))
       c.carve([&](Vec3 p) { return length(p - b.at) - b.radius; }, tick++);
@@ -235,4 +235,4 @@ TEST(Invariant, CuttingOutsideTheTargetRaisesNoCriterion) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

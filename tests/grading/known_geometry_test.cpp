@@ -12,7 +12,7 @@
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::Carved;
@@ -199,10 +199,10 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
   };
   volume("target", r.volumes.target, k.target_mm3, k.target_mm3);
   volume("removed", r.volumes.removed, k.removed_mm3, k.removed_mm3);
-  volume("target removed", r.volumes.zone[static_cast<std::size_t>(Zone::target)].removed, k.target_mm3, k.target_mm3);
+  volume("target removed", r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed, k.target_mm3, k.target_mm3);
   BoundedVolume beyond;  // the zones beyond the target, which are thin: against what was removed
-  for (std::size_t z = 0; z < k_zones; ++z) {
-    if (z == static_cast<std::size_t>(Zone::target)) continue;
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z) {
+    if (z == static_cast<std::size_t>(scenarios::Zone::target)) continue;
     beyond.mm3 += r.volumes.zone[z].removed.mm3;
     beyond.bound_mm3 += r.volumes.zone[z].removed.bound_mm3;
   }
@@ -215,11 +215,11 @@ void compare(const Known& k, Worst& worst, const std::string& where) {
     EXPECT_NEAR(found, truth, std::min(k_leaf, r.shape.bound_mm)) << name;
   };
   double furthest = 0;
-  for (std::size_t w = 0; w < k_walls; ++w) {
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    ASSERT_GT(m.samples, 0u) << wall_name(static_cast<Wall>(w));
-    const bool floor = w == static_cast<std::size_t>(Wall::floor);
-    distance(worst.wall_mm, wall_name(static_cast<Wall>(w)), m.mean_mm, floor ? k.floor_mm : k.sides_mm);
+    ASSERT_GT(m.samples, 0u) << scenarios::wall_name(static_cast<scenarios::Wall>(w));
+    const bool floor = w == static_cast<std::size_t>(scenarios::Wall::floor);
+    distance(worst.wall_mm, scenarios::wall_name(static_cast<scenarios::Wall>(w)), m.mean_mm, floor ? k.floor_mm : k.sides_mm);
     EXPECT_NEAR(m.mean_mm, floor ? k.floor_mm : k.sides_mm, m.mean_bound_mm);
     furthest = std::max(furthest, m.max_over_mm);
     EXPECT_LE(m.max_under_mm, r.shape.bound_mm);
@@ -266,4 +266,4 @@ TEST(KnownGeometry, BallAtRandomPoses) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

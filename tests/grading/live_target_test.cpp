@@ -8,7 +8,7 @@
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::Carved;
@@ -24,8 +24,8 @@ struct Live {
       if (runner.names()[i] == "target_removed_percent") return runner.values()[i];
     return -1;
   }
-  Runner runner;
-  RunnerState state;
+  scenarios::Runner runner;
+  scenarios::RunnerState state;
   std::size_t fed = 0;
 };
 
@@ -74,4 +74,4 @@ TEST(LiveTarget, CountsOfALeafOnTheBorderWhatLiesInTheTarget) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
       const auto report = cavum::verify_session(argv[i]);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const cavum::SessionReader reader(argv[i]);
-      const auto session = cavum::load_for_grading(argv[i]);
-      const std::string result = cavum::to_json(cavum::grade(session->input(), session->rubric)).dump();
+      const auto session = cavum::grading::load_for_grading(argv[i]);
+      const std::string result = cavum::grading::to_json(cavum::grading::grade(session->input(), session->rubric)).dump();
       const bool same = result == reader.result_json();
       std::printf("%s %s ticks %lld state %016llx result %s%s\n", argv[i], report.verified ? "verified" : "NOT VERIFIED",
                   static_cast<long long>(report.ticks), static_cast<unsigned long long>(reader.chunks().back().state_hash),

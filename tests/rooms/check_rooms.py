@@ -1,14 +1,23 @@
 """Usage: check_rooms.py ROOMS SOURCE_DIR. ROOMS has a line for each room: name|folder|rooms below|sources.
 
 Prints what is wrong and exits with 1: a source that includes a header of a room that is not below its own; a room that is above itself; a source that no
-room compiles; a header or source in a folder that is no room; a header that is not there; headers that include each other in a circle.
+room compiles; a header or source in a folder that is no room; a header that is not there; a namespace that is not the folder's; headers that include each
+other in a circle.
 """
 import re
 import sys
 from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+NAMESPACE = re.compile(r"^namespace(?: ([\w:]+))? \{$|^\}  // namespace", re.MULTILINE)
+# another room's types, named ahead
+FORWARD = re.compile(r"^namespace [\w:]+ \{\n((class|struct) \w+;\n)+\}(  // namespace [\w:]+)?$", re.MULTILINE)
 TOPS = ("engine", "scenarios", "grading", "ui")
+# what stands in a folder and below it, unless a folder further down says otherwise
+NAMESPACES = {
+    "engine": "cavum", "engine/explain": "cavum::explain", "scenarios": "cavum::scenarios", "grading": "cavum::grading", "grading/ledger": "cavum::ledger",
+    "grading/cohort": "cavum::cohort", "ui": "cavum::ui", "ui/report": "cavum::report", "ui/station": "cavum::station",
+}
 PROGRAMS = {"ui/verbs/main.cpp", "engine/tooth/volume/itk/cavum_read_volume.cpp"}
 # rooms that some builds leave out; their sources are then nobody's
 OPTIONAL = {"engine/tooth/volume", "engine/tooth/volume/itk", "engine/tooth/import"}
@@ -48,6 +57,31 @@ def circles(includes):
     return sorted(out)
 
 
+def namespace_of(folder):
+    while folder not in NAMESPACES:
+        folder = str(Path(folder).parent)
+    return NAMESPACES[folder]
+
+
+def outermost_namespaces(text):
+    opened, inside = set(), []
+    for found in NAMESPACE.finditer(FORWARD.sub("", text)):
+        if found[0].startswith("}"):
+            inside = inside[:-1]
+            continue
+        if found[1] and not any(inside):
+            opened.add(found[1])
+        inside.append(found[1])
+    return opened
+
+
+def wrong_namespaces(file, folder, text):
+    right, opened = namespace_of(folder), outermost_namespaces(text)
+    if not opened and file not in PROGRAMS:
+        return [f"{file}: opens no namespace {right}"]
+    return [f"{file}: opens namespace {name}; this folder's is {right}" for name in sorted(opened - {right})]
+
+
 def problems(rooms, root):
     out = []
     root = Path(root)
@@ -67,7 +101,9 @@ def problems(rooms, root):
             if path.suffix == ".cpp" and file not in compiled:
                 out.append(f"{file}: no room compiles it")
             allowed = all_below(rooms, room_of[folder], {room_of[folder]})
-            includes[file] = INCLUDE.findall(path.read_text(errors="replace"))
+            text = path.read_text(errors="replace")
+            out += wrong_namespaces(file, folder, text)
+            includes[file] = INCLUDE.findall(text)
             for included in includes[file]:
                 if not (root / included).is_file():
                     out.append(f"{file}: includes {included}, which is not there")

@@ -3,7 +3,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from check_rooms import problems, read_rooms
+from check_rooms import namespace_of, problems, read_rooms
 
 
 class CheckRooms(unittest.TestCase):
@@ -20,8 +20,8 @@ class CheckRooms(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def write(self, path, text):
-        (self.root / path).write_text(text)
+    def write(self, path, text, namespace="cavum"):
+        (self.root / path).write_text(f"{text}\nnamespace {namespace} {{\n\nint one();\n\n}}  // namespace {namespace}\n")
 
     def found(self):
         rows = [
@@ -60,6 +60,28 @@ class CheckRooms(unittest.TestCase):
         self.write("engine/low/b.h", '#include "engine/low/c.h"\n')
         self.write("engine/low/c.h", '#include "engine/low/a.h"\n')
         self.assertEqual(self.found(), ["engine/low/a.h includes engine/low/b.h includes engine/low/c.h includes engine/low/a.h"])
+
+    def test_a_namespace_of_another_room(self):
+        self.write("engine/high/b.cpp", "", "cavum::ledger")
+        self.assertEqual(self.found(), ["engine/high/b.cpp: opens namespace cavum::ledger; this folder's is cavum"])
+
+    def test_a_second_namespace_beside_the_right_one(self):
+        self.write("engine/high/b.cpp", "namespace cavum::ui {\nstruct Two {\n  int two;\n};\n}  // namespace cavum::ui\n")
+        self.assertEqual(self.found(), ["engine/high/b.cpp: opens namespace cavum::ui; this folder's is cavum"])
+
+    def test_a_source_without_a_namespace(self):
+        (self.root / "engine/high/b.cpp").write_text("int one();\n")
+        self.assertEqual(self.found(), ["engine/high/b.cpp: opens no namespace cavum"])
+
+    def test_another_rooms_type_may_be_named_ahead(self):
+        self.write("engine/high/b.cpp", "namespace cavum::explain {\nclass Recording;\nstruct Layer;\n}  // namespace cavum::explain\n")
+        self.assertEqual(self.found(), [])
+
+    def test_a_folder_has_the_namespace_of_the_nearest_room_that_names_one(self):
+        self.assertEqual(namespace_of("engine/tooth/mesh"), "cavum")
+        self.assertEqual(namespace_of("grading/measures"), "cavum::grading")
+        self.assertEqual(namespace_of("grading/ledger"), "cavum::ledger")
+        self.assertEqual(namespace_of("ui/report/print"), "cavum::report")
 
 
 if __name__ == "__main__":

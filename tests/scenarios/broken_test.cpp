@@ -10,7 +10,7 @@
 #include "engine/base/file.h"
 #include "scenarios/review/check.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,4 +61,4 @@ TEST(BrokenScenarios, AreAtLeastFortyAndNoGoldenFileIsLeftOver) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

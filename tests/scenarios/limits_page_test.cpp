@@ -16,7 +16,7 @@
 #include "scenarios/zones/zone_work.h"
 #include "tests/engine/support/basics.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// Number of each row, by the name in its third column.
@@ -81,4 +81,4 @@ TEST(MeshLimits, TooManyTrianglesAtOneCornerAreRefusedWithTheLimitNamed) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -25,11 +25,13 @@ constexpr std::int64_t k_s_ns = 1'000'000'000, k_hour_ns = 3600 * k_s_ns;
 constexpr std::int64_t k_patience_ns = 300 * k_s_ns, k_margin_ns = 60 * k_s_ns;
 const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
 
-Ledger open_ledger(LedgerUse use = LedgerUse::add) { return Ledger(k_ledger, load_school_key(school_key_path()), use); }
+ledger::Ledger open_ledger(ledger::LedgerUse use = ledger::LedgerUse::add) {
+  return ledger::Ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()), use);
+}
 
 /// The tooth and its zones, made once: days differ in other things.
-ExamGrounds& grounds() {
-  static ExamGrounds shared;
+grading::ExamGrounds& grounds() {
+  static grading::ExamGrounds shared;
   return shared;
 }
 
@@ -177,19 +179,19 @@ void SchoolDay::perform(Task task) {
 }
 
 /// Called before anything else can happen: between a function's return and this there is no call to the system.
-void SchoolDay::entered(const Ledger& ledger, std::uint64_t seq) {
+void SchoolDay::entered(const ledger::Ledger& ledger, std::uint64_t seq) {
   entries_.push_back({seq, ledger.content().entries.at(seq).text, world_.utc_ns(), ledger.receipt(seq)});
 }
 
 void SchoolDay::issue_ticket() {
-  Ledger ledger = open_ledger();
-  Identities identities(ledger.places().identities());
+  ledger::Ledger ledger = open_ledger();
+  ledger::Identities identities(ledger.places().identities());
   const std::string id = "student-" + std::to_string(world_.random().below(6));  // two people may well enrol one student
   const std::string pseudonym = identities.enrol(id, "Name", morning_.promise.exam, ledger.key());
   known_[id] = pseudonym;
   try {
-    static_cast<void>(issue(ledger, morning_.promise, pseudonym));
-  } catch (const TicketIsLive&) {
+    static_cast<void>(ledger::issue(ledger, morning_.promise, pseudonym));
+  } catch (const ledger::TicketIsLive&) {
     ++counts_["second live ticket refused"];
     return;
   }
@@ -197,15 +199,15 @@ void SchoolDay::issue_ticket() {
 }
 
 void SchoolDay::enrol_station() {
-  Ledger ledger = open_ledger();
+  ledger::Ledger ledger = open_ledger();
   const int changes = world_.process().computer->clock_changes;
-  const std::string code = invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
+  const std::string code = ledger::invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
   entered(ledger, ledger.content().entries.size() - 1);
   // the station's own computer is not here: its key is
-  const SigningKey key = load_signing_key("/sim/office/tmp/station-" + random_hex(8), "station");
-  const std::string request = station_request(key, ledger.content().public_key, {}, code);
+  const SigningKey key = load_signing_key("/sim/office/tmp/station-" + ledger::random_hex(8), "station");
+  const std::string request = ledger::station_request(key, ledger.content().public_key, {}, code);
   try {
-    const LedgerEntry& e = cavum::enrol_station(ledger, request, 0, "request");
+    const ledger::LedgerEntry& e = ledger::enrol_station(ledger, request, 0, "request");
     entered(ledger, e.seq);
   } catch (const Error& e) {
     if (changes == world_.process().computer->clock_changes || std::string(e.what()).find("ran out") == std::string::npos) throw;
@@ -220,8 +222,8 @@ void SchoolDay::file_exam() {
   Computer& office = *world_.process().computer;
   const int changes = office.clock_changes;
   const std::int64_t before_utc_ns = world_.utc_ns();
-  Ledger ledger = open_ledger();
-  const Filing filing = file_session(ledger, exam.path, {}, grounds());
+  ledger::Ledger ledger = open_ledger();
+  const ledger::Filing filing = ledger::file_session(ledger, exam.path, {}, grounds());
   if (filing.seq) {
     entered(ledger, *filing.seq);
     const json& body = ledger.content().entries.at(*filing.seq).body;
@@ -248,8 +250,8 @@ void SchoolDay::file_exam() {
 }
 
 void SchoolDay::release_all() {
-  Ledger ledger = open_ledger();
-  const Release released = release_results(ledger, {.all = true});
+  ledger::Ledger ledger = open_ledger();
+  const ledger::Release released = ledger::release_results(ledger, {.all = true});
   if (!released.results.empty()) entered(ledger, ledger.content().entries.size() - 1);
 }
 
@@ -258,8 +260,8 @@ void SchoolDay::forget_somebody() {
   auto who = known_.begin();
   std::advance(who, static_cast<long>(world_.random().below(known_.size())));
   const auto [id, pseudonym] = *who;
-  Ledger ledger = open_ledger();
-  Identities identities(ledger.places().identities());
+  ledger::Ledger ledger = open_ledger();
+  ledger::Identities identities(ledger.places().identities());
   const auto known = identities.of_pseudonym(pseudonym);
   if (!known) {
     if (!to_forget_.contains(pseudonym)) wrong("an enrolled candidate is unknown: " + id + " " + pseudonym);
@@ -268,35 +270,35 @@ void SchoolDay::forget_somebody() {
   to_forget_.insert(pseudonym);
   for (const auto& [hash, of] : filed_files_)
     if (of == pseudonym) to_erase_.insert(hash);
-  forget(ledger, {pseudonym}, {.motion = true, .results = true});
+  ledger::forget(ledger, {pseudonym}, {.motion = true, .results = true});
   entered(ledger, ledger.content().entries.size() - 1);
   identities.forget(pseudonym);
   forgotten_.insert(pseudonym);
 }
 
 void SchoolDay::cancel_some_ticket() {
-  Ledger ledger = open_ledger();
-  const Registry registry = read_registry(ledger.content());
-  const auto live = [](const IssuedTicket& t) { return !t.used_by && !t.cancelled_by && t.ticket.candidate.size() > 0; };
+  ledger::Ledger ledger = open_ledger();
+  const ledger::Registry registry = ledger::read_registry(ledger.content());
+  const auto live = [](const ledger::IssuedTicket& t) { return !t.used_by && !t.cancelled_by && t.ticket.candidate.size() > 0; };
   // those of the morning are sat meanwhile: an exam that was filed clean may not be taken back
   const auto t = std::find_if(registry.tickets.rbegin(), registry.tickets.rend(), live);
   if (t == registry.tickets.rend() || static_cast<std::size_t>(registry.tickets.rend() - t) <= morning_.exams.size()) return;
   try {
-    entered(ledger, cancel_ticket(ledger, t->seq, "drawn").seq);
+    entered(ledger, ledger::cancel_ticket(ledger, t->seq, "drawn").seq);
   } catch (const Error& e) {  // somebody was quicker
     if (std::string(e.what()).find("cancelled before") == std::string::npos) throw;
   }
 }
 
 void SchoolDay::let_some_exam_begin() {
-  Ledger ledger = open_ledger();
-  const Registry registry = read_registry(ledger.content());
+  ledger::Ledger ledger = open_ledger();
+  const ledger::Registry registry = ledger::read_registry(ledger.content());
   if (registry.tickets.size() <= morning_.exams.size()) return;
-  const IssuedTicket& t = registry.tickets.back();
+  const ledger::IssuedTicket& t = registry.tickets.back();
   try {
-    const std::string word = let_begin(ledger, t.ticket.nonce, "drawn");
+    const std::string word = ledger::let_begin(ledger, t.ticket.nonce, "drawn");
     entered(ledger, ledger.content().entries.size() - 1);
-    static_cast<void>(parse_begin(word, ledger.content().public_key, "word"));
+    static_cast<void>(ledger::parse_begin(word, ledger.content().public_key, "word"));
   } catch (const Error& e) {
     const std::string what = e.what();
     const bool clock = what.find("is good from") != std::string::npos, cancelled = what.find("was cancelled") != std::string::npos;
@@ -307,7 +309,7 @@ void SchoolDay::let_some_exam_begin() {
 
 void SchoolDay::erase_some_session() {
   if (filed_files_.empty()) return;
-  Ledger ledger = open_ledger();
+  ledger::Ledger ledger = open_ledger();
   auto some = filed_files_.begin();
   std::advance(some, static_cast<long>(world_.random().below(filed_files_.size())));
   const std::string hash = some->first;
@@ -315,7 +317,7 @@ void SchoolDay::erase_some_session() {
     if (e.kind != "session" || e.body.at("file_sha256") != hash) continue;
     to_erase_.insert(hash);
     const std::uint64_t seq = e.seq;
-    if (erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;
+    if (ledger::erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;
     entered(ledger, ledger.content().entries.size() - 1);
     erased_.insert(hash);
     return;
@@ -323,34 +325,34 @@ void SchoolDay::erase_some_session() {
 }
 
 void SchoolDay::write_receipt() {
-  const Ledger ledger = open_ledger(LedgerUse::tell);
+  const ledger::Ledger ledger = open_ledger(ledger::LedgerUse::tell);
   const auto seq = world_.random().below(ledger.content().entries.size());
   const json receipt = ledger.receipt(seq);
-  const std::string path = "/sim/office/receipts/" + random_hex(8) + ".json";
+  const std::string path = "/sim/office/receipts/" + ledger::random_hex(8) + ".json";
   write_private_text_file(path, receipt.dump());
   receipts_[path] = receipt;
 }
 
 void SchoolDay::take_backup() {
-  const Backup made = back_up({k_ledger}, k_backup, true);
+  const ledger::Backup made = ledger::back_up({k_ledger}, k_backup, true);
   if (!made.missing.empty()) wrong("a backup lacks sessions that were filed: " + all(made.missing));
   if (!backed_up_ || made.checkpoint.size > backed_up_->size) backed_up_ = made.checkpoint;
 }
 
 void SchoolDay::ask_cosigner() {
-  const Ledger ledger = open_ledger(LedgerUse::tell);
-  const auto since = cosigner_asks_since_.value_or(last_cosigned(ledger.content()));
-  to_cosigner_ = cosign_request(ledger.content(), since);
+  const ledger::Ledger ledger = open_ledger(ledger::LedgerUse::tell);
+  const auto since = cosigner_asks_since_.value_or(ledger::last_cosigned(ledger.content()));
+  to_cosigner_ = ledger::cosign_request(ledger.content(), since);
 }
 
 void SchoolDay::cosign_here() {
   for (int i = 0; i < 50 && to_cosigner_.empty(); ++i) world_.sleep(20'000'000);
   if (to_cosigner_.empty()) return;
   const std::string request = to_cosigner_;
-  Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), cosigner_memory_path(),
-                    morning_.promise.public_key};
+  ledger::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), ledger::cosigner_memory_path(),
+                            morning_.promise.public_key};
   try {
-    const Cosigned signed_note = cosign(cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
+    const ledger::Cosigned signed_note = ledger::cosign(cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
     to_cosigner_.clear();
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
@@ -374,15 +376,15 @@ void SchoolDay::keep_cosignature() {
   for (int i = 0; i < 50 && to_office_.empty(); ++i) world_.sleep(20'000'000);
   if (to_office_.empty()) return;
   const std::string note = to_office_;
-  Ledger ledger = open_ledger();
-  const auto checked = check_cosigned(note, read_cosigners(known_cosigners_path()), ledger.content());
+  ledger::Ledger ledger = open_ledger();
+  const auto checked = ledger::check_cosigned(note, ledger::read_cosigners(ledger::known_cosigners_path()), ledger.content());
   if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + all(checked.findings));
   ledger.keep_cosignatures(checked.checkpoint->size, checked.cosignatures);
-  for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, signature_line(s));
+  for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, ledger::signature_line(s));
 }
 
 void SchoolDay::verify() {
-  LedgerCheck check = check_ledger({k_ledger}, false);
+  ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
   std::erase_if(check.findings, [](const std::string& f) { return f.find("its recording is erased by entry") != std::string::npos; });
   // a disk that fails meanwhile may well be in the way of looking

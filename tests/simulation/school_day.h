@@ -31,7 +31,7 @@ struct Morning {
   std::map<std::string, Disk> disks;
   std::int64_t true_ns = 0;
   std::vector<SatExam> exams;
-  Ticket promise;  ///< of the exam, for nobody yet
+  ledger::Ticket promise;  ///< of the exam, for nobody yet
 };
 /// Makes ledger, station, cosigner and exams, in a world of its own.
 [[nodiscard]] Morning make_morning();
@@ -91,14 +91,14 @@ class SchoolDay {
   void cosign_here();
   void keep_cosignature();
   void verify();
-  void entered(const Ledger& ledger, std::uint64_t seq);
+  void entered(const ledger::Ledger& ledger, std::uint64_t seq);
   void wrong(const std::string& what);
   void check_end();
-  void check_entries(const LedgerContent& content);
+  void check_entries(const ledger::LedgerContent& content);
   void check_clocks(const std::vector<std::string>& remarks);
   void check_identities();
   void check_backup();
-  void check_cosigner(const LedgerContent& content);
+  void check_cosigner(const ledger::LedgerContent& content);
   void restore_from_backup();
   void replace_key();
   void put_right();
@@ -120,7 +120,7 @@ class SchoolDay {
   std::map<std::string, std::string> known_;        ///< pseudonym by the school's own number
   std::set<std::string> to_forget_, forgotten_;     ///< pseudonyms: begun, and acknowledged
   std::map<std::string, nlohmann::json> receipts_;  ///< by path
-  std::optional<Checkpoint> backed_up_;
+  std::optional<ledger::Checkpoint> backed_up_;
   std::vector<std::string> notes_;  ///< cosigned
   std::set<std::pair<std::uint64_t, std::string>> kept_cosignatures_;
   std::string to_cosigner_, to_office_;

@@ -40,11 +40,11 @@ bool names_clock(const std::vector<std::string>& remarks, std::uint64_t after, s
 }  // namespace
 
 void SchoolDay::check_end() {
-  LedgerContent content;
+  ledger::LedgerContent content;
   world_.calmly("office", [&] {
-    content = read_ledger({k_ledger});
-    remove_erased_recordings(content, {k_ledger});  // an erasure that was cut off is a finding until somebody runs `cavum ledger erase`
-    const LedgerCheck check = check_ledger({k_ledger}, false);
+    content = ledger::read_ledger({k_ledger});
+    ledger::remove_erased_recordings(content, {k_ledger});  // an erasure that was cut off is a finding until somebody runs `cavum ledger erase`
+    const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
     if (!check.findings.empty()) wrong("the ledger does not hold: " + all(check.findings));
     if (!content.witnessed) wrong("the witness is gone");
     check_entries(content);
@@ -52,15 +52,15 @@ void SchoolDay::check_end() {
     check_identities();
     check_backup();
     std::vector<std::string> findings, not_checked;
-    check_cosignatures(content, read_cosigners(known_cosigners_path()), findings, not_checked);
+    ledger::check_cosignatures(content, ledger::read_cosigners(ledger::known_cosigners_path()), findings, not_checked);
     if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + all(findings) + all(not_checked));
   });
   check_cosigner(content);
   world_.calmly("office", [&] {  // and work goes on
-    Ledger ledger(k_ledger, load_school_key(school_key_path()));
-    ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    ledger::Ledger ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()));
+    ledger.append("forget", [](const ledger::LedgerContent&) { return json{{"candidate", "nobody"}}; });
     entered(ledger, ledger.content().entries.size() - 1);
-    const LedgerCheck check = check_ledger({k_ledger}, false);
+    const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
     if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + all(check.findings));
   });
   counts_["acknowledged"] += entries_.size();
@@ -68,9 +68,9 @@ void SchoolDay::check_end() {
   if (loses_ledger_ && backed_up_) restore_from_backup();
 }
 
-void SchoolDay::check_entries(const LedgerContent& content) {
+void SchoolDay::check_entries(const ledger::LedgerContent& content) {
   std::vector<std::string> findings;
-  const auto witnessed = read_witness(content.id, findings);
+  const auto witnessed = ledger::read_witness(content.id, findings);
   if (!findings.empty()) wrong("the witness: " + all(findings));
   std::set<std::uint64_t> seen;
   for (const Entered& e : entries_) {
@@ -80,9 +80,9 @@ void SchoolDay::check_entries(const LedgerContent& content) {
       wrong(name + ", which was acknowledged, is lost: " + e.text.substr(0, 80));
       continue;
     }
-    if (const auto why = check_receipt(e.receipt, content.public_key, &content); !why.empty())
+    if (const auto why = ledger::check_receipt(e.receipt, content.public_key, &content); !why.empty())
       wrong(name + ": its receipt does not hold: " + all(why));
-    if (std::none_of(witnessed.begin(), witnessed.end(), [&](const Checkpoint& p) { return p.size == e.seq + 1; }))
+    if (std::none_of(witnessed.begin(), witnessed.end(), [&](const ledger::Checkpoint& p) { return p.size == e.seq + 1; }))
       wrong(name + ", which was acknowledged, is not with the witness");
   }
   for (const auto& [path, receipt] : receipts_) try {
@@ -91,20 +91,21 @@ void SchoolDay::check_entries(const LedgerContent& content) {
       wrong("a receipt that was written is lost: " + std::string(e.what()));
     }
   for (const auto& hash : erased_)
-    if (std::filesystem::exists(LedgerPlaces{k_ledger}.session(hash))) wrong("a recording that was erased is there: " + hash);
+    if (std::filesystem::exists(ledger::LedgerPlaces{k_ledger}.session(hash))) wrong("a recording that was erased is there: " + hash);
   for (const auto& [hash, who] : filed_files_) try {
       if (to_erase_.contains(hash)) continue;
-      if (to_hex(sha256(read_file(LedgerPlaces{k_ledger}.session(hash)))) != hash) wrong("a filed session's file is not what was filed: " + hash);
+      if (to_hex(sha256(read_file(ledger::LedgerPlaces{k_ledger}.session(hash)))) != hash)
+        wrong("a filed session's file is not what was filed: " + hash);
     } catch (const std::exception& e) {
       wrong("a filed session's file is lost: " + std::string(e.what()));
     }
-  const Registry registry = read_registry(content);
+  const ledger::Registry registry = ledger::read_registry(content);
   std::set<std::string> nonces;
   for (const auto& s : registry.sessions)
     if (s.findings.empty() && !nonces.insert(s.nonce).second) wrong("a ticket was used twice: entry " + std::to_string(s.seq));
   for (const auto& [size, line] : kept_cosignatures_)
     if (std::none_of(content.cosignatures.begin(), content.cosignatures.end(),
-                     [&, s = size, l = line](const Cosignature& c) { return c.size == s && signature_line(c.by) == l; }))
+                     [&, s = size, l = line](const ledger::Cosignature& c) { return c.size == s && ledger::signature_line(c.by) == l; }))
       wrong("a cosignature that was kept is lost, under " + std::to_string(size) + " entries");
 }
 
@@ -130,40 +131,40 @@ void SchoolDay::check_clocks(const std::vector<std::string>& remarks) {
 }
 
 void SchoolDay::check_identities() {
-  Identities identities(LedgerPlaces{k_ledger}.identities());
+  ledger::Identities identities(ledger::LedgerPlaces{k_ledger}.identities());
   for (const auto& [id, pseudonym] : known_)
     if (!to_forget_.contains(pseudonym) && !identities.of_pseudonym(pseudonym))
       wrong("an identity that was enrolled is lost: " + id + " " + pseudonym);
   for (const auto& pseudonym : forgotten_)
     if (identities.of_pseudonym(pseudonym)) wrong("an identity that was forgotten is known: " + pseudonym);
-  if (const auto why = identities.check(load_school_key(school_key_path())); !why.empty()) wrong(all(why));
+  if (const auto why = identities.check(ledger::load_school_key(ledger::school_key_path())); !why.empty()) wrong(all(why));
 }
 
 void SchoolDay::check_backup() {
   if (!backed_up_) return;
-  const RestorePlan plan = plan_restore(k_backup, {}, {});
+  const ledger::RestorePlan plan = ledger::plan_restore(k_backup, {}, {});
   if (!plan.findings.empty()) return wrong("the backup does not hold: " + all(plan.findings));
   for (const auto& hash : plan.missing_sessions) wrong("the backup lacks a session: " + hash);
-  const History history(plan.content);
+  const ledger::History history(plan.content);
   const auto size = static_cast<std::size_t>(backed_up_->size);
   if (history.roots().size() < size || history.roots()[size - 1] != backed_up_->root)
     wrong("a backup of " + std::to_string(size) + " entries was acknowledged, and has " + std::to_string(history.roots().size()));
   if (!plan.identities) wrong("the backup's identities are lost");
 }
 
-void SchoolDay::check_cosigner(const LedgerContent& content) {
+void SchoolDay::check_cosigner(const ledger::LedgerContent& content) {
   if (cosigned_size_ == 0) return;
   world_.calmly("cosigner", [&] {
-    Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), cosigner_memory_path(),
-                      morning_.promise.public_key};
+    ledger::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), ledger::cosigner_memory_path(),
+                              morning_.promise.public_key};
     // an older state than it has signed must be refused: whoever restores an old copy would ask for just that
-    LedgerContent older = content;
+    ledger::LedgerContent older = content;
     older.entries.resize(std::min<std::size_t>(older.entries.size(), cosigned_size_ - 1));
-    std::erase_if(older.checkpoints, [&](const Checkpoint& p) { return p.size > older.entries.size(); });
-    if (cosign(cosigner, cosign_request(older, 0), "request", 1).findings.empty()) wrong("the cosigner forgot what it had signed");
+    std::erase_if(older.checkpoints, [&](const ledger::Checkpoint& p) { return p.size > older.entries.size(); });
+    if (ledger::cosign(cosigner, ledger::cosign_request(older, 0), "request", 1).findings.empty()) wrong("the cosigner forgot what it had signed");
     std::string words;
     try {
-      const Cosigned now = cosign(cosigner, cosign_request(content, cosigned_size_), "request", 1);
+      const ledger::Cosigned now = ledger::cosign(cosigner, ledger::cosign_request(content, cosigned_size_), "request", 1);
       words = all(now.findings);
     } catch (const Error& e) {  // it signed a later state, and was killed before it could say so
       words = e.what();
@@ -173,14 +174,14 @@ void SchoolDay::check_cosigner(const LedgerContent& content) {
   });
   world_.calmly("office", [&] {
     for (const auto& note : notes_)
-      if (const auto c = check_cosigned(note, read_cosigners(known_cosigners_path()), content); !c.findings.empty())
+      if (const auto c = ledger::check_cosigned(note, ledger::read_cosigners(ledger::known_cosigners_path()), content); !c.findings.empty())
         wrong("a cosigned note does not hold: " + all(c.findings));
   });
 }
 
 void SchoolDay::replace_key() {
   bool replaced = false;
-  const auto replace = [&] { static_cast<void>(replace_school_key(k_ledger, school_key_path(), 0, "yearly")); };
+  const auto replace = [&] { static_cast<void>(ledger::replace_school_key(k_ledger, ledger::school_key_path(), 0, "yearly")); };
   if (interrupt_key_ > 0) {
     world_.plan({world_.calls() + interrupt_key_, Event::Kind::power_cut, "office", 0});
     world_.start("office", "keeper", [&] {
@@ -198,14 +199,14 @@ void SchoolDay::replace_key() {
   ++counts_[replaced || interrupt_key_ == 0 ? "key replaced" : "key replaced after a power cut"];
   world_.cut_power(world_.computer("office"));
   world_.calmly("office", [&] {
-    const LedgerCheck check = check_ledger({k_ledger}, false);
+    const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
     if (!check.findings.empty()) wrong("after the key was replaced the ledger does not hold: " + all(check.findings));
-    const LedgerContent content = read_ledger({k_ledger});
+    const ledger::LedgerContent content = ledger::read_ledger({k_ledger});
     check_entries(content);
     check_identities();
     if (content.keys.size() < 2) wrong("the key was replaced, and the ledger does not know it");
-    Ledger ledger(k_ledger, load_school_key(school_key_path()));
-    ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    ledger::Ledger ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()));
+    ledger.append("forget", [](const ledger::LedgerContent&) { return json{{"candidate", "nobody"}}; });
   });
 }
 
@@ -213,9 +214,9 @@ void SchoolDay::restore_from_backup() {
   const auto restore_into = [&](const std::string& folder) {
     std::vector<std::string> paths;
     for (const auto& [path, receipt] : receipts_) paths.push_back(path);
-    const RestorePlan plan = plan_restore(k_backup, paths, {});
+    const ledger::RestorePlan plan = ledger::plan_restore(k_backup, paths, {});
     if (!plan.findings.empty()) return wrong("the backup cannot be restored: " + all(plan.findings));
-    restore(k_backup, folder, plan, plan.last_seen ? "the disk is broken" : "", load_school_key(school_key_path()));
+    ledger::restore(k_backup, folder, plan, plan.last_seen ? "the disk is broken" : "", ledger::load_school_key(ledger::school_key_path()));
   };
   std::string folder = "/sim/office/restored";
   if (interrupt_restore_ > 0) {
@@ -241,10 +242,10 @@ void SchoolDay::restore_from_backup() {
     ++counts_["restored"];
   }
   world_.calmly("office", [&] {
-    const LedgerContent content = read_ledger({folder});
-    const LedgerCheck check = check_ledger({folder}, false);
+    const ledger::LedgerContent content = ledger::read_ledger({folder});
+    const ledger::LedgerCheck check = ledger::check_ledger({folder}, false);
     if (!check.findings.empty()) wrong("the restored ledger does not hold: " + all(check.findings));
-    const History history(content);
+    const ledger::History history(content);
     for (const Entered& e : entries_) {
       if (e.seq < backed_up_->size) {
         if (e.seq >= content.entries.size() || content.entries[e.seq].text != e.text)
@@ -252,11 +253,11 @@ void SchoolDay::restore_from_backup() {
         continue;
       }
       if (e.seq < content.entries.size() && content.entries[e.seq].text == e.text) continue;
-      const Checkpoint seen = checkpoint_in(e.receipt.at("checkpoint"), content.id, content.public_key, "receipt");
+      const ledger::Checkpoint seen = ledger::checkpoint_in(e.receipt.at("checkpoint"), content.id, content.public_key, "receipt");
       if (history.recorded_loss(seen) == nullptr) wrong("entry " + std::to_string(e.seq) + " is lost, and no restore entry says so");
     }
-    Ledger ledger(folder, load_school_key(school_key_path()));
-    ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    ledger::Ledger ledger(folder, ledger::load_school_key(ledger::school_key_path()));
+    ledger.append("forget", [](const ledger::LedgerContent&) { return json{{"candidate", "nobody"}}; });
   });
 }
 

@@ -28,23 +28,23 @@ Morning make_morning() {
   World world(1, empty, 0);
   Morning out;
   std::string school_key, code;
-  const auto ledger = [] { return Ledger("/sim/office/ledger", load_school_key(school_key_path())); };
+  const auto ledger = [] { return ledger::Ledger("/sim/office/ledger", ledger::load_school_key(ledger::school_key_path())); };
   world.calmly("office", [&] {
     make_private_folder("/sim/office/home");
     make_private_folder("/sim/office/exams");
     make_private_folder("/sim/office/receipts");
     make_private_folder("/sim/office/tmp");
-    Ledger::create("/sim/office/ledger", "School of Dentistry", load_school_key(school_key_path(), true));
-    Identities("/sim/office/ledger/identities.db", true);
-    Ledger l = ledger();
+    ledger::Ledger::create("/sim/office/ledger", "School of Dentistry", ledger::load_school_key(ledger::school_key_path(), true));
+    ledger::Identities("/sim/office/ledger/identities.db", true);
+    ledger::Ledger l = ledger();
     school_key = l.content().public_key;
-    code = invite_station(l, "Seat 1", read_clocks().utc_ns + k_hour_ns);
+    code = ledger::invite_station(l, "Seat 1", read_clocks().utc_ns + k_hour_ns);
   });
   std::string request;
   world.calmly("station", [&] {
     make_private_folder("/sim/station/home");
     make_private_folder("/sim/station/tmp");
-    request = station_request(load_station_key(station_key_path()), school_key, {}, code);
+    request = ledger::station_request(load_station_key(station_key_path()), school_key, {}, code);
   });
   const std::vector<Seat> clocks = {{},
                                     {},
@@ -56,13 +56,13 @@ Morning make_morning() {
                                     {{0, 0, 100 * k_s_ns}, {"clocks, from tick"}}};
   std::vector<std::string> tickets;
   world.calmly("office", [&] {
-    Ledger l = ledger();
-    static_cast<void>(enrol_station(l, request, 0, "request"));
+    ledger::Ledger l = ledger();
+    static_cast<void>(ledger::enrol_station(l, request, 0, "request"));
     const std::int64_t now = read_clocks().utc_ns;
-    out.promise = promise(*prepare_exam(k_scenario, {}), l.content(), now - 3 * k_hour_ns, now + 3 * k_hour_ns);
-    Identities identities(l.places().identities());
+    out.promise = ledger::promise(*scenarios::prepare_exam(k_scenario, {}), l.content(), now - 3 * k_hour_ns, now + 3 * k_hour_ns);
+    ledger::Identities identities(l.places().identities());
     for (std::size_t i = 0; i < clocks.size(); ++i)
-      tickets.push_back(issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
+      tickets.push_back(ledger::issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
   });
   std::vector<Bytes> files;
   world.calmly("station", [&] {
@@ -79,10 +79,10 @@ Morning make_morning() {
   world.calmly("cosigner", [&] {
     make_private_folder("/sim/cosigner/home");
     const SigningKey key = load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner");
-    const std::string line = key_line({"cosigner.example", NoteKind::cosignature, key.public_key});
+    const std::string line = ledger::key_line({"cosigner.example", ledger::NoteKind::cosignature, key.public_key});
     code = line;
   });
-  world.calmly("office", [&] { write_text_file(known_cosigners_path(), code + "\n"); });
+  world.calmly("office", [&] { write_text_file(ledger::known_cosigners_path(), code + "\n"); });
   for (auto& [name, computer] : world.computers()) {
     computer.disk.settle();
     out.disks.emplace(name, computer.disk.copy());

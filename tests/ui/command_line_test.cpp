@@ -16,7 +16,7 @@
 #include "engine/session/session_reader.h"
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -542,4 +542,4 @@ TEST_F(CommandLine, WrongSeedsFoldersAndFilesThatAreNoTextAreNamedPlainly) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -5,7 +5,7 @@
 #include "engine/session/session_reader.h"
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 class FullDiskExam : public testing_ui::Program {
@@ -104,4 +104,4 @@ TEST_F(FullDiskExam, WithNobodyToAnswerIsRescuedToTheTemporaryFolder) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -15,7 +15,7 @@
 #include "scenarios/candidates/simulated_exam.h"
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,17 +37,17 @@ class HostileFiles : public testing_ui::Program {
   }
   /// A session that holds, with `text` as its verdict, the kind of an event, the candidate and the device: of a program other than this one.
   void seal_with(const std::string& file, const std::string& text) const {
-    ExamOptions options;
+    scenarios::ExamOptions options;
     options.candidate = options.device = text;
     options.position_quantum_mm = OmniModel{}.quantum_mm;
-    const auto setup = prepare_exam(scenario(), options);
-    auto candidate = make_simulated_candidate(*setup, "expert", 7, OmniModel{});
-    const auto exam = Exam::start(*setup, file, candidate.start_mm());
-    run_exam(*exam, candidate);
+    const auto setup = scenarios::prepare_exam(scenario(), options);
+    auto candidate = scenarios::make_simulated_candidate(*setup, "expert", 7, OmniModel{});
+    const auto exam = scenarios::Exam::start(*setup, file, candidate.start_mm());
+    scenarios::run_exam(*exam, candidate);
     exam->recorder().add_event(1, text, "{}");
     exam->recorder().flush();
-    const auto graded = load_for_grading(SessionReader(file), exam->tooth_now());
-    json result = to_json(grade(graded->input(), graded->rubric));
+    const auto graded = grading::load_for_grading(SessionReader(file), exam->tooth_now());
+    json result = grading::to_json(grading::grade(graded->input(), graded->rubric));
     result["verdict"] = text;
     result["criteria"][0]["id"] = text;
     exam->close(result.dump());
@@ -187,4 +187,4 @@ TEST_F(HostileFiles, NoTextOfAFileCommandsTheTerminal) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -6,7 +6,7 @@
 
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,4 +218,4 @@ TEST_F(LedgerNotes, ABackupIsRestoredAndSaysWhatWasLost) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -14,7 +14,7 @@
 #include "scenarios/review/check.h"
 #include "tests/engine/support/basics.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,8 +29,8 @@ std::vector<std::string> tasks() {
   return list;
 }
 
-std::string text_of(const Result& r) {
-  std::string all = std::string(verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + r.progress.finish + "\n";
+std::string text_of(const grading::Result& r) {
+  std::string all = std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + r.progress.finish + "\n";
   for (const auto& reason : r.verdict_reasons) all += "  " + reason + "\n";
   for (const auto& c : r.criteria) all += "  " + c.id + ": " + c.reason + "\n";
   return all;
@@ -39,19 +39,19 @@ std::string text_of(const Result& r) {
 class Library : public ::testing::TestWithParam<std::string> {
  protected:
   [[nodiscard]] std::string file() const { return k_folder + "/" + GetParam() + ".toml"; }
-  [[nodiscard]] std::unique_ptr<ExamSetup> prepared() const {
-    ExamOptions options;
+  [[nodiscard]] std::unique_ptr<scenarios::ExamSetup> prepared() const {
+    scenarios::ExamOptions options;
     options.candidate = "simulated";
     options.device = "simulated Omni";
-    return prepare_exam(file(), options);
+    return scenarios::prepare_exam(file(), options);
   }
   /// Recorded and read back, with zones and tooth of the setup.
-  [[nodiscard]] Result taken_by(const std::string& who, const ExamSetup& setup, std::uint64_t further = 0) const {
+  [[nodiscard]] grading::Result taken_by(const std::string& who, const scenarios::ExamSetup& setup, std::uint64_t further = 0) const {
     const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000 + further;
-    SimulatedCandidate candidate = make_simulated_candidate(setup, who, seed, OmniModel{});
+    scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, who, seed, OmniModel{});
     const std::string session = folder_.file(who + "-" + std::to_string(seed) + ".cavum");
-    const auto exam = Exam::start(setup, session, candidate.start_mm());
-    run_exam(*exam, candidate);
+    const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
+    scenarios::run_exam(*exam, candidate);
     exam->recorder().flush();
     const SessionReader reader(session);
     const auto inputs = reader.inputs();
@@ -59,8 +59,9 @@ class Library : public ::testing::TestWithParam<std::string> {
     const auto removed = reader.removed();
     const auto events = reader.events();
     const Tooth after = exam->tooth_now();
-    Result r = grade({setup.scenario, setup.tooth, setup.zones, after.octree, inputs, records, removed, events}, setup.scenario.rubric);
-    exam->close(to_json(r).dump());
+    grading::Result r =
+        grading::grade({setup.scenario, setup.tooth, setup.zones, after.octree, inputs, records, removed, events}, setup.scenario.rubric);
+    exam->close(grading::to_json(r).dump());
     return r;
   }
   testing_basics::Folder folder_;
@@ -68,10 +69,10 @@ class Library : public ::testing::TestWithParam<std::string> {
 
 TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   const std::string text = read_text_file(file());
-  const CheckedScenario checked = check_whole(text, file());
+  const scenarios::CheckedScenario checked = scenarios::check_whole(text, file());
   for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
   ASSERT_TRUE(checked.expert_s);
-  const Scenario s = parse_scenario(text, file());
+  const scenarios::Scenario s = scenarios::parse_scenario(text, file());
   EXPECT_LT(2 * *checked.expert_s, s.time_limit_s);
   EXPECT_EQ(s.id, GetParam());
   double points = 0;
@@ -81,23 +82,23 @@ TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
 
 TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   const auto setup = prepared();
-  Result expert = taken_by("expert", *setup);
+  grading::Result expert = taken_by("expert", *setup);
   // In one of a hundred sessions the force alone looks like a perforation, and a person decides (docs/grading.md): then by another draw, twice at
   // most.
-  for (std::uint64_t more = 1; more <= 2 && expert.verdict == Verdict::review; ++more) {
+  for (std::uint64_t more = 1; more <= 2 && expert.verdict == grading::Verdict::review; ++more) {
     if (text_of(expert).find("the force shows a faulty breakthrough, the tissue does not") == std::string::npos) break;
     std::cout << "false alarm of the force: once more\n";
     expert = taken_by("expert", *setup, 100000 * more);
   }
-  EXPECT_EQ(expert.verdict, Verdict::pass) << text_of(expert);
+  EXPECT_EQ(expert.verdict, grading::Verdict::pass) << text_of(expert);
   EXPECT_GE(expert.points, 90) << text_of(expert);
   for (const auto& c : expert.criteria) EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << c.reason;
   EXPECT_EQ(expert.progress.finish, "completed") << text_of(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;
   ASSERT_FALSE(reason.empty()) << "a task that ships says what it is there to catch";
-  const Result careless = taken_by("careless", *setup);
-  EXPECT_EQ(careless.verdict, Verdict::fail) << text_of(careless);
+  const grading::Result careless = taken_by("careless", *setup);
+  EXPECT_EQ(careless.verdict, grading::Verdict::fail) << text_of(careless);
   EXPECT_NE(careless.progress.finish, "time") << "failed by a time-out instead";
   const auto c = std::find_if(careless.criteria.begin(), careless.criteria.end(), [&](const auto& one) { return one.id == reason; });
   ASSERT_NE(c, careless.criteria.end());
@@ -106,15 +107,15 @@ TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
 }
 
 /// The criteria that fail whoever breaks into what is no aim, whatever else he has points for.
-std::vector<const CriterionSpec*> against_perforation(const Scenario& s) {
-  std::vector<const CriterionSpec*> list;
+std::vector<const scenarios::CriterionSpec*> against_perforation(const scenarios::Scenario& s) {
+  std::vector<const scenarios::CriterionSpec*> list;
   for (const auto& c : s.rubric.criteria)
     if (c.metric == "perforated" && c.critical_above && *c.critical_above < 1) list.push_back(&c);
   return list;
 }
 
 TEST_P(Library, AnyPerforationThatIsAFaultIsCritical) {
-  const Scenario s = parse_scenario(read_text_file(file()), file());
+  const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file()), file());
   EXPECT_FALSE(s.perforation.faults.empty());
   EXPECT_FALSE(against_perforation(s).empty()) << "who perforates would pass";
 }
@@ -126,12 +127,12 @@ class BlockTask : public Library {};
 
 TEST_P(BlockTask, WhoPerforatesFails) {
   const auto setup = prepared();
-  const Result r = taken_by("perforator", *setup);
+  const grading::Result r = taken_by("perforator", *setup);
   ASSERT_TRUE(r.perforation.fault.perforated) << text_of(r);
-  EXPECT_EQ(r.verdict, Verdict::fail) << text_of(r);
+  EXPECT_EQ(r.verdict, grading::Verdict::fail) << text_of(r);
   for (const auto& c : r.criteria) EXPECT_TRUE(c.metric != "perforated" || c.critical_failed) << text_of(r);
 }
 INSTANTIATE_TEST_SUITE_P(Tasks, BlockTask, ::testing::Values("slot", "cross"), [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -8,7 +8,7 @@
 
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 constexpr double k_left = 58, k_right = 14, k_top = 34, k_bottom = 46;
@@ -193,4 +193,4 @@ std::string charts_page(const std::string& title, const std::vector<Chart>& char
   return svg_page(x, y, body);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace cavum {
+namespace cavum::ui {
 
 struct ChartPoint {
   double x = 0, y = 0;
@@ -55,4 +55,4 @@ struct Chart {
 /// Charts in a row under a title, with lines of small print below.
 [[nodiscard]] std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print);
 
-}  // namespace cavum
+}  // namespace cavum::ui

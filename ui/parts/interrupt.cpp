@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 std::atomic<bool> signalled{false};  // a handler reaches nothing else
@@ -29,4 +29,4 @@ Interrupt::~Interrupt() {
 
 bool Interrupt::asked() noexcept { return signalled.load(std::memory_order_relaxed); }
 
-}  // namespace cavum
+}  // namespace cavum::ui

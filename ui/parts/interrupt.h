@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-namespace cavum {
+namespace cavum::ui {
 
 /// While one lives, the signals only set it. One at a time.
 class Interrupt {
@@ -20,4 +20,4 @@ class Interrupt {
   }, old_term_{}, old_hup_{};
 };
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -15,7 +15,7 @@
 #include "scenarios/candidates/candidate_device.h"
 #include "ui/parts/interrupt.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 class SimulatedSource final : public LiveSource {
@@ -27,14 +27,16 @@ class SimulatedSource final : public LiveSource {
   [[nodiscard]] SourceNotes notes() const override {
     return {{"operator", options_.operator_name}, {"operator_seed", std::to_string(options_.seed)}, {"in_real_time", "yes"}};
   }
-  void begin(const ExamSetup& setup) override { candidate_ = make_candidate_device(setup, options_.operator_name, options_.seed); }
+  void begin(const scenarios::ExamSetup& setup) override {
+    candidate_ = scenarios::make_candidate_device(setup, options_.operator_name, options_.seed);
+  }
   [[nodiscard]] ServoDevice& device() override { return *candidate_; }
   [[nodiscard]] Vec3 first_tip_mm() const override { return candidate_->start_mm(); }
   [[nodiscard]] bool done() const override { return candidate_->done(); }
 
  private:
   LiveSourceOptions options_;
-  std::unique_ptr<CandidateDevice> candidate_;
+  std::unique_ptr<scenarios::CandidateDevice> candidate_;
 };
 
 class StylusSource final : public LiveSource {
@@ -57,7 +59,7 @@ class StylusSource final : public LiveSource {
     return {
         {"stylus", stylus_->facts().id}, {"stylus_calibration", to_toml(stylus_options_.station)}, {"pedal_calibration", to_toml(station_pedal_)}};
   }
-  void begin(const ExamSetup& setup) override {
+  void begin(const scenarios::ExamSetup& setup) override {
     if (!options_.point.empty()) {
       const auto at = std::find(setup.point_names.begin(), setup.point_names.end(), options_.point);
       if (at == setup.point_names.end()) throw Error("--point " + options_.point, "is not on this scenario's tray", "name one of its points");
@@ -115,4 +117,4 @@ std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
   return std::make_unique<StylusSource>(options, kind);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -9,7 +9,7 @@
 #include "engine/session/resume.h"
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 struct LiveSourceOptions {
   std::string device;         ///< id in the table of styluses
@@ -31,7 +31,7 @@ class LiveSource {
   [[nodiscard]] virtual SourceNotes notes() const = 0;
   /// Makes it ready for this exam and waits until it knows where the tip is; prints what it waits for. Throws Error when that takes over a minute, or
   /// the wait is interrupted.
-  virtual void begin(const ExamSetup& setup) = 0;
+  virtual void begin(const scenarios::ExamSetup& setup) = 0;
   /// After `begin`.
   [[nodiscard]] virtual ServoDevice& device() = 0;
   [[nodiscard]] virtual Vec3 first_tip_mm() const = 0;
@@ -44,4 +44,4 @@ class LiveSource {
 /// Throws Error when there is no such device, or what it needs is missing.
 [[nodiscard]] std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace cavum {
+namespace cavum::ui {
 
 /// A number in low..high. CLI::Range lets NaN through.
 [[nodiscard]] inline CLI::Validator between(double low, double high) {
@@ -26,4 +26,4 @@ namespace cavum {
       range);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -8,7 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// A file that a verb reads or writes: how the user named it ("--out x.html"), and its path; empty paths do not count.
 struct NamedFile {
@@ -37,4 +37,4 @@ inline void require_rigs_own(const std::string& rig_toml) {
     throw Error(rig_toml, "was not written by a rig, and would be lost", "write the recording into another folder");
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

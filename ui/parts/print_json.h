@@ -6,7 +6,7 @@
 
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// One object on standard output. A file name that is no UTF-8 is shown with replacement characters, for JSON has no other text; what would command a
 /// terminal is escaped.
@@ -15,4 +15,4 @@ void print_json(const Json& json) {
   std::cout << terminal_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) << "\n";
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace cavum {
+namespace cavum::ui {
 
 [[nodiscard]] inline CLI::Validator seed_check() {
   return {[](std::string& text) -> std::string {
@@ -21,4 +21,4 @@ namespace cavum {
           "", "seed"};
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -8,7 +8,7 @@
 
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 bool write_whole(int fd, std::string_view text) {
@@ -95,4 +95,4 @@ void command_terminal(const char* sequence) {
   write_whole(STDOUT_FILENO, sequence);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -6,7 +6,7 @@
 #include <memory>
 #include <streambuf>
 
-namespace cavum {
+namespace cavum::ui {
 
 /// While it lives, stdout and stderr, std::cout and std::cerr write terminal_text() only. Line ends inside a name still make lines: print a text of
 /// a file with one_line().
@@ -25,4 +25,4 @@ class SafeTerminal {
 /// Commands for the terminal that are the program's own ("clear the screen"), past SafeTerminal.
 void command_terminal(const char* sequence);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -7,7 +7,7 @@
 #include "ui/report/figures/tooth_grid.h"
 #include "ui/report/report_data.h"
 
-namespace cavum {
+namespace cavum::report {
 
 nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::ClassTooth& t) {
   // an exam in which exactly the target went
@@ -17,7 +17,7 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
     const auto at = [](int v) { return static_cast<std::int16_t>(v); };
     target.push_back({0, {at(leaf.x), at(leaf.y), at(leaf.z), tree.tissue(leaf), 0}});
   });
-  const GradeInput planned{t.scenario, t.tooth, t.zones, tree, {}, {}, target, {}};
+  const grading::GradeInput planned{t.scenario, t.tooth, t.zones, tree, {}, {}, target, {}};
   const ToothGrid grid = make_tooth_grid(t.tooth);
   const ChangedCells box = make_changed_cells(grid, planned);
 
@@ -43,7 +43,7 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
           const IVec3 leaf = first + IVec3{x, y, z};
           if (leaf.x < 0 || leaf.y < 0 || leaf.z < 0 || tree.tissue(leaf) == k_air) continue;
           const double percent = t.map->percent(leaf);
-          if (t.zones.zone(leaf) == Zone::target) {
+          if (t.zones.zone(leaf) == scenarios::Zone::target) {
             s.under += percent;
             ++s.inside;
           } else {
@@ -69,4 +69,4 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
           {"scale_mm", k_colours_end_mm}};
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

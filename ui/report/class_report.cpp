@@ -13,7 +13,7 @@
 #include "ui/report/print/html_writer.h"
 #include "ui/report/print/pdf_writer.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using cohort::ClassFigures;
@@ -36,10 +36,10 @@ std::string few_first(const ClassFigures& f, const char* figure) {
 Picture distribution(const ClassFigures& f) {
   std::vector<double> in_bin(k_bins, 0.0);
   for (const double p : f.points) in_bin[static_cast<std::size_t>(std::clamp(static_cast<int>(p / f.max_points * k_bins), 0, k_bins - 1))] += 1;
-  Chart c;
+  ui::Chart c;
   c.x_label = "points";
   c.y_label = "candidates";
-  ChartSeries steps;
+  ui::ChartSeries steps;
   steps.colour = "#0072b2";
   for (int i = 0; i < k_bins; ++i) {
     steps.points.push_back({f.max_points * i / k_bins, in_bin[static_cast<std::size_t>(i)]});
@@ -52,7 +52,7 @@ Picture distribution(const ClassFigures& f) {
   if (f.agreement.cut) c.marks.push_back({*f.agreement.cut, true, "borderline regression"});
   c.width_px = 760;
   c.height_px = 300;
-  return {svg_page(c.width_px, c.height_px, chart_group(c, 0, 0)), "How the points of the class lie around the pass mark"};
+  return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)), "How the points of the class lie around the pass mark"};
 }
 
 ReportTable key_figures(const ClassFigures& f) {
@@ -88,14 +88,15 @@ Vec3 hottest_mm(const ClassTooth& t) {
 /// Where the class cuts too much or too little: from above, and three sections.
 std::vector<Picture> class_pictures(const ClassTooth& t) {
   const Vec3 at = hottest_mm(t);
-  const auto draw = [&](View view, double at_mm, const std::string& title) {
-    PictureSpec spec{view, at_mm, 30, ""};
+  const auto draw = [&](scenarios::View view, double at_mm, const std::string& title) {
+    scenarios::PictureSpec spec{view, at_mm, 30, ""};
     spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
-    return Picture{section_svg(t.tooth, nullptr, t.zones, spec), title};
+    return Picture{scenarios::section_svg(t.tooth, nullptr, t.zones, spec), title};
   };
-  return {draw(View::occlusal, 0, "From above"), draw(View::mesio_distal, at.y, fmt::format("Mesio-distal, y = {} mm", fixed(at.y, 2))),
-          draw(View::bucco_lingual, at.x, fmt::format("Bucco-lingual, x = {} mm", fixed(at.x, 2))),
-          draw(View::horizontal, at.z, fmt::format("Horizontal, z = {} mm", fixed(at.z, 2)))};
+  return {draw(scenarios::View::occlusal, 0, "From above"),
+          draw(scenarios::View::mesio_distal, at.y, fmt::format("Mesio-distal, y = {} mm", fixed(at.y, 2))),
+          draw(scenarios::View::bucco_lingual, at.x, fmt::format("Bucco-lingual, x = {} mm", fixed(at.x, 2))),
+          draw(scenarios::View::horizontal, at.z, fmt::format("Horizontal, z = {} mm", fixed(at.z, 2)))};
 }
 
 void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
@@ -112,7 +113,7 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
   Pictures pictures{{}, 2, false};
   pictures.list = class_pictures(t);
   d.blocks.emplace_back(std::move(pictures));
-  d.blocks.emplace_back(Pictures{{{heat_legend_svg(), ""}}, 1, false});
+  d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(), ""}}, 1, false});
   d.blocks.emplace_back(Paragraph{"The sections run through the middle of what was cut too much.", "", Paragraph::Kind::small});
   if (t.left_out > 0)
     d.blocks.emplace_back(
@@ -241,4 +242,4 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
 std::string class_html(const ClassFigures& f, const ClassTooth& tooth) { return html_of(class_document(f, tooth), class_data(f, tooth)); }
 std::string class_pdf(const ClassFigures& f, const ClassTooth& tooth) { return pdf_of(class_document(f, tooth)); }
 
-}  // namespace cavum
+}  // namespace cavum::report

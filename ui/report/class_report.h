@@ -9,7 +9,7 @@
 #include "grading/cohort/class_map.h"
 #include "ui/report/print/document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 [[nodiscard]] Document class_document(const cohort::ClassFigures& figures, const cohort::ClassTooth& tooth);
 /// What the page draws: as report_data.h says, with "kind":"class"; `after` is the tooth with exactly the target removed, and "heat" of each cell in
@@ -20,4 +20,4 @@ namespace cavum {
 [[nodiscard]] std::string class_html(const cohort::ClassFigures& figures, const cohort::ClassTooth& tooth);
 [[nodiscard]] std::string class_pdf(const cohort::ClassFigures& figures, const cohort::ClassTooth& tooth);
 
-}  // namespace cavum
+}  // namespace cavum::report

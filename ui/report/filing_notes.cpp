@@ -3,7 +3,7 @@
 #include "engine/base/text.h"
 #include "ui/report/report_document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 void add_filing_notes(Document& d, const ReportSource& s) {
   const auto note = [&](const std::string& lead, const std::string& text) {
@@ -39,4 +39,4 @@ std::string attempt_remark(const ReportAttempt& a) {
   return out;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

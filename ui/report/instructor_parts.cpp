@@ -8,7 +8,7 @@
 #include "scenarios/file/accommodations.h"
 #include "ui/report/report_document.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using nlohmann::json;
@@ -18,10 +18,10 @@ std::string bounded(double v, double bound, int digits, const std::string& unit)
   return fmt::format("{} ± {}{}", fixed(v, digits), fixed(bound, digits), unit.empty() ? "" : " " + unit);
 }
 
-void add_volumes(Document& d, const Result& r) {
+void add_volumes(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{"Volumes"});
   ReportTable t{{{"What", false, 4}, {"Volume", true, 3}, {"First at", true, 1.4}, {"Place x, y, z, mm", true, 2.2}}, {}, "Volumes"};
-  const auto volume = [&](const std::string& name, const BoundedVolume& v, const Trace& first = {}) {
+  const auto volume = [&](const std::string& name, const grading::BoundedVolume& v, const grading::Trace& first = {}) {
     t.rows.push_back({{{name},
                        {bounded(v.mm3, v.bound_mm3, 2, "mm³")},
                        first.tick < 0 ? TableCell{""} : time_cell(first.tick, first.site_mm),
@@ -31,33 +31,34 @@ void add_volumes(Document& d, const Result& r) {
   t.rows.push_back({{{"target removed"}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
   volume("target left standing", r.volumes.missed);
   volume("removed in all", r.volumes.removed);
-  const auto zone = [&](const std::string& name, Zone z) {
-    const ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
-    volume(name, v.removed, v.removed.mm3 > 0 ? v.first : Trace{});
+  const auto zone = [&](const std::string& name, scenarios::Zone z) {
+    const grading::ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
+    volume(name, v.removed, v.removed.mm3 > 0 ? v.first : grading::Trace{});
   };
-  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom})
-    zone(fmt::format("removed, {}", zone_name(z)), z);
+  for (const scenarios::Zone z :
+       {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
+    zone(fmt::format("removed, {}", scenarios::zone_name(z)), z);
   volume("removed, outside", r.volumes.outside());
-  zone("of it in no zone", Zone::none);
-  zone("of it protected", Zone::protected_);
+  zone("of it in no zone", scenarios::Zone::none);
+  zone("of it protected", scenarios::Zone::protected_);
   for (const auto& tissue : r.tissues)
     if (r.volumes.tissue[tissue.id].mm3 > 0) volume(fmt::format("removed of {}, in whole leaves", tissue.name), r.volumes.tissue[tissue.id]);
   t.rows.push_back({{{"agreement (Dice)"}, {bounded(r.volumes.dice, r.volumes.dice_bound, 3, "")}, {""}, {""}}});
   d.blocks.push_back(std::move(t));
 }
 
-void add_walls(Document& d, const Result& r) {
+void add_walls(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{"Walls"});
   ReportTable t{
       {{"mm, + = overcut", false, 1.6}, {"mean", true}, {"p95", true}, {"over", true}, {"at", true, 0.9}, {"under", true}, {"at", true, 0.9}},
       {},
       "Walls"};
-  for (std::size_t w = 0; w < k_walls; ++w) {
-    const WallMeasures& m = r.shape.wall[w];
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
+    const grading::WallMeasures& m = r.shape.wall[w];
     const auto cell = [&](double v, double bound) {
       return TableCell{m.samples == 0 ? k_dash : fmt::format("{} ± {}", fixed(v, 2), fixed(bound, 2))};
     };
-    t.rows.push_back({{{wall_name(static_cast<Wall>(w))},
+    t.rows.push_back({{{scenarios::wall_name(static_cast<scenarios::Wall>(w))},
                        cell(m.mean_mm, m.mean_bound_mm),
                        cell(m.p95_mm, m.p95_bound_mm),
                        cell(m.max_over_mm, r.shape.bound_mm),
@@ -88,9 +89,9 @@ void add_walls(Document& d, const Result& r) {
   d.blocks.push_back(std::move(c));
 }
 
-void add_perforation(Document& d, const Result& r) {
+void add_perforation(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{"Perforation"});
-  const PerforationMeasures& p = r.perforation;
+  const grading::PerforationMeasures& p = r.perforation;
   if (!p.agree())
     d.blocks.push_back(Paragraph{
         p.detected() ? "the force shows a faulty breakthrough, the tissue does not" : "the tissue shows a faulty breakthrough, the force does not",
@@ -120,8 +121,8 @@ void add_perforation(Document& d, const Result& r) {
 }
 
 void add_work(Document& d, const ReportSource& s) {
-  const Result& r = s.result;
-  const MotionMeasures& m = r.motion;
+  const grading::Result& r = s.result;
+  const grading::MotionMeasures& m = r.motion;
   d.blocks.push_back(Heading{"Work"});
   d.blocks.push_back(Paragraph{fmt::format("Time {} s, handpiece turning {} s, idle {} s. Way of the tip {} mm. Force {} N on average while cutting, "
                                            "{} N at most, over the limit for {} s. Steps {} of {} completed, {} violations; the exam ended: {}.",
@@ -130,7 +131,7 @@ void add_work(Document& d, const ReportSource& s) {
                                            r.progress.steps_completed, r.progress.steps, r.progress.violations, finish_words(r.progress.finish)),
                                ""});
   ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Accommodations, pauses, late work"};
-  const std::string granted = accommodations_text(r.accommodations);
+  const std::string granted = scenarios::accommodations_text(r.accommodations);
   t.rows.push_back({{{"accommodations"}, {granted.empty() ? "none" : granted}}});
   t.rows.push_back({{{"time limit"}, {fixed(static_cast<double>(r.limit_ticks) * k_tick_s, 1) + " s"}}});
   std::string pauses;
@@ -190,4 +191,4 @@ void add_instructor_parts(Document& d, const ReportSource& s) {
   add_device(d, s);
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -11,7 +11,7 @@
 #include "grading/ledger/explain_session.h"
 #include "ui/report/report_document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 ReportIntegrity read_integrity(const std::string& path, bool replay) {
   ReportIntegrity i;
@@ -37,7 +37,7 @@ ReportIntegrity read_integrity(const std::string& path, bool replay) {
     i.remarks.emplace_back("the motion was not simulated again for this report; `cavum verify` does that");
     return i;
   }
-  SessionExplanation e = explain_session(path, "");
+  ledger::SessionExplanation e = ledger::explain_session(path, "");
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;
   i.proved = std::move(e.proved);
   i.findings = std::move(e.findings);
@@ -98,4 +98,4 @@ void add_integrity(Document& d, const ReportSource& s) {
                      " mm. Definitions: docs/grading.md of Cavum " CAVUM_VERSION ".");
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

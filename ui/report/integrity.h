@@ -6,9 +6,9 @@
 
 #include "ui/report/report_source.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// With `replay` the whole exam is simulated again, which takes a fraction of its time. Throws Error when the file is no session.
 [[nodiscard]] ReportIntegrity read_integrity(const std::string& session_path, bool replay);
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -9,14 +9,14 @@
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/identities.h"
 
-namespace cavum {
+namespace cavum::report {
 
 using nlohmann::json;
 
 namespace {
 
 /// What a session was filed with, and that another ending of it was.
-std::vector<std::string> doubts_of(const FiledSession& s) {
+std::vector<std::string> doubts_of(const ledger::FiledSession& s) {
   std::vector<std::string> out;
   for (const auto& f : s.findings) out.push_back("filed with a finding: " + f);
   for (const auto other : s.contested_by) out.push_back(fmt::format("contested by entry {}, another ending of this exam", other));
@@ -25,20 +25,20 @@ std::vector<std::string> doubts_of(const FiledSession& s) {
 
 }  // namespace
 
-ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(read_ledger(places)) {
+ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(ledger::read_ledger(places)) {
   if (!content.findings.empty())
     throw Error(folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", folder));
-  registry = read_registry(content);
+  registry = ledger::read_registry(content);
 }
 
-const FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
+const ledger::FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
   for (const auto& s : registry.sessions)
     if (s.file_sha256 == file_sha256) return s;
   throw Error(path, "was never filed in the ledger " + places.folder,
               fmt::format("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
 }
 
-ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, ReportReader reader, bool with_name) {
+ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& session, ReportReader reader, bool with_name) {
   const std::string entry = fmt::format("entry {}", session.seq);
   const bool shown = !session.shown.is_null();
   if (reader == ReportReader::student && !shown)
@@ -54,7 +54,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
   f.date = utc_text(session.received_utc_ns);
   f.released = shown;
   f.findings = doubts_of(session);
-  if (const Regrade* r = regrade_for(session, reader)) f.regrade = ReportRegrade{r->seq, utc_text(r->utc_ns), r->reason};
+  if (const ledger::Regrade* r = regrade_for(session, reader)) f.regrade = ReportRegrade{r->seq, utc_text(r->utc_ns), r->reason};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
       f.root = to_hex(c.root);
@@ -62,8 +62,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
       break;
     }
   if (with_name) {
-    Identities identities(ledger.places.identities());
-    remove_forgotten(ledger.content, identities);
+    ledger::Identities identities(ledger.places.identities());
+    ledger::remove_forgotten(ledger.content, identities);
     const auto who = identities.of_pseudonym(session.candidate);
     if (!who) throw Error("--with-name", "nobody is known behind " + session.candidate, "the identity was forgotten; leave --with-name out");
     f.name = who->name.empty() ? who->id : who->name;
@@ -91,14 +91,14 @@ ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, 
   return f;
 }
 
-const Regrade* regrade_for(const FiledSession& session, ReportReader reader) {
+const ledger::Regrade* regrade_for(const ledger::FiledSession& session, ReportReader reader) {
   return session.regrade(reader == ReportReader::student ? session.shown_seq : session.result_seq);
 }
 
-std::string not_the_filed_result(const FiledSession& session, const Result& result, ReportReader reader) {
+std::string not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
   const json& filed = reader == ReportReader::student ? session.shown : session.result;
-  const bool same = filed.is_object() && filed.value("verdict", "") == verdict_name(result.verdict) && filed.contains("score") &&
+  const bool same = filed.is_object() && filed.value("verdict", "") == grading::verdict_name(result.verdict) && filed.contains("score") &&
                     std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&
                     std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;
   if (same) return {};
@@ -106,14 +106,14 @@ std::string not_the_filed_result(const FiledSession& session, const Result& resu
                                ? fmt::format("{}, {} points", filed.value("verdict", ""), fixed(filed["score"].value("points", 0.0), 1))
                                : "another";
   return fmt::format("the {} result is {}, and this report's is {}, {} points", reader == ReportReader::student ? "released" : "ledger's", held,
-                     verdict_name(result.verdict), fixed(result.points, 1));
+                     grading::verdict_name(result.verdict), fixed(result.points, 1));
 }
 
-void require_released_result(const FiledSession& session, const Result& result) {
+void require_released_result(const ledger::FiledSession& session, const grading::Result& result) {
   if (const std::string other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
     throw Error(
         fmt::format("entry {}", session.seq), other,
         "leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark differently");
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

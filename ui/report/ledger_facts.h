@@ -6,29 +6,29 @@
 #include "grading/ledger/regrade.h"
 #include "ui/report/report_source.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// A ledger that holds, as reports read it. Throws Error when there is none or something in it does not hold.
 struct ReportLedger {
   explicit ReportLedger(const std::string& folder);
-  LedgerPlaces places;
-  LedgerContent content;
-  Registry registry;
+  ledger::LedgerPlaces places;
+  ledger::LedgerContent content;
+  ledger::Registry registry;
   /// The session with this file; throws Error when it was never filed. `path` names it in the error.
-  [[nodiscard]] const FiledSession& session(const std::string& file_sha256, const std::string& path) const;
+  [[nodiscard]] const ledger::FiledSession& session(const std::string& file_sha256, const std::string& path) const;
 };
 
 /// `with_name`: also who the candidate is, from the ledger's identities. Throws Error when the reader may not see that: a student's report of a
 /// result that was not released, or a name before that.
-[[nodiscard]] ReportFiling filing_of(const ReportLedger& ledger, const FiledSession& session, ReportReader reader, bool with_name);
+[[nodiscard]] ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& session, ReportReader reader, bool with_name);
 
 /// The regrade whose result a reader's report is of: the last one for an instructor, the released one for a student; null for the sealed result.
-[[nodiscard]] const Regrade* regrade_for(const FiledSession& session, ReportReader reader);
+[[nodiscard]] const ledger::Regrade* regrade_for(const ledger::FiledSession& session, ReportReader reader);
 
 /// Throws Error when a student's report of `result` would not be the released result: it was marked by something else, or by another version of the
 /// program.
-void require_released_result(const FiledSession& session, const Result& result);
+void require_released_result(const ledger::FiledSession& session, const grading::Result& result);
 /// What a report says when `result` is not the one that the ledger holds for its reader; empty when it is.
-[[nodiscard]] std::string not_the_filed_result(const FiledSession& session, const Result& result, ReportReader reader);
+[[nodiscard]] std::string not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader);
 
-}  // namespace cavum
+}  // namespace cavum::report

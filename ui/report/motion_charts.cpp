@@ -9,15 +9,15 @@
 #include "ui/parts/chart_svg.h"
 #include "ui/report/figures/motion_track.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr double k_width_px = 900, k_height_px = 210;
 constexpr std::size_t k_bins = 700;         // points of a line
 constexpr double k_one_line_share = 0.016;  // of the time: events nearer than that share a line
 
-std::vector<ChartMark> event_marks(const std::vector<ReportEvent>& events, double duration_s) {
-  std::vector<ChartMark> marks;
+std::vector<ui::ChartMark> event_marks(const std::vector<ReportEvent>& events, double duration_s) {
+  std::vector<ui::ChartMark> marks;
   std::size_t first = 0;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const bool joins = !marks.empty() && events[i].t_s - marks.back().at < k_one_line_share * duration_s;
@@ -30,9 +30,9 @@ std::vector<ChartMark> event_marks(const std::vector<ReportEvent>& events, doubl
   return marks;
 }
 
-Picture chart(const std::string& title, const std::string& unit, const std::string& colour, std::vector<ChartPoint> points, double duration_s,
-              const std::vector<ChartMark>& marks) {
-  Chart c;
+Picture chart(const std::string& title, const std::string& unit, const std::string& colour, std::vector<ui::ChartPoint> points, double duration_s,
+              const std::vector<ui::ChartMark>& marks) {
+  ui::Chart c;
   c.title = title;
   c.x_label = "time, s";
   c.y_label = unit;
@@ -43,9 +43,9 @@ Picture chart(const std::string& title, const std::string& unit, const std::stri
   double most = 0;
   for (const auto& p : points) most = std::max(most, p.y);
   c.y_range = {0.0, most > 0 ? 1.15 * most : 1.0};
-  c.series.push_back({"", colour, ChartSeries::Style::line, std::move(points), 1.2});
+  c.series.push_back({"", colour, ui::ChartSeries::Style::line, std::move(points), 1.2});
   c.marks = marks;
-  return {svg_page(k_width_px, k_height_px, chart_group(c, 0, 0)), ""};
+  return {ui::svg_page(k_width_px, k_height_px, ui::chart_group(c, 0, 0)), ""};
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ Picture chart(const std::string& title, const std::string& unit, const std::stri
 std::vector<Picture> motion_charts(const ReportSource& s) {
   const MotionTrack m = make_motion_track(s.input);
   const std::size_t n = m.size(), bin = std::max<std::size_t>(1, (n + k_bins - 1) / k_bins);
-  std::vector<ChartPoint> force, depth, speed;
+  std::vector<ui::ChartPoint> force, depth, speed;
   for (std::size_t i = 0; i < n; i += bin) {
     const std::size_t end = std::min(n, i + bin);
     const double t = static_cast<double>(i) * m.step_s;
@@ -73,15 +73,15 @@ std::vector<Picture> motion_charts(const ReportSource& s) {
 }
 
 Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_percent) {
-  Chart c;
+  ui::Chart c;
   c.x_label = "attempt";
   c.y_label = "points, %";
   c.width_px = 420;
   c.height_px = 200;
-  ChartSeries line{"", "#0072b2", ChartSeries::Style::line, {}, 1.4}, dots{"", "#0072b2", ChartSeries::Style::dots, {}, 1.4};
-  ChartSeries doubtful{"in doubt", "#4d4d4d", ChartSeries::Style::rings, {}, 1.4};
+  ui::ChartSeries line{"", "#0072b2", ui::ChartSeries::Style::line, {}, 1.4}, dots{"", "#0072b2", ui::ChartSeries::Style::dots, {}, 1.4};
+  ui::ChartSeries doubtful{"in doubt", "#4d4d4d", ui::ChartSeries::Style::rings, {}, 1.4};
   for (std::size_t i = 0; i < attempts.size(); ++i) {
-    const ChartPoint p{static_cast<double>(i + 1), attempts[i].max > 0 ? 100 * attempts[i].points / attempts[i].max : 0};
+    const ui::ChartPoint p{static_cast<double>(i + 1), attempts[i].max > 0 ? 100 * attempts[i].points / attempts[i].max : 0};
     if (!attempts[i].doubt.empty()) {
       doubtful.points.push_back(p);
       continue;
@@ -94,7 +94,7 @@ Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_p
   c.x_range = {0.5, static_cast<double>(attempts.size()) + 0.5};
   c.y_range = {0, 105};
   c.marks = {{pass_percent, false, "pass mark"}};
-  return {svg_page(c.width_px, c.height_px, chart_group(c, 0, 0)), ""};
+  return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)), ""};
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

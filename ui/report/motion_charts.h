@@ -7,7 +7,7 @@
 #include "ui/report/print/document.h"
 #include "ui/report/report_source.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// Three charts of one width under each other. Events bear their number in `source.events`, from 1; those that nearly coincide share a line.
 [[nodiscard]] std::vector<Picture> motion_charts(const ReportSource& source);
@@ -15,4 +15,4 @@ namespace cavum {
 /// Points of this candidate's attempts in their order, and the pass mark.
 [[nodiscard]] Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_percent);
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -11,7 +11,7 @@
 #include "ui/report/report_data.h"
 #include "ui/report/report_document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 std::string report_html(const ReportSource& source) { return html_of(report_document(source), report_data(source)); }
 std::string report_pdf(const ReportSource& source) { return pdf_of(report_document(source)); }
@@ -26,11 +26,12 @@ void require_report_place(const std::string& path, bool overwrite) {
   if (!report) throw Error(path, "exists already and is no report of Cavum", "choose another name, or overwrite it with --overwrite");
 }
 
-void write_closing_report(const std::string& path, const std::string& session_path, const Result& result, const GradedSession& graded) {
-  const GradeInput input = graded.input();
+void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,
+                          const grading::GradedSession& graded) {
+  const grading::GradeInput input = graded.input();
   ReportSource source = report_source(result, input, graded.facts, graded.rubric);
   source.integrity = read_integrity(session_path, false);
   write_text_file(path, path.ends_with(".pdf") ? report_pdf(source) : report_html(source));
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -5,7 +5,7 @@
 
 #include "ui/report/report_source.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// One file that needs nothing else, with the tooth in 3D and the motion where a browser has scripts and WebGL.
 [[nodiscard]] std::string report_html(const ReportSource& source);
@@ -16,6 +16,7 @@ namespace cavum {
 void require_report_place(const std::string& path, bool overwrite = false);
 
 /// The instructor's report of an exam that has just been closed, without a replay, as `path` ends: .pdf or else HTML.
-void write_closing_report(const std::string& path, const std::string& session_path, const Result& result, const GradedSession& graded);
+void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,
+                          const grading::GradedSession& graded);
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -10,7 +10,7 @@
 #include "ui/report/figures/packed_array.h"
 #include "ui/report/figures/tooth_grid.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using nlohmann::json;
@@ -72,7 +72,7 @@ json tissues_json(const Tooth& tooth, bool high_contrast) {
   for (const auto& t : tooth.tissues) most = std::max<std::size_t>(most, t.id);
   json list = json::array();
   for (std::size_t id = 0; id <= most; ++id) list.push_back({{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
-  for (const auto& t : tooth.tissues) list[t.id] = {{"name", t.name}, {"colour", tissue_colour(t.id, high_contrast)}, {"solid", t.solid}};
+  for (const auto& t : tooth.tissues) list[t.id] = {{"name", t.name}, {"colour", scenarios::tissue_colour(t.id, high_contrast)}, {"solid", t.solid}};
   return list;
 }
 
@@ -114,4 +114,4 @@ json report_data(const ReportSource& s) {
           {"moments", std::move(moments)}};
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

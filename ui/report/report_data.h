@@ -8,7 +8,7 @@
 #include "ui/report/figures/tooth_grid.h"
 #include "ui/report/report_source.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// {"schema":1,"kind":"session","title","duration_s","high_contrast","tissues","grid","scale_mm","motion","instruments","events","moments"}; arrays
 /// are packed (figures/packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack.
@@ -19,4 +19,4 @@ namespace cavum {
 [[nodiscard]] nlohmann::json cells_json(const ToothGrid& grid, const ChangedCells& box);
 inline constexpr double k_colours_end_mm = 0.5;  ///< beyond this deviation from the target colours differ no more
 
-}  // namespace cavum
+}  // namespace cavum::report

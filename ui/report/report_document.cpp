@@ -13,7 +13,7 @@
 #include "ui/report/figures/section_pictures.h"
 #include "ui/report/motion_charts.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 const std::string k_dash = "–";
@@ -27,7 +27,7 @@ std::string points_of(const std::optional<double>& points, const std::optional<d
 }
 
 /// How far from the pass mark, in points.
-std::vector<std::string> margin(const Result& r) {
+std::vector<std::string> margin(const grading::Result& r) {
   std::vector<std::string> lines;
   if (r.compensatory) {
     const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
@@ -37,8 +37,8 @@ std::vector<std::string> margin(const Result& r) {
                                     ? fmt::format("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1))
                                     : ""));
   } else {
-    const CriterionResult* lowest = nullptr;
-    const auto percent = [](const CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
+    const grading::CriterionResult* lowest = nullptr;
+    const auto percent = [](const grading::CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
     for (const auto& c : r.criteria)
       if (c.max > 0 && (lowest == nullptr || percent(c) < percent(*lowest))) lowest = &c;
     lines.push_back(fmt::format("each criterion must reach {} % by itself{}", plain_number(r.pass_percent),
@@ -49,7 +49,7 @@ std::vector<std::string> margin(const Result& r) {
 }
 
 /// What gives full marks and what none, and beyond what the exam is failed.
-std::string limits_text(const CriterionSpec& c, const std::string& unit) {
+std::string limits_text(const scenarios::CriterionSpec& c, const std::string& unit) {
   std::string s = fmt::format("full {}{}, none {}{}", c.full <= c.zero ? "up to " : "from ", with_unit(plain_number(c.full), unit),
                               c.full <= c.zero ? "from " : "up to ", with_unit(plain_number(c.zero), unit));
   if (c.critical_above) s += "; failed above " + with_unit(plain_number(*c.critical_above), unit);
@@ -58,18 +58,18 @@ std::string limits_text(const CriterionSpec& c, const std::string& unit) {
 }
 
 /// What a reader of the criteria would else have to guess.
-std::vector<std::string> how_to_read(const Result& r) {
+std::vector<std::string> how_to_read(const grading::Result& r) {
   std::vector<std::string> words{
       fmt::format("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {} mm. ± after points: what the "
                   "value at either end of its ± would give.",
                   plain_number(r.leaf_mm))};
   const auto any = [&r](const auto& is) { return std::any_of(r.criteria.begin(), r.criteria.end(), is); };
-  if (any([](const CriterionResult& c) { return c.work_share < 1; }))
+  if (any([](const grading::CriterionResult& c) { return c.work_share < 1; }))
     words.push_back(
         fmt::format("Care counts for as much as was done: where less than {} % of the target at the place in question was removed, points are given "
                     "in proportion, and their ± holds that share at either end of its own ±, too.",
-                    plain_number(k_care_counts_percent)));
-  if (any([](const CriterionResult& c) { return known_measure(c.metric).of_floor; })) words.emplace_back(k_floor_words);
+                    plain_number(grading::k_care_counts_percent)));
+  if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; })) words.emplace_back(k_floor_words);
   return words;
 }
 
@@ -78,7 +78,7 @@ void add_criteria(Document& d, const ReportSource& s) {
   ReportTable t{
       {{"Criterion", false, 2.2}, {"Value", true, 1.9}, {"Limits", false, 2.4}, {"Points", true, 1.8}, {"Why", false, 3.8}}, {}, "Criteria"};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
-    const CriterionResult& c = s.result.criteria[i];
+    const grading::CriterionResult& c = s.result.criteria[i];
     const std::string value = c.value ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit) : k_dash;
     const std::string points =
         fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
@@ -90,7 +90,7 @@ void add_criteria(Document& d, const ReportSource& s) {
 }
 
 /// A row of a moment: time, place, what, how much, points.
-TableRow moment_row(const WhyItem& m) {
+TableRow moment_row(const grading::WhyItem& m) {
   const std::string amount = m.amount ? with_unit(fixed(*m.amount, 3), m.unit) : "";
   std::string what = m.what;
   if (m.end_tick > m.tick && m.tick >= 0) what += fmt::format(" (until {} s)", fixed(static_cast<double>(m.end_tick) * k_tick_s, 2));
@@ -136,7 +136,7 @@ void add_pictures(Document& d, const ReportSource& s) {
   Pictures sections{{}, 2, true};
   for (auto& p : section_pictures(s.result, s.input)) sections.list.push_back({std::move(p.svg), std::move(p.title), true});
   d.blocks.push_back(std::move(sections));
-  d.blocks.push_back(Pictures{{{legend_svg(true, strong), ""}}});
+  d.blocks.push_back(Pictures{{{scenarios::legend_svg(true, strong), ""}}});
 }
 
 void add_course(Document& d, const ReportSource& s) {
@@ -180,7 +180,7 @@ void add_attempts(Document& d, const ReportSource& s) {
   d.blocks.push_back(std::move(t));
 }
 
-void add_regrade(Document& d, const Comparison& c) {
+void add_regrade(Document& d, const grading::Comparison& c) {
   const auto because = [](const std::vector<std::string>& why) {
     std::string s;
     for (const auto& w : why) s += (s.empty() ? "" : "; ") + w;
@@ -191,17 +191,22 @@ void add_regrade(Document& d, const Comparison& c) {
                 {},
                 "Sealed result and regrade"};
   t.rows.push_back({{{"verdict"}, {c.before.verdict}, {c.verdict}, {""}, {because(c.rules)}}});
-  t.rows.push_back(
-      {{{"points"}, {points_of(c.before.points, c.before.max)}, {points_of(c.points, c.max)}, {signed_points(c.points - c.before.points)}, {""}}});
+  t.rows.push_back({{{"points"},
+                     {points_of(c.before.points, c.before.max)},
+                     {points_of(c.points, c.max)},
+                     {grading::signed_points(c.points - c.before.points)},
+                     {""}}});
   if (std::fabs(c.before.max - c.max) > 1e-9) {  // two scales: what is left of each
     const double before = c.before.max > 0 ? 100 * c.before.points / c.before.max : 0, now = c.max > 0 ? 100 * c.points / c.max : 0;
-    t.rows.push_back({{{"of its own scale"}, {fixed(before, 1) + " %"}, {fixed(now, 1) + " %"}, {signed_points(now - before) + " %"}, {""}}});
+    t.rows.push_back(
+        {{{"of its own scale"}, {fixed(before, 1) + " %"}, {fixed(now, 1) + " %"}, {grading::signed_points(now - before) + " %"}, {""}}});
   }
   for (const auto& k : c.criteria) {
     std::string why = because(k.why);
     if (k.old_value && k.new_value && fixed(*k.old_value, 3) != fixed(*k.new_value, 3))
       why += (why.empty() ? "" : "; ") + with_unit(fmt::format("value {} → {}", fixed(*k.old_value, 3), fixed(*k.new_value, 3)), k.unit);
-    t.rows.push_back({{{k.id}, {points_of(k.old_points, k.old_max)}, {points_of(k.new_points, k.new_max)}, {signed_points(k.difference())}, {why}}});
+    t.rows.push_back(
+        {{{k.id}, {points_of(k.old_points, k.old_max)}, {points_of(k.new_points, k.new_max)}, {grading::signed_points(k.difference())}, {why}}});
   }
   d.blocks.push_back(std::move(t));
 }
@@ -217,10 +222,10 @@ TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
 std::string place_text(const std::optional<Vec3>& p) { return p ? fmt::format("{}, {}, {}", fixed(p->x, 2), fixed(p->y, 2), fixed(p->z, 2)) : ""; }
 
 std::string finish_words(const std::string& finish) {
-  if (finish == finish_name(Finish::completed)) return "its last step was completed";
-  if (finish == finish_name(Finish::failed)) return "a step was failed";
-  if (finish == finish_name(Finish::time)) return "time was up";
-  if (finish == finish_name(Finish::ended)) return "it was handed in before its steps were completed";
+  if (finish == scenarios::finish_name(scenarios::Finish::completed)) return "its last step was completed";
+  if (finish == scenarios::finish_name(scenarios::Finish::failed)) return "a step was failed";
+  if (finish == scenarios::finish_name(scenarios::Finish::time)) return "time was up";
+  if (finish == scenarios::finish_name(scenarios::Finish::ended)) return "it was handed in before its steps were completed";
   return "it was not finished";
 }
 
@@ -231,20 +236,20 @@ std::string unit_text(const std::string& unit) {
 }
 
 Document report_document(const ReportSource& s) {
-  const Result& r = s.result;
+  const grading::Result& r = s.result;
   Document d;
   d.title = report_title(s);
   const bool named = s.filing && s.filing->name && s.filing->released;
   d.subtitle = fmt::format("{}{} · {} · {} · {}{}", named ? *s.filing->name + ", candidate " : "Candidate ", s.facts.candidate, s.facts.created,
                            r.tooth_name, s.facts.device, s.reader == ReportReader::instructor ? " · instructor's report" : "");
   d.created = s.facts.created;
-  if (s.regrade != nullptr) d.blocks.push_back(Paragraph{regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
+  if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
   add_filing_notes(d, s);
-  d.blocks.push_back(
-      VerdictBox{verdict_name(r.verdict), fmt::format("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)), margin(r), r.verdict_reasons});
+  d.blocks.push_back(VerdictBox{grading::verdict_name(r.verdict), fmt::format("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)),
+                                margin(r), r.verdict_reasons});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
-  if (const PerforationTruth& p = r.perforation.fault; p.perforated)
+  if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     d.blocks.push_back(Paragraph{fmt::format("{} was opened at {} s, which this task asks to spare: {} mm³ of it were removed", p.tissue,
                                              fixed(p.first.t_s(), 3), fixed(p.volume_mm3, 3)),
                                  "Perforation", Paragraph::Kind::note});
@@ -259,4 +264,4 @@ Document report_document(const ReportSource& s) {
   return d;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -4,7 +4,7 @@
 #include "ui/report/print/document.h"
 #include "ui/report/report_source.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// The whole report. What belongs to an instructor alone is left out of a student's.
 [[nodiscard]] Document report_document(const ReportSource& source);
@@ -36,4 +36,4 @@ inline constexpr char k_floor_words[] =
 /// "mm³" for "mm3".
 [[nodiscard]] std::string unit_text(const std::string& unit);
 
-}  // namespace cavum
+}  // namespace cavum::report

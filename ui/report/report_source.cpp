@@ -11,7 +11,7 @@
 #include "scenarios/exam/runner.h"
 #include "ui/report/report_document.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using nlohmann::json;
@@ -32,31 +32,31 @@ std::string spaced(std::string kind) {
   return kind;
 }
 
-ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::vector<std::string>& points_toml) {
+ReportEvent event_of(const SessionEvent& e, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
   const json detail = parse_json_or_null(e.detail_json);
   const std::string step = text_of(detail, "step");
-  const auto is = [&](ExamEventKind kind) { return e.kind == event_name(kind); };
+  const auto is = [&](scenarios::ExamEventKind kind) { return e.kind == scenarios::event_name(kind); };
   ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, "device", spaced(e.kind), site_of(detail)};
   const auto say = [&](const char* kind, const std::string& text) { r.kind = kind, r.text = text; };
-  if (is(ExamEventKind::step_started)) say("step", fmt::format("step \"{}\" begins", step));
-  if (is(ExamEventKind::step_completed)) say("step", fmt::format("step \"{}\" completed", step));
-  if (is(ExamEventKind::step_failed)) say("step", fmt::format("step \"{}\" failed", step));
-  if (is(ExamEventKind::step_time_limit)) say("limit", fmt::format("time limit of step \"{}\"", step));
-  if (is(ExamEventKind::time_limit)) say("limit", "time limit of the exam");
-  if (is(ExamEventKind::over_speed)) say("violation", fmt::format("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
-  if (is(ExamEventKind::point_not_allowed)) {
+  if (is(scenarios::ExamEventKind::step_started)) say("step", fmt::format("step \"{}\" begins", step));
+  if (is(scenarios::ExamEventKind::step_completed)) say("step", fmt::format("step \"{}\" completed", step));
+  if (is(scenarios::ExamEventKind::step_failed)) say("step", fmt::format("step \"{}\" failed", step));
+  if (is(scenarios::ExamEventKind::step_time_limit)) say("limit", fmt::format("time limit of step \"{}\"", step));
+  if (is(scenarios::ExamEventKind::time_limit)) say("limit", "time limit of the exam");
+  if (is(scenarios::ExamEventKind::over_speed)) say("violation", fmt::format("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
+  if (is(scenarios::ExamEventKind::point_not_allowed)) {
     std::string name;
     if (detail.is_object() && detail.contains("point") && detail["point"].is_number_unsigned() &&
         detail["point"].get<std::size_t>() < points_toml.size())
       name = parse_diamond_point(points_toml[detail["point"].get<std::size_t>()], "diamond point of the session").title;
     say("violation", "diamond point not allowed here" + (name.empty() ? "" : ": " + name));
   }
-  if (is(ExamEventKind::aim_reached)) say("aim", text_of(detail, "tissue") + " reached: the aim");
-  if (is(ExamEventKind::perforation)) say("perforation", text_of(detail, "tissue") + " broken into (tissue)");
-  if (is(ExamEventKind::finished)) say("finish", "the exam ended: " + finish_words(text_of(detail, "how")));
-  if (is(ExamEventKind::pause_started)) say("pause", "pause begins");
-  if (is(ExamEventKind::pause_ended)) say("pause", "pause ends");
-  if (is(ExamEventKind::pause_refused)) say("pause", "pause refused");
+  if (is(scenarios::ExamEventKind::aim_reached)) say("aim", text_of(detail, "tissue") + " reached: the aim");
+  if (is(scenarios::ExamEventKind::perforation)) say("perforation", text_of(detail, "tissue") + " broken into (tissue)");
+  if (is(scenarios::ExamEventKind::finished)) say("finish", "the exam ended: " + finish_words(text_of(detail, "how")));
+  if (is(scenarios::ExamEventKind::pause_started)) say("pause", "pause begins");
+  if (is(scenarios::ExamEventKind::pause_ended)) say("pause", "pause ends");
+  if (is(scenarios::ExamEventKind::pause_refused)) say("pause", "pause refused");
   if (e.kind == "moved") say("gap", "the disk refused: recorded at another place from here on");
   if (e.kind == "gap") say("gap", "the recording was interrupted here and taken up again");
   return r;
@@ -64,7 +64,7 @@ ReportEvent event_of(const SessionEvent& e, const GradeInput& input, const std::
 
 }  // namespace
 
-std::vector<ReportEvent> report_events(const Result& result, const GradeInput& input, const std::vector<std::string>& points_toml) {
+std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
   std::vector<ReportEvent> list;
   for (const auto& e : input.events)
     if (e.kind != "servo_lateness") list.push_back(event_of(e, input, points_toml));
@@ -77,15 +77,16 @@ std::vector<ReportEvent> report_events(const Result& result, const GradeInput& i
   return list;
 }
 
-ReportSource report_source(const Result& result, const GradeInput& input, const ReportFacts& facts, const RubricSpec& rubric) {
+ReportSource report_source(const grading::Result& result, const grading::GradeInput& input, const grading::ReportFacts& facts,
+                           const scenarios::RubricSpec& rubric) {
   ReportSource s{.result = result, .input = input, .facts = facts, .rubric = rubric};
   constexpr double k_nothing = 1e-9;
   for (const auto& c : result.criteria)
-    if (c.max - c.points > k_nothing) s.lost.push_back(why(input, result, rubric, c.id));
+    if (c.max - c.points > k_nothing) s.lost.push_back(grading::why(input, result, rubric, c.id));
   s.events = report_events(result, input, facts.points_toml);
   return s;
 }
 
 std::string report_title(const ReportSource& s) { return s.result.scenario_title; }
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -12,7 +12,7 @@
 #include "grading/session_input.h"
 #include "grading/words/why.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// Whom a report is for: a student sees the verdict and where each point went, an instructor every figure besides.
 enum class ReportReader { student, instructor };
@@ -64,25 +64,27 @@ struct ReportEvent {
 };
 
 struct ReportSource {
-  const Result& result;
-  const GradeInput& input;
-  const ReportFacts& facts;
-  const Comparison* regrade = nullptr;  ///< what the session was sealed with, where this result is another one
+  const grading::Result& result;
+  const grading::GradeInput& input;
+  const grading::ReportFacts& facts;
+  const grading::Comparison* regrade = nullptr;  ///< what the session was sealed with, where this result is another one
   ReportReader reader = ReportReader::instructor;
   ReportIntegrity integrity = {};
   std::optional<ReportFiling> filing = {};
-  RubricSpec rubric = {};                ///< that the result was marked by
-  std::vector<Why> lost = {};            ///< of each criterion that lost points
+  scenarios::RubricSpec rubric = {};     ///< that the result was marked by
+  std::vector<grading::Why> lost = {};   ///< of each criterion that lost points
   std::vector<ReportEvent> events = {};  ///< in order of time
 };
 
 /// With what follows from the result: `lost` and `events`. The references must outlive it.
-[[nodiscard]] ReportSource report_source(const Result& result, const GradeInput& input, const ReportFacts& facts, const RubricSpec& rubric);
+[[nodiscard]] ReportSource report_source(const grading::Result& result, const grading::GradeInput& input, const grading::ReportFacts& facts,
+                                         const scenarios::RubricSpec& rubric);
 
 /// The events of the exam and the breakthroughs seen in the force, in words and in order of time.
-[[nodiscard]] std::vector<ReportEvent> report_events(const Result& result, const GradeInput& input, const std::vector<std::string>& points_toml);
+[[nodiscard]] std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input,
+                                                     const std::vector<std::string>& points_toml);
 
 /// Title of a report: the exam's.
 [[nodiscard]] std::string report_title(const ReportSource& source);
 
-}  // namespace cavum
+}  // namespace cavum::report

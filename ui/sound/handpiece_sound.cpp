@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 constexpr double k_reference_rpm = 200000.0;  // at which the loudnesses below are meant
@@ -81,7 +81,7 @@ HandpieceSound::Levels HandpieceSound::levels_of(const SoundParameters& target) 
   const double rpm = within(target.rpm, 1e6), load_n = within(target.load_n, 1e3);
   const double speed = std::min(2.0, rpm / k_reference_rpm);
   Levels to;
-  to.pitch_hz = cavum::pitch_hz(rpm, load_n);
+  to.pitch_hz = ui::pitch_hz(rpm, load_n);
   to.whine = k_whine * speed;
   to.hiss = k_hiss * speed * speed;
   const double grind = target.cutting ? k_grind * std::min(1.0, speed) * load_n / (load_n + k_half_grind_n) : 0.0;
@@ -134,4 +134,4 @@ void HandpieceSound::render(const SoundParameters& target, std::span<float> out)
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

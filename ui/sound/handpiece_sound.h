@@ -9,7 +9,7 @@
 #include "engine/base/random.h"
 #include "engine/servo/tick.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// What is heard. All zero is silence.
 struct SoundParameters {
@@ -74,4 +74,4 @@ class HandpieceSound {
   std::array<Band, 2> enamel_, dentin_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using namespace std::chrono_literals;
@@ -295,4 +295,4 @@ void SoundOutput::run(const std::shared_ptr<Shared>& shared) noexcept {
   shared->changed.notify_all();
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -10,7 +10,7 @@
 
 #include "ui/sound/handpiece_sound.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// What the output is doing.
 struct SoundReport {
@@ -49,4 +49,4 @@ class SoundOutput {
   std::thread thread_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::ui

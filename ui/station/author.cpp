@@ -17,7 +17,7 @@
 #include "ui/station/script.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -41,7 +41,7 @@ class Author {
   }
 
   int run() {
-    while (!done_ && !Interrupt::asked()) frame();
+    while (!done_ && !ui::Interrupt::asked()) frame();
     if (!document_.unsaved() || discarded_) return 0;
     std::fprintf(stderr, "cavum: %s: was left with changes that are not saved; they are in %s\n", document_.path().c_str(),
                  document_.keep_aside().c_str());
@@ -89,7 +89,7 @@ class Author {
   /// What the text says, at once; what it means on the tooth, when the hand has rested for a moment.
   void follow_text() {
     if (document_.version() != read_version_) {
-      ReadScenario read = read_scenario(document_.text(), document_.path());
+      scenarios::ReadScenario read = scenarios::read_scenario(document_.text(), document_.path());
       scenario_ = std::move(read.scenario);
       mistakes_ = std::move(read.problems);
       read_version_ = document_.version();
@@ -194,11 +194,11 @@ class Author {
   }
 
   AuthorDocument document_;
-  Scenario scenario_;
-  std::vector<Problem> mistakes_;  // of the text alone
+  scenarios::Scenario scenario_;
+  std::vector<scenarios::Problem> mistakes_;  // of the text alone
   std::vector<AuthorZone> zones_;
   std::vector<DiamondPoint> shelf_;
-  Interrupt interrupt_;
+  ui::Interrupt interrupt_;
   Window window_;
   Script script_;
   StationState state_;
@@ -222,4 +222,4 @@ class Author {
 
 int run_author(const StationOptions& options, const std::string& scenario) { return Author(options, scenario).run(); }
 
-}  // namespace cavum
+}  // namespace cavum::station

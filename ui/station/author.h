@@ -6,11 +6,11 @@
 
 #include "ui/station/station.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// Opens the window on a scenario file and returns when it is closed: 0, or 1 when it was ended from outside with something unsaved, which is kept
 /// beside the file then and named on standard error. Size, text, contrast, script and pictures are those of `options`. Throws Error when the file
 /// cannot be read or there is no display.
 [[nodiscard]] int run_author(const StationOptions& options, const std::string& scenario);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -5,7 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 
-namespace cavum {
+namespace cavum::station {
 
 AuthorDocument::AuthorDocument(const std::string& path) : path_(path), text_(read_text_file(path)), on_disk_(text_) {}
 
@@ -14,9 +14,9 @@ void AuthorDocument::set(const std::string& text) {
   ++version_;
 }
 
-void AuthorDocument::make(const TextChange& change, const std::string& name) {
+void AuthorDocument::make(const scenarios::TextChange& change, const std::string& name) {
   if (change.empty()) return;
-  const std::string changed = with_change(text_, change);
+  const std::string changed = scenarios::with_change(text_, change);
   constexpr std::size_t k_most = 1000;
   if (name != pulled_ || before_.empty()) before_.push_back(text_);
   if (before_.size() > k_most) before_.erase(before_.begin());
@@ -67,4 +67,4 @@ std::string AuthorDocument::keep_aside() const {
   return aside;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

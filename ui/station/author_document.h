@@ -7,7 +7,7 @@
 
 #include "scenarios/file/edit_text.h"
 
-namespace cavum {
+namespace cavum::station {
 
 class AuthorDocument {
  public:
@@ -22,7 +22,7 @@ class AuthorDocument {
   [[nodiscard]] bool unsaved() const noexcept { return text_ != on_disk_; }
 
   /// Makes a change of the text as it is. What follows under the same name, until `rest`, is undone together with it: a pull of the mouse.
-  void make(const TextChange& change, const std::string& name);
+  void make(const scenarios::TextChange& change, const std::string& name);
   void rest() { pulled_.clear(); }
   /// False when there is nothing to take back, or to make again.
   bool undo();
@@ -44,4 +44,4 @@ class AuthorDocument {
   std::uint64_t version_ = 1;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -8,7 +8,7 @@
 
 #include "ui/station/author_screen.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// Between the tooth and the picture, both ways.
@@ -91,7 +91,7 @@ void draw_depth(ImDrawList& draw, const AuthorContext& c, const Sight& sight, co
   const float s = r - 2.0F * px;
   draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s}, colour_of(zone.layer, 255));
   if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r) return;  // from above the word would cover the points
-  const std::string word = fmt::format("depth {} mm", written_number(*zone.depth_mm));
+  const std::string word = fmt::format("depth {} mm", scenarios::written_number(*zone.depth_mm));
   draw.AddText({b.x + r + 4, b.y + 1}, IM_COL32(0, 0, 0, 255), word.c_str());
   draw.AddText({b.x + r + 3, b.y}, IM_COL32(255, 255, 255, 255), word.c_str());
 }
@@ -203,4 +203,4 @@ void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   arrows(c);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

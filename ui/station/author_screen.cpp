@@ -10,7 +10,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// Runs an edit; what cannot be done is said.
@@ -92,7 +92,8 @@ void numbers(const AuthorContext& c) {
   }
   if (s.point < zone.points_mm.size()) {
     const Vec3 p = zone.points_mm[s.point];
-    wrapped_text(fmt::format("Point {} of {}:  {}, {} mm", s.point + 1, zone.points_mm.size(), written_number(p.x), written_number(p.y)));
+    wrapped_text(fmt::format("Point {} of {}:  {}, {} mm", s.point + 1, zone.points_mm.size(), scenarios::written_number(p.x),
+                             scenarios::written_number(p.y)));
   }
 }
 
@@ -117,7 +118,7 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
 }
 
 std::string verdict(const AuthorContext& c) {
-  const auto warnings = std::count_if(c.problems.begin(), c.problems.end(), [](const Problem& p) { return p.warning; });
+  const auto warnings = std::count_if(c.problems.begin(), c.problems.end(), [](const scenarios::Problem& p) { return p.warning; });
   const auto mistakes = static_cast<std::ptrdiff_t>(c.problems.size()) - warnings;
   const auto counted = [](std::ptrdiff_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
   if (c.busy) return mistakes > 0 ? counted(mistakes, "mistake") + "; checking ..." : "checking ...";
@@ -137,7 +138,7 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   }
   wrapped_text("Check: " + verdict(c));
   const std::string file = std::filesystem::path(c.document.path()).filename().string();
-  for (const Problem& p : c.problems) {
+  for (const scenarios::Problem& p : c.problems) {
     const std::string where = p.line > 0 ? fmt::format("{}:{}:{}", file, p.line, p.column) : p.where;
     ImGui::PushStyleColor(ImGuiCol_Text, p.warning ? t.warn : t.bad);
     wrapped_text(fmt::format("{}{}{}; {}", where, p.warning ? "  warning: " : "  MISTAKE: ", p.what, p.what_to_do));
@@ -163,12 +164,12 @@ void points_by_key(const AuthorContext& c, const AuthorZone& zone) {
     const Vec3 a = zone.points_mm[s.point];
     const bool end = !zone.closed && s.point + 1 == n;
     const Vec3 to = end ? a + (a - zone.points_mm[n >= 2 ? n - 2 : 0]) * 0.5 : (a + zone.points_mm[(s.point + 1) % n]) * 0.5;
-    change(c, "", false, [&] { return insert_point(c.document.text(), c.document.path(), zone.points_place, s.point + 1, to.x, to.y); });
+    change(c, "", false, [&] { return scenarios::insert_point(c.document.text(), c.document.path(), zone.points_place, s.point + 1, to.x, to.y); });
     if (c.state.message.empty()) ++s.point;
   }
   if (key_pressed(GLFW_KEY_X)) {
     if (n > zone.least_points) {
-      change(c, "", false, [&] { return remove_point(c.document.text(), c.document.path(), zone.points_place, s.point); });
+      change(c, "", false, [&] { return scenarios::remove_point(c.document.text(), c.document.path(), zone.points_place, s.point); });
       s.point = s.point > 0 ? s.point - 1 : 0;
     } else {
       s.message = fmt::format("An outline of this kind needs at least {} points.", zone.least_points);
@@ -234,12 +235,12 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
 
 void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to, bool pull) {
   const std::string place = fmt::format("{}/{}", zone.points_place, point);
-  change(c, place, pull, [&] { return set_point(c.document.text(), c.document.path(), place, to.x, to.y); });
+  change(c, place, pull, [&] { return scenarios::set_point(c.document.text(), c.document.path(), place, to.x, to.y); });
 }
 
 void author_set_number(const AuthorContext& c, const AuthorNumber& number, double value, bool pull) {
   change(c, number.place, pull,
-         [&] { return set_number(c.document.text(), c.document.path(), number.place, std::clamp(value, number.low, number.high)); });
+         [&] { return scenarios::set_number(c.document.text(), c.document.path(), number.place, std::clamp(value, number.low, number.high)); });
 }
 
 AuthorWish author_screen(const AuthorContext& c) {
@@ -263,4 +264,4 @@ AuthorWish author_screen(const AuthorContext& c) {
   return wish;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

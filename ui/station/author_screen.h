@@ -8,7 +8,7 @@
 #include "ui/station/author_worker.h"
 #include "ui/station/screens.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// What the author chose; plain values.
 struct AuthorState {
@@ -27,7 +27,7 @@ struct AuthorContext {
   AuthorDocument& document;
   AuthorState& state;
   const std::vector<AuthorZone>& zones;
-  const std::vector<Problem>& problems;
+  const std::vector<scenarios::Problem>& problems;
   const AuthorFindings* findings = nullptr;  ///< the newest; null before the first
   bool busy = true;                          ///< the text differs from what was checked
   double floor_z_mm = 0.0;                   ///< lowest level of the target, as last found
@@ -43,4 +43,4 @@ void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size);
 void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to, bool pull);
 void author_set_number(const AuthorContext& c, const AuthorNumber& number, double value, bool pull);
 
-}  // namespace cavum
+}  // namespace cavum::station

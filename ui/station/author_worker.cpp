@@ -10,7 +10,7 @@
 #include "scenarios/review/check.h"
 #include "scenarios/zones/zone_map.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// Leaves `step` apart in a box (low, high exclusive) that `inside` says yes to, as a smooth surface.
@@ -44,35 +44,35 @@ MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std
   return smooth_shaded(mesh, colour);
 }
 
-bool counts_from_chamber(const Scenario& s) {
-  const auto does = [](const ShapeSpec& shape) { return shape.kind == ShapeSpec::Kind::column && shape.outline.from_chamber; };
+bool counts_from_chamber(const scenarios::Scenario& s) {
+  const auto does = [](const scenarios::ShapeSpec& shape) { return shape.kind == scenarios::ShapeSpec::Kind::column && shape.outline.from_chamber; };
   return std::any_of(s.zones.target.begin(), s.zones.target.end(), does) ||
          std::any_of(s.zones.protected_shapes.begin(), s.zones.protected_shapes.end(), does);
 }
 
 }  // namespace
 
-std::array<MeshData, k_author_layers> zone_bodies(const ZoneMap& zones, const Octree& tooth) {
+std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zones, const Octree& tooth) {
   const auto colour = [](AuthorLayer layer, std::uint8_t opacity) -> std::array<std::uint8_t, 4> {
     const auto c = layer_colour(layer);
     return {c[0], c[1], c[2], opacity};
   };
   const IVec3 low = zones.low(), high = zones.low() + zones.size();
   std::array<MeshData, k_author_layers> bodies;
-  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 130), [&](IVec3 l) { return zones.zone(l) == Zone::target; });
+  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 130), [&](IVec3 l) { return zones.zone(l) == scenarios::Zone::target; });
   bodies[1] = body_of(tooth, low, high, 2, colour(AuthorLayer::leeway, 80), [&](IVec3 l) {
-    const Zone z = zones.zone(l);
-    return z == Zone::target || z == Zone::leeway_sides || z == Zone::leeway_bottom;
+    const scenarios::Zone z = zones.zone(l);
+    return z == scenarios::Zone::target || z == scenarios::Zone::leeway_sides || z == scenarios::Zone::leeway_bottom;
   });
   bodies[2] = body_of(tooth, low, high, 2, colour(AuthorLayer::container, 80), [&](IVec3 l) {
-    const Zone z = zones.zone(l);
-    return z != Zone::none && z != Zone::protected_;
+    const scenarios::Zone z = zones.zone(l);
+    return z != scenarios::Zone::none && z != scenarios::Zone::protected_;
   });
   // anywhere in the tooth, coarser
   constexpr int k_coarse = 3;
-  if (zones.count(Zone::protected_) > 0)
+  if (zones.count(scenarios::Zone::protected_) > 0)
     bodies[3] = body_of(tooth, {0, 0, 0}, tooth.size(), k_coarse, colour(AuthorLayer::guarded, 90),
-                        [&](IVec3 l) { return zones.zone(l) == Zone::protected_; });
+                        [&](IVec3 l) { return zones.zone(l) == scenarios::Zone::protected_; });
   return bodies;
 }
 
@@ -109,22 +109,23 @@ void AuthorWorker::work(const std::stop_token& stop) {
 void AuthorWorker::find(const Task& task) {
   AuthorFindings f;
   f.version = task.version;
-  ReadScenario read = read_scenario(task.text, task.path);
-  Scenario& s = read.scenario;
+  scenarios::ReadScenario read = scenarios::read_scenario(task.text, task.path);
+  scenarios::Scenario& s = read.scenario;
   try {
-    SurfaceFiles files;
-    const bool whole = read.problems.empty() && read_surfaces(s, files).empty();
+    scenarios::SurfaceFiles files;
+    const bool whole = read.problems.empty() && scenarios::read_surfaces(s, files).empty();
     if (!s.tooth_file.empty()) {
-      if (const std::string file = find_tooth_file(s); file != tooth_file_ || tooth_ == nullptr) {
+      if (const std::string file = scenarios::find_tooth_file(s); file != tooth_file_ || tooth_ == nullptr) {
         tooth_ = std::make_shared<const Tooth>(load_tooth_file(file));
         tooth_file_ = file;
       }
       f.tooth = tooth_;
       f.tooth_file = tooth_file_;
     }
-    if (f.tooth && counts_from_chamber(s)) f.chamber_mm = tissue_relief(*f.tooth, "pulp", TissuePart::chamber, task.path).middle_mm;
-    if (whole && f.tooth && missing_tissues(s, *f.tooth).empty()) {
-      const ZoneMap zones = build_zones(s, *f.tooth);
+    if (f.tooth && counts_from_chamber(s))
+      f.chamber_mm = scenarios::tissue_relief(*f.tooth, "pulp", scenarios::TissuePart::chamber, task.path).middle_mm;
+    if (whole && f.tooth && scenarios::missing_tissues(s, *f.tooth).empty()) {
+      const scenarios::ZoneMap zones = scenarios::build_zones(s, *f.tooth);
       f.target_low_mm = zones.target_low_mm();
       f.target_high_mm = zones.target_high_mm();
       f.opening_z_mm = zones.opening_z_mm();
@@ -135,7 +136,7 @@ void AuthorWorker::find(const Task& task) {
     // why there are no zones is one of the problems that the check finds now
   }
   try {
-    CheckedScenario checked = check_whole(task.text, task.path);
+    scenarios::CheckedScenario checked = scenarios::check_whole(task.text, task.path);
     f.problems = std::move(checked.problems);
     f.expert_s = checked.expert_s;
   } catch (const std::exception& e) {
@@ -145,4 +146,4 @@ void AuthorWorker::find(const Task& task) {
   publish(std::move(f));
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

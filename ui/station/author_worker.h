@@ -17,7 +17,7 @@
 #include "ui/station/author_zones.h"
 #include "ui/station/instrument_mesh.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// What is known of one text. It comes twice: with the zones, and again when all is checked.
 struct AuthorFindings {
@@ -29,7 +29,7 @@ struct AuthorFindings {
   double opening_z_mm = 0.0;
   Vec3 chamber_mm;  ///< middle of the pulp chamber, where the scenario counts from it
   bool checked = false;
-  std::vector<Problem> problems;
+  std::vector<scenarios::Problem> problems;
   std::optional<double> expert_s;
 };
 
@@ -60,6 +60,6 @@ class AuthorWorker {
 };
 
 /// The surfaces of the zones for the screen, smoothed: what is to be removed, that with its leeway, that with its container, what is protected.
-[[nodiscard]] std::array<MeshData, k_author_layers> zone_bodies(const ZoneMap& zones, const Octree& tooth);
+[[nodiscard]] std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zones, const Octree& tooth);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -5,21 +5,21 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
-using Kind = ShapeSpec::Kind;
+using Kind = scenarios::ShapeSpec::Kind;
 
 constexpr std::array<const char*, 9> k_shape_names{"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "STL file", "canal cone"};
 
-void add_bottom(AuthorZone& zone, const BottomSpec& b, const std::string& at) {
+void add_bottom(AuthorZone& zone, const scenarios::BottomSpec& b, const std::string& at) {
   switch (b.kind) {
-    case BottomSpec::Kind::level:
+    case scenarios::BottomSpec::Kind::level:
       zone.numbers.push_back({"level of the floor, z", at + "/z_mm", b.z_mm, -100, 100});
       break;
-    case BottomSpec::Kind::below_surface:
-    case BottomSpec::Kind::below_lowest:
-    case BottomSpec::Kind::below_mean:
+    case scenarios::BottomSpec::Kind::below_surface:
+    case scenarios::BottomSpec::Kind::below_lowest:
+    case scenarios::BottomSpec::Kind::below_mean:
       zone.numbers.push_back({"depth", at + "/depth_mm", b.depth_mm, 0.05, 30});
       zone.depth_mm = b.depth_mm;
       zone.depth_place = at + "/depth_mm";
@@ -29,20 +29,20 @@ void add_bottom(AuthorZone& zone, const BottomSpec& b, const std::string& at) {
   }
 }
 
-void add_outline(AuthorZone& zone, const OutlineSpec& o, const std::string& at) {
+void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::string& at) {
   switch (o.kind) {
-    case OutlineSpec::Kind::circle:
+    case scenarios::OutlineSpec::Kind::circle:
       zone.numbers.push_back({"radius", at + "/radius_mm", o.radius_mm, 0.05, 20});
       break;
-    case OutlineSpec::Kind::stroke:
+    case scenarios::OutlineSpec::Kind::stroke:
       zone.numbers.push_back({"width", at + "/width_mm", o.width_mm, 0.1, 20});
       zone.half_width_mm = 0.5 * o.width_mm + o.offset_mm;
       break;
-    case OutlineSpec::Kind::polygon:
+    case scenarios::OutlineSpec::Kind::polygon:
       zone.closed = true;
       zone.least_points = 3;
       break;
-    case OutlineSpec::Kind::projection:
+    case scenarios::OutlineSpec::Kind::projection:
       zone.numbers.push_back({"rounding", at + "/rounding_mm", o.rounding_mm, 0, 5});
       break;
   }
@@ -52,10 +52,10 @@ void add_outline(AuthorZone& zone, const OutlineSpec& o, const std::string& at) 
   zone.points_mm = o.points_mm;
 }
 
-AuthorZone zone_of(const ShapeSpec& s, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
+AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
   AuthorZone zone;
   zone.line = s.line;
-  zone.frame = shape_frame(s);
+  zone.frame = scenarios::shape_frame(s);
   const auto number = [&](const char* label, const char* key, double value, double low, double high, const char* unit = "mm") {
     zone.numbers.push_back({label, fmt::format("{}/{}", at, key), value, low, high, unit});
   };
@@ -71,7 +71,7 @@ AuthorZone zone_of(const ShapeSpec& s, const std::string& at, double opening_z_m
     case Kind::prism: {
       number("height", "height_mm", s.height_mm, 0.05, 100);
       add_outline(zone, s.outline, at + "/outline");
-      const ShapeFrame f = zone.frame;
+      const scenarios::ShapeFrame f = zone.frame;
       const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
       zone.frame.at = f.at + f.z * up + f.x * s.outline.centre_mm.x + f.y * s.outline.centre_mm.y;
       break;
@@ -111,7 +111,7 @@ AuthorZone zone_of(const ShapeSpec& s, const std::string& at, double opening_z_m
   return zone;
 }
 
-AuthorZone margin_of(AuthorLayer layer, const MarginSpec& m, const std::string& at) {
+AuthorZone margin_of(AuthorLayer layer, const scenarios::MarginSpec& m, const std::string& at) {
   AuthorZone zone;
   zone.layer = layer;
   zone.title = layer_name(layer);
@@ -131,16 +131,16 @@ std::array<std::uint8_t, 3> layer_colour(AuthorLayer layer) noexcept {
   return k_colours[static_cast<std::size_t>(layer)];
 }
 
-std::vector<AuthorZone> author_zones(const Scenario& scenario, double opening_z_mm, Vec3 chamber_mm) {
+std::vector<AuthorZone> author_zones(const scenarios::Scenario& scenario, double opening_z_mm, Vec3 chamber_mm) {
   std::vector<AuthorZone> zones;
-  const auto bodies = [&](AuthorLayer layer, const char* key, const std::vector<ShapeSpec>& list) {
+  const auto bodies = [&](AuthorLayer layer, const char* key, const std::vector<scenarios::ShapeSpec>& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       zones.push_back(zone_of(list[i], fmt::format("zones/{}/{}", key, i), opening_z_mm, chamber_mm));
       AuthorZone& zone = zones.back();
       zone.layer = layer;
       zone.title = fmt::format("{} {}, {}", layer_name(layer), i + 1, k_shape_names[static_cast<std::size_t>(list[i].kind)]);
-      if (list[i].combine == ShapeSpec::Combine::subtract) zone.title += ", taken away";
-      if (list[i].combine == ShapeSpec::Combine::intersect) zone.title += ", in common";
+      if (list[i].combine == scenarios::ShapeSpec::Combine::subtract) zone.title += ", taken away";
+      if (list[i].combine == scenarios::ShapeSpec::Combine::intersect) zone.title += ", in common";
     }
   };
   bodies(AuthorLayer::target, "target", scenario.zones.target);
@@ -150,4 +150,4 @@ std::vector<AuthorZone> author_zones(const Scenario& scenario, double opening_z_
   return zones;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -9,7 +9,7 @@
 
 #include "scenarios/zones/shape.h"
 
-namespace cavum {
+namespace cavum::station {
 
 enum class AuthorLayer { target, leeway, container, guarded };
 inline constexpr std::size_t k_author_layers = 4;
@@ -34,7 +34,7 @@ struct AuthorZone {
   double half_width_mm = 0.0;         ///< of a path's stroke
   std::size_t least_points = 2;
   /// Where a point lies: at + x·point.x + y·point.y, on the level of the opening.
-  ShapeFrame frame;
+  scenarios::ShapeFrame frame;
   std::optional<double> depth_mm;  ///< of a column below the opening
   std::string depth_place;
 
@@ -42,6 +42,6 @@ struct AuthorZone {
 };
 
 /// `opening_z_mm`: level on which points are shown; `chamber_mm`: the chamber's middle, where outlines count from it.
-[[nodiscard]] std::vector<AuthorZone> author_zones(const Scenario& scenario, double opening_z_mm, Vec3 chamber_mm);
+[[nodiscard]] std::vector<AuthorZone> author_zones(const scenarios::Scenario& scenario, double opening_z_mm, Vec3 chamber_mm);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -4,10 +4,10 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
-std::string pauses_text(const PauseSpec& pauses) {
+std::string pauses_text(const scenarios::PauseSpec& pauses) {
   if (pauses.count == 0) return "none";
   return fmt::format("{}, each of at most {}, while the handpiece stands still (P)", pauses.count, clock_text(pauses.longest_s));
 }
@@ -26,7 +26,7 @@ void briefing_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const Scenario& scenario = c.sitting->setup().scenario;
+  const scenarios::Scenario& scenario = c.sitting->setup().scenario;
   const float words = std::min(t.px(600), screen.x * 0.55F);
   begin_area(t, "briefing words", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
   ImGui::BeginChild("task", {0, ImGui::GetContentRegionAvail().y - t.px(s.message.empty() ? 96 : 140)},
@@ -34,10 +34,10 @@ void briefing_screen(const ScreenContext& c) {
   heading_text(scenario.title);
   wrapped_text(scenario.description);
   ImGui::Dummy({0, t.px(8)});
-  const auto limit = static_cast<double>(exam_limit_ticks(scenario)) * k_tick_s;
+  const auto limit = static_cast<double>(scenarios::exam_limit_ticks(scenario)) * k_tick_s;
   fact(t, "Candidate", c.sitting->candidate());
   fact(t, "Time", clock_text(limit) + " minutes");
-  const std::string granted = accommodations_text(scenario.accommodations);
+  const std::string granted = scenarios::accommodations_text(scenario.accommodations);
   if (!granted.empty()) fact(t, "Granted", granted);
   fact(t, "Pauses", pauses_text(scenario.pauses));
   if (scenario.force_limit_n > 0) fact(t, "Force", number_text("at most %.1f N", scenario.force_limit_n));
@@ -75,4 +75,4 @@ void briefing_screen(const ScreenContext& c) {
   end_area();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -2,7 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 constexpr float k_field_deg = 26.0F;
@@ -49,4 +49,4 @@ Vec3 Camera::up() const {
   return {m[0][1], m[1][1], m[2][1]};
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

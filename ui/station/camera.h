@@ -6,7 +6,7 @@
 
 #include "engine/base/vec.h"
 
-namespace cavum {
+namespace cavum::station {
 
 struct Camera {
   glm::vec3 target_mm{0, 0, 0};
@@ -32,4 +32,4 @@ struct Camera {
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

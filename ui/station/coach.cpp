@@ -2,12 +2,12 @@
 
 #include "ui/station/theme.h"
 
-namespace cavum {
+namespace cavum::station {
 
-std::string coaching_hint(const ExamSetup& setup, const LiveView& view) {
+std::string coaching_hint(const scenarios::ExamSetup& setup, const scenarios::LiveView& view) {
   const TickOutput& now = view.output;
-  const ZoneMap& zones = setup.zones;
-  const Scenario& scenario = setup.scenario;
+  const scenarios::ZoneMap& zones = setup.zones;
+  const scenarios::Scenario& scenario = setup.scenario;
   const double force_n = length(now.rendered_force_n);
   if (scenario.force_limit_n > 0 && force_n > scenario.force_limit_n)
     return number_text("Too much force: %.1f N. ", force_n) + number_text("Let the diamond do the work, below %.1f N.", scenario.force_limit_n);
@@ -27,4 +27,4 @@ std::string coaching_hint(const ExamSetup& setup, const LiveView& view) {
   return {};
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -5,9 +5,9 @@
 
 #include "scenarios/exam/live_exam.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// One short sentence, or empty: pressing too hard, turning in the air for long, beside the target, near its floor, below it.
-[[nodiscard]] std::string coaching_hint(const ExamSetup& setup, const LiveView& view);
+[[nodiscard]] std::string coaching_hint(const scenarios::ExamSetup& setup, const scenarios::LiveView& view);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -9,7 +9,7 @@
 #include <exception>
 #include <vector>
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -142,4 +142,4 @@ void DeviceCheck::run() noexcept {
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

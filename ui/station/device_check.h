@@ -11,7 +11,7 @@
 
 #include "engine/servo/servo_device.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// What the check has seen so far. Rates and places are of the last second.
 struct DeviceSight {
@@ -64,4 +64,4 @@ class DeviceCheck {
   std::thread thread_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -8,7 +8,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// A tick, a ring or a cross in front of a line: the sign says it, the colour repeats it.
@@ -82,4 +82,4 @@ void device_check_screen(const ScreenContext& c) {
   end_area();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -11,7 +11,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// Where everything is, pixels.
@@ -34,9 +34,9 @@ Layout lay_out(const Theme& t, bool left_handed) {
   return l;
 }
 
-void top_bar(const ScreenContext& c, const LiveView& view, const Layout& l) {
+void top_bar(const ScreenContext& c, const scenarios::LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
-  const Scenario& scenario = c.sitting->setup().scenario;
+  const scenarios::Scenario& scenario = c.sitting->setup().scenario;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(20), t.px(10)});
   begin_area(t, "step and clock", l.top_at, l.top, true);
   ImGui::PopStyleVar();
@@ -53,15 +53,15 @@ void top_bar(const ScreenContext& c, const LiveView& view, const Layout& l) {
   end_area();
 }
 
-void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
+void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  const Scenario& scenario = c.sitting->setup().scenario;
+  const scenarios::Scenario& scenario = c.sitting->setup().scenario;
   begin_area(t, "side", l.side_at, l.side, true);
   // the buttons always have their place; gauges and hints can be scrolled when the text is large
   const float row = t.px(36) + ImGui::GetStyle().ItemSpacing.y, rows = scenario.pauses.count > 0 ? 3.0F : 2.0F;
   ImGui::BeginChild("gauges", {0, std::max(t.px(60), ImGui::GetContentRegionAvail().y - rows * row)}, false);
-  const GaugeSpec all{true, true, true};
+  const scenarios::GaugeSpec all{true, true, true};
   show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
   ImGui::TextUnformatted("Speed dial  ( [ and ] )");
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
@@ -89,7 +89,7 @@ void side_panel(const ScreenContext& c, const LiveView& view, const Layout& l) {
   end_area();
 }
 
-void tray(const ScreenContext& c, const LiveView& view, const Layout& l) {
+void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
   const auto& allowed = c.sitting->setup().point_names;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(14), t.px(8)});
@@ -189,8 +189,8 @@ void ask_whether_finished(const ScreenContext& c) {
 void exam_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  LiveExam& live = c.sitting->live();
-  const LiveView view = live.view();
+  scenarios::LiveExam& live = c.sitting->live();
+  const scenarios::LiveView view = live.view();
   const Layout l = lay_out(t, s.left_handed);
 
   live.look_at_tooth([&](const Octree& tooth) { c.scene->tooth().take(tooth); });
@@ -229,4 +229,4 @@ void exam_screen(const ScreenContext& c) {
   c.sitting->desk().speed_share.store(s.handpiece_speed, std::memory_order_relaxed);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

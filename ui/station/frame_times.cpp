@@ -13,7 +13,7 @@
 #include "ui/station/station.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -23,10 +23,10 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 }  // namespace
 
 void print_frame_times(const StationOptions& options, int frames) {
-  ExamOptions exam;
+  scenarios::ExamOptions exam;
   exam.candidate = "bench";
   exam.tooth_file = options.sitting.tooth;
-  const auto setup = prepare_exam(options.sitting.scenario, exam);
+  const auto setup = scenarios::prepare_exam(options.sitting.scenario, exam);
   const Window window("Cavum", options.width, options.height);
   const auto began = Clock::now();
   Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->points, nullptr);
@@ -48,4 +48,4 @@ void print_frame_times(const StationOptions& options, int frames) {
               quantile_of_sorted(times_ms, 0.95));
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -5,7 +5,7 @@
 
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 
 void bar_gauge(const Theme& t, const char* name, const std::string& value, double share, double mark) {
   const float width = ImGui::GetContentRegionAvail().x, height = t.px(18);
@@ -56,7 +56,7 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
   ImGui::Dummy({width, height + t.px(12)});
 }
 
-void show_gauges(const Theme& t, const ExamSetup& setup, const TickOutput& now, double deepest_mm, const GaugeSpec& shown) {
+void show_gauges(const Theme& t, const scenarios::ExamSetup& setup, const TickOutput& now, double deepest_mm, const scenarios::GaugeSpec& shown) {
   if (shown.speed) {
     const double thousands = std::round(now.rpm / 1000.0);
     bar_gauge(t, "Speed", thousands > 0 ? number_text("%.0f 000 /min", thousands) : "0 /min", now.rpm / setup.scenario.max_rpm);
@@ -92,4 +92,4 @@ void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) 
   ImGui::PopStyleColor();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -6,7 +6,7 @@
 #include "scenarios/exam/exam.h"
 #include "ui/station/theme.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// A bar `share` full (0..1), over the whole width. `mark` > 0: a line there, and from there on the bar is hatched as too much.
 void bar_gauge(const Theme& theme, const char* name, const std::string& value, double share, double mark = 0.0);
@@ -15,9 +15,9 @@ void bar_gauge(const Theme& theme, const char* name, const std::string& value, d
 void depth_gauge(const Theme& theme, double tip_mm, double deepest_mm, double most_mm, float height);
 
 /// Those of speed, force and depth that are `shown`. `deepest_mm` so far below the opening.
-void show_gauges(const Theme& theme, const ExamSetup& setup, const TickOutput& now, double deepest_mm, const GaugeSpec& shown);
+void show_gauges(const Theme& theme, const scenarios::ExamSetup& setup, const TickOutput& now, double deepest_mm, const scenarios::GaugeSpec& shown);
 
 /// The exam's clock: what is left of the limit, or what has passed when there is none.
 void exam_clock(const Theme& theme, double passed_s, double limit_s, bool standing);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -11,7 +11,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 unsigned compile(unsigned kind, const char* source) {
@@ -216,4 +216,4 @@ void RenderTarget::end() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

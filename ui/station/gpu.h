@@ -10,7 +10,7 @@
 
 #include "engine/tooth/surface_patches.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// Who draws, in the words of the current context; empty when it does not say.
 [[nodiscard]] std::string renderer_name();
@@ -85,4 +85,4 @@ class RenderTarget {
   unsigned frame_ = 0, colour_ = 0, depth_ = 0, shown_frame_ = 0, shown_ = 0;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 struct Ring {
@@ -99,4 +99,4 @@ MeshData handpiece_mesh() {
   return mesh;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -4,11 +4,11 @@
 #include "engine/instrument/diamond_point.h"
 #include "ui/station/mesh_data.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// In the tool's frame, mm: tip at the origin, +z towards the handle.
 [[nodiscard]] MeshData diamond_point_mesh(const DiamondPoint& point);
 /// Its head begins 11 mm above the tip; its neck leans back towards -y.
 [[nodiscard]] MeshData handpiece_mesh();
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace cavum {
+namespace cavum::station {
 
 MeshData smooth_shaded(const TriangleMesh& mesh, const std::array<std::uint8_t, 4>& colour) {
   const auto vec = [](Vec3 v) { return glm::vec3(v.x, v.y, v.z); };
@@ -20,4 +20,4 @@ MeshData smooth_shaded(const TriangleMesh& mesh, const std::array<std::uint8_t, 
   return data;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

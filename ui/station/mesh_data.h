@@ -8,7 +8,7 @@
 #include "engine/tooth/surface_mesh.h"
 #include "ui/station/gpu.h"
 
-namespace cavum {
+namespace cavum::station {
 
 struct MeshData {
   std::vector<GpuVertex> vertices;
@@ -18,4 +18,4 @@ struct MeshData {
 /// A closed surface in one colour, its normals the mean of the triangles around each vertex, by their areas.
 [[nodiscard]] MeshData smooth_shaded(const TriangleMesh& mesh, const std::array<std::uint8_t, 4>& colour);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -5,7 +5,7 @@
 #include "engine/base/bytes.h"
 #include "engine/base/file.h"
 
-namespace cavum {
+namespace cavum::station {
 
 void write_png(const std::string& path, int width, int height, std::span<const unsigned char> rgb) {
   Bytes png;
@@ -20,4 +20,4 @@ void write_png(const std::string& path, int width, int height, std::span<const u
   write_file(path, png);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

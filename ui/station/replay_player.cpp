@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 const SessionReader& sound(const SessionReader& reader) {
@@ -23,7 +23,7 @@ const SessionReader& sound(const SessionReader& reader) {
 
 ReplayPlayer::ReplayPlayer(const std::string& path)
     : reader_(path),
-      setup_(prepare_exam(sound(reader_).setup())),
+      setup_(scenarios::prepare_exam(sound(reader_).setup())),
       simulation_(make_simulation(reader_.setup(), path)),
       runner_(setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names),
       inputs_(reader_.inputs()),
@@ -52,7 +52,7 @@ void ReplayPlayer::take_tick() {
   runner_.advance(now_->runner, now_->input, now_->output, now_->servo.removed);
   const std::int64_t tick = now_->servo.tick;
   // what the candidate or the supervisor ended is no input of a tick
-  const auto ended = [](const SessionEvent& e) { return e.kind == event_name(ExamEventKind::finished); };
+  const auto ended = [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); };
   if (tick == ticks() && std::any_of(events_.begin(), events_.end(), ended)) runner_.end(now_->runner);
   auto& snapshot = snapshots_[static_cast<std::size_t>(tick / between_)];
   if (tick % between_ == 0 && !snapshot) snapshot = std::make_unique<Moment>(*now_);
@@ -69,4 +69,4 @@ bool ReplayPlayer::work(double budget_s) {
   return now_->servo.tick == goal_;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

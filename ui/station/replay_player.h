@@ -11,14 +11,14 @@
 #include "scenarios/exam/exam.h"
 #include "scenarios/exam/runner.h"
 
-namespace cavum {
+namespace cavum::station {
 
 class ReplayPlayer {
  public:
   /// Throws Error when the session is damaged, or was recorded under another version of the physics.
   explicit ReplayPlayer(const std::string& path);
 
-  [[nodiscard]] const ExamSetup& setup() const noexcept { return *setup_; }
+  [[nodiscard]] const scenarios::ExamSetup& setup() const noexcept { return *setup_; }
   [[nodiscard]] const SessionReader& session() const noexcept { return reader_; }
   [[nodiscard]] const std::vector<SessionEvent>& events() const noexcept { return events_; }
   [[nodiscard]] std::int64_t ticks() const noexcept { return static_cast<std::int64_t>(inputs_.size()); }
@@ -32,7 +32,7 @@ class ReplayPlayer {
   [[nodiscard]] const Octree& tooth() const noexcept { return now_->servo.tooth; }
   [[nodiscard]] const TickInput& input() const noexcept { return now_->input; }
   [[nodiscard]] const TickOutput& output() const noexcept { return now_->output; }
-  [[nodiscard]] const RunnerState& runner() const noexcept { return now_->runner; }
+  [[nodiscard]] const scenarios::RunnerState& runner() const noexcept { return now_->runner; }
   [[nodiscard]] const std::string& instruction() const noexcept { return runner_.instruction(now_->runner); }
   [[nodiscard]] std::uint64_t hash() const noexcept { return state_hash(now_->servo); }
 
@@ -41,16 +41,16 @@ class ReplayPlayer {
   /// Everything that changes.
   struct Moment {
     ServoState servo;
-    RunnerState runner;
+    scenarios::RunnerState runner;
     TickInput input;
     TickOutput output;
   };
   void take_tick();
 
   SessionReader reader_;
-  std::unique_ptr<ExamSetup> setup_;
+  std::unique_ptr<scenarios::ExamSetup> setup_;
   Simulation simulation_;
-  Runner runner_;
+  scenarios::Runner runner_;
   std::vector<TickInput> inputs_;
   std::vector<SessionEvent> events_;
   std::vector<std::unique_ptr<Moment>> snapshots_;  // every `between_` ticks; null until passed
@@ -58,4 +58,4 @@ class ReplayPlayer {
   std::unique_ptr<Moment> now_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -10,7 +10,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// What of the recording's events is worth a mark.
@@ -38,8 +38,8 @@ void top_bar(const ScreenContext& c, ImVec2 size) {
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("replay clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
-  const RunnerState& runner = player.runner();
-  exam_clock(t, static_cast<double>(runner.ticks - runner.paused_ticks) * k_tick_s, 0.0, Runner::paused(runner));
+  const scenarios::RunnerState& runner = player.runner();
+  exam_clock(t, static_cast<double>(runner.ticks - runner.paused_ticks) * k_tick_s, 0.0, scenarios::Runner::paused(runner));
   ImGui::EndChild();
   end_area();
 }
@@ -134,7 +134,7 @@ void replay_screen(const ScreenContext& c) {
   const float top = t.px(98), bottom = t.px(118), side = std::min(t.px(250), screen.x * 0.4F), middle = screen.y - top - bottom;
   top_bar(c, {screen.x, top});
   begin_area(t, "replay gauges", {s.left_handed ? 0 : screen.x - side, top}, {side, middle}, true);
-  const ExamSetup& setup = player.setup();
+  const scenarios::ExamSetup& setup = player.setup();
   const TickOutput& now = player.output();
   show_gauges(t, setup, now, player.runner().depth_mm, {true, true, true});
   quiet_text(t, "Target removed: about " + number_text("%.1f %%", 100.0 * static_cast<double>(player.runner().target_shares) /
@@ -151,4 +151,4 @@ void replay_screen(const ScreenContext& c) {
   end_area();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

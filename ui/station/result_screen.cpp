@@ -11,16 +11,16 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
-void criteria(const Theme& t, const Result& r) {
+void criteria(const Theme& t, const grading::Result& r) {
   if (!ImGui::BeginTable("criteria", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX)) return;
   ImGui::TableSetupColumn("Criterion", ImGuiTableColumnFlags_WidthFixed, t.px(190));
   ImGui::TableSetupColumn("Points", ImGuiTableColumnFlags_WidthFixed, t.px(110));
   ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
-  for (const CriterionResult& c : r.criteria) {
+  for (const grading::CriterionResult& c : r.criteria) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     wrapped_text(c.title);
@@ -64,14 +64,14 @@ void result_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const Result& r = c.sitting->closed().result;
+  const grading::Result& r = c.sitting->closed().result;
   const float words = std::min(t.px(820), screen.x * 0.66F);
   begin_area(t, "result", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
   ImGui::BeginChild("words", {0, ImGui::GetContentRegionAvail().y - t.px(s.message.empty() ? 96 : 126)}, false);
-  const ImVec4 colour = r.verdict == Verdict::pass ? t.good : r.verdict == Verdict::fail ? t.bad : t.warn;
+  const ImVec4 colour = r.verdict == grading::Verdict::pass ? t.good : r.verdict == grading::Verdict::fail ? t.bad : t.warn;
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(r.verdict == Verdict::pass ? "Passed" : r.verdict == Verdict::fail ? "Not passed" : "To be reviewed");
+  ImGui::TextUnformatted(r.verdict == grading::Verdict::pass ? "Passed" : r.verdict == grading::Verdict::fail ? "Not passed" : "To be reviewed");
   ImGui::PopStyleColor();
   pop_font();
   heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
@@ -98,4 +98,4 @@ void result_screen(const ScreenContext& c) {
   end_area();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

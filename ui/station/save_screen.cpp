@@ -6,7 +6,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// The window was asked to close: what would be lost, and how it is not.
@@ -54,4 +54,4 @@ void save_screen(const ScreenContext& c) {
   ask_whether_to_close(c);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -11,7 +11,7 @@
 #include "engine/tooth/surface_mesh.h"
 #include "ui/station/instrument_mesh.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 constexpr int k_colours = 16;  // tissues with a colour of their own; further ones share the last
@@ -121,16 +121,16 @@ std::vector<GpuMesh> meshes_of(const std::vector<DiamondPoint>& tray) {
 
 }  // namespace
 
-MeshData target_mesh(const ZoneMap& zones) {
+MeshData target_mesh(const scenarios::ZoneMap& zones) {
   constexpr std::array<std::uint8_t, 4> k_colour{60, 190, 235, 255};
   const IVec3 size = zones.size();
   std::vector<std::uint8_t> inside;
   std::vector<double> distance;
   const auto at_border = [](int i, int n) { return i == 0 || i == n - 1; };
-  zones.for_each_leaf([&](IVec3 leaf, Zone zone) {
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone zone) {
     const IVec3 l = leaf - zones.low();
     const bool rim = at_border(l.x, size.x) || at_border(l.y, size.y) || at_border(l.z, size.z);
-    inside.push_back(zone == Zone::target && !rim ? 1 : 0);
+    inside.push_back(zone == scenarios::Zone::target && !rim ? 1 : 0);
     distance.push_back(zones.distance_mm(leaf));
   });
   const auto index = [&size](IVec3 l) { return static_cast<std::size_t>((l.z * size.y + l.y) * size.x + l.x); };
@@ -141,7 +141,7 @@ MeshData target_mesh(const ZoneMap& zones) {
   return smooth_shaded(mesh, k_colour);
 }
 
-Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target)
+Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const scenarios::ZoneMap* target)
     : tooth_(tooth),
       tissues_(tissues),
       points_(meshes_of(tray)),
@@ -287,4 +287,4 @@ unsigned Scene::picture(const SceneView& view, int width, int height, int sample
   return target_picture_.texture();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

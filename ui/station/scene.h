@@ -12,7 +12,7 @@
 #include "ui/station/gpu.h"
 #include "ui/station/tooth_drawing.h"
 
-namespace cavum {
+namespace cavum::station {
 
 /// What is to be seen.
 struct SceneView {
@@ -29,7 +29,7 @@ struct SceneView {
 class Scene {
  public:
   /// `target`: of practice; null = none is shown.
-  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const ZoneMap* target);
+  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const scenarios::ZoneMap* target);
 
   [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
   /// Bodies seen through clear tissue, one over the other in this order, in the colours and opacities of their corners.
@@ -67,6 +67,6 @@ class Scene {
 };
 
 /// The surface of what is to be removed, as a mesh in the colour of targets.
-[[nodiscard]] struct MeshData target_mesh(const ZoneMap& zones);
+[[nodiscard]] struct MeshData target_mesh(const scenarios::ZoneMap& zones);
 
-}  // namespace cavum
+}  // namespace cavum::station

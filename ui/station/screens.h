@@ -8,12 +8,12 @@
 #include "ui/station/state.h"
 #include "ui/station/theme.h"
 
-namespace cavum {
+namespace cavum::station {
 
 struct ScreenContext {
   Theme theme;
   StationState& state;
-  const Scenario& scenario;                ///< as its file says
+  const scenarios::Scenario& scenario;     ///< as its file says
   const std::vector<DiamondPoint>& shelf;  ///< all diamond points there are
   Sitting* sitting = nullptr;              ///< null before sign-in
   Scene* scene = nullptr;                  ///< null before there is a tooth
@@ -44,4 +44,4 @@ void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* up
 /// The silhouette of a diamond point in a box of the screen, pixels.
 void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -20,7 +20,7 @@
 #include "engine/base/file_name.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 constexpr std::array<const char*, 16> k_words{"mouse", "wait",  "go",   "until", "type",    "key",    "hold", "release",
@@ -187,4 +187,4 @@ void Script::step(Window& window, Screen screen, double exam_s, double now_s) {
   since_s_ = -1.0;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

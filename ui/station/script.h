@@ -26,7 +26,7 @@
 
 #include "ui/station/state.h"
 
-namespace cavum {
+namespace cavum::station {
 
 class Window;
 
@@ -61,4 +61,4 @@ class Script {
   double pressed_s_ = -1.0;  // when `go` last pressed enter
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -4,7 +4,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 
 void sign_in_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
@@ -43,4 +43,4 @@ void sign_in_screen(const ScreenContext& c) {
   end_area();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -4,7 +4,7 @@
 
 #include "ui/station/screens.h"
 
-namespace cavum {
+namespace cavum::station {
 
 void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated) {
   constexpr int k_slices = 90;
@@ -20,4 +20,4 @@ void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 co
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

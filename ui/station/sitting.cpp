@@ -13,7 +13,7 @@
 #include "grading/ledger/station_ticket.h"
 #include "scenarios/exam/other_place.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 template <class T>
@@ -22,13 +22,13 @@ bool is_ready(const std::future<T>& f) {
 }
 
 /// The ticket of a candidate who typed this code, in capitals or not.
-HeldTicket ticket_of(const std::string& folder, const std::string& code) {
+ledger::HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   std::string name = code;
   for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   const std::string path = fmt::format("{}/{}.ticket", folder, file_name_of(name));
   if (!std::filesystem::exists(path))
     throw Error(fmt::format("candidate '{}'", one_line(code)), "has no ticket here", "check the code, or ask the school");
-  return read_ticket(path);
+  return ledger::read_ticket(path);
 }
 
 /// Enough on its disk for the end of any exam.
@@ -55,7 +55,7 @@ void require_resumable(const std::string& path, const std::string& candidate, co
 
 Sitting::Sitting(SittingOptions options, std::string candidate)
     : options_(std::move(options)), candidate_(std::move(candidate)), device_(make_station_device(options_.device)) {
-  ExamOptions exam;
+  scenarios::ExamOptions exam;
   exam.candidate = candidate_;
   exam.tooth_file = options_.tooth;
   exam.force_model = options_.model;
@@ -68,13 +68,13 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.notes = device_->notes();
   if (options_.practice) exam.notes.emplace_back("practice", "true");
   exam.source = source();
-  std::optional<HeldTicket> held;
+  std::optional<ledger::HeldTicket> held;
   if (!options_.tickets.empty()) {
     held = ticket_of(options_.tickets, candidate_);
     candidate_ = exam.candidate = held->ticket.candidate;
-    use_ticket(*held, exam);
+    ledger::use_ticket(*held, exam);
     if (options_.resume.empty() && !options_.practice) {
-      require_unused(*held);
+      ledger::require_unused(*held);
       ticket_ = held;
     }
   }
@@ -83,8 +83,9 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     options_.practice = SessionReader(options_.resume).fact("note.practice") == "true";
   }
   preparing_ = std::async(std::launch::async, [this, exam, held] {
-    auto setup = options_.resume.empty() ? prepare_exam(options_.scenario, exam) : prepare_exam(SessionReader(options_.resume).setup());
-    if (held) require_promised(*held, setup->session);
+    auto setup =
+        options_.resume.empty() ? scenarios::prepare_exam(options_.scenario, exam) : scenarios::prepare_exam(SessionReader(options_.resume).setup());
+    if (held) ledger::require_promised(*held, setup->session);
     device_->prepare(*setup);
     return setup;
   });
@@ -153,18 +154,18 @@ void Sitting::begin() {
     const std::string first = options_.resume.empty() ? new_path(options_.out) : options_.resume, second = new_path(options_.out_if_full);
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
     if (options_.resume.empty()) {
-      auto exam = begin_somewhere(first, second, [&](const std::string& path) {
-        return begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return Exam::start(*setup_, path, tip); });
+      auto exam = scenarios::begin_somewhere(first, second, [&](const std::string& path) {
+        return ledger::begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return scenarios::Exam::start(*setup_, path, tip); });
       });
-      live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);
+      live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
       SourceNotes notes = to_notes(source());
       for (auto& said : device_->notes()) notes.push_back(std::move(said));
       notes.emplace_back("device", device_->name());
-      for (auto& said : require_not_closed(setup_->session.notes, first)) notes.push_back(std::move(said));
-      auto exam = Exam::resume(*setup_, first, notes);
+      for (auto& said : ledger::require_not_closed(setup_->session.notes, first)) notes.push_back(std::move(said));
+      auto exam = scenarios::Exam::resume(*setup_, first, notes);
       exam->set_second_place(second);
-      live_ = std::make_unique<LiveExam>(*setup_, std::move(exam), *with_desk_);
+      live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     }
     path_ = first;
     look_where_it_is_recorded();
@@ -203,7 +204,7 @@ void Sitting::rescue() {
     if (stage_ != Stage::unsaved) return;
     if (tries == 2) throw Error(path_, "cannot be written, nor can any other place", "what was on disk before can be resumed from there");
     try {
-      save(tries == 0 ? "" : rescue_place(path_));
+      save(tries == 0 ? "" : scenarios::rescue_place(path_));
     } catch (const DatabaseError& refusal) {
       trouble_ = refusal.what();
     }
@@ -227,8 +228,8 @@ void Sitting::end_running() {
 
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {
-    ClosedExam closed = grade_and_close(live_->exam());
-    remember_closed(closed.graded->notes, live_->exam().recorder().path());
+    grading::ClosedExam closed = grading::grade_and_close(live_->exam());
+    ledger::remember_closed(closed.graded->notes, live_->exam().recorder().path());
     return closed;
   });
   stage_ = Stage::grading;
@@ -240,7 +241,7 @@ double Sitting::unwritten_s() const {
 }
 
 void Sitting::save(const std::string& place) {
-  Exam& exam = live_->exam();
+  scenarios::Exam& exam = live_->exam();
   if (!place.empty()) {
     const std::filesystem::path wanted(place);
     const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
@@ -254,4 +255,4 @@ void Sitting::save(const std::string& place) {
   stage_ = Stage::interrupted;
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

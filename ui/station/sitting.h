@@ -15,7 +15,7 @@
 #include "ui/station/device_check.h"
 #include "ui/station/station_device.h"
 
-namespace cavum {
+namespace cavum::station {
 
 struct SittingOptions {
   std::string scenario, tooth, model = "consistent", rubric;  ///< files as for an exam
@@ -23,7 +23,7 @@ struct SittingOptions {
   std::string out_if_full;                                    ///< the same, on another disk, for when that one refuses; may be empty
   std::string tickets;                                        ///< folder with CODE.ticket for each candidate; empty: nobody needs one
   std::string resume;  ///< a session to go on with, by the candidate who began it; scenario and all else are its own
-  Grant grant;
+  scenarios::Grant grant;
   bool practice = false;
   DeviceChoice device;
 };
@@ -55,7 +55,7 @@ class Sitting {
   [[nodiscard]] bool practice() const noexcept { return options_.practice; }
 
   /// From `checking` on.
-  [[nodiscard]] const ExamSetup& setup() const { return *setup_; }
+  [[nodiscard]] const scenarios::ExamSetup& setup() const { return *setup_; }
   [[nodiscard]] StationDevice& device() { return *device_; }
   [[nodiscard]] DeviceSight sight() const;
   /// From `checking` to `running`: begins to record, at the second place when the first refuses. Throws Error when that is impossible; the stage
@@ -63,7 +63,7 @@ class Sitting {
   void begin();
 
   /// While `running`.
-  [[nodiscard]] LiveExam& live() { return *live_; }
+  [[nodiscard]] scenarios::LiveExam& live() { return *live_; }
   [[nodiscard]] Desk& desk() noexcept { return desk_; }
   void ask_to_end();
   /// The exam is left as it is: `interrupted`, or `unsaved` when the disk refuses its end; nothing while it does not run.
@@ -73,8 +73,8 @@ class Sitting {
   void rescue();
 
   /// When `done`.
-  [[nodiscard]] const ClosedExam& closed() const { return *closed_; }
-  [[nodiscard]] const LiveReport& report() const { return report_; }
+  [[nodiscard]] const grading::ClosedExam& closed() const { return *closed_; }
+  [[nodiscard]] const scenarios::LiveReport& report() const { return report_; }
   /// Of the session, from `running` on.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// When `unsaved`: tries again, in another place unless that is empty: a session file that does not exist yet, or a folder. Throws Error when that
@@ -99,20 +99,20 @@ class Sitting {
   std::string candidate_;
   Stage stage_ = Stage::preparing;
   std::unique_ptr<StationDevice> device_;
-  std::future<std::unique_ptr<ExamSetup>> preparing_;
-  std::unique_ptr<ExamSetup> setup_;
-  std::optional<HeldTicket> ticket_;  ///< that this exam will use up
+  std::future<std::unique_ptr<scenarios::ExamSetup>> preparing_;
+  std::unique_ptr<scenarios::ExamSetup> setup_;
+  std::optional<ledger::HeldTicket> ticket_;  ///< that this exam will use up
   std::unique_ptr<DeviceCheck> check_;
   DeviceSight last_sight_;
   Desk desk_;
   std::unique_ptr<WithDesk> with_desk_;
-  std::unique_ptr<LiveExam> live_;
-  std::future<ClosedExam> grading_;
-  std::optional<ClosedExam> closed_;
-  LiveReport report_;
+  std::unique_ptr<scenarios::LiveExam> live_;
+  std::future<grading::ClosedExam> grading_;
+  std::optional<grading::ClosedExam> closed_;
+  scenarios::LiveReport report_;
   std::string path_, trouble_, moved_;
   std::chrono::steady_clock::time_point moved_at_;
   std::chrono::steady_clock::time_point last_try_;  ///< to save by itself
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

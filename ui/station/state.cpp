@@ -1,6 +1,6 @@
 #include "ui/station/state.h"
 
-namespace cavum {
+namespace cavum::station {
 
 const char* screen_name(Screen screen) noexcept {
   switch (screen) {
@@ -32,4 +32,4 @@ const char* screen_name(Screen screen) noexcept {
   return "";
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

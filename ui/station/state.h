@@ -6,7 +6,7 @@
 
 #include "ui/station/scene.h"
 
-namespace cavum {
+namespace cavum::station {
 
 enum class Screen { sign_in, preparing, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
@@ -40,4 +40,4 @@ struct StationState {
   bool focus_code = true;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -23,7 +23,7 @@
 #include "ui/station/script.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -35,15 +35,16 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 
 std::vector<DiamondPoint> read_shelf(const std::string& scenario_path) {
   std::vector<DiamondPoint> shelf;
-  for (const auto& name : data_names("points", scenario_path)) {
-    const std::string path = find_data_file("points", name + ".toml", scenario_path);
+  for (const auto& name : scenarios::data_names("points", scenario_path)) {
+    const std::string path = scenarios::find_data_file("points", name + ".toml", scenario_path);
     shelf.push_back(parse_diamond_point(read_text_file(path), path));
   }
   return shelf;
 }
 
-Scenario scenario_of(const SittingOptions& o) {
-  return o.resume.empty() ? parse_scenario(read_text_file(o.scenario), o.scenario) : prepare_exam(SessionReader(o.resume).setup())->scenario;
+scenarios::Scenario scenario_of(const SittingOptions& o) {
+  return o.resume.empty() ? scenarios::parse_scenario(read_text_file(o.scenario), o.scenario)
+                          : scenarios::prepare_exam(SessionReader(o.resume).setup())->scenario;
 }
 
 /// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as the exam begins: it does not grow any more then.
@@ -75,7 +76,7 @@ class Station {
 
   int run() {
     try {
-      while (!may_close() && !Interrupt::asked()) frame();
+      while (!may_close() && !ui::Interrupt::asked()) frame();
     } catch (const std::exception& e) {
       rescue();
       if (!open_session().empty())
@@ -170,7 +171,7 @@ class Station {
 
   [[nodiscard]] double exam_s() {
     if (!sitting_ || sitting_->stage() != Stage::running) return 0.0;
-    const LiveView view = sitting_->live().view();
+    const scenarios::LiveView view = sitting_->live().view();
     return static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s;
   }
 
@@ -214,9 +215,9 @@ class Station {
 
   /// What the handpiece does is heard.
   void sound() {
-    SoundParameters heard;
+    ui::SoundParameters heard;
     if (state_.screen == Screen::exam && sitting_->stage() == Stage::running) {
-      const LiveView view = sitting_->live().view();
+      const scenarios::LiveView view = sitting_->live().view();
       heard.rpm = view.output.rpm;
       heard.load_n = length(view.output.rendered_force_n);
       heard.cutting = view.output.cutting;
@@ -250,7 +251,7 @@ class Station {
         case Wish::rescue: {
           state_.rescue_failed = true;  // unless it is saved
           const std::string first = sitting_->path();
-          sitting_->save(rescue_place(first));
+          sitting_->save(scenarios::rescue_place(first));
           tell_moved(first);
           state_.rescue_failed = false;
           close_when_sealed_ = true;
@@ -298,10 +299,10 @@ class Station {
   }
 
   void write_report() {
-    const ClosedExam& closed = sitting_->closed();
+    const grading::ClosedExam& closed = sitting_->closed();
     const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
-    require_report_place(path);
-    write_closing_report(path, sitting_->path(), closed.result, *closed.graded);
+    report::require_report_place(path);
+    report::write_closing_report(path, sitting_->path(), closed.result, *closed.graded);
     state_.message = "Report: " + path;
   }
 
@@ -332,7 +333,7 @@ class Station {
     if (now == seen_) return;
     seen_ = now;
     if (now == Stage::checking) {
-      const Accommodations& granted = sitting_->setup().scenario.accommodations;
+      const scenarios::Accommodations& granted = sitting_->setup().scenario.accommodations;
       state_.left_handed = state_.left_handed || granted.left_handed;
       state_.high_contrast = state_.high_contrast || granted.high_contrast;
       make_scene(sitting_->setup(), options_.sitting.practice);
@@ -358,7 +359,7 @@ class Station {
     }
   }
 
-  void make_scene(const ExamSetup& setup, bool practice) {
+  void make_scene(const scenarios::ExamSetup& setup, bool practice) {
     scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.points, practice ? &setup.zones : nullptr);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
@@ -377,10 +378,10 @@ class Station {
 
   StationOptions options_;
   std::unique_ptr<ReplayPlayer> replay_;
-  Scenario scenario_;
+  scenarios::Scenario scenario_;
   std::vector<DiamondPoint> shelf_;
-  Interrupt interrupt_;
-  SoundOutput sound_;
+  ui::Interrupt interrupt_;
+  ui::SoundOutput sound_;
   Window window_;
   Script script_;
   StationState state_;
@@ -401,4 +402,4 @@ int run_station(const StationOptions& options) {
   return Station(options).run();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

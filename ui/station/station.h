@@ -6,7 +6,7 @@
 
 #include "ui/station/sitting.h"
 
-namespace cavum {
+namespace cavum::station {
 
 struct StationOptions {
   SittingOptions sitting;
@@ -25,4 +25,4 @@ struct StationOptions {
 /// For a bench: draws the tooth of a scenario so many times, each from another side, and prints how long a picture takes.
 void print_frame_times(const StationOptions& options, int frames);
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -6,7 +6,7 @@
 #include "engine/device/simulated_stylus.h"
 #include "ui/parts/live_source.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 /// Before the exam its hand rests on the finger rest, and its foot tries the pedal once.
@@ -19,15 +19,17 @@ HandIntent resting(Vec3 at, double t_s) {
 
 class SimulatedHand final : public StationDevice {
  public:
-  explicit SimulatedHand(DeviceChoice choice) : choice_(std::move(choice)) { static_cast<void>(make_skill(choice_.operator_name, choice_.seed)); }
+  explicit SimulatedHand(DeviceChoice choice) : choice_(std::move(choice)) {
+    static_cast<void>(scenarios::make_skill(choice_.operator_name, choice_.seed));
+  }
   [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + choice_.operator_name; }
   [[nodiscard]] MotionSource source() const override { return {"operator", choice_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
     return {{"operator", choice_.operator_name}, {"operator_seed", std::to_string(choice_.seed)}};
   }
-  void prepare(const ExamSetup& setup) override {
-    candidate_ = make_candidate_device(setup, choice_.operator_name, choice_.seed);
+  void prepare(const scenarios::ExamSetup& setup) override {
+    candidate_ = scenarios::make_candidate_device(setup, choice_.operator_name, choice_.seed);
     const Vec3 at = candidate_->start_mm();
     resting_ = std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s, [at](double t_s) { return resting(at, t_s); });
   }
@@ -39,7 +41,7 @@ class SimulatedHand final : public StationDevice {
 
  private:
   DeviceChoice choice_;
-  std::unique_ptr<CandidateDevice> candidate_;
+  std::unique_ptr<scenarios::CandidateDevice> candidate_;
   std::unique_ptr<SimulatedStylus> resting_;
 };
 
@@ -49,9 +51,9 @@ class Mouse final : public StationDevice {
   [[nodiscard]] std::string name() const override { return kind_.facts.name; }
   [[nodiscard]] MotionSource source() const override { return {"pointer", "mouse and keyboard"}; }
   [[nodiscard]] double position_quantum_mm() const override { return kind_.facts.position_quantum_mm; }
-  void prepare(const ExamSetup& setup) override {
+  void prepare(const scenarios::ExamSetup& setup) override {
     constexpr double k_above_mm = 4.0;
-    const ZoneMap& zones = setup.zones;
+    const scenarios::ZoneMap& zones = setup.zones;
     const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
     first_.tip_mm = Vec3{middle.x, middle.y, zones.opening_z_mm()} + zones.approach() * k_above_mm;
     first_.rotation = rotation_between({0, 0, 1}, zones.approach());
@@ -72,14 +74,14 @@ class Mouse final : public StationDevice {
 /// A stylus that is plugged in, with the station's pedal.
 class PluggedIn final : public StationDevice {
  public:
-  explicit PluggedIn(const DeviceChoice& choice) : source_(open_live_source({choice.name, "", 1, ""})) {}
+  explicit PluggedIn(const DeviceChoice& choice) : source_(ui::open_live_source({choice.name, "", 1, ""})) {}
   [[nodiscard]] std::string name() const override { return source_->name(); }
   [[nodiscard]] MotionSource source() const override { return source_->source(); }
   [[nodiscard]] double position_quantum_mm() const override { return source_->position_quantum_mm(); }
   [[nodiscard]] double peak_n() const override { return source_->peak_n(); }
   [[nodiscard]] double continuous_n() const override { return source_->continuous_n(); }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override { return source_->notes(); }
-  void prepare(const ExamSetup& setup) override { source_->begin(setup); }
+  void prepare(const scenarios::ExamSetup& setup) override { source_->begin(setup); }
   [[nodiscard]] ServoDevice& for_check() override { return source_->device(); }
   [[nodiscard]] ServoDevice& for_exam() override { return source_->device(); }
   [[nodiscard]] Pose start() const override { return {source_->first_tip_mm(), {}}; }
@@ -90,7 +92,7 @@ class PluggedIn final : public StationDevice {
   [[nodiscard]] std::string problem() const override { return source_->problem(); }
 
  private:
-  std::unique_ptr<LiveSource> source_;
+  std::unique_ptr<ui::LiveSource> source_;
 };
 
 }  // namespace
@@ -112,4 +114,4 @@ std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice) {
   return std::make_unique<PluggedIn>(choice);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

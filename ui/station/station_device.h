@@ -11,7 +11,7 @@
 #include "engine/device/pointer_stylus.h"
 #include "scenarios/candidates/candidate_device.h"
 
-namespace cavum {
+namespace cavum::station {
 
 struct DeviceChoice {
   std::string name = "simulated";        ///< or another of the table of styluses
@@ -31,7 +31,7 @@ class StationDevice {
   [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same
   [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> notes() const { return {}; }
   /// Once what the exam asks for is known; may take seconds. Before it only the above may be called. Throws Error.
-  virtual void prepare(const ExamSetup& setup) = 0;
+  virtual void prepare(const scenarios::ExamSetup& setup) = 0;
   [[nodiscard]] virtual ServoDevice& for_check() = 0;
   [[nodiscard]] virtual ServoDevice& for_exam() = 0;
   /// Where the handpiece waits before the exam, tooth frame.
@@ -51,4 +51,4 @@ class StationDevice {
 /// Throws Error for a name that is none, and when what a stylus needs is missing.
 [[nodiscard]] std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice);
 
-}  // namespace cavum
+}  // namespace cavum::station

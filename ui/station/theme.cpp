@@ -10,7 +10,7 @@
 
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 ImVec4 rgb(unsigned hex) {
@@ -209,4 +209,4 @@ std::string number_text(const char* format, double value) {
   return text.data();
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace cavum {
+namespace cavum::station {
 
 struct Theme {
   ImVec4 back, panel, raised, line, text, quiet, faint, accent, on_accent, good, warn, bad;
@@ -48,4 +48,4 @@ bool side_button(const Theme& theme, const char* label, float width = 0.0F);
 /// printf for one number.
 [[nodiscard]] std::string number_text(const char* format, double value);
 
-}  // namespace cavum
+}  // namespace cavum::station

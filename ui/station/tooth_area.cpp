@@ -7,7 +7,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 void keys(StationState& s, double frame_s, bool arrows_turn) {
@@ -70,4 +70,4 @@ void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* up
   draw.AddText(nullptr, 0.0F, {corner.x + pad, corner.y + pad}, ink(theme.text), lower.c_str(), nullptr, width - 2 * pad);
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

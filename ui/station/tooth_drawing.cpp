@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace cavum {
+namespace cavum::station {
 
 ToothDrawing::Drawn ToothDrawing::made(SurfacePatches surface) {
   Drawn drawn{std::move(surface), {}, {}};
@@ -103,4 +103,4 @@ void ToothDrawing::draw(const Drawn& drawn, const Sight& sight, bool by_processo
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

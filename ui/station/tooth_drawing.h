@@ -6,7 +6,7 @@
 
 #include "ui/station/gpu.h"
 
-namespace cavum {
+namespace cavum::station {
 
 class ToothDrawing {
  public:
@@ -54,4 +54,4 @@ class ToothDrawing {
   std::uint64_t version_ = 1;
 };
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -18,7 +18,7 @@
 #include "ui/station/gpu.h"
 #include "ui/station/picture_file.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 std::string glfw_reason() {
@@ -167,4 +167,4 @@ void Window::type(const std::string& text) {
   for (const char c : text) ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned char>(c));
 }
 
-}  // namespace cavum
+}  // namespace cavum::station

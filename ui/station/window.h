@@ -9,7 +9,7 @@
 
 struct GLFWwindow;
 
-namespace cavum {
+namespace cavum::station {
 
 /// A renderer on the computer's processor takes one core and leaves the others to the servo, unless LP_NUM_THREADS says otherwise. Changes the
 /// environment, so before there are other threads; a Window asks for it too.
@@ -65,4 +65,4 @@ enum class Font : int { body, heading, clock, small };
 void push_font(Font font);
 void pop_font();
 
-}  // namespace cavum
+}  // namespace cavum::station

@@ -21,7 +21,7 @@
 #include "ui/report/report.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using nlohmann::json;
@@ -34,11 +34,11 @@ struct Options {
   bool as_json = false;
 };
 
-SigningKey key_of(const Options& o) { return load_school_key(o.key.empty() ? school_key_path() : o.key); }
+SigningKey key_of(const Options& o) { return ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key); }
 
 void simulate(const Options& o) {
-  Ledger ledger(o.folder, key_of(o));
-  Identities identities(ledger.places().identities());
+  ledger::Ledger ledger(o.folder, key_of(o));
+  ledger::Identities identities(ledger.places().identities());
   const auto start = std::chrono::steady_clock::now();
   const bool shown = !o.as_json && ::isatty(STDERR_FILENO) == 1;
   const auto sat = cohort::simulate_class(o.wanted, ledger, identities, [&](int i) {
@@ -54,15 +54,15 @@ void simulate(const Options& o) {
 }
 
 void report(const Options& o) {
-  const LedgerPlaces places{o.folder};
-  const LedgerContent content = read_ledger(places);
+  const ledger::LedgerPlaces places{o.folder};
+  const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
     throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
-  const Registry registry = read_registry(content);
+  const ledger::Registry registry = ledger::read_registry(content);
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {
-    Identities identities(places.identities());
-    remove_forgotten(content, identities);
+    ledger::Identities identities(places.identities());
+    ledger::remove_forgotten(content, identities);
     marks = cohort::parse_marks(read_text_file(o.marks), identities, o.exam, o.marks, cohort::points_of_exam(registry, o.exam));
   }
   if (o.borderline_given) {
@@ -77,13 +77,13 @@ void report(const Options& o) {
   if (!o.out.empty()) {
     if (!o.out.ends_with(".pdf") && !o.out.ends_with(".html"))
       throw Error("--out " + o.out, "is no kind of report", "use a name ending in .html or .pdf");
-    require_report_place(o.out);
+    report::require_report_place(o.out);
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
     const auto tooth = cohort::class_tooth(registry, places, o.exam);
     for (const auto& finding : tooth->findings) std::cerr << "cavum: notice: not in the pictures: " << one_line(finding) << "\n";
     if (tooth->left_out > 0)
       std::cerr << "cavum: notice: not in the pictures: " << tooth->left_out << " who sat it with another text, tooth or leaf size than most\n";
-    write_text_file(o.out, o.out.ends_with(".pdf") ? class_pdf(figures, *tooth) : class_html(figures, *tooth));
+    write_text_file(o.out, o.out.ends_with(".pdf") ? report::class_pdf(figures, *tooth) : report::class_html(figures, *tooth));
   }
   if (o.as_json) {
     print_json(to_json(figures));
@@ -127,4 +127,4 @@ void add_cohort_verbs(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -24,7 +24,7 @@
 #include "ui/verbs/stylus_devices.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 struct Options {
@@ -223,4 +223,4 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

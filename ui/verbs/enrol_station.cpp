@@ -9,7 +9,7 @@
 #include "grading/ledger/station_ticket.h"
 #include "grading/ledger/stations.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 MotionSource stylus(const std::string& id) {
@@ -21,9 +21,10 @@ MotionSource stylus(const std::string& id) {
 
 void enrol_station(const EnrolOptions& o) {
   if (o.replace_key && !o.code.empty()) throw Error("--replace-key", "was asked for together with --enrol", "give one of them");
-  const std::string school = station_school_key();
+  const std::string school = ledger::station_school_key();
   if (school.empty())
-    throw Error(school_public_key_path(), "this station knows no school yet", "copy the school's public key there: `cavum ledger init` writes it");
+    throw Error(ledger::school_public_key_path(), "this station knows no school yet",
+                "copy the school's public key there: `cavum ledger init` writes it");
   if (std::filesystem::is_directory(o.out)) throw Error("--out " + o.out, "is a folder", "name the file to write the request to");
   require_writable(o.out);
   std::vector<MotionSource> devices;
@@ -36,12 +37,12 @@ void enrol_station(const EnrolOptions& o) {
     const std::string fresh = path + ".new", kept = path + ".old";
     std::filesystem::remove(fresh);
     key = load_signing_key(fresh, "station");
-    request = station_request(key, school, devices, old);
+    request = ledger::station_request(key, school, devices, old);
     write_text_file(o.out, request + "\n");
     std::filesystem::rename(path, kept);
     std::filesystem::rename(fresh, path);
   } else {
-    request = station_request(key, school, devices, o.code);
+    request = ledger::station_request(key, school, devices, o.code);
     write_text_file(o.out, request + "\n");
   }
   remember_enrolled(path, key);
@@ -49,4 +50,4 @@ void enrol_station(const EnrolOptions& o) {
             << o.out << "`\n";
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

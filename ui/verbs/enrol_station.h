@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace cavum {
+namespace cavum::ui {
 
 struct EnrolOptions {
   std::string code;          ///< that the school gave
@@ -15,4 +15,4 @@ struct EnrolOptions {
 /// Writes the request and remembers the key as the one that this station has to keep. Throws Error.
 void enrol_station(const EnrolOptions& options);
 
-}  // namespace cavum
+}  // namespace cavum::ui

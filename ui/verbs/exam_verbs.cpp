@@ -33,7 +33,7 @@
 #include "ui/verbs/grant_options.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 struct Options {
@@ -41,7 +41,7 @@ struct Options {
   std::uint64_t seed = 1;
   int delay_ticks = 1;
   bool json = false, quiet = false, resume = false, end = false, model_given = false;
-  Grant grant;
+  scenarios::Grant grant;
 };
 
 /// One line on the terminal that shows time, step and removal; nothing when the output is no terminal.
@@ -49,7 +49,7 @@ class ProgressBar {
  public:
   explicit ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
   ~ProgressBar() { clear(); }
-  void show(const Exam& exam, double progress) { show(exam.state().tick, progress, exam.instruction()); }
+  void show(const scenarios::Exam& exam, double progress) { show(exam.state().tick, progress, exam.instruction()); }
   void show(std::int64_t tick, double progress, const std::string& what) {
     if (!shown_) return;
     constexpr int k_width = 24;
@@ -69,7 +69,7 @@ class ProgressBar {
 };
 
 /// A motion file whose diamond points are all on the tray; else throws Error.
-std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
+std::unique_ptr<scenarios::InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
   const std::string text = read_text_file(path, k_largest_table);
   Motion motion = parse_motion(text, path);
   for (std::size_t i = 0; i < motion.samples.size(); ++i)
@@ -77,14 +77,14 @@ std::unique_ptr<InputSource> read_motion(const std::string& path, const std::vec
       throw Error(fmt::format("{}:{}", path, line_of_sample(text, i)),
                   fmt::format("point is {}, and the scenario has {}{}", point, tray.size(), tray.size() == 1 ? " point" : " points"),
                   "write 0 for its first point" + (tray.size() > 1 ? fmt::format(", at most {}", tray.size() - 1) : std::string()));
-  return std::make_unique<PlayedMotion>(std::move(motion), tray, path);
+  return std::make_unique<scenarios::PlayedMotion>(std::move(motion), tray, path);
 }
 
-std::unique_ptr<InputSource> make_source(const Options& o, const ExamSetup& setup) {
+std::unique_ptr<scenarios::InputSource> make_source(const Options& o, const scenarios::ExamSetup& setup) {
   if (!o.motion.empty()) return read_motion(o.motion, setup.point_names);
   OmniModel omni;
   omni.delay_ticks = o.delay_ticks;
-  return std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, o.operator_name, o.seed, omni));
+  return std::make_unique<scenarios::SimulatedCandidate>(scenarios::make_simulated_candidate(setup, o.operator_name, o.seed, omni));
 }
 
 std::string source_name(const Options& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
@@ -99,8 +99,8 @@ SourceNotes source_notes(const Options& o) {
   return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
 }
 
-std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live = nullptr) {
-  ExamOptions options;
+std::unique_ptr<scenarios::ExamSetup> make_setup(const Options& o, const LiveSource* live = nullptr) {
+  scenarios::ExamOptions options;
   options.candidate = o.candidate;
   options.tooth_file = o.tooth;
   options.force_model = o.model;
@@ -118,42 +118,42 @@ std::unique_ptr<ExamSetup> make_setup(const Options& o, const LiveSource* live =
     options.continuous_n = live->continuous_n();
   }
   options.grant = o.grant;
-  if (o.ticket.empty()) return prepare_exam(o.scenario, options);
-  const HeldTicket held = read_ticket(o.ticket);
-  require_unused(held);
-  use_ticket(held, options);
-  auto setup = prepare_exam(o.scenario, options);
-  require_promised(held, setup->session);
+  if (o.ticket.empty()) return scenarios::prepare_exam(o.scenario, options);
+  const ledger::HeldTicket held = ledger::read_ticket(o.ticket);
+  ledger::require_unused(held);
+  ledger::use_ticket(held, options);
+  auto setup = scenarios::prepare_exam(o.scenario, options);
+  ledger::require_promised(held, setup->session);
   return setup;
 }
 
 /// Begins to record, and uses the ticket up.
-std::unique_ptr<Exam> begin_exam(const Options& o, const ExamSetup& setup, Vec3 first_tip_mm) {
-  std::optional<HeldTicket> held;
-  if (!o.ticket.empty()) held = read_ticket(o.ticket);
-  return begin_somewhere(o.out, o.out_if_full, [&](const std::string& path) {
-    return begin_with_ticket(held ? &*held : nullptr, path, [&] { return Exam::start(setup, path, first_tip_mm); });
+std::unique_ptr<scenarios::Exam> begin_exam(const Options& o, const scenarios::ExamSetup& setup, Vec3 first_tip_mm) {
+  std::optional<ledger::HeldTicket> held;
+  if (!o.ticket.empty()) held = ledger::read_ticket(o.ticket);
+  return scenarios::begin_somewhere(o.out, o.out_if_full, [&](const std::string& path) {
+    return ledger::begin_with_ticket(held ? &*held : nullptr, path, [&] { return scenarios::Exam::start(setup, path, first_tip_mm); });
   });
 }
 
 /// Grades what was recorded, seals the session with it, prints it.
-void finish(const Options& o, Exam& exam, const nlohmann::json& servo = {}) {
-  ClosedExam closed;
-  write_somewhere(exam, o.out_if_full, [&] { closed = grade_and_close(exam); });
+void finish(const Options& o, scenarios::Exam& exam, const nlohmann::json& servo = {}) {
+  grading::ClosedExam closed;
+  write_somewhere(exam, o.out_if_full, [&] { closed = grading::grade_and_close(exam); });
   const std::string& session = exam.recorder().path();
-  remember_closed(closed.graded->notes, session);
-  const Result& result = closed.result;
+  ledger::remember_closed(closed.graded->notes, session);
+  const grading::Result& result = closed.result;
   if (o.json) {
-    auto j = to_json(result);
+    auto j = grading::to_json(result);
     j["session"] = session;
     if (!servo.is_null()) j["servo"] = servo;
     print_json(j);
   } else {
-    std::cout << to_text(result) << "recorded: " << one_line(session) << std::endl;
+    std::cout << grading::to_text(result) << "recorded: " << one_line(session) << std::endl;
   }
   if (o.report.empty()) return;
   try {  // the exam is sealed by now, whatever becomes of its report
-    write_closing_report(o.report, session, result, *closed.graded);
+    report::write_closing_report(o.report, session, result, *closed.graded);
   } catch (const Error& e) {
     throw Error(o.report, fmt::format("the exam is graded and sealed in {}, its report is not written ({})", session, e.what()),
                 fmt::format("write it later: `cavum report {} --out FILE`", session));
@@ -166,11 +166,11 @@ void require_places(const Options& o) {
   const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
   require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}, {"--out-if-full " + o.out_if_full, o.out_if_full}},
                      {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
-  if (!o.report.empty()) require_report_place(o.report);
+  if (!o.report.empty()) report::require_report_place(o.report);
 }
 
 /// How punctual the servo was: kept as an event of the session, and shown.
-nlohmann::json servo_json(const LiveReport& report) {
+nlohmann::json servo_json(const scenarios::LiveReport& report) {
   nlohmann::json j = to_json(report.servo);
   j["first_disagreement"] = report.first_disagreement;
   return j;
@@ -178,8 +178,8 @@ nlohmann::json servo_json(const LiveReport& report) {
 
 /// An exam with a hand on it, until it is over, the operator is done, a signal comes or the device fails. Returns 0 when it is over and sealed, 1
 /// when it was only stopped: such a session can be resumed.
-int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::unique_ptr<Exam> begun) {
-  LiveExam live(setup, begun ? std::move(begun) : begin_exam(o, setup, source.first_tip_mm()), source.device());
+int run_live(const Options& o, const scenarios::ExamSetup& setup, LiveSource& source, std::unique_ptr<scenarios::Exam> begun) {
+  scenarios::LiveExam live(setup, begun ? std::move(begun) : begin_exam(o, setup, source.first_tip_mm()), source.device());
   live.exam().set_second_place(o.out_if_full);  // before its threads run
   RecordingWatch recording(o.out);
   recording.begun(live.exam().recorder().path());
@@ -190,7 +190,7 @@ int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::
     constexpr auto k_look = std::chrono::milliseconds(20);
     for (; live.running() && !Interrupt::asked(); std::this_thread::sleep_for(k_look)) {
       if (source.done()) live.ask_to_end();
-      const LiveView view = live.view();
+      const scenarios::LiveView view = live.view();
       const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
       const auto step = std::min(static_cast<std::size_t>(std::max(0, view.step)), setup.scenario.steps.size() - 1);
       bar.show(view.ticks, std::min(1.0, share), setup.scenario.steps[step].instruction);
@@ -201,9 +201,9 @@ int run_live(const Options& o, const ExamSetup& setup, LiveSource& source, std::
       }
     }
   }
-  const LiveReport& report = live.finish();
+  const scenarios::LiveReport& report = live.finish();
   const nlohmann::json servo = servo_json(report);
-  Exam& exam = live.exam();
+  scenarios::Exam& exam = live.exam();
   exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), "servo_lateness", servo.dump());
   if (!o.json && !o.quiet)
     std::fprintf(stderr, "servo: %lld ticks, %lld late, worst %.1f ms%s\n", static_cast<long long>(report.servo.ticks),
@@ -236,7 +236,7 @@ int run_new_live(const Options& o) {
 }
 
 int run_new(const Options& o) {
-  require_candidate_id("--candidate", o.candidate);
+  ledger::require_candidate_id("--candidate", o.candidate);
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
     throw Error("cavum exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
@@ -248,7 +248,7 @@ int run_new(const Options& o) {
     RecordingWatch recording(o.out);
     recording.begun(exam->recorder().path());
     ProgressBar bar(!o.json && !o.quiet);
-    run_exam(*exam, *source, [&](const Exam& e, double progress) {
+    scenarios::run_exam(*exam, *source, [&](const scenarios::Exam& e, double progress) {
       bar.show(e, progress);
       recording.look(e.recording_problem(), e.recorder().path());
     });
@@ -263,7 +263,7 @@ Options demonstration(Options o) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   std::strftime(name, sizeof name, "cavum-demonstration-%Y%m%d-%H%M%S", ::localtime_r(&now, &local));
-  o.scenario = find_data_file("scenarios", "molar_access.toml", "");
+  o.scenario = scenarios::find_data_file("scenarios", "molar_access.toml", "");
   o.candidate = "demonstration";
   o.operator_name = "expert";
   o.out = fmt::format("{}.cavum", name);
@@ -285,11 +285,11 @@ void require_same(const Options& o, const SessionSetup& held) {
   if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, fmt::format("candidate ('{}')", held.candidate));
   if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
   if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, "tooth");
-  for (const auto& [key, value] : notes_of(o.grant))
+  for (const auto& [key, value] : scenarios::notes_of(o.grant))
     if (std::find(held.notes.begin(), held.notes.end(), std::pair(key, value)) == held.notes.end())
       differs(fmt::format("{} {}", key, value), "accommodation");
   const std::string near_file = o.scenario.empty() ? "data/scenarios/any.toml" : o.scenario;
-  if (o.model_given && force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
+  if (o.model_given && scenarios::force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
   if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml) differs("--rubric " + o.rubric, "rubric");
 }
 
@@ -302,9 +302,9 @@ int run_resumed(const Options& o) {
   const SessionReader reader(o.out);
   reader.require_readable();
   if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
-  const auto setup = prepare_exam(reader.setup());
+  const auto setup = scenarios::prepare_exam(reader.setup());
   SourceNotes notes;
-  if (!reader.closed()) notes = require_not_closed(setup->session.notes, o.out);
+  if (!reader.closed()) notes = ledger::require_not_closed(setup->session.notes, o.out);
   const auto say = [&notes](const SourceNotes& more) { notes.insert(notes.end(), more.begin(), more.end()); };
   if (!o.device.empty()) {
     const Interrupt interrupt;
@@ -316,7 +316,7 @@ int run_resumed(const Options& o) {
     say(to_notes(live->source()));
     say(live->notes());
     say({{"device", live->name()}});
-    return run_live(o, *setup, *live, Exam::resume(*setup, o.out, notes));
+    return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, notes));
   }
   const bool moves = !o.motion.empty() || !o.operator_name.empty();
   // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
@@ -326,11 +326,11 @@ int run_resumed(const Options& o) {
     say(source_notes(o));
     say({{"device", source_name(o)}});
   }
-  const auto exam = Exam::resume(*setup, o.out, notes);
+  const auto exam = scenarios::Exam::resume(*setup, o.out, notes);
   exam->set_second_place(o.out_if_full);
   if (source) {
     RecordingWatch recording(o.out);
-    run_exam(*exam, *source, [&](const Exam& e, double) { recording.look(e.recording_problem(), e.recorder().path()); });
+    scenarios::run_exam(*exam, *source, [&](const scenarios::Exam& e, double) { recording.look(e.recording_problem(), e.recorder().path()); });
   } else if (!exam->over()) {
     exam->end();
   }
@@ -386,4 +386,4 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

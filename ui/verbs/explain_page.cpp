@@ -12,7 +12,7 @@
 #include "engine/base/text.h"
 #include "ui/parts/chart_svg.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using explain::Series;
@@ -350,4 +350,4 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   return out + "</body></html>\n";
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

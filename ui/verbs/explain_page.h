@@ -5,11 +5,11 @@
 
 #include "engine/explain/inference/stiffness_table.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// `title`: the recording's name.
 [[nodiscard]] std::string explanation_html(const explain::Explanation& explanation, const std::string& title);
 /// The same for a table of force over stiffness.
 [[nodiscard]] std::string table_html(const explain::TableExplanation& explanation, const std::string& title);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -22,7 +22,7 @@
 #include "ui/verbs/explain_page.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 struct ExplainArgs {
@@ -63,7 +63,7 @@ std::function<void(double)> progress_bar() {
 }
 
 ForceModel load_model(const std::string& wanted) {
-  const std::string path = wanted.ends_with(".toml") ? wanted : find_data_file("materials", wanted + ".toml", "");
+  const std::string path = wanted.ends_with(".toml") ? wanted : scenarios::find_data_file("materials", wanted + ".toml", "");
   return parse_force_model(read_text_file(path), path);
 }
 
@@ -185,4 +185,4 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -6,16 +6,16 @@
 #include "engine/base/text.h"
 #include "scenarios/exam/other_place.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
-double waiting_s(Exam& exam) {
+double waiting_s(scenarios::Exam& exam) {
   const Recorder& r = exam.recorder();
   return static_cast<double>(r.ticks() - r.ticks_on_disk()) * exam.model().config.tick_s;
 }
 
 /// True when the exam is at `place` by now, whole or not.
-bool moved(Exam& exam, const std::string& place, const std::string& why) {
+bool moved(scenarios::Exam& exam, const std::string& place, const std::string& why) {
   try {
     exam.recorder().move_to(place, why);
   } catch (const Error& e) {
@@ -47,7 +47,7 @@ void RecordingWatch::look(const std::string& problem, const std::string& path) {
   told_ = !problem.empty();
 }
 
-void write_somewhere(Exam& exam, const std::string& second_place, const std::function<void()>& write) {
+void write_somewhere(scenarios::Exam& exam, const std::string& second_place, const std::function<void()>& write) {
   bool second_tried = second_place.empty(), nobody = false;
   for (;;) {
     std::string why;
@@ -72,7 +72,7 @@ void write_somewhere(Exam& exam, const std::string& second_place, const std::fun
     if (!std::getline(std::cin, answer)) {
       std::fprintf(stderr, "\n");
       nobody = true;
-      answer = rescue_place(exam.recorder().path());
+      answer = scenarios::rescue_place(exam.recorder().path());
     }
     if (!answer.empty() && moved(exam, answer, why))
       std::fprintf(stderr, "cavum: the whole exam is at %s%s\n", one_line(answer).c_str(),
@@ -80,4 +80,4 @@ void write_somewhere(Exam& exam, const std::string& second_place, const std::fun
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

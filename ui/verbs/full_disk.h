@@ -7,7 +7,7 @@
 
 #include "scenarios/exam/exam.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// Tells on standard error, once each: that the disk refuses, that recording goes on elsewhere, that all is on disk again.
 class RecordingWatch {
@@ -25,6 +25,6 @@ class RecordingWatch {
 
 /// Calls `write` until it throws no DatabaseError. In between: first the second place, if there is one; then standard input is asked, where an empty
 /// line tries again and a name is a new place; at its end the folder for temporary files, as the last. Throws Error when even that is full.
-void write_somewhere(Exam& exam, const std::string& second_place, const std::function<void()>& write);
+void write_somewhere(scenarios::Exam& exam, const std::string& second_place, const std::function<void()>& write);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -22,7 +22,7 @@
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -36,8 +36,8 @@ struct Options {
 
 /// The result with its contract names, and beside it the old one where another rubric or scenario was asked for.
 Json json_of(const MarkedSession& g) {
-  Json j = to_json(g.result);
-  if (g.regrade) j["regrade"] = to_json(*g.comparison);
+  Json j = grading::to_json(g.result);
+  if (g.regrade) j["regrade"] = grading::to_json(*g.comparison);
   return j;
 }
 
@@ -48,24 +48,24 @@ void write_new(const std::string& path, const Json& json) {
 void run_grade_one(const std::string& path, const Options& o) {
   const MarkedSession g = marked_session(path, o.marking);
   if (!o.marking.rubric.empty())
-    for (const auto& p : advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
+    for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
       std::cerr << "cavum: " << one_line(p.text()) << "\n";
   if (!o.why.empty()) {
-    const Why w = why(g.session->input(), g.result, g.rubric, o.why);
+    const grading::Why w = grading::why(g.session->input(), g.result, g.rubric, o.why);
     if (o.json) {
-      Json j = to_json(w);
+      Json j = grading::to_json(w);
       j["session"] = path;
       return print_json(j);
     }
-    if (g.regrade) std::cout << "REGRADE: " << regrade_text(*g.comparison) << "\n\n";
-    std::cout << to_text(w);
+    if (g.regrade) std::cout << "REGRADE: " << grading::regrade_text(*g.comparison) << "\n\n";
+    std::cout << grading::to_text(w);
     return;
   }
   if (!o.out.empty()) write_new(o.out, json_of(g));
   if (o.json) return print_json(json_of(g));
-  if (g.regrade) std::cout << "REGRADE: " << regrade_text(*g.comparison) << "\n\n";
-  std::cout << to_text(g.result);
-  if (g.regrade) std::cout << "\nbeside the sealed result\n" << to_text(*g.comparison);
+  if (g.regrade) std::cout << "REGRADE: " << grading::regrade_text(*g.comparison) << "\n\n";
+  std::cout << grading::to_text(g.result);
+  if (g.regrade) std::cout << "\nbeside the sealed result\n" << grading::to_text(*g.comparison);
 }
 
 /// Several sessions as one table; a session that cannot be graded is a row of its own. Returns how many could not.
@@ -82,23 +82,23 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
   for (const auto& file : files) {
     try {
       const MarkedSession g = marked_session(file, o.marking);
-      const std::string now = verdict_name(g.result.verdict);
+      const std::string now = grading::verdict_name(g.result.verdict);
       Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
       if (g.comparison) {
-        const Comparison& c = *g.comparison;
-        std::string change = signed_points(c.points - c.before.points);
+        const grading::Comparison& c = *g.comparison;
+        std::string change = grading::signed_points(c.points - c.before.points);
         change.resize(std::max<std::size_t>(8, change.size() + 1), ' ');
         table +=
             fmt::format("  {}{}{}{}\n", cell(c.before.verdict, c.before.points, c.before.max), cell(now, c.points, c.max), change, one_line(file));
         for (const auto& d : c.criteria)
           if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
-            std::string line = fmt::format("      {} {}", d.id, signed_points(d.difference()));
+            std::string line = fmt::format("      {} {}", d.id, grading::signed_points(d.difference()));
             for (std::size_t i = 0; i < d.why.size(); ++i) line += (i > 0 ? "; " : ": ") + d.why[i];
             table += line + "\n";
           }
         ++compared;
         ++verdicts[c.before.verdict == now ? "stay " + now : fmt::format("{} -> {}", c.before.verdict, now)];
-        const Json json = to_json(c);
+        const Json json = grading::to_json(c);
         for (const auto& [key, value] : json.items()) one[key] = value;
       } else {
         table += fmt::format("  {}{}        {}\n", cell("none", 0, 0), cell(now, g.result.points, g.result.max_points), one_line(file));
@@ -129,7 +129,7 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
 
 int run_grade(const Options& o) {
   if (o.measures) {
-    std::cout << measures_page();
+    std::cout << grading::measures_page();
     return 0;
   }
   if (!o.out.empty()) {
@@ -170,4 +170,4 @@ void add_grade_verbs(CLI::App& app, int& exit_code) {
   grades->callback([o, &exit_code] { exit_code = run_grade(*o); });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -5,10 +5,10 @@
 
 #include "scenarios/file/accommodations.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// `grant` must live as long as the verb.
-inline void add_grant_options(CLI::App* verb, Grant& grant) {
+inline void add_grant_options(CLI::App* verb, scenarios::Grant& grant) {
   verb->add_option("--extra-time-percent", grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
   verb->add_option("--extra-time-s", grant.extra_time_s, "the same in seconds; both add up");
   // by callbacks: bound to an optional, a flag that is not given would be set to false, and take away what the scenario grants
@@ -24,4 +24,4 @@ inline void add_grant_options(CLI::App* verb, Grant& grant) {
       "--normal-contrast", [&grant] { grant.high_contrast = false; }, back);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -8,7 +8,7 @@
 #include "ui/verbs/ledger_verbs_parts.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using LedgerRun = std::function<int(const LedgerOptions&)>;
@@ -284,4 +284,4 @@ void add_ledger_verbs(CLI::App& app, int& exit_code) {
     add(ledger);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

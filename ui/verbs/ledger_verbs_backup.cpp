@@ -7,12 +7,12 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
 int ledger_backup(const LedgerOptions& o) {
-  const Backup b = back_up({o.folder}, o.out, o.with_identities);
+  const ledger::Backup b = ledger::back_up({o.folder}, o.out, o.with_identities);
   if (o.as_json) {
     print_json(json{{"ledger", b.ledger_id},
                     {"entries", b.checkpoint.size},
@@ -34,9 +34,9 @@ int ledger_backup(const LedgerOptions& o) {
 }
 
 int ledger_restore(const LedgerOptions& o) {
-  const RestorePlan plan = plan_restore(o.folder, o.receipts, o.cosigned);
+  const ledger::RestorePlan plan = ledger::plan_restore(o.folder, o.receipts, o.cosigned);
   const bool refused = !plan.findings.empty() || (plan.last_seen && o.accept_loss.empty());
-  if (!refused) restore(o.folder, o.out, plan, o.accept_loss, key_of(o));
+  if (!refused) ledger::restore(o.folder, o.out, plan, o.accept_loss, key_of(o));
   if (o.as_json) {
     print_json(json{{"restored", !refused},
                     {"entries", plan.content.entries.size()},
@@ -63,4 +63,4 @@ int ledger_restore(const LedgerOptions& o) {
   return refused ? 1 : 0;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -15,29 +15,29 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
 int ledger_verify(const LedgerOptions& o) {
-  const LedgerPlaces places{o.folder};
-  if (!o.key.empty()) static_cast<void>(load_school_key(o.key));  // one that was named has to be there
-  const LedgerContent content = read_ledger(places);
-  LedgerCheck check = check_ledger(places, o.replay);
-  check_owner(check, places, content, o.key.empty() ? school_key_path() : o.key, school_public_key_path());
+  const ledger::LedgerPlaces places{o.folder};
+  if (!o.key.empty()) static_cast<void>(ledger::load_school_key(o.key));  // one that was named has to be there
+  const ledger::LedgerContent content = ledger::read_ledger(places);
+  ledger::LedgerCheck check = ledger::check_ledger(places, o.replay);
+  ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    for (auto& f : check_receipt(receipt, content.public_key, &content)) check.findings.push_back(fmt::format("{}: {}", path, f));
+    for (auto& f : ledger::check_receipt(receipt, content.public_key, &content)) check.findings.push_back(fmt::format("{}: {}", path, f));
   }
   const auto cosigners = cosigners_of(o);
-  check_cosignatures(content, cosigners, check.findings, check.not_checked);
+  ledger::check_cosignatures(content, cosigners, check.findings, check.not_checked);
   for (const auto& path : o.cosigned) {
-    const auto note = check_cosigned(read_text_file(path), cosigners, content);
+    const auto note = ledger::check_cosigned(read_text_file(path), cosigners, content);
     for (const auto& f : note.findings) check.findings.push_back(fmt::format("{}: {}", path, f));
     for (const auto& n : note.not_checked) check.not_checked.push_back(fmt::format("{}: {}", path, n));
   }
   if (!o.results.empty())
-    for (auto& f : check_results(read_text_file(o.results), content.public_key, &content))
+    for (auto& f : ledger::check_results(read_text_file(o.results), content.public_key, &content))
       check.findings.push_back(fmt::format("{}: {}", o.results, f));
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
@@ -60,8 +60,8 @@ int ledger_verify(const LedgerOptions& o) {
 }
 
 int ledger_show(const LedgerOptions& o) {
-  const LedgerContent content = read_ledger({o.folder});
-  const Registry registry = read_registry(content);
+  const ledger::LedgerContent content = ledger::read_ledger({o.folder});
+  const ledger::Registry registry = ledger::read_registry(content);
   std::vector<std::string> findings = content.findings;
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
   if (!findings.empty())
@@ -92,7 +92,7 @@ int ledger_show(const LedgerOptions& o) {
                     {"findings", findings}});
     return code;
   }
-  const auto open = std::count_if(registry.tickets.begin(), registry.tickets.end(), [](const IssuedTicket& t) { return !t.used_by; });
+  const auto open = std::count_if(registry.tickets.begin(), registry.tickets.end(), [](const ledger::IssuedTicket& t) { return !t.used_by; });
   std::printf("ledger %s: %zu entries, %zu tickets (%td not used), %zu sessions\n",
               content.id.empty() ? "whose id could not be read" : one_line(content.id).c_str(), content.entries.size(), registry.tickets.size(), open,
               registry.sessions.size());
@@ -111,4 +111,4 @@ int ledger_show(const LedgerOptions& o) {
   return code;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -13,21 +13,21 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
-std::vector<NoteKey> cosigners_of(const LedgerOptions& o) {
+std::vector<ledger::NoteKey> cosigners_of(const LedgerOptions& o) {
   if (!o.cosigners.empty() && !std::filesystem::exists(o.cosigners))
     throw Error("--cosigners " + o.cosigners, "is not there", "name a file with a cosigner's key on each line");
-  return read_cosigners(o.cosigners.empty() ? known_cosigners_path() : o.cosigners);
+  return ledger::read_cosigners(o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners);
 }
 
 void ledger_checkpoint(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
+  const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   if (o.since < -1) throw Error(fmt::format("--since {}", o.since), "is no number of entries", "give 0 for a cosigner who has signed nothing yet");
-  const std::uint64_t since = o.since < 0 ? last_cosigned(ledger.content()) : static_cast<std::uint64_t>(o.since);
-  const std::string request = cosign_request(ledger.content(), since);
+  const std::uint64_t since = o.since < 0 ? ledger::last_cosigned(ledger.content()) : static_cast<std::uint64_t>(o.since);
+  const std::string request = ledger::cosign_request(ledger.content(), since);
   require_new(o, o.out);
   write_text_file(o.out, request);
   std::cout << "written: " << o.out << ", " << ledger.content().entries.size() << " entries, proved since " << since
@@ -35,8 +35,8 @@ void ledger_checkpoint(const LedgerOptions& o) {
 }
 
 int ledger_cosign(const LedgerOptions& o) {
-  Cosigner cosigner;
-  cosigner.memory = o.state.empty() ? cosigner_memory_path() : o.state;
+  ledger::Cosigner cosigner;
+  cosigner.memory = o.state.empty() ? ledger::cosigner_memory_path() : o.state;
   cosigner.school_key = o.school_key.empty() ? "" : parse_public_key(o.school_key, "--school-key");
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
@@ -49,8 +49,8 @@ int ledger_cosign(const LedgerOptions& o) {
   cosigner.key = load_signing_key(o.key.empty() ? station_path("cosigner.key") : o.key, "cosigner");
   cosigner.name = o.name_of_cosigner.empty() ? "cavum.cosigner/" + to_hex(cosigner.key.public_key).substr(0, 16) : o.name_of_cosigner;
   constexpr std::int64_t k_ns = 1'000'000'000;
-  const Cosigned cosigned = cosign(cosigner, request, o.folder, static_cast<std::uint64_t>(read_clocks().utc_ns / k_ns));
-  const std::string key = key_line({cosigner.name, NoteKind::cosignature, cosigner.key.public_key});
+  const ledger::Cosigned cosigned = ledger::cosign(cosigner, request, o.folder, static_cast<std::uint64_t>(read_clocks().utc_ns / k_ns));
+  const std::string key = ledger::key_line({cosigner.name, ledger::NoteKind::cosignature, cosigner.key.public_key});
   if (cosigned.findings.empty()) write_text_file(o.out, cosigned.note);
   if (o.as_json) {
     print_json(json{{"cosigned", cosigned.findings.empty()},
@@ -69,14 +69,14 @@ int ledger_cosign(const LedgerOptions& o) {
 }
 
 int ledger_add_cosignature(const LedgerOptions& o) {
-  Ledger ledger(o.folder, key_of(o));
+  ledger::Ledger ledger(o.folder, key_of(o));
   const auto cosigners = cosigners_of(o);
   bool all = true;
   for (const auto& path : o.cosigned) {
-    auto note = check_cosigned(read_text_file(path), cosigners, ledger.content());
+    auto note = ledger::check_cosigned(read_text_file(path), cosigners, ledger.content());
     if (note.findings.empty() && note.cosignatures.empty())
       throw Error(path, "bears no cosignature of a cosigner that is known here",
-                  "put the key line that `cavum ledger cosign` shows into " + (o.cosigners.empty() ? known_cosigners_path() : o.cosigners));
+                  "put the key line that `cavum ledger cosign` shows into " + (o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners));
     std::cout << path << ": " << (note.findings.empty() ? "kept: " : "NOT KEPT\n");
     for (const auto& f : note.findings) std::cout << "  - " << f << "\n";
     all = all && note.findings.empty();
@@ -88,4 +88,4 @@ int ledger_add_cosignature(const LedgerOptions& o) {
   return all ? 0 : 1;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

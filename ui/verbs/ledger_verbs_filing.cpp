@@ -13,17 +13,17 @@
 #include "ui/verbs/ledger_verbs_parts.h"
 #include "ui/verbs/session_files.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
-SigningKey key_of(const LedgerOptions& o) { return load_school_key(o.key.empty() ? school_key_path() : o.key); }
+SigningKey key_of(const LedgerOptions& o) { return ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key); }
 
 void require_new(const LedgerOptions& o, const std::string& path) {
   require_writable(path);
-  const LedgerPlaces places{o.folder};
+  const ledger::LedgerPlaces places{o.folder};
   std::error_code none;
-  for (const std::string& kept : {places.database(), places.identities(), school_key_path(), school_public_key_path(), o.key,
+  for (const std::string& kept : {places.database(), places.identities(), ledger::school_key_path(), ledger::school_public_key_path(), o.key,
                                   station_path("station.key"), station_path("used_tickets")})
     if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
       throw Error("--out " + path, "holds a key, identities or entries", "name another file: it is never written over");
@@ -34,11 +34,11 @@ void write_school_file(const LedgerOptions& o, const std::string& path, const st
   write_text_file(path, text, {.is_private = true, .may_replace = o.overwrite});
 }
 
-Identities sound_identities(const Ledger& ledger) {
-  Identities identities(ledger.places().identities());
+ledger::Identities sound_identities(const ledger::Ledger& ledger) {
+  ledger::Identities identities(ledger.places().identities());
   if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
     throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
-  remove_forgotten(ledger.content(), identities);
+  ledger::remove_forgotten(ledger.content(), identities);
   return identities;
 }
 
@@ -49,10 +49,10 @@ bool has_content(const std::string& path) {
 }
 
 /// A ledger that was made with this key and name, and whose identities were not.
-bool was_cut_off(const LedgerPlaces& places, const std::string& school, const SigningKey& key) {
+bool was_cut_off(const ledger::LedgerPlaces& places, const std::string& school, const SigningKey& key) {
   std::error_code none;
   if (!std::filesystem::exists(places.database(), none) || has_content(places.identities())) return false;
-  const LedgerContent c = read_ledger(places);
+  const ledger::LedgerContent c = ledger::read_ledger(places);
   return c.findings.empty() && c.entries.size() == 1 && c.school == school && c.public_key == to_hex(key.public_key);
 }
 
@@ -64,35 +64,36 @@ void ledger_init(const LedgerOptions& o) {
                 : o.school.size() > k_longest_school ? fmt::format("is longer than {} bytes", k_longest_school)
                                                      : "holds a control character or bytes that are no UTF-8",
                 "give the school's name in one line of UTF-8");
-  const SigningKey key = load_school_key(o.key.empty() ? school_key_path() : o.key, true);
-  if (!was_cut_off({o.folder}, o.school, key)) Ledger::create(o.folder, o.school, key);
-  static_cast<void>(Identities(LedgerPlaces{o.folder}.identities(), true));
-  const std::string known = school_public_key_path();
+  const SigningKey key = ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key, true);
+  if (!was_cut_off({o.folder}, o.school, key)) ledger::Ledger::create(o.folder, o.school, key);
+  static_cast<void>(ledger::Identities(ledger::LedgerPlaces{o.folder}.identities(), true));
+  const std::string known = ledger::school_public_key_path();
   if (!std::filesystem::exists(known)) write_text_file(known, to_hex(key.public_key) + "\n");
-  const LedgerContent content = read_ledger({o.folder});
+  const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   if (o.as_json) {
     print_json(json{{"ledger", content.id}, {"public_key", content.public_key}, {"folder", o.folder}});
     return;
   }
   std::cout << "ledger " << content.id << " in " << o.folder << "\nthe school's public key: " << content.public_key
-            << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? school_key_path() : o.key) << " (signs), " << witness_path(content.id)
-            << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known << "\n";
+            << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? ledger::school_key_path() : o.key) << " (signs), "
+            << ledger::witness_path(content.id) << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known
+            << "\n";
 }
 
 int ledger_add(const LedgerOptions& o) {
-  Ledger ledger(o.folder, key_of(o));
+  ledger::Ledger ledger(o.folder, key_of(o));
   if (!o.out.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
     make_private_folder(o.out);
     require_writable(o.out + "/receipt.json");
   }
   json printed = json::array();
   bool all = true;
-  ExamGrounds grounds;  // of the class
+  grading::ExamGrounds grounds;  // of the class
   for (const auto& path : session_files(o.sessions)) {
-    Filing filing;
+    ledger::Filing filing;
     keep_memory_reserve();
     try {
-      filing = file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings}, grounds);
+      filing = ledger::file_session(ledger, path, {o.without_ticket, o.simulated, o.with_findings}, grounds);
     } catch (const DatabaseError&) {
       throw;  // the disk: what was acknowledged stands, and nothing more can be
     } catch (const Error& e) {
@@ -121,16 +122,16 @@ int ledger_add(const LedgerOptions& o) {
 }
 
 void ledger_receipt(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
+  const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
     throw Error(fmt::format("--entry {}", o.session_seq), "is no entry of this ledger", fmt::format("see `cavum ledger show {}`", o.folder));
   if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
     throw Error(fmt::format("--from-size {}", o.from_size), "is no number of entries that this ledger has had",
                 fmt::format("give 1 to {}", ledger.content().entries.size()));
   require_new(o, o.out);
-  const json receipt = make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
+  const json receipt = ledger::make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
   write_school_file(o, o.out, receipt.dump(2) + "\n");
   std::cout << "written: " << one_line(o.out) << "\n";
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -12,14 +12,14 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
 namespace {
 
 /// Tickets of before format 5 bear accommodations in texts that nothing can take out.
-std::size_t old_tickets_with_grants(const LedgerContent& c, const std::string& pseudonym) {
+std::size_t old_tickets_with_grants(const ledger::LedgerContent& c, const std::string& pseudonym) {
   std::size_t n = 0;
   for (const auto& e : c.entries) {
     const json& ticket = member_of(e.body, "ticket");
@@ -31,16 +31,16 @@ std::size_t old_tickets_with_grants(const LedgerContent& c, const std::string& p
 }  // namespace
 
 void ledger_forget(const LedgerOptions& o) {
-  require_candidate_id("--candidate", o.candidate);
-  Ledger ledger(o.folder, key_of(o));
-  Identities identities(ledger.places().identities());
-  if (const auto late = remove_forgotten(ledger.content(), identities); late > 0)
+  ledger::require_candidate_id("--candidate", o.candidate);
+  ledger::Ledger ledger(o.folder, key_of(o));
+  ledger::Identities identities(ledger.places().identities());
+  if (const auto late = ledger::remove_forgotten(ledger.content(), identities); late > 0)
     std::cout << late << (late == 1 ? " identity" : " identities") << " removed that entries said were forgotten\n";
   std::vector<std::string> pseudonyms;
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())
     throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
-  forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
+  ledger::forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
   std::size_t bound = 0;
   for (const auto& p : pseudonyms) {
     identities.forget(p);
@@ -55,25 +55,25 @@ void ledger_forget(const LedgerOptions& o) {
 }
 
 void ledger_erase(const LedgerOptions& o) {
-  Ledger ledger(o.folder, key_of(o));
+  ledger::Ledger ledger(o.folder, key_of(o));
   const bool names_some = !o.chosen_sessions.empty() || !o.before.empty();
   if (!names_some) {
     if (o.erase_motion || o.erase_results)
       throw Error("cavum ledger erase", "needs to know of which sessions", "give --session for each, or --before");
     ledger.wipe();
-    const auto removed = remove_erased_recordings(ledger.content(), ledger.places());
+    const auto removed = ledger::remove_erased_recordings(ledger.content(), ledger.places());
     std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
     if (std::filesystem::exists(ledger.places().identities())) {
-      Identities identities(ledger.places().identities());
-      const auto late = remove_forgotten(ledger.content(), identities);
+      ledger::Identities identities(ledger.places().identities());
+      const auto late = ledger::remove_forgotten(ledger.content(), identities);
       std::cout << late << (late == 1 ? " identity" : " identities") << " removed that entries said were forgotten\n";
     }
     return;
   }
   if (!o.erase_motion && !o.erase_results) throw Error("cavum ledger erase", "needs to know what", "give --motion, --results or both");
-  ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
-  if (!o.before.empty()) wish.received_before = parse_utc(o.before, "--before");
-  const json erased = erase(ledger, wish, o.reason);
+  ledger::ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
+  if (!o.before.empty()) wish.received_before = ledger::parse_utc(o.before, "--before");
+  const json erased = ledger::erase(ledger, wish, o.reason);
   if (o.as_json) return print_json(json{{"erased", erased}});
   if (erased.empty()) {
     std::cout << "nothing is left to erase of these sessions\n";
@@ -84,26 +84,26 @@ void ledger_erase(const LedgerOptions& o) {
 }
 
 void ledger_key(const LedgerOptions& o) {
-  const std::string path = o.key.empty() ? school_key_path() : o.key;
-  const std::int64_t until = o.until.empty() ? 0 : parse_utc(o.until, "--until");
+  const std::string path = o.key.empty() ? ledger::school_key_path() : o.key;
+  const std::int64_t until = o.until.empty() ? 0 : ledger::parse_utc(o.until, "--until");
   if (!o.replace && o.until.empty()) {
-    for (const auto& k : read_ledger({o.folder}).keys)
+    for (const auto& k : ledger::read_ledger({o.folder}).keys)
       std::cout << k.public_key << "  signs from " << k.first_size << " entries on"
                 << (k.until_utc_ns > 0 ? ", good until " + utc_text(k.until_utc_ns) : "") << "\n";
     return;
   }
   if (!o.replace) {
-    Ledger ledger(o.folder, key_of(o));
-    limit_school_key(ledger, until, o.reason);
+    ledger::Ledger ledger(o.folder, key_of(o));
+    ledger::limit_school_key(ledger, until, o.reason);
     std::cout << "entry " << ledger.content().entries.back().seq << ": the school's key is good until " << utc_text(until) << "\n";
     return;
   }
-  const std::string before = to_hex(load_school_key(path).public_key);
-  const std::string now = replace_school_key(o.folder, path, until, o.reason, school_public_key_path());
-  std::cout << "the school's key is now " << now << "\nthe one before it is kept as " << old_key_path(path, before)
-            << ": other ledgers of the school still need it\ncopy " << school_public_key_path()
-            << " to each station; give cosigners the receipt of entry " << read_ledger({o.folder}).keys.back().first_size - 1
+  const std::string before = to_hex(ledger::load_school_key(path).public_key);
+  const std::string now = ledger::replace_school_key(o.folder, path, until, o.reason, ledger::school_public_key_path());
+  std::cout << "the school's key is now " << now << "\nthe one before it is kept as " << ledger::old_key_path(path, before)
+            << ": other ledgers of the school still need it\ncopy " << ledger::school_public_key_path()
+            << " to each station; give cosigners the receipt of entry " << ledger::read_ledger({o.folder}).keys.back().first_size - 1
             << " (`cavum ledger cosign --key-receipt`); back up the new key\n";
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

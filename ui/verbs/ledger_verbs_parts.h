@@ -10,13 +10,13 @@
 #include "grading/ledger/ledger.h"
 #include "scenarios/file/accommodations.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
                            results, reason, invite, enrol, revoke, name_of_cosigner, state, school_key, cosigners, accept_loss, again, before;
   std::vector<std::string> sessions, chosen, receipts, cosigned;
-  Grant grant;
+  scenarios::Grant grant;
   std::vector<std::uint64_t> chosen_sessions;
   std::int64_t session_seq = -1, since = -1, from_size = 0;
   bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
@@ -31,9 +31,9 @@ void require_new(const LedgerOptions& options, const std::string& path);
 /// Writes what concerns the school alone, for its user alone; never over a file that came there meanwhile unless --overwrite allows it.
 void write_school_file(const LedgerOptions& options, const std::string& path, const std::string& text);
 /// Cosigners whose word counts: --cosigners, else those in their place. Throws Error when a file that was named is not there.
-[[nodiscard]] std::vector<NoteKey> cosigners_of(const LedgerOptions& options);
+[[nodiscard]] std::vector<ledger::NoteKey> cosigners_of(const LedgerOptions& options);
 /// The ledger's identities. Throws Error when one of them was changed by hand.
-[[nodiscard]] Identities sound_identities(const Ledger& ledger);
+[[nodiscard]] ledger::Identities sound_identities(const ledger::Ledger& ledger);
 
 // Each runs a verb; those that return a number give the exit code, 0 or 1. They throw Error.
 void ledger_init(const LedgerOptions& options);
@@ -59,4 +59,4 @@ int ledger_add_cosignature(const LedgerOptions& options);
 int ledger_backup(const LedgerOptions& options);
 int ledger_restore(const LedgerOptions& options);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -17,7 +17,7 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
@@ -26,20 +26,20 @@ void ledger_release(const LedgerOptions& o) {
     throw Error("cavum ledger release", "needs to know whose results", "give --all, --candidate for each, or --session for each");
   if (o.all && !(o.chosen.empty() && o.chosen_sessions.empty()))
     throw Error("--all", "is given with names", "give either --all, or --candidate and --session");
-  Ledger ledger(o.folder, key_of(o));
-  Identities identities = sound_identities(ledger);
-  ReleaseWish wish{o.all, o.with_findings, o.chosen, o.chosen_sessions};
+  ledger::Ledger ledger(o.folder, key_of(o));
+  ledger::Identities identities = sound_identities(ledger);
+  ledger::ReleaseWish wish{o.all, o.with_findings, o.chosen, o.chosen_sessions};
   wish.candidates.clear();
-  const Registry filed = read_registry(ledger.content());
+  const ledger::Registry filed = ledger::read_registry(ledger.content());
   for (const auto& who : o.chosen) {  // of a person all exams that are filed
-    require_candidate_id("--candidate", who);
+    ledger::require_candidate_id("--candidate", who);
     const std::size_t before = wish.candidates.size();
     for (const auto& known : identities.of_id(who))
-      if (std::any_of(filed.sessions.begin(), filed.sessions.end(), [&](const FiledSession& s) { return s.candidate == known.pseudonym; }))
+      if (std::any_of(filed.sessions.begin(), filed.sessions.end(), [&](const ledger::FiledSession& s) { return s.candidate == known.pseudonym; }))
         wish.candidates.push_back(known.pseudonym);
     if (wish.candidates.size() == before) wish.candidates.push_back(who);
   }
-  const Release released = release_results(ledger, wish);
+  const ledger::Release released = ledger::release_results(ledger, wish);
   if (o.as_json)
     print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}});
   else
@@ -62,21 +62,21 @@ std::string in_words(const json& result) {
 void ledger_regrade(const LedgerOptions& o) {
   if (o.rubric.empty() && o.scenario.empty())
     throw Error("cavum ledger regrade", "needs to know by what", "give --rubric R.toml or --scenario S.toml");
-  Ledger ledger(o.folder, key_of(o));
-  const Registry registry = read_registry(ledger.content());
+  ledger::Ledger ledger(o.folder, key_of(o));
+  const ledger::Registry registry = ledger::read_registry(ledger.content());
   const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(),
-                                  [&](const FiledSession& s) { return static_cast<std::int64_t>(s.seq) == o.session_seq; });
+                                  [&](const ledger::FiledSession& s) { return static_cast<std::int64_t>(s.seq) == o.session_seq; });
   if (found == registry.sessions.end())
     throw Error(fmt::format("--session {}", o.session_seq), "is no session's entry", fmt::format("see `cavum ledger show {}`", o.folder));
-  const RegradeBasis basis = read_basis(o.rubric, o.scenario);
-  const auto graded = load_for_grading(recording_of(ledger.places(), *found));
-  if (auto scenario = scenario_of(basis, o.scenario)) {
-    use_scenario(*graded, std::move(*scenario), o.another_task);
-    use_rubric(*graded, graded->scenario.rubric);
+  const ledger::RegradeBasis basis = ledger::read_basis(o.rubric, o.scenario);
+  const auto graded = grading::load_for_grading(ledger::recording_of(ledger.places(), *found));
+  if (auto scenario = ledger::scenario_of(basis, o.scenario)) {
+    grading::use_scenario(*graded, std::move(*scenario), o.another_task);
+    grading::use_rubric(*graded, graded->scenario.rubric);
   }
-  if (auto rubric = rubric_of(basis, o.rubric)) use_rubric(*graded, std::move(*rubric));
-  const json result = to_json(grade(graded->input(), graded->rubric));
-  const auto& entry = enter_regrade(ledger, found->seq, result, basis, o.reason);
+  if (auto rubric = ledger::rubric_of(basis, o.rubric)) grading::use_rubric(*graded, std::move(*rubric));
+  const json result = grading::to_json(grading::grade(graded->input(), graded->rubric));
+  const auto& entry = ledger::enter_regrade(ledger, found->seq, result, basis, o.reason);
   if (o.as_json)
     print_json(json{{"seq", entry.seq},
                     {"before", member_of(found->result, "score")},
@@ -89,22 +89,22 @@ void ledger_regrade(const LedgerOptions& o) {
 }
 
 void ledger_export(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
-  Identities identities = sound_identities(ledger);
-  const Registry registry = read_registry(ledger.content());
+  const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
+  ledger::Identities identities = sound_identities(ledger);
+  const ledger::Registry registry = ledger::read_registry(ledger.content());
   int left_out = 0;
   std::string text;
-  if (o.format == "moodle") text = moodle_csv(registry, identities, left_out, o.with_simulated);
-  if (o.format == "lti") text = lti_scores(registry, identities, o.with_simulated).dump(2) + "\n";
-  if (o.format == "json") text = signed_results(registry, ledger) + "\n";
-  if (o.format == "csv") text = tidy_csv(registry);
+  if (o.format == "moodle") text = ledger::moodle_csv(registry, identities, left_out, o.with_simulated);
+  if (o.format == "lti") text = ledger::lti_scores(registry, identities, o.with_simulated).dump(2) + "\n";
+  if (o.format == "json") text = ledger::signed_results(registry, ledger) + "\n";
+  if (o.format == "csv") text = ledger::tidy_csv(registry);
   require_own_places({{"--out " + o.out, o.out}}, {{"", ledger.places().database()}, {"", ledger.places().identities()}});
   require_new(o, o.out);
   write_school_file(o, o.out, text);
   std::cout << "written: " << one_line(o.out) << "\n";
-  if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const FiledSession& s) { return s.shown.is_object(); }))
+  if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const ledger::FiledSession& s) { return s.shown.is_object(); }))
     std::cout << "no result is released; " << registry.sessions.size() << (registry.sessions.size() == 1 ? " is" : " are") << " pending\n";
-  if (const auto simulated = released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
+  if (const auto simulated = ledger::released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
     std::cout << simulated << (simulated == 1 ? " released result of a simulated operator is " : " released results of simulated operators are ")
               << (o.with_simulated ? "in it, marked SIMULATED, under no student's number\n" : "left out (--with-simulated writes them, marked)\n");
   if (left_out > 0)
@@ -112,8 +112,8 @@ void ledger_export(const LedgerOptions& o) {
 }
 
 void ledger_candidates(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
-  Identities identities = sound_identities(ledger);
+  const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
+  ledger::Identities identities = sound_identities(ledger);
   json all = json::array();
   for (const auto& i : identities.all()) {
     all.push_back({{"candidate", i.pseudonym}, {"exam", i.exam}, {"id", i.id}, {"name", i.name}});
@@ -124,4 +124,4 @@ void ledger_candidates(const LedgerOptions& o) {
   if (o.as_json) print_json(json{{"candidates", all}});
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

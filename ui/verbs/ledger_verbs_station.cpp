@@ -9,7 +9,7 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::int64_t k_week_ns = 7 * 86'400'000'000'000;
 
-std::string state_of(const Station& s) {
+std::string state_of(const ledger::Station& s) {
   if (!s.replaced_by.empty()) return "replaced by " + s.replaced_by.substr(0, 16);
   if (s.revoked_utc_ns) return "revoked on " + utc_text(*s.revoked_utc_ns);
   return s.until_utc_ns > 0 ? "until " + utc_text(s.until_utc_ns) : "enrolled";
 }
 
 void list_stations(const LedgerOptions& o) {
-  const Ledger ledger(o.folder, key_of(o), LedgerUse::tell);
-  const StationRegister stations = read_registry(ledger.content()).stations;
+  const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
+  const ledger::StationRegister stations = ledger::read_registry(ledger.content()).stations;
   json printed = json::array();
   for (const auto& s : stations.stations) {
     json devices = json::array();
@@ -42,28 +42,28 @@ void list_stations(const LedgerOptions& o) {
 }  // namespace
 
 void ledger_station(const LedgerOptions& o) {
-  const std::int64_t until = o.until.empty() ? 0 : parse_utc(o.until, "--until");
+  const std::int64_t until = o.until.empty() ? 0 : ledger::parse_utc(o.until, "--until");
   if (!o.invite.empty()) {
-    Ledger ledger(o.folder, key_of(o));
+    ledger::Ledger ledger(o.folder, key_of(o));
     const std::int64_t good_until = until > 0 ? until : read_clocks().utc_ns + k_week_ns;
-    const std::string code = invite_station(ledger, o.invite, good_until);
+    const std::string code = ledger::invite_station(ledger, o.invite, good_until);
     if (o.as_json)
       print_json(json{{"code", code}, {"name", o.invite}, {"until", utc_text(good_until)}});
     else
       std::cout << code << "  for " << one_line(o.invite) << ", good once until " << utc_text(good_until)
                 << "\non the station: cavum station --enrol " << code << " --out request.json\n";
   } else if (!o.enrol.empty()) {
-    Ledger ledger(o.folder, key_of(o));
-    const auto seq = enrol_station(ledger, read_text_file(o.enrol), until, o.enrol).seq;
-    const StationRegister stations = read_registry(ledger.content()).stations;
-    const Station& s = stations.stations.back();
+    ledger::Ledger ledger(o.folder, key_of(o));
+    const auto seq = ledger::enrol_station(ledger, read_text_file(o.enrol), until, o.enrol).seq;
+    const ledger::StationRegister stations = ledger::read_registry(ledger.content()).stations;
+    const ledger::Station& s = stations.stations.back();
     if (o.as_json)
       print_json(json{{"entry", seq}, {"name", s.name}, {"public_key", s.public_key}});
     else
       std::cout << "entry " << seq << ": station '" << one_line(s.name) << "', key " << s.public_key << "\n";
   } else if (!o.revoke.empty()) {
-    Ledger ledger(o.folder, key_of(o));
-    const auto seq = revoke_station(ledger, parse_public_key(o.revoke, "--revoke"), o.reason).seq;
+    ledger::Ledger ledger(o.folder, key_of(o));
+    const auto seq = ledger::revoke_station(ledger, parse_public_key(o.revoke, "--revoke"), o.reason).seq;
     if (o.as_json)
       print_json(json{{"entry", seq}});
     else
@@ -73,4 +73,4 @@ void ledger_station(const LedgerOptions& o) {
   }
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

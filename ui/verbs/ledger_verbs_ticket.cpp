@@ -15,28 +15,28 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 using nlohmann::json;
 
 int ledger_ticket(const LedgerOptions& o) {
   if (o.candidate.empty() == o.candidates.empty())
     throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
-  require_candidate_id("--candidate", o.candidate);
-  require_candidate_id("--name", o.name);
-  const std::vector<Person> people =
-      o.candidates.empty() ? std::vector<Person>{{o.candidate, o.name}} : parse_people(read_text_file(o.candidates), o.candidates);
-  const std::int64_t from = parse_utc(o.from, "--from"), until = parse_utc(o.until, "--until");
+  ledger::require_candidate_id("--candidate", o.candidate);
+  ledger::require_candidate_id("--name", o.name);
+  const std::vector<ledger::Person> people =
+      o.candidates.empty() ? std::vector<ledger::Person>{{o.candidate, o.name}} : ledger::parse_people(read_text_file(o.candidates), o.candidates);
+  const std::int64_t from = ledger::parse_utc(o.from, "--from"), until = ledger::parse_utc(o.until, "--until");
   if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
-  ExamOptions exam;
+  scenarios::ExamOptions exam;
   exam.tooth_file = o.tooth;
   exam.rubric_file = o.rubric;
   exam.force_model = o.model;
   exam.grant = o.grant;
-  const auto setup = prepare_exam(o.scenario, exam);
-  Ledger ledger(o.folder, key_of(o));
-  Identities identities = sound_identities(ledger);
-  Ticket ticket = promise(*setup, ledger.content(), from, until);
+  const auto setup = scenarios::prepare_exam(o.scenario, exam);
+  ledger::Ledger ledger(o.folder, key_of(o));
+  ledger::Identities identities = sound_identities(ledger);
+  ledger::Ticket ticket = ledger::promise(*setup, ledger.content(), from, until);
   ticket.begun_at_ledger = o.begin_at_ledger;
   const bool folder = !o.candidates.empty();
   if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
@@ -48,8 +48,8 @@ int ledger_ticket(const LedgerOptions& o) {
                       file = folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out;
     require_new(o, file);
     try {
-      write_school_file(o, file, issue(ledger, ticket, candidate, o.another ? Another::allow : Another::refuse) + "\n");
-    } catch (const TicketIsLive& live) {  // of a class the others get theirs
+      write_school_file(o, file, ledger::issue(ledger, ticket, candidate, o.another ? ledger::Another::allow : ledger::Another::refuse) + "\n");
+    } catch (const ledger::TicketIsLive& live) {  // of a class the others get theirs
       if (!folder) throw;
       std::fprintf(stderr, "cavum: %s: %s\n", one_line(p.id).c_str(), one_line(live.what()).c_str());
       ++refused;
@@ -63,8 +63,8 @@ int ledger_ticket(const LedgerOptions& o) {
 }
 
 void ledger_tickets(const LedgerOptions& o) {
-  const LedgerContent content = read_ledger({o.folder});
-  const Registry registry = read_registry(content);
+  const ledger::LedgerContent content = ledger::read_ledger({o.folder});
+  const ledger::Registry registry = ledger::read_registry(content);
   const std::int64_t now = read_clocks().utc_ns;
   json printed = json::array();
   for (const auto& t : registry.tickets) {
@@ -89,22 +89,22 @@ void ledger_tickets(const LedgerOptions& o) {
 
 void ledger_cancel(const LedgerOptions& o) {
   if (o.session_seq < 0) throw Error("--ticket", "is no entry's number", fmt::format("see `cavum ledger tickets {}`", o.folder));
-  Ledger ledger(o.folder, key_of(o));
-  const auto& entry = cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
+  ledger::Ledger ledger(o.folder, key_of(o));
+  const auto& entry = ledger::cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
   std::cout << "entry " << entry.seq << ": the ticket of entry " << o.session_seq
             << " does not count any more; an exam that is begun with it is filed with findings only\n";
 }
 
 void ledger_begin(const LedgerOptions& o) {
-  Ledger ledger(o.folder, key_of(o));
-  const std::string out = o.out.empty() ? begin_path(o.scenario) : o.out;
-  const Ticket ticket = parse_ticket(read_text_file(o.scenario), "", o.scenario);
+  ledger::Ledger ledger(o.folder, key_of(o));
+  const std::string out = o.out.empty() ? ledger::begin_path(o.scenario) : o.out;
+  const ledger::Ticket ticket = ledger::parse_ticket(read_text_file(o.scenario), "", o.scenario);
   LedgerOptions writing = o;
   writing.overwrite = o.overwrite || !o.again.empty();  // the word before does not count any more
   require_new(writing, out);
-  write_school_file(writing, out, let_begin(ledger, ticket.nonce, o.again) + "\n");
+  write_school_file(writing, out, ledger::let_begin(ledger, ticket.nonce, o.again) + "\n");
   std::cout << "written: " << one_line(out) << "\nkeep it beside the ticket on the station; the exam of " << one_line(ticket.candidate)
             << " may begin now\n";
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

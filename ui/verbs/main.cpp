@@ -18,26 +18,26 @@
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, not the end of an exam
-  const cavum::SafeTerminal terminal;
+  const cavum::ui::SafeTerminal terminal;
   CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
   app.set_version_flag("--version", fmt::format("cavum {}, physics {}", CAVUM_VERSION, cavum::k_physics_version));
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   int exit_code = 0;
-  cavum::add_tooth_verbs(app, exit_code);
-  cavum::add_scenario_verbs(app, exit_code);
-  cavum::add_exam_verbs(app, exit_code);
-  cavum::add_replay_verbs(app, exit_code);
-  cavum::add_grade_verbs(app, exit_code);
-  cavum::add_rig_verbs(app, exit_code);
-  cavum::add_explain_verbs(app, exit_code);
-  cavum::add_ledger_verbs(app, exit_code);
-  cavum::add_report_verbs(app, exit_code);
-  cavum::add_cohort_verbs(app, exit_code);
-  cavum::add_verify_verbs(app, exit_code);
-  cavum::add_device_verbs(app, exit_code);
-  cavum::add_station_verbs(app, exit_code);
-  cavum::add_manual_verbs(app, exit_code);
+  cavum::ui::add_tooth_verbs(app, exit_code);
+  cavum::ui::add_scenario_verbs(app, exit_code);
+  cavum::ui::add_exam_verbs(app, exit_code);
+  cavum::ui::add_replay_verbs(app, exit_code);
+  cavum::ui::add_grade_verbs(app, exit_code);
+  cavum::ui::add_rig_verbs(app, exit_code);
+  cavum::ui::add_explain_verbs(app, exit_code);
+  cavum::ui::add_ledger_verbs(app, exit_code);
+  cavum::ui::add_report_verbs(app, exit_code);
+  cavum::ui::add_cohort_verbs(app, exit_code);
+  cavum::ui::add_verify_verbs(app, exit_code);
+  cavum::ui::add_device_verbs(app, exit_code);
+  cavum::ui::add_station_verbs(app, exit_code);
+  cavum::ui::add_manual_verbs(app, exit_code);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (argc > 1 && argv[1][0] != '-' && std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == argv[1]; })) {
     std::fprintf(stderr, "cavum: command line: there is no verb '%s'; see `cavum --help`\n", cavum::one_line(argv[1]).c_str());
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     std::fprintf(stderr, "cavum: command line: %s; see `cavum --help` or `cavum VERB --help`\n", cavum::one_line(e.what()).c_str());
     return 2;
-  } catch (const cavum::ProblemsError& e) {
+  } catch (const cavum::scenarios::ProblemsError& e) {
     for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(p.text()).c_str());
     return 2;
   } catch (const std::bad_alloc&) {

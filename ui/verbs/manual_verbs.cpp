@@ -9,7 +9,7 @@
 #include "engine/device/hardware/udev_rule.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 /// As roff prints it: no dot or quote may begin a line, and hyphens stay what they are.
@@ -131,4 +131,4 @@ void add_manual_verbs(CLI::App& app, int& exit_code) {
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -8,7 +8,7 @@
 #include "grading/result/compare.h"
 #include "grading/session_input.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// What a session is marked by; empty: its own.
 struct MarkingOptions {
@@ -19,8 +19,8 @@ struct MarkingOptions {
 
 /// The same, read: what is not there is the session's own.
 struct Marking {
-  std::optional<Scenario> scenario;
-  std::optional<RubricSpec> rubric;
+  std::optional<scenarios::Scenario> scenario;
+  std::optional<scenarios::RubricSpec> rubric;
   bool another_task = false;
   std::string by;  ///< in words: "the rubric r.toml"
   [[nodiscard]] bool anew() const { return scenario || rubric; }
@@ -28,10 +28,10 @@ struct Marking {
 
 /// A session marked as asked, and beside it what it was sealed with.
 struct MarkedSession {
-  std::unique_ptr<GradedSession> session;
-  RubricSpec rubric;
-  Result result;
-  std::optional<Comparison> comparison;
+  std::unique_ptr<grading::GradedSession> session;
+  scenarios::RubricSpec rubric;
+  grading::Result result;
+  std::optional<grading::Comparison> comparison;
   bool regrade = false;  ///< the result is not the sealed one, which stands in `comparison`
 };
 [[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options);
@@ -40,4 +40,4 @@ struct MarkedSession {
 /// A mistake in what is to be marked by is found before any session is opened; what is unwise is said on standard error.
 void require_sound_marking(const MarkingOptions& options);
 
-}  // namespace cavum
+}  // namespace cavum::ui

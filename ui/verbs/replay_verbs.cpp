@@ -21,7 +21,7 @@
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using nlohmann::json;
@@ -169,4 +169,4 @@ void add_replay_verbs(CLI::App& app, int& exit_code) {
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -19,22 +19,24 @@
 #include "ui/verbs/marked_session.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 struct Options {
   std::string session, out, reader = "instructor", ledger;
   MarkingOptions marking;
   bool overwrite = false, with_name = false, no_replay = false, pdf = false;
-  [[nodiscard]] ReportReader for_whom() const { return reader == "student" ? ReportReader::student : ReportReader::instructor; }
+  [[nodiscard]] report::ReportReader for_whom() const {
+    return reader == "student" ? report::ReportReader::student : report::ReportReader::instructor;
+  }
 };
 
 /// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
-ReportIntegrity integrity_of(const std::string& path, const Options& o, const FiledSession* filed) {
+report::ReportIntegrity integrity_of(const std::string& path, const Options& o, const ledger::FiledSession* filed) {
   const bool replayed_then = filed != nullptr && filed->findings.empty();
-  ReportIntegrity i = read_integrity(path, !o.no_replay && !replayed_then);
+  report::ReportIntegrity i = report::read_integrity(path, !o.no_replay && !replayed_then);
   if (replayed_then && i.findings.empty()) {
-    i.replay = ReportIntegrity::Replay::agrees;
+    i.replay = report::ReportIntegrity::Replay::agrees;
     i.at_filing = true;
     i.remarks = {"the motion was simulated again when the ledger took the session in, and the file is the same since then"};
   }
@@ -42,15 +44,15 @@ ReportIntegrity integrity_of(const std::string& path, const Options& o, const Fi
 }
 
 /// What the ledger kept of a regrade, to mark by. Throws Error when it kept nothing: such a regrade is older than that.
-Marking marking_of(const ReportLedger& ledger, const FiledSession& session, const Regrade& regrade) {
+Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSession& session, const ledger::Regrade& regrade) {
   const std::string entry = fmt::format("entry {}", regrade.seq);
-  const auto basis = kept_basis(ledger.content, regrade);
+  const auto basis = ledger::kept_basis(ledger.content, regrade);
   if (!basis)
     throw Error(entry, fmt::format("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
                 "name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on");
   Marking m;
-  m.scenario = scenario_of(*basis, entry + ": scenario.toml");
-  m.rubric = rubric_of(*basis, entry + ": rubric.toml");
+  m.scenario = ledger::scenario_of(*basis, entry + ": scenario.toml");
+  m.rubric = ledger::rubric_of(*basis, entry + ": rubric.toml");
   m.another_task = true;  // was allowed when it was entered
   m.by = fmt::format("{}{}{} that the ledger keeps with {}", m.rubric ? "the rubric" : "", m.rubric && m.scenario ? " and " : "",
                      m.scenario ? "the scenario" : "", entry);
@@ -58,25 +60,27 @@ Marking marking_of(const ReportLedger& ledger, const FiledSession& session, cons
 }
 
 /// Writes the report of one session; `filed` and `ledger` are null without a ledger.
-void write_report(const std::string& session, const std::string& out, const Options& o, const ReportLedger* ledger, const FiledSession* filed) {
-  const Regrade* regrade = filed != nullptr && !o.marking.anew() ? regrade_for(*filed, o.for_whom()) : nullptr;
+void write_report(const std::string& session, const std::string& out, const Options& o, const report::ReportLedger* ledger,
+                  const ledger::FiledSession* filed) {
+  const ledger::Regrade* regrade = filed != nullptr && !o.marking.anew() ? report::regrade_for(*filed, o.for_whom()) : nullptr;
   const MarkedSession m = regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade)) : marked_session(session, o.marking);
-  const GradeInput input = m.session->input();
-  if (out.ends_with(".svg")) return write_text_file(out, sections_svg(m.result, input));
-  if (filed != nullptr && o.for_whom() == ReportReader::student) require_released_result(*filed, m.result);
-  ReportSource source = report_source(m.result, input, m.session->facts, m.rubric);
+  const grading::GradeInput input = m.session->input();
+  if (out.ends_with(".svg")) return write_text_file(out, report::sections_svg(m.result, input));
+  if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
+  report::ReportSource source = report::report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
   source.reader = o.for_whom();
   if (filed != nullptr) {
-    source.filing = filing_of(*ledger, *filed, source.reader, o.with_name);
-    source.filing->not_filed = not_the_filed_result(*filed, m.result, source.reader);
+    source.filing = report::filing_of(*ledger, *filed, source.reader, o.with_name);
+    source.filing->not_filed = report::not_the_filed_result(*filed, m.result, source.reader);
     if (!source.filing->not_filed.empty()) source.filing->regrade.reset();  // this report is of something else
   }
   source.integrity = integrity_of(session, o, filed);
-  write_text_file(out, out.ends_with(".pdf") ? report_pdf(source) : report_html(source));
+  write_text_file(out, out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source));
   const bool holds = source.integrity.findings.empty();
   if (!holds) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(source.integrity.findings.front()) << "\n";
-  std::cout << "written: " << one_line(out) << " (" << verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold") << ")\n";
+  std::cout << "written: " << one_line(out) << " (" << grading::verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold")
+            << ")\n";
 }
 
 void run_report(const Options& o) {
@@ -84,18 +88,18 @@ void run_report(const Options& o) {
   if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
     throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
   if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
-  require_report_place(o.out, o.overwrite);
+  report::require_report_place(o.out, o.overwrite);
   require_sound_marking(o.marking);
   if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr);
-  const ReportLedger ledger(o.ledger);
-  const FiledSession& filed = ledger.session(to_hex(sha256(read_file(o.session))), o.session);
-  if (!picture) static_cast<void>(filing_of(ledger, filed, o.for_whom(), o.with_name));  // refused before the work begins
+  const report::ReportLedger ledger(o.ledger);
+  const ledger::FiledSession& filed = ledger.session(to_hex(sha256(read_file(o.session))), o.session);
+  if (!picture) static_cast<void>(report::filing_of(ledger, filed, o.for_whom(), o.with_name));  // refused before the work begins
   write_report(o.session, o.out, o, &ledger, &filed);
 }
 
 /// A student's report for each released session.
 int run_all(const Options& o) {
-  const ReportLedger ledger(o.ledger);
+  const report::ReportLedger ledger(o.ledger);
   std::error_code failed_to_make;
   std::filesystem::create_directories(o.out, failed_to_make);
   if (failed_to_make)
@@ -107,8 +111,8 @@ int run_all(const Options& o) {
     if (s.shown.is_null()) continue;
     each.out = fmt::format("{}/{}-{}{}", o.out, file_name_of(s.candidate), s.seq, o.pdf ? ".pdf" : ".html");
     try {
-      require_report_place(each.out, each.overwrite);
-      write_report(recording_of(ledger.places, s), each.out, each, &ledger, &s);
+      report::require_report_place(each.out, each.overwrite);
+      write_report(ledger::recording_of(ledger.places, s), each.out, each, &ledger, &s);
       ++written;
     } catch (const Error& e) {
       ++failed;
@@ -151,4 +155,4 @@ void add_report_verbs(CLI::App& app, int& exit_code) {
   all->callback([a, &exit_code] { exit_code = run_all(*a); });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

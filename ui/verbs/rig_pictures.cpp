@@ -10,7 +10,7 @@
 #include "engine/base/text.h"
 #include "ui/parts/chart_svg.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 std::string runs_text(int n) { return std::to_string(n) + (n == 1 ? " run" : " runs"); }
@@ -304,4 +304,4 @@ std::string press_svg(const PressResult& r) {
   return svg_page(std::max(table.width, 700.0), y + 32, body);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -7,7 +7,7 @@
 #include "engine/rig/press_rig.h"
 #include "engine/rig/tooth_rig.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// Force over k beside eq. 6, and what a straight line leaves over.
 [[nodiscard]] std::string cube_svg(const CubeResult& result);
@@ -16,4 +16,4 @@ namespace cavum {
 /// Every press and contact as a coloured field, ours beside the explicit law.
 [[nodiscard]] std::string press_svg(const PressResult& result);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -23,7 +23,7 @@
 #include "ui/verbs/rig_pictures.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,7 +70,7 @@ struct RecordArgs {
 
 /// A name in a folder of data/, or a TOML file.
 std::string data_path(const std::string& folder, const std::string& wanted) {
-  return wanted.ends_with(".toml") ? wanted : find_data_file(folder, wanted + ".toml", "");
+  return wanted.ends_with(".toml") ? wanted : scenarios::find_data_file(folder, wanted + ".toml", "");
 }
 
 DiamondPoint load_point(const std::string& wanted) {
@@ -141,7 +141,7 @@ void run_tooth(ToothArgs a) {
   if (!a.at_mm.empty()) a.options.at_mm = {a.at_mm[0], a.at_mm[1]};
   a.options.runs = a.runs;
   a.options.seed = a.seed;
-  const Tooth tooth = load_tooth_file(a.tooth.empty() ? find_data_file("teeth", "lower_molar.cvt", "") : a.tooth);
+  const Tooth tooth = load_tooth_file(a.tooth.empty() ? scenarios::find_data_file("teeth", "lower_molar.cvt", "") : a.tooth);
   const ToothRigResult result = run_tooth_rig(tooth, load_model(a.model), load_point(a.point), a.options);
   finish(a, result, tooth_svg(result), [&] { return to_text(result); });
 }
@@ -291,4 +291,4 @@ void add_rig_verbs(CLI::App& app, int& exit_code) {
   add_record(*rig, exit_code);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -27,7 +27,7 @@
 #include "ui/parts/seed_check.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 struct Options {
@@ -37,7 +37,7 @@ struct Options {
 };
 
 int check(const Options& o) {
-  const CheckedScenario checked = check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
+  const scenarios::CheckedScenario checked = scenarios::check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
@@ -62,26 +62,26 @@ int check(const Options& o) {
 }
 
 /// Volumes of the zones in the tooth, each with half a leaf over its border; the target's by parts of leaves, as it is graded.
-std::array<BoundedVolume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMap& zones) {
-  std::array<BoundedVolume, k_zones> volumes{};
+std::array<grading::BoundedVolume, scenarios::k_zones> zone_volumes(const Tooth& tooth, const scenarios::ZoneMap& zones) {
+  std::array<grading::BoundedVolume, scenarios::k_zones> volumes{};
   const double leaf_mm3 = zones.leaf_volume_mm3();
   const IVec3 size = tooth.octree.size();
   for (int z = 0; z < size.z; ++z)
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
         const IVec3 leaf{x, y, z};
-        const Zone own = zones.zone(leaf);
-        if (own == Zone::none) continue;
-        BoundedVolume& v = volumes[static_cast<std::size_t>(own)];
+        const scenarios::Zone own = zones.zone(leaf);
+        if (own == scenarios::Zone::none) continue;
+        grading::BoundedVolume& v = volumes[static_cast<std::size_t>(own)];
         v.mm3 += leaf_mm3;
-        for (const IVec3 step : k_six_neighbours)
+        for (const IVec3 step : scenarios::k_six_neighbours)
           if (zones.zone(leaf + step) != own) {
             v.bound_mm3 += 0.5 * leaf_mm3;
             break;
           }
       }
-  volumes[static_cast<std::size_t>(Zone::target)] = {
-      static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * leaf_mm3,
+  volumes[static_cast<std::size_t>(scenarios::Zone::target)] = {
+      static_cast<double>(zones.target_shares()) / static_cast<double>(scenarios::ZoneMap::k_share_units) * leaf_mm3,
       0.5 * static_cast<double>(zones.target_border_leaves()) * leaf_mm3};
   return volumes;
 }
@@ -89,10 +89,10 @@ std::array<BoundedVolume, k_zones> zone_volumes(const Tooth& tooth, const ZoneMa
 int show(const Options& o) {
   if (!o.out.ends_with(".svg")) throw Error(o.out, "the zones are drawn as SVG only", "use a name ending in .svg");
   require_writable(o.out);
-  const Scenario s = load_scenario(o.scenario);
-  const Tooth tooth = load_tooth_file(o.tooth.empty() ? find_tooth_file(s) : o.tooth);
-  const ZoneMap zones = build_zones(s, tooth);
-  const std::string svg = scenario_sheet_svg(s, tooth, zones);
+  const scenarios::Scenario s = scenarios::load_scenario(o.scenario);
+  const Tooth tooth = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(s) : o.tooth);
+  const scenarios::ZoneMap zones = scenarios::build_zones(s, tooth);
+  const std::string svg = scenarios::scenario_sheet_svg(s, tooth, zones);
   write_text_file(o.out, svg);
   const auto volumes = zone_volumes(tooth, zones);
   if (o.json) {
@@ -101,15 +101,16 @@ int show(const Options& o) {
                              {"opening_z_mm", zones.opening_z_mm()},
                              {"zones_mm3", nlohmann::ordered_json::object()},
                              {"bounds_mm3", nlohmann::ordered_json::object()}};
-    for (std::size_t z = 1; z < k_zones; ++z) {
-      j["zones_mm3"][zone_name(static_cast<Zone>(z))] = rounded(volumes[z].mm3);
-      j["bounds_mm3"][zone_name(static_cast<Zone>(z))] = rounded(volumes[z].bound_mm3);
+    for (std::size_t z = 1; z < scenarios::k_zones; ++z) {
+      j["zones_mm3"][scenarios::zone_name(static_cast<scenarios::Zone>(z))] = grading::rounded(volumes[z].mm3);
+      j["bounds_mm3"][scenarios::zone_name(static_cast<scenarios::Zone>(z))] = grading::rounded(volumes[z].bound_mm3);
     }
     print_json(j);
     return 0;
   }
-  for (std::size_t z = 1; z < k_zones; ++z)
-    std::cout << zone_name(static_cast<Zone>(z)) << ": " << fixed(volumes[z].mm3, 2) << " ± " << fixed(volumes[z].bound_mm3, 2) << " mm3\n";
+  for (std::size_t z = 1; z < scenarios::k_zones; ++z)
+    std::cout << scenarios::zone_name(static_cast<scenarios::Zone>(z)) << ": " << fixed(volumes[z].mm3, 2) << " ± " << fixed(volumes[z].bound_mm3, 2)
+              << " mm3\n";
   std::cout << "drawn: " << o.out << "\n";
   return 0;
 }
@@ -135,36 +136,36 @@ class ScratchSession {
 };
 
 /// A simulated candidate takes the exam; the session is sealed with the result.
-Result taken(const ExamSetup& setup, SimulatedCandidate& candidate, const std::string& session) {
-  const auto exam = Exam::start(setup, session, candidate.start_mm());
-  run_exam(*exam, candidate);
+grading::Result taken(const scenarios::ExamSetup& setup, scenarios::SimulatedCandidate& candidate, const std::string& session) {
+  const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
+  scenarios::run_exam(*exam, candidate);
   exam->recorder().flush();
-  const auto graded = load_for_grading(SessionReader(session), exam->tooth_now());
-  Result r = grade(graded->input(), graded->rubric);
-  exam->close(to_json(r).dump());
+  const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now());
+  grading::Result r = grading::grade(graded->input(), graded->rubric);
+  exam->close(grading::to_json(r).dump());
   return r;
 }
 
 /// What `solve` found out; `result` is missing when the expert could not even begin.
 struct Solved {
-  std::optional<Result> result;
+  std::optional<grading::Result> result;
   std::string point;
   std::vector<std::string> reasons;  ///< why it was not passed
   std::string advice;                ///< what to change then
 };
 
 /// What an instructor can do when the expert did not pass.
-std::string advice_for_expert(const Result& r) {
+std::string advice_for_expert(const grading::Result& r) {
   if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
   for (const auto& c : r.criteria)
     if (!c.value) return fmt::format("take '{}' out: this cavity has nothing that it measures", c.id);
   for (const auto& c : r.criteria)
     if (c.critical_failed)
       return fmt::format("move the critical limit of '{}' beyond what the expert reaches, or change the zones so that it can be kept", c.id);
-  if (r.verdict == Verdict::review)
+  if (r.verdict == grading::Verdict::review)
     return r.perforation.agree() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
                                  : "look at the recording (--out): force and tissue disagree about a perforation";
-  const CriterionResult* worst = nullptr;
+  const grading::CriterionResult* worst = nullptr;
   for (const auto& c : r.criteria)
     if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;
   return worst == nullptr
@@ -175,19 +176,19 @@ std::string advice_for_expert(const Result& r) {
 }
 
 /// The built-in expert takes the exam.
-Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& session) {
+Solved solve_exam(const Options& o, const scenarios::ExamSetup& setup, const std::string& session) {
   Solved solved;
-  std::unique_ptr<SimulatedCandidate> expert;
+  std::unique_ptr<scenarios::SimulatedCandidate> expert;
   try {
-    expert = std::make_unique<SimulatedCandidate>(make_simulated_candidate(setup, "expert", o.seed, OmniModel{}));
+    expert = std::make_unique<scenarios::SimulatedCandidate>(scenarios::make_simulated_candidate(setup, "expert", o.seed, OmniModel{}));
   } catch (const Error& e) {
     solved.reasons.emplace_back(e.what());
     solved.advice = "see what `cavum scenario check` warns of";
     return solved;
   }
   solved.point = setup.point_names[expert->point()];
-  const Result& r = solved.result.emplace(taken(setup, *expert, session));
-  if (r.verdict == Verdict::pass) return solved;
+  const grading::Result& r = solved.result.emplace(taken(setup, *expert, session));
+  if (r.verdict == grading::Verdict::pass) return solved;
   solved.reasons = r.verdict_reasons;
   if (r.progress.finish == "time")
     solved.reasons.push_back(fmt::format("time was up after {} s: the expert was not finished", fixed(r.motion.time_s, 1)));
@@ -202,19 +203,19 @@ Solved solve_exam(const Options& o, const ExamSetup& setup, const std::string& s
 
 /// The careless candidate's exam: whether it was failed, and by the criterion that the scenario names.
 struct Caught {
-  Result result;
-  CriterionResult criterion;
+  grading::Result result;
+  grading::CriterionResult criterion;
   bool as_named = false;
   std::string advice;  ///< what to change when it is not caught
 };
 
 /// Why the careless candidate got away, and what to do about it.
 std::string advice_for(const Caught& c) {
-  const CriterionResult& named = c.criterion;
+  const grading::CriterionResult& named = c.criterion;
   const bool lost_all = named.critical_failed || named.points <= 0;
   if (c.result.progress.finish == "time")
     return "time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see";
-  if (lost_all && c.result.verdict == Verdict::review)
+  if (lost_all && c.result.verdict == grading::Verdict::review)
     return fmt::format("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id);
   if (lost_all)
     return fmt::format(
@@ -227,19 +228,20 @@ std::string advice_for(const Caught& c) {
       named.id, fixed(named.points, 1), fixed(named.max, 1), value);
 }
 
-Caught catch_careless(const Options& o, const ExamSetup& setup, const std::string& session) {
-  SimulatedCandidate candidate = make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
+Caught catch_careless(const Options& o, const scenarios::ExamSetup& setup, const std::string& session) {
+  scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
   Caught c{taken(setup, candidate, session), {}, false, {}};
   for (const auto& one : c.result.criteria)
     if (one.id == setup.scenario.careless.fails_by) c.criterion = one;
   // running out of time is another reason than the one the task is there for
-  c.as_named = c.result.verdict == Verdict::fail && c.result.progress.finish != "time" && (c.criterion.critical_failed || c.criterion.points <= 0);
+  c.as_named =
+      c.result.verdict == grading::Verdict::fail && c.result.progress.finish != "time" && (c.criterion.critical_failed || c.criterion.points <= 0);
   if (!c.as_named) c.advice = advice_for(c);
   return c;
 }
 
 nlohmann::ordered_json to_json(const Caught& c) {
-  const auto result = to_json(c.result);
+  const auto result = grading::to_json(c.result);
   nlohmann::ordered_json j{{"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", c.criterion.reason}, {"what_to_do", c.advice}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
   return j;
@@ -247,7 +249,7 @@ nlohmann::ordered_json to_json(const Caught& c) {
 
 std::string to_text(const Caught& c) {
   std::string s = fmt::format("careless: {}{} ({}); {} of {} points, {}\n", c.as_named ? "failed by " : "NOT failed by ", c.criterion.id,
-                              c.criterion.reason, fixed(c.result.points, 1), fixed(c.result.max_points, 1), verdict_name(c.result.verdict));
+                              c.criterion.reason, fixed(c.result.points, 1), fixed(c.result.max_points, 1), grading::verdict_name(c.result.verdict));
   if (c.as_named) return s;
   for (const auto& reason : c.result.verdict_reasons) s += fmt::format("because: {}\n", reason);
   s += fmt::format("what to do: {}\n", c.advice);
@@ -256,28 +258,28 @@ std::string to_text(const Caught& c) {
 
 int solve(const Options& o) {
   if (!o.out.empty()) require_writable(o.out);
-  ExamOptions options;
+  scenarios::ExamOptions options;
   options.candidate = "built-in expert";
   options.tooth_file = o.tooth;
   options.force_model = o.model;
   options.device = "simulated Omni, operator expert";
   options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
-  const auto setup = prepare_exam(o.scenario, options);
+  const auto setup = scenarios::prepare_exam(o.scenario, options);
   if (o.careless && setup->scenario.careless.fails_by.empty())
     throw Error(o.scenario, "the scenario says nothing of a careless candidate",
                 "add [careless] with the mistake it is to catch, or leave out --careless");
   const ScratchSession scratch;
   const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file("expert") : o.out);
-  const bool passed = solved.result && solved.result->verdict == Verdict::pass;
+  const bool passed = solved.result && solved.result->verdict == grading::Verdict::pass;
   std::optional<Caught> careless;
   if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless"));
   const int answer = passed && (!o.careless || (careless && careless->as_named)) ? 0 : 1;
-  const double limit_s = static_cast<double>(exam_limit_ticks(setup->scenario)) * k_tick_s;
+  const double limit_s = static_cast<double>(scenarios::exam_limit_ticks(setup->scenario)) * k_tick_s;
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
     if (solved.result) {
       j["point"] = solved.point;
-      auto result = to_json(*solved.result);
+      auto result = grading::to_json(*solved.result);
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
     j["reasons"] = solved.reasons;
@@ -290,12 +292,12 @@ int solve(const Options& o) {
   std::cout << one_line(fmt::format("{} on {}", setup->scenario.id, setup->tooth.name)) << ": "
             << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
   if (solved.result) {
-    const Result& r = *solved.result;
+    const grading::Result& r = *solved.result;
     std::cout << "score  " << fixed(r.points, 1) << " ± " << fixed(r.points_bound, 1) << " of " << fixed(r.max_points, 1) << " points, "
-              << verdict_name(r.verdict) << "; pass mark " << fixed(r.pass_percent, 0) << " %" << (r.compensatory ? "" : " of each criterion")
-              << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s (" << fixed(100 * r.motion.time_s / limit_s, 0)
-              << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of " << r.progress.steps
-              << " completed, ended: " << r.progress.finish << "\n";
+              << grading::verdict_name(r.verdict) << "; pass mark " << fixed(r.pass_percent, 0) << " %"
+              << (r.compensatory ? "" : " of each criterion") << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s ("
+              << fixed(100 * r.motion.time_s / limit_s, 0) << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of "
+              << r.progress.steps << " completed, ended: " << r.progress.finish << "\n";
     for (const auto& c : r.criteria)
       std::cout << "  " << one_line(c.id) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
   }
@@ -310,7 +312,7 @@ int solve(const Options& o) {
 std::string first_task(const std::string& tooth) {
   std::string first = "class_1";  // of an unknown tooth, which is refused with all choices
   bool any = false;
-  for (const auto& c : template_choices()) {
+  for (const auto& c : scenarios::template_choices()) {
     if (c.tooth != tooth || (any && c.task != "class_1")) continue;
     first = c.task;
     any = true;
@@ -321,7 +323,7 @@ std::string first_task(const std::string& tooth) {
 int make_new(const Options& o) {
   require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  write_text_file(o.out, scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task), {.may_replace = o.force});
+  write_text_file(o.out, scenarios::scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task), {.may_replace = o.force});
   std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
   return 0;
 }
@@ -358,7 +360,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
 
   auto* news = verb->add_subcommand("new", "Write a commented scenario to start from");
   std::string known;
-  for (const auto& c : template_choices()) known += fmt::format("{}{} {}", known.empty() ? "" : ", ", c.tooth, c.task);
+  for (const auto& c : scenarios::template_choices()) known += fmt::format("{}{} {}", known.empty() ? "" : ", ", c.tooth, c.task);
   news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
   news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
   news->add_option("--out", o->out, "file to write")->required();
@@ -366,4 +368,4 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   news->callback([o, &exit_code] { exit_code = make_new(*o); });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 std::vector<std::string> sessions_in(const std::string& folder) {
   std::vector<std::string> found;
@@ -38,4 +38,4 @@ std::vector<std::string> session_files(const std::vector<std::string>& names) {
   return files;
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

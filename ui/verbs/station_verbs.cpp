@@ -16,19 +16,19 @@
 #include "ui/verbs/enrol_station.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 constexpr std::size_t k_longest_code = 47;
 
 struct Options {
-  StationOptions station;
+  station::StationOptions station;
   std::string author;
   EnrolOptions enrol;
   int frame_times = 0;
 };
 
-void require_second_place(const SittingOptions& o) {
+void require_second_place(const station::SittingOptions& o) {
   if (o.out_if_full.empty()) return;
   const std::string named = "--out-if-full " + o.out_if_full;
   std::error_code none;
@@ -40,7 +40,7 @@ void require_second_place(const SittingOptions& o) {
   require_writable(o.out_if_full.ends_with(".cavum") ? o.out_if_full : o.out_if_full + "/session.cavum");
 }
 
-void require_sound(const StationOptions& o, const std::string& author) {
+void require_sound(const station::StationOptions& o, const std::string& author) {
   if (!author.empty()) {
     if (!o.replay.empty() || !o.sitting.scenario.empty())
       throw Error("--author " + author, "was asked for together with an exam or a replay", "name the scenario after --author alone");
@@ -59,7 +59,8 @@ void require_sound(const StationOptions& o, const std::string& author) {
   }
   if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
   // a name that is none is refused now; what is plugged in is opened for each candidate
-  if (station_stylus_kind(o.sitting.device.name).hand != StylusHand::person) static_cast<void>(make_station_device(o.sitting.device));
+  if (station::station_stylus_kind(o.sitting.device.name).hand != StylusHand::person)
+    static_cast<void>(station::make_station_device(o.sitting.device));
   if (o.sitting.out.ends_with(".cavum")) {
     require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
     if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
@@ -72,13 +73,13 @@ void require_sound(const StationOptions& o, const std::string& author) {
   if (o.candidate.size() > k_longest_code)
     throw Error("--candidate", "is longer than a code", fmt::format("use {} characters at most", k_longest_code));
   // what would spoil the exam is said before a candidate sits down
-  ExamOptions trial;
+  scenarios::ExamOptions trial;
   trial.candidate = "trial";
   trial.tooth_file = o.sitting.tooth;
   trial.force_model = o.sitting.model;
   trial.rubric_file = o.sitting.rubric;
   trial.grant = o.sitting.grant;
-  static_cast<void>(prepare_exam(o.sitting.scenario, trial));
+  static_cast<void>(scenarios::prepare_exam(o.sitting.scenario, trial));
 }
 
 int run(const Options& o) {
@@ -89,13 +90,13 @@ int run(const Options& o) {
     return 0;
   }
   require_sound(o.station, o.author);
-  if (!o.author.empty()) return run_author(o.station, o.author);
-  if (o.frame_times == 0) return run_station(o.station);
-  print_frame_times(o.station, o.frame_times);
+  if (!o.author.empty()) return station::run_author(o.station, o.author);
+  if (o.frame_times == 0) return station::run_station(o.station);
+  station::print_frame_times(o.station, o.frame_times);
   return 0;
 }
 
-void add_places(CLI::App* station, StationOptions& s) {
+void add_places(CLI::App* station, station::StationOptions& s) {
   station->add_option("scenario", s.sitting.scenario, "scenario file (.toml)");
   station->add_option("--out", s.sitting.out, "folder for the sessions, or one session file (.cavum)")->capture_default_str();
   station->add_option("--out-if-full", s.sitting.out_if_full, "the same on another disk: begins or goes on there when --out cannot be written");
@@ -103,7 +104,7 @@ void add_places(CLI::App* station, StationOptions& s) {
   station->add_option("--resume", s.sitting.resume, "go on with an exam that was interrupted: its session file");
 }
 
-void add_device(CLI::App* station, StationOptions& s) {
+void add_device(CLI::App* station, station::StationOptions& s) {
   station
       ->add_option("--device", s.sitting.device.name,
                    "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}))
@@ -113,7 +114,7 @@ void add_device(CLI::App* station, StationOptions& s) {
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
 }
 
-void add_candidate(CLI::App* station, StationOptions& s) {
+void add_candidate(CLI::App* station, station::StationOptions& s) {
   auto* practice = station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
   station->add_option("--tickets", s.sitting.tickets, "folder of tickets: only who has one sits, and as it promises (see `cavum ledger ticket`)")
       ->check(CLI::ExistingDirectory)
@@ -126,7 +127,7 @@ void add_candidate(CLI::App* station, StationOptions& s) {
   station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
 }
 
-void add_window(CLI::App* station, StationOptions& s) {
+void add_window(CLI::App* station, station::StationOptions& s) {
   station->add_flag("--left-handed", s.left_handed, "layout for the left hand; can be chosen at sign-in, too");
   station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
   station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(between(0.8, 1.8))->capture_default_str();
@@ -134,7 +135,7 @@ void add_window(CLI::App* station, StationOptions& s) {
   station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
 }
 
-void add_script(CLI::App* station, StationOptions& s, int& frame_times) {
+void add_script(CLI::App* station, station::StationOptions& s, int& frame_times) {
   station->add_option("--script", s.script, "press the keys that this file lists (for demonstrations and tests)");
   station->add_option("--pictures", s.pictures, "folder for the pictures that the script takes");
   station->add_option("--frame-times", frame_times, "only draw the tooth so many times, and print how long it takes")->check(CLI::Range(1, 100000));
@@ -154,7 +155,7 @@ void add_enrolment(CLI::App* station, EnrolOptions& enrol) {
 
 void add_station_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
-  StationOptions& s = o->station;
+  station::StationOptions& s = o->station;
   s.sitting.out = ".";
   auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
   add_places(station, s);
@@ -167,4 +168,4 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   station->callback([o, &exit_code] { exit_code = run(*o); });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

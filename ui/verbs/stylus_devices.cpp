@@ -18,7 +18,7 @@
 #include "engine/device/hardware/stylus_probe.h"
 #include "ui/parts/print_json.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 bool placed(const std::string& id) { return ::access(station_stylus_path(id).c_str(), F_OK) == 0; }
@@ -148,4 +148,4 @@ void place_stylus(const std::string& id) {
   warn_of_the_edge(kind, fit.placement);
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

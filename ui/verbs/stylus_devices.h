@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace cavum {
+namespace cavum::ui {
 
 /// For `cavum devices --json`: a list of {id, name, there, problem, placed, ratings}.
 /// `again`: asked twice a second, which not every driver likes; see list_styluses.
@@ -17,4 +17,4 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
 /// Asks for four marks, and keeps the placement that fits them. Throws Error when they do not fit together.
 void place_stylus(const std::string& id);
 
-}  // namespace cavum
+}  // namespace cavum::ui

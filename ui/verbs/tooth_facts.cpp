@@ -7,7 +7,7 @@
 #include "engine/base/text.h"
 #include "engine/tooth/octree_edit.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 /// Box of everything but air and periodontium, mm.
@@ -62,4 +62,4 @@ void print_tooth(const nlohmann::ordered_json& d) {
   std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -6,7 +6,7 @@
 
 #include "engine/tooth/tooth.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 /// To whole multiples of `unit`, so that JSON shows no digits that mean nothing.
 [[nodiscard]] double rounded(double v, double unit);
@@ -15,4 +15,4 @@ namespace cavum {
 /// The same in words, on standard output.
 void print_tooth(const nlohmann::ordered_json& described);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -36,7 +36,7 @@
 #include "engine/tooth/mesh/read_mesh.h"
 #endif
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -78,7 +78,7 @@ void finish(const Tooth& tooth, const std::string& path, bool json, const Json& 
 std::vector<std::string> known_tissues() {
   std::set<std::string> names;
   try {
-    const auto folder = std::filesystem::path(find_data_file("materials", "consistent.toml", "")).parent_path();
+    const auto folder = std::filesystem::path(scenarios::find_data_file("materials", "consistent.toml", "")).parent_path();
     for (const auto& entry : std::filesystem::directory_iterator(folder))
       if (entry.path().extension() == ".toml")
         for (const auto& [name, material] : parse_force_model(read_text_file(entry.path().string()), entry.path().string()).materials)
@@ -94,7 +94,7 @@ void notice_unknown_tissues(const Tooth& tooth) {
   const auto known = known_tissues();
   for (const auto& t : tooth.tissues) {
     if (known.empty() || std::find(known.begin(), known.end(), t.name) != known.end()) continue;
-    const std::string hint = suggestion(t.name, known);
+    const std::string hint = scenarios::suggestion(t.name, known);
     std::fprintf(stderr,
                  "cavum: notice: no shipped material set has the tissue '%s'; %s%s a tissue of your own needs [materials.%s] in the exam's --model\n",
                  t.name.c_str(), hint.c_str(), hint.ends_with('?') ? "" : ";", t.name.c_str());
@@ -382,4 +382,4 @@ void add_tooth_verbs(CLI::App& app, int& exit_code) {
   tooth->callback([&exit_code] { exit_code = 0; });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace cavum {
+namespace cavum::ui {
 
 void add_tooth_verbs(CLI::App& app, int& exit_code);
 void add_scenario_verbs(CLI::App& app, int& exit_code);
@@ -23,4 +23,4 @@ void add_station_verbs(CLI::App& app, int& exit_code);
 /// What it writes speaks of all that `app` has when it runs.
 void add_manual_verbs(CLI::App& app, int& exit_code);
 
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -9,7 +9,7 @@
 #include "ui/parts/print_json.h"
 #include "ui/verbs/verbs.h"
 
-namespace cavum {
+namespace cavum::ui {
 
 void add_verify_verbs(CLI::App& app, int& exit_code) {
   struct Options {
@@ -24,14 +24,14 @@ void add_verify_verbs(CLI::App& app, int& exit_code) {
       "public key (hexadecimal) of the school that must have issued the ticket; else a ticket is compared with $CAVUM_HOME/school.pub where that is");
   verify->add_flag("--json", o->as_json, "one JSON object on stdout");
   verify->callback([o, &exit_code] {
-    const std::string key = o->school_key.empty() ? station_school_key() : parse_public_key(o->school_key, "--school-key");
-    const SessionExplanation e = explain_session(o->session, key, !o->school_key.empty());
+    const std::string key = o->school_key.empty() ? ledger::station_school_key() : parse_public_key(o->school_key, "--school-key");
+    const ledger::SessionExplanation e = ledger::explain_session(o->session, key, !o->school_key.empty());
     if (o->as_json)
       print_json(nlohmann::json{{"verified", e.holds}, {"proved", e.proved}, {"findings", e.findings}, {"remarks", e.remarks}});
     else
-      std::cout << to_text(e);
+      std::cout << ledger::to_text(e);
     exit_code = e.holds ? 0 : 1;
   });
 }
 
-}  // namespace cavum
+}  // namespace cavum::ui

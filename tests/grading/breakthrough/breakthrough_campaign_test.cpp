@@ -27,7 +27,7 @@
 #include "tests/engine/support/engine_testing.h"
 #include "tests/grading/drawn_drilling.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using namespace testing_grading;
@@ -232,4 +232,4 @@ TEST(BreakthroughCampaign, HoldsOnDrawsFromShiftedRanges) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -4,7 +4,7 @@
 
 #include "engine/base/random.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 /// A made-up recording: every part adds ticks of straight motion with a force that runs to a given value.
@@ -203,4 +203,4 @@ TEST(Breakthrough, SeesTheSecondBreakthroughToo) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 /// Frames of a tip that moves along -z at `speed(t)` (mm/s, positive = deeper) against a spring of k N/mm whose foot recedes at X / tau.
@@ -103,4 +103,4 @@ TEST(ExpectedForce, HoldsOnToTheForceThatGoesWithoutTheTipGivingWay) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -11,9 +11,9 @@ namespace {
 using nlohmann::json;
 using testing_ledger::School;
 
-FiledSession session(std::uint64_t seq, const std::string& candidate, double first, double second, const std::string& verdict = "pass",
-                     const std::string& station = "aa") {
-  FiledSession s;
+ledger::FiledSession session(std::uint64_t seq, const std::string& candidate, double first, double second, const std::string& verdict = "pass",
+                             const std::string& station = "aa") {
+  ledger::FiledSession s;
   s.seq = s.result_seq = seq;
   s.candidate = candidate;
   s.scenario_id = "exam";
@@ -26,8 +26,8 @@ FiledSession session(std::uint64_t seq, const std::string& candidate, double fir
   return s;
 }
 
-Registry four() {
-  Registry r;
+ledger::Registry four() {
+  ledger::Registry r;
   r.sessions = {session(1, "C-1", 60, 40), session(2, "C-2", 30, 20, "fail"), session(3, "C-3", 45, 30), session(4, "C-4", 15, 10, "review")};
   return r;
 }
@@ -53,7 +53,7 @@ TEST(ClassFigures, AreThoseDoneByHand) {
 }
 
 TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
-  Registry r = four();
+  ledger::Registry r = four();
   r.sessions.push_back(session(5, "C-4", 60, 40));
   r.sessions.push_back(session(6, "C-5", 0, 0, "fail"));
   r.sessions.back().findings = {"changed"};
@@ -66,7 +66,7 @@ TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
 }
 
 TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsToBeLookedAt) {
-  Registry r = four();
+  ledger::Registry r = four();
   const auto why_of = [](const ClassFigures& f, std::uint64_t seq) {
     std::string all;
     for (const auto& l : f.to_look_at)
@@ -94,7 +94,7 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
 
 TEST(ClassFigures, FromFewAreCalledRough) {
   const auto of_n = [](std::size_t n) {
-    Registry r;
+    ledger::Registry r;
     std::vector<HumanMark> marks;
     for (std::size_t i = 0; i < n; ++i) {
       const auto points = static_cast<double>(i % 10);
@@ -122,7 +122,7 @@ TEST(ClassFigures, FromFewAreCalledRough) {
 }
 
 TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
-  Registry r = four();
+  ledger::Registry r = four();
   r.sessions[0].result["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.max_points, 100.0);
@@ -133,7 +133,7 @@ TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
 }
 
 TEST(ClassFigures, AHarderStationIsFound) {
-  Registry r;
+  ledger::Registry r;
   for (int i = 0; i < 40; ++i)
     r.sessions.push_back(
         session(static_cast<std::uint64_t>(i), "C-" + std::to_string(i), 30 + i % 7 - (i % 2 ? 12 : 0), 20, "pass", i % 2 ? "bb" : "aa"));
@@ -145,9 +145,9 @@ TEST(ClassFigures, AHarderStationIsFound) {
 
 TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   const School school;
-  Identities identities(school.places().identities());
+  ledger::Identities identities(school.places().identities());
   const std::string by_number = identities.enrol("4711", "", "exam", School::key());
-  Registry r = four();
+  ledger::Registry r = four();
   r.sessions[0].candidate = by_number;
   const auto marks = parse_marks(
       "candidate,judge,points,rating\n4711,x,98,5\nC-2,x,48,3\nC-3,x,73,4\nC-4,x,23,1\n4711,y,102,\nC-2,y,52,\nC-3,y,77,\nC-4,y,27,\nunknown,x,5,\n",
@@ -169,7 +169,7 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
 
 TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   const School school;
-  Identities identities(school.places().identities());
+  ledger::Identities identities(school.places().identities());
   const auto says = [&](const std::string& text, const std::string& what) {
     try {
       static_cast<void>(parse_marks(text, identities, "exam", "m.csv", 20));
@@ -192,8 +192,8 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
 
 TEST(SimulatedClass, SitsIsFiledAndIsTheSameAgain) {
   const auto sit = [](const School& school, int at_once) {
-    Ledger ledger = school.ledger();
-    Identities identities(school.places().identities());
+    ledger::Ledger ledger = school.ledger();
+    ledger::Identities identities(school.places().identities());
     SimulatedClass wanted;
     wanted.scenario = testing_ledger::k_scenario;
     wanted.sessions = school.file("class");
@@ -203,8 +203,8 @@ TEST(SimulatedClass, SitsIsFiledAndIsTheSameAgain) {
     const ClassSat sat = simulate_class(wanted, ledger, identities, [](int) {});
     EXPECT_EQ(sat.sat, 4);
     EXPECT_EQ(sat.filed, 4);
-    EXPECT_TRUE(check_ledger(school.places(), true).findings.empty());
-    return class_figures(read_registry(ledger.content()), "block_cavity", {}, 3);
+    EXPECT_TRUE(ledger::check_ledger(school.places(), true).findings.empty());
+    return class_figures(ledger::read_registry(ledger.content()), "block_cavity", {}, 3);
   };
   const School one;
   const ClassFigures first = sit(one, 2);

@@ -17,25 +17,25 @@ namespace {
 using testing_ledger::School;
 
 struct Block {
-  std::unique_ptr<ExamSetup> setup = prepare_exam(testing_ledger::k_scenario, {});
+  std::unique_ptr<scenarios::ExamSetup> setup = scenarios::prepare_exam(testing_ledger::k_scenario, {});
   Tooth tooth = load_tooth(setup->session.tooth, "block");
-  ZoneMap zones = build_zones(setup->scenario, tooth);
+  scenarios::ZoneMap zones = scenarios::build_zones(setup->scenario, tooth);
 };
 
 /// Any leaf of a zone.
-IVec3 leaf_of(const ZoneMap& zones, Zone wanted) {
+IVec3 leaf_of(const scenarios::ZoneMap& zones, scenarios::Zone wanted) {
   IVec3 found{-1, -1, -1};
-  zones.for_each_leaf([&](IVec3 leaf, Zone zone) {
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone zone) {
     if (zone == wanted && found.x < 0) found = leaf;
   });
-  EXPECT_GE(found.x, 0) << zone_name(wanted);
+  EXPECT_GE(found.x, 0) << scenarios::zone_name(wanted);
   return found;
 }
 
 TEST(ClassMap, CountsWhoRemovedWhatShouldStayAndLeftWhatShouldGo) {
   const Block b;
-  const IVec3 target = leaf_of(b.zones, Zone::target), leeway = leaf_of(b.zones, Zone::leeway_sides),
-              damage = leaf_of(b.zones, Zone::container_sides);
+  const IVec3 target = leaf_of(b.zones, scenarios::Zone::target), leeway = leaf_of(b.zones, scenarios::Zone::leeway_sides),
+              damage = leaf_of(b.zones, scenarios::Zone::container_sides);
   const IVec3 far = b.zones.low() + b.zones.size() + IVec3{7, 3, 1};
   ClassMap map(b.zones);
   map.add({target, leeway, damage});
@@ -73,8 +73,10 @@ TEST(ClassMap, TheBoxMayGrowInAnyOrder) {
   for (const auto& [at, n] : plain) {
     const IVec3 leaf{at[0], at[1], at[2]};
     const double removed = 100.0 * n / k_sessions;
-    const Zone zone = b.zones.zone(leaf);
-    const double expected = zone == Zone::target ? removed - 100 : zone == Zone::leeway_sides || zone == Zone::leeway_bottom ? 0 : removed;
+    const scenarios::Zone zone = b.zones.zone(leaf);
+    const double expected = zone == scenarios::Zone::target                                                   ? removed - 100
+                            : zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom ? 0
+                                                                                                              : removed;
     ASSERT_NEAR(map.percent(leaf), expected, 1e-9);
   }
 }
@@ -84,22 +86,22 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   std::vector<std::string> sat;
   for (const char* skill : {"expert", "student-20", "student-60"}) {
     sat.push_back(school.sit(school.ticket(skill), skill));
-    Ledger ledger = school.ledger();
-    ASSERT_TRUE(file_session(ledger, sat.back(), {.simulated = true}).seq) << skill;
+    ledger::Ledger ledger = school.ledger();
+    ASSERT_TRUE(ledger::file_session(ledger, sat.back(), {.simulated = true}).seq) << skill;
   }
-  const LedgerContent content = read_ledger(school.places());
-  const auto read = class_tooth(read_registry(content), school.places(), "block_cavity");
+  const ledger::LedgerContent content = ledger::read_ledger(school.places());
+  const auto read = class_tooth(ledger::read_registry(content), school.places(), "block_cavity");
   ASSERT_EQ(read->map->sessions(), 3u);
   EXPECT_TRUE(read->findings.empty());
   EXPECT_EQ(read->left_out, 0u);
   std::vector<Tooth> left;
   for (const auto& path : sat) left.push_back(load_tooth(SessionReader(path).final_tooth(), path));
   std::size_t over = 0, under = 0;
-  read->zones.for_each_leaf([&](IVec3 leaf, Zone zone) {
-    if (read->tooth.octree.tissue(leaf) == k_air || zone == Zone::leeway_sides || zone == Zone::leeway_bottom) return;
+  read->zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone zone) {
+    if (read->tooth.octree.tissue(leaf) == k_air || zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom) return;
     int gone = 0;
     for (const auto& tooth : left) gone += tooth.octree.tissue(leaf) == k_air ? 1 : 0;
-    const double removed = 100.0 * gone / 3, expected = zone == Zone::target ? removed - 100 : removed;
+    const double removed = 100.0 * gone / 3, expected = zone == scenarios::Zone::target ? removed - 100 : removed;
     ASSERT_NEAR(read->map->percent(leaf), expected, 1e-9);
     over += expected > 0 ? 1 : 0;
     under += expected < 0 ? 1 : 0;
@@ -107,8 +109,8 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   EXPECT_GT(over, 0u) << "the students leave the target";
   EXPECT_GT(under, 0u) << "and leave some of it standing";
 
-  write_text_file(school.places().session(read_registry(content).sessions[1].file_sha256), "changed");
-  const auto again = class_tooth(read_registry(content), school.places(), "block_cavity");
+  write_text_file(school.places().session(ledger::read_registry(content).sessions[1].file_sha256), "changed");
+  const auto again = class_tooth(ledger::read_registry(content), school.places(), "block_cavity");
   EXPECT_EQ(again->map->sessions(), 2u);
   ASSERT_EQ(again->findings.size(), 1u);
   EXPECT_NE(again->findings[0].find("was changed since it was filed"), std::string::npos) << again->findings[0];

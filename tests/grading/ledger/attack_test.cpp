@@ -12,7 +12,7 @@
 #include "grading/ledger/station_ticket.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -133,13 +133,14 @@ TEST_F(Attack, AnOldTicket) {
   expect_refused(school_.sit(old), {"the exam began on", "ticket is good from"});
 }
 TEST_F(Attack, AnotherCandidatesSession) {
-  expect_refused(school_.sit(ticket_, "expert", [](ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }), {"the exam was sat by C-AAAA-BBBB-CCCC"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }),
+                 {"the exam was sat by C-AAAA-BBBB-CCCC"});
 }
 TEST_F(Attack, MoreTimeThanWasGranted) {
-  expect_refused(school_.sit(ticket_, "expert", [](ExamOptions& o) { o.grant.extra_time_percent = 50; }), {"accommodations"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), {"accommodations"});
 }
 TEST_F(Attack, AnotherForceModel) {
-  expect_refused(school_.sit(ticket_, "expert", [](ExamOptions& o) { o.force_model = "paper"; }), {"force_model.toml is not the one"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), {"force_model.toml is not the one"});
 }
 TEST_F(Attack, ATicketMadeByAnotherKey) {
   const Ticket t = parse_ticket(ticket_, "", "ticket");
@@ -160,14 +161,15 @@ TEST_F(Attack, ATicketThatWasNeverIssued) {
   expect_refused(school_.sit(sign_ticket(own, School::key())), {"has not issued this ticket"});
 }
 TEST_F(Attack, ASimulatedOperatorInTheCandidatesPlace) {
-  const std::string simulated = school_.sit(ticket_, "expert", [](ExamOptions& o) { o.notes.emplace_back("operator", "expert"); });
+  const std::string simulated = school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); });
   expect_refused(simulated, {"no candidate's hand moved this exam", "'expert'"});
   Ledger ledger = school_.ledger();
   ASSERT_TRUE(file_session(ledger, simulated, {.simulated = true}).seq);
   EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).simulated, "expert") << "it stays marked";
 }
 TEST_F(Attack, APseudonymWithoutItsTicket) {
-  const std::string session = school_.sit("", "expert", [&](ExamOptions& o) { o.candidate = parse_ticket(ticket_, "", "ticket").candidate; });
+  const std::string session =
+      school_.sit("", "expert", [&](scenarios::ExamOptions& o) { o.candidate = parse_ticket(ticket_, "", "ticket").candidate; });
   Ledger ledger = school_.ledger();
   const Filing f = file_session(ledger, session, {.without_ticket = true});
   EXPECT_FALSE(f.seq);
@@ -337,10 +339,10 @@ std::string cut_back(const School& school, const std::string& session, const std
 }
 /// Takes it up as `exam --resume --end` does at the station of the present CAVUM_HOME, and closes it.
 void close_again(const std::string& session) {
-  const auto setup = prepare_exam(SessionReader(session).setup());
-  const auto exam = Exam::resume(*setup, session, require_not_closed(setup->session.notes, session));
+  const auto setup = scenarios::prepare_exam(SessionReader(session).setup());
+  const auto exam = scenarios::Exam::resume(*setup, session, require_not_closed(setup->session.notes, session));
   if (!exam->over()) exam->end();
-  static_cast<void>(grade_and_close(*exam));
+  static_cast<void>(grading::grade_and_close(*exam));
 }
 
 TEST_F(Attack, AnExamCutBackAndEndedAgainAtAnotherStation) {
@@ -481,4 +483,4 @@ TEST_F(Attack, AnAppealFilesWhatDoesNotHoldAndNeverReleasesItUnseen) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -13,7 +13,7 @@
 #include "grading/ledger/history.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 namespace fs = std::filesystem;
@@ -33,7 +33,7 @@ class BackedUp : public testing::Test {
     delete shared_;
     delete shared_later_;
   }
-  Backup back_up(bool with_identities = false) const { return cavum::back_up(school_.places(), backup(), with_identities); }
+  Backup back_up(bool with_identities = false) const { return ledger::back_up(school_.places(), backup(), with_identities); }
   std::string backup() const { return school_.file("backup"); }
   LedgerPlaces restored() const { return {school_.file("restored")}; }
   void add(int entries) const {
@@ -144,8 +144,8 @@ TEST_F(BackedUp, IsBroughtUpToDateAndCopiesWhatIsNew) {
   const std::string other = school_.file("other");
   fs::create_directories(other);
   write_text_file(other + "/mine", "x");
-  EXPECT_THROW(cavum::back_up(school_.places(), other, false), Error);
-  EXPECT_THROW(cavum::back_up(school_.places(), school_.ledger_folder(), false), Error);
+  EXPECT_THROW(ledger::back_up(school_.places(), other, false), Error);
+  EXPECT_THROW(ledger::back_up(school_.places(), school_.ledger_folder(), false), Error);
 }
 
 TEST_F(BackedUp, IsNotReplacedByALedgerThatWasPutBack) {
@@ -349,4 +349,4 @@ TEST_F(BackedUp, AnotherSchoolsKeyRestoresNothing) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

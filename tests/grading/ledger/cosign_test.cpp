@@ -7,7 +7,7 @@
 #include "grading/ledger/exports.h"
 #include "tests/grading/ledger/old_ledger.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -347,4 +347,4 @@ TEST_F(Cosigning, TheWitnessRemembersWhatWasSigned) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -6,7 +6,7 @@
 #include "grading/ledger/ledger_schema.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -63,4 +63,4 @@ TEST(LedgerFormatPage, SignedResultsAreCheckedAsItSays) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

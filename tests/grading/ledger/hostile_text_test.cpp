@@ -6,7 +6,7 @@
 #include "grading/ledger/exports.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -90,4 +90,4 @@ TEST(HostileText, MakesNoRowsAndNoFormulasInAnyExport) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -10,7 +10,7 @@
 #include "grading/ledger/release.h"
 #include "tests/grading/ledger/old_ledger.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -32,7 +32,8 @@ class Kept : public testing::Test {
   static void SetUpTestSuite() {
     shared_ = new School();
     const std::string ticket = shared_->ticket("4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "37"}}; });
-    const std::string path = shared_->sit(ticket, "expert", [](ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
+    const std::string path =
+        shared_->sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
     Ledger ledger = shared_->ledger();
     const Filing filing = file_session(ledger, path);
     for (const auto& f : filing.findings) ADD_FAILURE() << f;
@@ -330,4 +331,4 @@ TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -6,7 +6,7 @@
 #include "tests/grading/ledger/faulty_vfs.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -81,4 +81,4 @@ TEST(KilledLedger, ADiskThatForgetsWhatItSyncedIsFound) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

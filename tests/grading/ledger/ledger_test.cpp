@@ -12,7 +12,7 @@
 #include "grading/ledger/ledger_schema.h"
 #include "tests/grading/ledger/old_ledger.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -505,4 +505,4 @@ TEST(ParseUtc, AgreesWithTheCalendar) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

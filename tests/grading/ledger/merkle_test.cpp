@@ -8,7 +8,7 @@
 #include "engine/base/bytes.h"
 #include "engine/base/random.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 /// The entries and roots that the Certificate Transparency project publishes as its reference.
@@ -91,4 +91,4 @@ TEST(Merkle, EveryBeginningIsProvenAndNoOther) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

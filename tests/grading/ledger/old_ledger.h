@@ -40,7 +40,7 @@ CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT RAISE(ABO
 
 /// Writes the school's ledger anew as a version of `format` (1 to 3) would have left it: the same entries, signed as "CVCHKPT1".
 inline void make_old(const School& school, int format) {
-  LedgerContent now = read_ledger(school.places());
+  ledger::LedgerContent now = ledger::read_ledger(school.places());
   for (auto& e : now.entries) {  // results lay beside their entries
     nlohmann::json told = e.body;
     told.erase("opens");
@@ -50,11 +50,11 @@ inline void make_old(const School& school, int format) {
       told["result_sha256"] = to_hex(sha256(e.attachment));
     }
     e.text = nlohmann::json{{"body", told}, {"kind", e.kind}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
-    e.leaf = leaf_hash(ledger_bytes(e.text));
+    e.leaf = ledger::leaf_hash(ledger::ledger_bytes(e.text));
   }
-  const auto leaves = leaves_of(now);
-  for (auto& p : now.checkpoints) p.root = merkle_root(std::span(leaves).first(p.size));
-  std::filesystem::remove(witness_path(now.id));  // of another history
+  const auto leaves = ledger::leaves_of(now);
+  for (auto& p : now.checkpoints) p.root = ledger::merkle_root(std::span(leaves).first(p.size));
+  std::filesystem::remove(ledger::witness_path(now.id));  // of another history
   for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(school.places().database() + end);
   Database old = Database::open(school.places().database(), true);
   old.run("PRAGMA application_id = 1130460748");
@@ -72,7 +72,7 @@ inline void make_old(const School& school, int format) {
         .bind(1, static_cast<std::int64_t>(p.size))
         .bind(2, p.root)
         .bind(3, p.utc_ns)
-        .bind(4, School::key().sign(checkpoint_message(now.id, p)))
+        .bind(4, School::key().sign(ledger::checkpoint_message(now.id, p)))
         .run();
   if (format >= 3)
     for (const auto& [hash, bytes] : now.documents) old.prepare("INSERT INTO document VALUES (?, ?)").bind(1, sha256(bytes)).bind(2, bytes).run();

@@ -5,7 +5,7 @@
 #include "grading/ledger/station_ticket.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -23,10 +23,10 @@ class Promised : public testing::Test {
   }
   std::string let_begin(const std::string& ticket, const std::string& again = "") {
     Ledger ledger = school_.ledger();
-    return cavum::let_begin(ledger, parse_ticket(ticket, "", "ticket").nonce, again);
+    return ledger::let_begin(ledger, parse_ticket(ticket, "", "ticket").nonce, again);
   }
   std::string sit(const std::string& ticket, const std::string& begin) {
-    return school_.sit(ticket, "expert", [&](ExamOptions& o) {
+    return school_.sit(ticket, "expert", [&](scenarios::ExamOptions& o) {
       if (!begin.empty()) o.notes.emplace_back(k_begin_note, begin);
     });
   }
@@ -45,7 +45,7 @@ TEST_F(Promised, ACandidateHasOneLiveTicketForAnExamUnlessAPersonSaysOtherwise) 
   Ledger ledger = school_.ledger();
   Identities identities(school_.places().identities());
   const std::int64_t now = read_clocks().utc_ns;
-  const Ticket t = promise(*prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
+  const Ticket t = promise(*scenarios::prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
   const std::string candidate = identities.enrol("4711", "", t.exam, ledger.key());
   static_cast<void>(issue(ledger, t, candidate));
   const auto entries = ledger.content().entries.size();
@@ -113,24 +113,24 @@ TEST_F(Promised, AStationsClockThatWasSetBackIsNamedByTheLedgersWord) {
   {
     Clocks at = session.created();
     at.utc_ns -= back_ns;
-    ExamOptions options;
+    scenarios::ExamOptions options;
     options.candidate = setup.candidate;
     options.device = setup.device;
     options.source = setup.source;
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     options.notes = {{k_ticket_note, ticket}, {k_begin_note, word}};
-    const auto exam_setup = prepare_exam(k_scenario, options);
-    auto candidate = make_simulated_candidate(*exam_setup, "expert", 7, OmniModel{});
+    const auto exam_setup = scenarios::prepare_exam(k_scenario, options);
+    auto candidate = scenarios::make_simulated_candidate(*exam_setup, "expert", 7, OmniModel{});
     std::int64_t ticks = 0;
-    const auto exam = Exam::start(*exam_setup, dated, candidate.start_mm(), [&] {
+    const auto exam = scenarios::Exam::start(*exam_setup, dated, candidate.start_mm(), [&] {
       const std::int64_t ns = ticks * 1'000'000;
       return Clocks{at.monotonic_ns + ns, at.boot_ns + ns, at.utc_ns + ns};
     });
     for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
     if (!exam->over()) exam->end();
     exam->recorder().flush();
-    const auto graded = load_for_grading(SessionReader(dated), exam->tooth_now());
-    exam->close(to_json(grade(graded->input(), graded->rubric)).dump());
+    const auto graded = grading::load_for_grading(SessionReader(dated), exam->tooth_now());
+    exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
   }
   expect_refused(dated, {"the station's clock was set back"});
 }
@@ -153,18 +153,18 @@ TEST_F(Promised, TheLedgerLetsNothingBeginThatItDidNotPromiseNow) {
   }
   EXPECT_NE(error_of([&] { static_cast<void>(let_begin(cancelled)); }).find("was cancelled"), std::string::npos);
   Ledger ledger = school_.ledger();
-  EXPECT_NE(error_of([&] { static_cast<void>(cavum::let_begin(ledger, std::string(32, '0'), "")); }).find("was not issued"), std::string::npos);
+  EXPECT_NE(error_of([&] { static_cast<void>(ledger::let_begin(ledger, std::string(32, '0'), "")); }).find("was not issued"), std::string::npos);
 }
 
 TEST_F(Promised, AStationTakesTheWordThatLiesBesideTheTicketAndBeginsNothingWithoutTheOneItNeeds) {
   const std::string ticket = school_.ticket("4711", [](Ticket&t) { t.begun_at_ledger = true; }), path = school_.file("C.ticket");
   write_text_file(path, ticket + "\n");
-  ExamOptions options;
+  scenarios::ExamOptions options;
   options.device = "emulated stylus";
   const auto setup = [&](const HeldTicket& held) {
-    ExamOptions o = options;
+    scenarios::ExamOptions o = options;
     use_ticket(held, o);
-    return prepare_exam(k_scenario, o);
+    return scenarios::prepare_exam(k_scenario, o);
   };
   const HeldTicket without = read_ticket(path);
   EXPECT_NE(error_of([&] { require_promised(without, setup(without)->session); }).find("ledger begin"), std::string::npos);
@@ -176,4 +176,4 @@ TEST_F(Promised, AStationTakesTheWordThatLiesBesideTheTicketAndBeginsNothingWith
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

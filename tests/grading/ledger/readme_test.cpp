@@ -8,7 +8,7 @@
 
 #include "engine/base/file.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 TEST(LedgerReadme, EveryRowOfWhatIsShownIsATestThatIsThere) {
@@ -37,4 +37,4 @@ TEST(LedgerReadme, EveryRowOfWhatIsShownIsATestThatIsThere) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

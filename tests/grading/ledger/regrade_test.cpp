@@ -4,7 +4,7 @@
 #include "grading/ledger/ledger_file.h"
 #include "tests/grading/ledger/old_ledger.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -137,4 +137,4 @@ TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

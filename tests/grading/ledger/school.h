@@ -43,9 +43,9 @@ class School {
  public:
   /// With its first station enrolled, which takes two entries.
   explicit School(bool with_station = true) {
-    Ledger::create(ledger_folder(), "School of Dentistry", key());
-    Identities(places().identities(), true);
-    write_text_file(school_public_key_path(), to_hex(key().public_key) + "\n");
+    ledger::Ledger::create(ledger_folder(), "School of Dentistry", key());
+    ledger::Identities(places().identities(), true);
+    write_text_file(ledger::school_public_key_path(), to_hex(key().public_key) + "\n");
     if (with_station) enrol("Seat 1");
   }
   /// The same school with all its files, in a folder of its own; CAVUM_HOME points there.
@@ -55,52 +55,53 @@ class School {
   }
   School& operator=(const School&) = delete;
   [[nodiscard]] std::string ledger_folder() const { return folder_.file("ledger"); }
-  [[nodiscard]] LedgerPlaces places() const { return {ledger_folder()}; }
+  [[nodiscard]] ledger::LedgerPlaces places() const { return {ledger_folder()}; }
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
-  [[nodiscard]] static SigningKey key() { return load_school_key(school_key_path(), true); }
-  [[nodiscard]] Ledger ledger() const { return Ledger(ledger_folder(), key()); }
+  [[nodiscard]] static SigningKey key() { return ledger::load_school_key(ledger::school_key_path(), true); }
+  [[nodiscard]] ledger::Ledger ledger() const { return ledger::Ledger(ledger_folder(), key()); }
 
   /// Invites and enrols the station whose key lies in the present CAVUM_HOME.
   void enrol(const std::string& name, const std::vector<MotionSource>& devices = {}) const {
-    Ledger ledger = this->ledger();
-    const std::string code = invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
-    static_cast<void>(
-        enrol_station(ledger, station_request(load_station_key(station_key_path()), ledger.content().public_key, devices, code), 0, "request"));
+    ledger::Ledger ledger = this->ledger();
+    const std::string code = ledger::invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
+    static_cast<void>(ledger::enrol_station(
+        ledger, ledger::station_request(load_station_key(station_key_path()), ledger.content().public_key, devices, code), 0, "request"));
   }
 
   /// A ticket for an hour around now, issued in the ledger, also beside a live one; `change` may spoil it before it is signed.
-  std::string ticket(const std::string& candidate, const std::function<void(Ticket&)>& change = {}) const {
-    Ledger ledger = this->ledger();
+  std::string ticket(const std::string& candidate, const std::function<void(ledger::Ticket&)>& change = {}) const {
+    ledger::Ledger ledger = this->ledger();
     const std::int64_t now = read_clocks().utc_ns;
-    Ticket t = promise(*prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
+    ledger::Ticket t = ledger::promise(*scenarios::prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
     if (change) change(t);
-    return issue(ledger, t, Identities(places().identities()).enrol(candidate, "", t.exam, ledger.key()), Another::allow);
+    return ledger::issue(ledger, t, ledger::Identities(places().identities()).enrol(candidate, "", t.exam, ledger.key()), ledger::Another::allow);
   }
   /// The exam, sat by a simulated candidate of this skill; `change` may alter what the station runs.
-  std::string sit(const std::string& ticket, const std::string& skill = "expert", const std::function<void(ExamOptions&)>& change = {}) const {
+  std::string sit(const std::string& ticket, const std::string& skill = "expert",
+                  const std::function<void(scenarios::ExamOptions&)>& change = {}) const {
     static int number = 0;
     const std::string path = folder_.file("exam-" + std::to_string(++number) + ".cavum");
-    ExamOptions options;
-    options.candidate = ticket.empty() ? "nobody" : parse_ticket(ticket, "", "ticket").candidate;
+    scenarios::ExamOptions options;
+    options.candidate = ticket.empty() ? "nobody" : ledger::parse_ticket(ticket, "", "ticket").candidate;
     options.device = "emulated stylus";
     options.source = {"device", "emulated stylus", "E1"};
     options.position_quantum_mm = OmniModel{}.quantum_mm;
-    if (!ticket.empty()) options.notes.emplace_back(k_ticket_note, ticket);
+    if (!ticket.empty()) options.notes.emplace_back(ledger::k_ticket_note, ticket);
     if (change) change(options);
-    const auto setup = prepare_exam(k_scenario, options);
-    auto candidate = make_simulated_candidate(*setup, skill, 7, OmniModel{});
+    const auto setup = scenarios::prepare_exam(k_scenario, options);
+    auto candidate = scenarios::make_simulated_candidate(*setup, skill, 7, OmniModel{});
     std::int64_t ticks = 0;
     const Clocks begun = read_clocks();
     const auto in_real_time = [&] {
       const std::int64_t ns = ticks * 1'000'000;
       return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + ns};
     };
-    const auto exam = Exam::start(*setup, path, candidate.start_mm(), in_real_time);
+    const auto exam = scenarios::Exam::start(*setup, path, candidate.start_mm(), in_real_time);
     for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
     if (!exam->over()) exam->end();
     exam->recorder().flush();
-    const auto graded = load_for_grading(SessionReader(path), exam->tooth_now());
-    exam->close(to_json(grade(graded->input(), graded->rubric)).dump());
+    const auto graded = grading::load_for_grading(SessionReader(path), exam->tooth_now());
+    exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
     return path;
   }
 

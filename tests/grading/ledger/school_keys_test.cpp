@@ -8,7 +8,7 @@
 #include "grading/ledger/exports.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -174,4 +174,4 @@ TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenTheOldOneHasSignedForIt) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -6,7 +6,7 @@
 #include "grading/ledger/stations.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -86,8 +86,8 @@ class SchoolMarks : public testing::Test {
 
 TEST_F(SchoolMarks, TheSameAsTheStationWhereBothAreHonest) {
   const std::string again = forged(school_, session_, {});
-  ExamGrounds grounds;
-  const SchoolMark mark = mark_again(SessionReader(again), grounds);
+  grading::ExamGrounds grounds;
+  const grading::SchoolMark mark = grading::mark_again(SessionReader(again), grounds);
   EXPECT_TRUE(mark.holds()) << (mark.findings.empty() ? "" : mark.findings[0]);
   EXPECT_EQ(mark.result, json::parse(SessionReader(session_).result_json()));
   EXPECT_TRUE(mark.sealed_otherwise.is_null());
@@ -117,7 +117,7 @@ TEST_F(SchoolMarks, AnHonestResultSignedWithANewKey) {
 TEST_F(SchoolMarks, AResultThatSaysToBeOfAnotherVersionCountsForNothing) {
   const std::string path = forged(school_, session_, {.result = [](json& r) {
                                     improve(r);
-                                    r["grading_version"] = k_grading_version + 1;
+                                    r["grading_version"] = grading::k_grading_version + 1;
                                   }});
   const Filing f = file(path);
   ASSERT_TRUE(f.seq);
@@ -310,4 +310,4 @@ TEST(Stations, AnEnrolledKeyThatIsGoneIsNotMadeAgain) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

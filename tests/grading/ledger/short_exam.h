@@ -20,9 +20,9 @@ struct ShortMotion {
   Vec3 start_mm;
   std::vector<TickInput> inputs;
 };
-inline const ShortMotion& short_motion(const ExamSetup& setup) {
+inline const ShortMotion& short_motion(const scenarios::ExamSetup& setup) {
   static const ShortMotion made = [&] {
-    auto candidate = make_simulated_candidate(setup, "expert", 7, OmniModel{});
+    auto candidate = scenarios::make_simulated_candidate(setup, "expert", 7, OmniModel{});
     ShortMotion m{candidate.start_mm(), {}};
     const TickOutput rest;
     TickInput input;
@@ -39,27 +39,27 @@ struct StationClock {
 
 /// Sits it with a ticket, as a hand would, and seals it.
 inline void sit_shortly(const std::string& scenario, const std::string& path, const std::string& ticket, const StationClock& clock = {}) {
-  ExamOptions options;
-  options.candidate = parse_ticket(ticket, "", "ticket").candidate;
+  scenarios::ExamOptions options;
+  options.candidate = ledger::parse_ticket(ticket, "", "ticket").candidate;
   options.device = "emulated stylus";
   options.source = {"device", "emulated stylus", "E1"};
-  options.notes.emplace_back(k_ticket_note, ticket);
-  const auto setup = prepare_exam(scenario, options);
+  options.notes.emplace_back(ledger::k_ticket_note, ticket);
+  const auto setup = scenarios::prepare_exam(scenario, options);
   std::int64_t ticks = 0;
   const Clocks begun = read_clocks();
   const auto now = [&] {
     const std::int64_t ns = ticks * 1'000'000, set = ticks > k_short_ticks / 2 ? clock.set_in_the_middle_ns : 0;
     return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + clock.ahead_ns + ns + set + ticks * clock.drift_ns_per_s / 1000};
   };
-  const auto exam = Exam::start(*setup, path, short_motion(*setup).start_mm, now);
+  const auto exam = scenarios::Exam::start(*setup, path, short_motion(*setup).start_mm, now);
   for (const TickInput& input : short_motion(*setup).inputs) {
     static_cast<void>(exam->tick(input));
     ++ticks;
   }
   exam->end();
   exam->recorder().flush();
-  const auto graded = load_for_grading(SessionReader(path), exam->tooth_now());
-  exam->close(to_json(grade(graded->input(), graded->rubric)).dump());
+  const auto graded = grading::load_for_grading(SessionReader(path), exam->tooth_now());
+  exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
 }
 
 }  // namespace cavum::testing_ledger

@@ -8,7 +8,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 const std::string k_text = "If you think cryptography is the answer to your problem,\nthen you don't know what your problem is.\n";
@@ -118,4 +118,4 @@ TEST(Base64, IsCanonicalOrNone) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

@@ -5,7 +5,7 @@
 
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
@@ -56,4 +56,4 @@ TEST_F(StationTicket, NobodyAsksForOneWhereNoneIsHeld) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ledger

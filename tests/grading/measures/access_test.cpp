@@ -5,7 +5,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::box_hole;
@@ -94,7 +94,7 @@ TEST(Access, LooksAlongTheAxisOfALeaningTarget) {
     bool above = false;
     for (double down = 0; down < 6; down += 0.01) {
       const IVec3 at = c.before.octree.leaf_at(p - up * down);
-      if (c.zones.zone(at) != Zone::target) break;
+      if (c.zones.zone(at) != scenarios::Zone::target) break;
       above = above || c.before.octree.tissue(at) == k_pulp;
     }
     points += above ? 1 : 0;
@@ -105,4 +105,4 @@ TEST(Access, LooksAlongTheAxisOfALeaningTarget) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

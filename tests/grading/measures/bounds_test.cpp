@@ -11,7 +11,7 @@
 #include "grading/result/result_json.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::box_hole;
@@ -25,7 +25,7 @@ const char k_box_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
-const WallMeasures& wall(const Result& r, Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
+const WallMeasures& wall(const Result& r, scenarios::Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
 
 TEST(Bounds, TrueFiguresLieWithinTheirBoundsAndSoDoPointsAndScore) {
   const std::string more = R"([[rubric.criteria]]
@@ -105,9 +105,9 @@ TEST(Bounds, AMeanIsBoundedByWhatCountsToEitherOfTwoWalls) {
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);
   c.carve([](Vec3 p) { return std::max({std::fabs(p.x - 1.5) - 0.6, std::fabs(p.y) - 0.9, std::fabs(p.z + 2.0) - 0.3}); }, 1);
   const Result r = c.graded();
-  EXPECT_GT(wall(r, Wall::mesial).mean_bound_mm, r.shape.bound_mm + 0.003);
-  EXPECT_GE(wall(r, Wall::distal).mean_bound_mm, r.shape.bound_mm);
-  EXPECT_LT(wall(r, Wall::distal).mean_bound_mm, r.shape.bound_mm + 0.003);
+  EXPECT_GT(wall(r, scenarios::Wall::mesial).mean_bound_mm, r.shape.bound_mm + 0.003);
+  EXPECT_GE(wall(r, scenarios::Wall::distal).mean_bound_mm, r.shape.bound_mm);
+  EXPECT_LT(wall(r, scenarios::Wall::distal).mean_bound_mm, r.shape.bound_mm + 0.003);
 }
 
 TEST(Bounds, HoldBothEndsOfWhatAFigureIsMadeOf) {
@@ -120,4 +120,4 @@ TEST(Bounds, HoldBothEndsOfWhatAFigureIsMadeOf) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

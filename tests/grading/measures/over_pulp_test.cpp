@@ -11,7 +11,7 @@
 #include "scenarios/file/rubric_check.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::box_hole;
@@ -111,10 +111,10 @@ TEST(OverPulp, WithoutACutOrWithoutPulpThereIsNothingToMeasure) {
 
 TEST(OverPulp, ARubricThatAsksForItIsRefusedWhereTheToothHasNoPulp) {
   const Carved c(asking(), with_pulp(ball));
-  EXPECT_TRUE(not_in_this_exam(c.scenario.rubric, c.scenario, c.before).empty());
+  EXPECT_TRUE(scenarios::not_in_this_exam(c.scenario.rubric, c.scenario, c.before).empty());
   Tooth bare = dentin_block(3, 6, 0.1);
   std::erase_if(bare.tissues, [](const Tissue& t) { return t.name == "pulp"; });
-  const auto problems = not_in_this_exam(c.scenario.rubric, c.scenario, bare);
+  const auto problems = scenarios::not_in_this_exam(c.scenario.rubric, c.scenario, bare);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].what.find("the tooth has no pulp"), std::string::npos) << problems[0].what;
 }
@@ -146,4 +146,4 @@ TEST(OverPulp, AResultThatWasNotAskedForItReadsAsItDidBefore) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

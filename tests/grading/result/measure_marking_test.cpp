@@ -9,7 +9,7 @@
 #include "grading/result/result_json.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::box_hole;
@@ -53,7 +53,7 @@ TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
     return json.contains(place) ? json[place] : nlohmann::ordered_json();
   };
   const auto number = [](const nlohmann::ordered_json& j) { return j.is_boolean() ? (j.get<bool>() ? 1.0 : 0.0) : j.get<double>(); };
-  for (const auto& m : measures()) {
+  for (const auto& m : scenarios::measures()) {
     if (!m.tissue.empty() && std::none_of(r.tissues.begin(), r.tissues.end(), [&](const Tissue& t) { return t.name == m.tissue; })) continue;
     const MetricValue v = metric_value(r, m.name);
     if (const std::string pointer = json_place(m); !pointer.empty()) {
@@ -75,4 +75,4 @@ TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

@@ -7,7 +7,7 @@
 #include "engine/base/file.h"
 #include "grading/words/moments_of_measure.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 TEST(MeasuresPage, IsTheOneInTheManual) {
@@ -16,7 +16,7 @@ TEST(MeasuresPage, IsTheOneInTheManual) {
 
 TEST(MeasuresPage, HasARowForEveryMeasure) {
   const std::string page = measures_page();
-  for (const auto& m : measures())
+  for (const auto& m : scenarios::measures())
     EXPECT_NE(page.find("| `" + (m.tissue.empty() ? m.name : "touched_TISSUE_mm3") + "` |"), std::string::npos) << m.name;
 }
 
@@ -36,4 +36,4 @@ TEST(MomentsOfMeasure, ARowThatIsLackingOrTooManyOrUnfinishedIsRefused) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

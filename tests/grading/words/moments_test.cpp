@@ -7,7 +7,7 @@
 
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 std::vector<WhyItem> items_of(const std::vector<double>& amounts) {
@@ -71,4 +71,4 @@ TEST(Moments, LeavesLessThanAGapApartAreOneMomentWithAllTheirVolume) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

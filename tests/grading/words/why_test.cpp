@@ -11,7 +11,7 @@
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
-namespace cavum {
+namespace cavum::grading {
 namespace {
 
 using testing::box_hole;
@@ -23,10 +23,10 @@ using testing::opening_pulp;
 using testing::scenario_text;
 
 /// The one criterion `metric`, half of whose points are lost; `sign` 1 where more is to be better.
-RubricSpec half_lost(const Result& r, const std::string& metric, double sign) {
-  RubricSpec rubric;
+scenarios::RubricSpec half_lost(const Result& r, const std::string& metric, double sign) {
+  scenarios::RubricSpec rubric;
   const double value = metric_value(r, metric).value.value_or(0);
-  CriterionSpec c;
+  scenarios::CriterionSpec c;
   c.id = c.title = "c";
   c.metric = metric;
   c.full = value + sign;
@@ -48,9 +48,9 @@ TEST(Why, PointsAddUpToWhatWasLostForEveryMeasureAndBothDirections) {
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
   c.carve(box_hole(0.2, 0.9, -3.4, -2, -1), 2000);
   const Result measured = c.graded();
-  for (const auto& m : measures())
+  for (const auto& m : scenarios::measures())
     for (const double sign : {1.0, -1.0}) {
-      const RubricSpec rubric = half_lost(measured, m.name, sign);
+      const scenarios::RubricSpec rubric = half_lost(measured, m.name, sign);
       Result r = measured;
       mark(r, rubric);
       const Why w = why(c.input(), r, rubric, "c");
@@ -66,7 +66,7 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
            dentin_block(4, 4, 0.05));
   c.carve(box_hole(-0.6, 2.4, -0.6, 0.6, -1.63), 100);  // through leeway and container, 0.6 mm beyond
   const Result measured = c.graded();
-  RubricSpec rubric = half_lost(measured, "overcut_mm3", 1);
+  scenarios::RubricSpec rubric = half_lost(measured, "overcut_mm3", 1);
   rubric.criteria[0].full = 0;
   rubric.criteria[0].zero = 10;
   Result r = measured;
@@ -96,7 +96,7 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
     const Result measured = c.graded();
     for (const char* metric : {"leeway_sides_mm3", "leeway_bottom_mm3", "container_sides_mm3", "container_bottom_mm3", "container_mm3", "outside_mm3",
                                "protected_mm3", "overcut_mm3", "removed_mm3", "touched_dentin_mm3", "touched_pulp_mm3"}) {
-      RubricSpec rubric = half_lost(measured, metric, -1);
+      scenarios::RubricSpec rubric = half_lost(measured, metric, -1);
       Result r = measured;
       mark(r, rubric);
       if (!(*r.criteria[0].value > 0)) continue;
@@ -130,7 +130,7 @@ TEST(Why, SaysWhichMomentUsedUpWhatCostsNothing) {
   c.carve(box_hole(2.2, 2.7, -0.5, 0.5, -0.4), 1000);  // 0.2 mm3 outside, then four times as much, then again
   c.carve(box_hole(2.2, 3.2, -0.5, 0.5, -1), 2000);
   c.carve(box_hole(2.2, 3.2, -0.5, 0.5, -2), 3000);
-  RubricSpec rubric = half_lost(c.graded(), "outside_mm3", -1);
+  scenarios::RubricSpec rubric = half_lost(c.graded(), "outside_mm3", -1);
   rubric.criteria[0].full = 0.5;
   rubric.criteria[0].zero = 0.9;
   Result r = c.graded();
@@ -151,9 +151,9 @@ TEST(Why, EveryLineThatCostsPointsHasItsTick) {
   c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
   const Result measured = c.graded();
-  for (const auto& m : measures())
+  for (const auto& m : scenarios::measures())
     for (const double sign : {1.0, -1.0}) {
-      const RubricSpec rubric = half_lost(measured, m.name, sign);
+      const scenarios::RubricSpec rubric = half_lost(measured, m.name, sign);
       Result r = measured;
       mark(r, rubric);
       EXPECT_GE(r.criteria[0].first.tick, 0) << m.name << ": " << r.criteria[0].reason;
@@ -167,7 +167,7 @@ TEST(Why, EveryLineThatCostsPointsHasItsTick) {
 TEST(Why, AnAimThatTheForceDidNotSeeIsSaid) {
   Carved c(opening_pulp(k_chamber_target), chambered_block(0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -4.5), 100);
-  const RubricSpec rubric = half_lost(c.graded(), "perforated", -1);
+  const scenarios::RubricSpec rubric = half_lost(c.graded(), "perforated", -1);
   Result r = c.graded();
   mark(r, rubric);
   ASSERT_TRUE(r.perforation.aim_unseen());
@@ -180,7 +180,7 @@ TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
   c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 77);  // a millimetre of roof stays, over one canal of two
   const Result measured = c.graded();
   for (const char* metric : {"overhang_mm3", "canals_covered_percent"}) {
-    RubricSpec rubric = half_lost(measured, metric, -1);
+    scenarios::RubricSpec rubric = half_lost(measured, metric, -1);
     Result r = measured;
     mark(r, rubric);
     const Why w = why(c.input(), r, rubric, "c");
@@ -188,7 +188,7 @@ TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
     EXPECT_EQ(w.items[0].tick, 77) << metric;
     EXPECT_NE(w.items[0].what.find("its middle at [1.0"), std::string::npos) << w.items[0].what;
   }
-  const RubricSpec rubric = half_lost(measured, "overhang_mm3", -1);
+  const scenarios::RubricSpec rubric = half_lost(measured, "overhang_mm3", -1);
   Result r = measured;
   mark(r, rubric);
   EXPECT_NEAR(*why(c.input(), r, rubric, "c").items[0].amount, r.access.overhang->mm3, 1e-9);
@@ -206,7 +206,7 @@ TEST(Why, IdleTimeIsListedInSpansThatAddUpToIt) {
   const Result measured = c.graded();
   EXPECT_NEAR(measured.motion.idle_s, 2.4, 1e-9);
   for (const char* metric : {"idle_s", "time_s"}) {
-    const RubricSpec rubric = half_lost(measured, metric, -1);
+    const scenarios::RubricSpec rubric = half_lost(measured, metric, -1);
     Result r = measured;
     mark(r, rubric);
     const Why w = why(c.input(), r, rubric, "c");
@@ -226,7 +226,7 @@ TEST(Why, TicksThatFollowEachOtherAreOneStretch) {
     c.inputs.emplace_back();
     c.records.emplace_back().rpm = i < 10 || i > 30 ? 2000 : 0;
   }
-  const RubricSpec rubric = half_lost(c.graded(), "handpiece_time_s", -1);
+  const scenarios::RubricSpec rubric = half_lost(c.graded(), "handpiece_time_s", -1);
   Result r = c.graded();
   mark(r, rubric);
   std::size_t stretches = 0;
@@ -235,4 +235,4 @@ TEST(Why, TicksThatFollowEachOtherAreOneStretch) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::grading

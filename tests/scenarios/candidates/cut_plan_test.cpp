@@ -7,7 +7,7 @@
 #include "scenarios/file/parse.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using testing::dentin_block;
@@ -93,4 +93,4 @@ TEST(CarelessCandidate, IsRefusedByAScenarioThatDoesNotNameTheMistake) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

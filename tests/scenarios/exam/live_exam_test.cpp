@@ -16,7 +16,7 @@
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/basics.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using namespace std::chrono_literals;
@@ -168,4 +168,4 @@ TEST_F(ShortLiveExamTest, TimeIsUpAtTheVeryTick) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

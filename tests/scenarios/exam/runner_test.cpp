@@ -4,7 +4,7 @@
 
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using testing::dentin_block;
@@ -238,4 +238,4 @@ TEST(Runner, KeepsTheEndEvenWhenTheListOfEventsIsFull) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -4,7 +4,7 @@
 
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 TEST(Accommodations, WhatIsGrantedReplacesWhatTheFileSaysAndNothingElse) {
@@ -39,4 +39,4 @@ TEST(Accommodations, AreSaidInWords) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 TEST(Condition, IsToldFromANumber) {
@@ -45,4 +45,4 @@ TEST(Condition, ChainsCommasAndDivisionsByZeroAreFaults) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -13,7 +13,7 @@
 #include "scenarios/file/parse.h"
 #include "tests/engine/support/basics.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 /// A value of a scenario that can be edited, found by the scenario's own parser.
@@ -208,4 +208,4 @@ TEST(EditText, WritesNumbersInTheirShortestForm) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -10,7 +10,7 @@
 #include "scenarios/file/names.h"
 #include "scenarios/file/parse.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 std::vector<std::string> all_keys() {
@@ -111,4 +111,4 @@ TEST(Measures, ATissueWithoutItsUnitIsNoMeasureButWasTakenOnce) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

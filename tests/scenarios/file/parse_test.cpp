@@ -8,7 +8,7 @@
 #include "scenarios/file/template.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 const char k_ball[] = "[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 1\n";
@@ -209,4 +209,4 @@ TEST(ParseRubric, MeasuresOfWhatTheExamDoesNotHaveAreNamedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

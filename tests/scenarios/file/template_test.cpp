@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "scenarios/review/check.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 class Template : public ::testing::TestWithParam<TemplateChoice> {};
@@ -38,4 +38,4 @@ TEST(Templates, ThatDoNotExistAreRefusedWithTheListOfThoseThatDo) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

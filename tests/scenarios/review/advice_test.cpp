@@ -9,7 +9,7 @@
 #include "scenarios/review/check.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 std::vector<std::string> warnings(const std::string& target, const Tooth& tooth) {
@@ -102,4 +102,4 @@ TEST(Advice, SaysThatAScenarioWasWrittenForAnotherTooth) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -16,7 +16,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 constexpr double k_scale = 20;  // px per mm
@@ -127,4 +127,4 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

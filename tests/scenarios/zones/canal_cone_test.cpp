@@ -6,7 +6,7 @@
 #include "tests/engine/support/basics.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using testing::chambered_block;
@@ -94,4 +94,4 @@ TEST(CanalCone, SaysWhereTheMouthsAreWhenNoneLiesOnTheSideAskedFor) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -15,7 +15,7 @@
 #include "tests/engine/support/basics.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using testing::dentin_block;
@@ -176,4 +176,4 @@ TEST_F(MeshZone, WhatASessionHoldsIsUsedAndAnotherFileOfTheNameRefused) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

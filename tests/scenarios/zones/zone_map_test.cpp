@@ -9,7 +9,7 @@
 #include "scenarios/zones/relief.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 using testing::chambered_block;
@@ -177,4 +177,4 @@ TEST(ZoneMap, ShippedScenariosFitTheShippedMolarInTime) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

@@ -10,7 +10,7 @@
 #include "scenarios/zones/zone_map.h"
 #include "tests/scenarios/test_teeth.h"
 
-namespace cavum {
+namespace cavum::scenarios {
 namespace {
 
 const Tooth& molar() {
@@ -107,4 +107,4 @@ TEST(ZoneWork, AColumnsOutlineIsTheSameAtEachLeafAsThatOfAPrism) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::scenarios

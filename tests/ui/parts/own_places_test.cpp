@@ -3,7 +3,7 @@
 
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ TEST_F(OwnPlaces, AScanAndAToothAreKept) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -10,7 +10,7 @@
 #include "engine/base/file.h"
 #include "tests/engine/support/basics.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 struct Printed {
@@ -74,4 +74,4 @@ TEST(Terminal, TheProgramsOwnCommandsPassInTheirPlace) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -9,7 +9,7 @@
 #include "tests/ui/program.h"
 #include "tests/ui/report/unpack.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using testing_report::unpack;
@@ -18,10 +18,10 @@ using testing_report::unpack;
 class ClassReport : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto setup = prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", {});
+    const auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", {});
     tooth_.scenario = setup->scenario;
     tooth_.tooth = load_tooth(setup->session.tooth, "block");
-    tooth_.zones = build_zones(tooth_.scenario, tooth_.tooth);
+    tooth_.zones = scenarios::build_zones(tooth_.scenario, tooth_.tooth);
     tooth_.map = std::make_unique<cohort::ClassMap>(tooth_.zones);
     const auto seed = std::random_device{}();
     RecordProperty("seed", std::to_string(seed));
@@ -32,7 +32,7 @@ class ClassReport : public ::testing::Test {
       const Vec3 middle = (tooth_.zones.target_low_mm() + tooth_.zones.target_high_mm()) * 0.5;
       // one leaves much, one takes too much, the others by chance
       const double more_mm = i == 0 ? -0.3 : i == 6 ? 0.4 : 0.1 * static_cast<double>(random() % 8) - 0.3;
-      tooth_.zones.for_each_leaf([&](IVec3 leaf, Zone) {
+      tooth_.zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone) {
         if (tooth_.tooth.octree.tissue(leaf) == k_air || tooth_.zones.distance_mm(leaf) > more_mm) return;
         if (tooth_.zones.centre_mm(leaf).x < middle.x + 0.3 * i) removed.push_back(leaf);
       });
@@ -78,7 +78,7 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
           };
           const IVec3 leaf = tree.leaf_at({at(0, k % edge), at(1, k / edge % edge), at(2, k / edge / edge)});
           if (tree.tissue(leaf) == k_air) continue;
-          if (tooth_.zones.zone(leaf) == Zone::target) {
+          if (tooth_.zones.zone(leaf) == scenarios::Zone::target) {
             ++target;
             left -= tooth_.map->percent(leaf);
           } else {
@@ -98,7 +98,7 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
         warm += heat[i] > 0 ? 1 : 0;
         cold += heat[i] < 0 ? 1 : 0;
       }
-  EXPECT_EQ(planned, static_cast<long>(tooth_.zones.count(Zone::target))) << "the whole target lies in the box";
+  EXPECT_EQ(planned, static_cast<long>(tooth_.zones.count(scenarios::Zone::target))) << "the whole target lies in the box";
   EXPECT_GT(warm, 0);
   EXPECT_GT(cold, 0);
 }
@@ -130,4 +130,4 @@ TEST_F(ClassReport, SaysTheSameInHtmlAndPdf) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::report

@@ -13,7 +13,7 @@
 #include "ui/report/figures/packed_array.h"
 #include "ui/report/figures/tooth_grid.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using nlohmann::json;
@@ -34,13 +34,13 @@ class ReportData : public testing_ui::Program {
     Program::SetUp();
     const auto r = run("exam " + k_block + " --candidate A --operator perforator --quiet --out " + path("s.cavum"));
     ASSERT_EQ(r.exit_code, 0) << r.err;
-    session_ = load_for_grading(path("s.cavum"));
-    const GradeInput input = session_->input();
-    result_ = grade(input, session_->rubric);
+    session_ = grading::load_for_grading(path("s.cavum"));
+    const grading::GradeInput input = session_->input();
+    result_ = grading::grade(input, session_->rubric);
     data_ = report_data(report_source(result_, input, session_->facts, session_->rubric));
   }
-  std::unique_ptr<GradedSession> session_;
-  Result result_;
+  std::unique_ptr<grading::GradedSession> session_;
+  grading::Result result_;
   json data_;
 };
 
@@ -259,4 +259,4 @@ TEST(ToothGridTest, LargerCellsHoldTheSameLeavesAndStayWithinWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::report

@@ -13,7 +13,7 @@
 #include "ui/report/report.h"
 #include "ui/report/report_document.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 using nlohmann::json;
@@ -52,10 +52,10 @@ class ReportFile : public testing_ui::Program {
   /// A session's report as a document, after `change` did what it does to facts and scenario.
   template <class Change>
   std::string html_with(const Change& change) const {
-    const auto session = load_for_grading(sit("expert"));
+    const auto session = grading::load_for_grading(sit("expert"));
     change(*session);
-    const GradeInput input = session->input();
-    const Result result = grade(input, session->rubric);
+    const grading::GradeInput input = session->input();
+    const grading::Result result = grading::grade(input, session->rubric);
     return report_html(report_source(result, input, session->facts, session->rubric));
   }
 };
@@ -119,7 +119,7 @@ TEST_F(ReportFile, SaysHowTheExamEndedAndHowItsBoundsAreMeant) {
   bool by_work = false;
   for (const auto& c : g["criteria"]) by_work |= c.contains("work_share");
   EXPECT_EQ(html.find("Care counts for as much as was done: where less than 50 %") != std::string::npos, by_work);
-  const std::string of_the_floor = html_with([](GradedSession& graded) { graded.rubric.criteria[0].metric = "floor_max_over_mm"; });
+  const std::string of_the_floor = html_with([](grading::GradedSession& graded) { graded.rubric.criteria[0].metric = "floor_max_over_mm"; });
   EXPECT_EQ(times(of_the_floor, "the overcut ends at the pulp"), 2u) << "beside the criteria, too";
   EXPECT_EQ(finish_words("time"), "time was up");
   EXPECT_EQ(finish_words("failed"), "a step was failed");
@@ -134,9 +134,9 @@ TEST_F(ReportFile, NoPageIsLeftHalfEmptyBeforeAPicture) {
 }
 
 TEST_F(ReportFile, EveryWordOfTheDocumentIsInBothFiles) {
-  const auto session = load_for_grading(sit("novice"));
-  const GradeInput input = session->input();
-  const Result result = grade(input, session->rubric);
+  const auto session = grading::load_for_grading(sit("novice"));
+  const grading::GradeInput input = session->input();
+  const grading::Result result = grading::grade(input, session->rubric);
   const ReportSource source = report_source(result, input, session->facts, session->rubric);
   const Document d = report_document(source);
   write_text_file(path("d.pdf"), pdf_of(d));
@@ -219,7 +219,7 @@ TEST_F(ReportFile, JumpsLeadToTheMomentsOfEachPointLost) {
 
 TEST_F(ReportFile, NothingThatPeopleWroteBecomesMarkupOrScript) {
   const std::string evil = "</script><script>alert(1)</script><!-- <b>'\"& \x01\x7f ]]> \\u003c/script>";
-  const std::string html = html_with([&](GradedSession& s) {
+  const std::string html = html_with([&](grading::GradedSession& s) {
     s.facts.candidate = s.facts.device = s.facts.calibration = s.facts.created = evil;
     s.facts.notes.emplace_back(evil, evil);
     s.scenario.title = evil;
@@ -304,7 +304,7 @@ TEST_F(ReportFile, TenMinutesOnTheMolarStayBelowThreeMegabytes) {
   const auto r =
       run("exam " + std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml --candidate A --operator novice --quiet --out " + path("m.cavum"));
   ASSERT_EQ(r.exit_code, 0) << r.err;
-  const auto session = load_for_grading(path("m.cavum"));
+  const auto session = grading::load_for_grading(path("m.cavum"));
   // as long as ten minutes: the exam again and again, with a hand that trembles differently each time
   const std::size_t once = session->inputs.size();
   for (std::size_t i = once; i < 600'000; ++i) {
@@ -313,8 +313,8 @@ TEST_F(ReportFile, TenMinutesOnTheMolarStayBelowThreeMegabytes) {
     session->inputs.push_back(in);
     session->records.push_back(session->records[i % once]);
   }
-  const GradeInput input = session->input();
-  const Result result = grade(input, session->rubric);
+  const grading::GradeInput input = session->input();
+  const grading::Result result = grading::grade(input, session->rubric);
   const std::string html = report_html(report_source(result, input, session->facts, session->rubric));
   EXPECT_LE(html.size(), 3'000'000u);
   EXPECT_GT(data_in(html)["motion"]["n"], 29'000);
@@ -322,4 +322,4 @@ TEST_F(ReportFile, TenMinutesOnTheMolarStayBelowThreeMegabytes) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::report

@@ -4,7 +4,7 @@
 #include "engine/base/text.h"
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -196,4 +196,4 @@ TEST_F(ReportVerbs, AnExamsOwnReportComesAsHtmlOrPdf) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::report

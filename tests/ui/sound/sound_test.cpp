@@ -17,7 +17,7 @@
 #include "ui/sound/handpiece_sound.h"
 #include "ui/sound/sound_output.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using namespace std::chrono_literals;
@@ -443,4 +443,4 @@ TEST(SoundOutput, WithoutADeviceIsSilentAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -20,7 +20,7 @@
 #include "ui/station/author_worker.h"
 #include "ui/station/author_zones.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 const std::string k_class_1 = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml";
@@ -82,10 +82,10 @@ key escape
 )";
   EXPECT_EQ(run(script), 0) << said();
   const std::string before = read_text_file(k_class_1), after = read_text_file(file());
-  const Scenario s = parse_scenario(after, file());
+  const scenarios::Scenario s = scenarios::parse_scenario(after, file());
   EXPECT_NEAR(std::fabs(s.zones.target[0].outline.points_mm[0].x + 1.5), 0.2, 1e-9);
-  EXPECT_EQ(after, replaced(replaced(before, "[-1.5, 0]", "[" + written_number(s.zones.target[0].outline.points_mm[0].x) + ", 0]"), "depth_mm = 1.8",
-                            "depth_mm = 1.9"));
+  EXPECT_EQ(after, replaced(replaced(before, "[-1.5, 0]", "[" + scenarios::written_number(s.zones.target[0].outline.points_mm[0].x) + ", 0]"),
+                            "depth_mm = 1.8", "depth_mm = 1.9"));
   EXPECT_EQ(std::system((CAVUM_BINARY " scenario check " + file() + " >" + folder_.file("out")).c_str()), 0);
   for (const char* name : {"20-author", "21-author-changed", "22-author-from-the-side"})
     EXPECT_GT(std::filesystem::file_size(std::string(CAVUM_PICTURES) + "/" + name + ".png"), 20000u) << name;
@@ -99,11 +99,11 @@ TEST_F(AuthorWindow, TheMousePullsAPointAndTheDepth) {
             0)
       << said();
   const std::string before = read_text_file(k_class_1), after = read_text_file(file());
-  const Scenario s = parse_scenario(after, file());
+  const scenarios::Scenario s = scenarios::parse_scenario(after, file());
   const Vec3 to = s.zones.target[0].outline.points_mm[0];
   EXPECT_NEAR(to.x, -1.5 - 3.0 * 43 / 128, 0.05);
   EXPECT_NEAR(to.y, 3.0 * 43 / 128, 0.05);
-  EXPECT_EQ(after, replaced(before, "[-1.5, 0]", "[" + written_number(to.x) + ", " + written_number(to.y) + "]"));
+  EXPECT_EQ(after, replaced(before, "[-1.5, 0]", "[" + scenarios::written_number(to.x) + ", " + scenarios::written_number(to.y) + "]"));
 
   write_text_file(file(), before);
   EXPECT_EQ(run("wait author\nkey 2\nsleep 0.3\npicture 26-author-depth\nmouse 475 421\nsleep 0.1\nmouse 475 421 pressed\nsleep 0.1\n"
@@ -111,10 +111,10 @@ TEST_F(AuthorWindow, TheMousePullsAPointAndTheDepth) {
                 "hold ctrl\nkey s\nrelease ctrl\nsleep 0.2\nkey escape\n"),
             0)
       << said();
-  const double depth = parse_scenario(read_text_file(file()), file()).zones.target[0].bottom.depth_mm;
+  const double depth = scenarios::parse_scenario(read_text_file(file()), file()).zones.target[0].bottom.depth_mm;
   EXPECT_GT(depth, 2.1);
   EXPECT_LT(depth, 2.6);
-  EXPECT_EQ(read_text_file(file()), replaced(before, "depth_mm = 1.8", "depth_mm = " + written_number(depth)));
+  EXPECT_EQ(read_text_file(file()), replaced(before, "depth_mm = 1.8", "depth_mm = " + scenarios::written_number(depth)));
 }
 
 TEST_F(AuthorWindow, ChangesOfEveryKindTakenBackLeaveTheFileAsItWas) {
@@ -124,7 +124,7 @@ TEST_F(AuthorWindow, ChangesOfEveryKindTakenBackLeaveTheFileAsItWas) {
   EXPECT_EQ(run(changes + "key z\nkey z\nkey z\nkey z\nkey z\n" + save), 0) << said();
   EXPECT_EQ(read_text_file(file()), before);
   EXPECT_EQ(run(changes + save), 0) << said();
-  const ZoneSpec zones = parse_scenario(read_text_file(file()), file()).zones;
+  const scenarios::ZoneSpec zones = scenarios::parse_scenario(read_text_file(file()), file()).zones;
   EXPECT_EQ(zones.target[0].outline.points_mm.size(), 3u);
   EXPECT_NEAR(zones.leeway.bottom_mm, 0.3, 1e-9);
   EXPECT_NEAR(zones.leeway.sides_mm, 0.15, 1e-9);
@@ -145,7 +145,7 @@ TEST_F(AuthorWindow, AMistakeMadeByHandIsNamedWithItsLine) {
   EXPECT_EQ(
       run("wait author\nkey tab\nkey tab\nkey pagedown 3\nwait author\nsleep 0.3\npicture 24-author-mistake\nkey escape\nsleep 0.4\nkey enter\n"), 0)
       << said();
-  const auto problems = check_scenario(read_text_file(file()), file());
+  const auto problems = scenarios::check_scenario(read_text_file(file()), file());
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].what.find("narrower than the leeway"), std::string::npos);
 }
@@ -174,7 +174,7 @@ TEST(AuthorDocument, DoesNotOverwriteWhatSomebodyElseWrote) {
   const std::string path = folder.file("a.toml");
   write_text_file(path, "a = 1 # mine\n");
   AuthorDocument d(path);
-  d.make(set_number(d.text(), path, "a", 2), "");
+  d.make(scenarios::set_number(d.text(), path, "a", 2), "");
   write_text_file(path, "a = 3 # theirs\n");
   EXPECT_THROW(d.save(), Error);
   EXPECT_EQ(read_text_file(path), "a = 3 # theirs\n");
@@ -195,9 +195,9 @@ TEST(AuthorDocument, APullOfTheMouseIsTakenBackAtOnce) {
   const std::string path = folder.file("a.toml");
   write_text_file(path, "a = 1\nb = 1\n");
   AuthorDocument d(path);
-  for (int i = 2; i < 20; ++i) d.make(set_number(d.text(), path, "a", i), "a");
+  for (int i = 2; i < 20; ++i) d.make(scenarios::set_number(d.text(), path, "a", i), "a");
   d.rest();
-  for (int i = 2; i < 20; ++i) d.make(set_number(d.text(), path, "a", 20 + i), "a");
+  for (int i = 2; i < 20; ++i) d.make(scenarios::set_number(d.text(), path, "a", 20 + i), "a");
   EXPECT_TRUE(d.undo());
   EXPECT_EQ(d.text(), "a = 19\nb = 1\n");
   EXPECT_TRUE(d.undo());
@@ -214,15 +214,15 @@ TEST(AuthorZones, EveryPlaceIsThatOfItsValueInEveryShippedScenario) {
   for (const auto& f : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios")) {
     if (f.path().extension() != ".toml") continue;
     const std::string text = read_text_file(f.path().string());
-    for (const AuthorZone& zone : author_zones(read_scenario(text, "f").scenario, 3.0, {})) {
+    for (const AuthorZone& zone : author_zones(scenarios::read_scenario(text, "f").scenario, 3.0, {})) {
       for (const AuthorNumber& n : zone.numbers) {
         ++numbers;
         EXPECT_TRUE(n.value >= n.low && n.value <= n.high) << n.place;
-        const TextChange same = set_number(text, "f", n.place, n.value);
+        const scenarios::TextChange same = scenarios::set_number(text, "f", n.place, n.value);
         EXPECT_TRUE(same.empty() || same.removed.empty()) << f.path() << " " << n.place << ": " << same.removed;  // there already, or not written
       }
       for (std::size_t i = 0; i < zone.points_mm.size(); ++i, ++points)
-        EXPECT_TRUE(set_point(text, "f", zone.points_place + "/" + std::to_string(i), zone.points_mm[i].x, zone.points_mm[i].y).empty());
+        EXPECT_TRUE(scenarios::set_point(text, "f", zone.points_place + "/" + std::to_string(i), zone.points_mm[i].x, zone.points_mm[i].y).empty());
     }
   }
   EXPECT_GT(numbers, 30u);
@@ -235,16 +235,16 @@ TEST(AuthorZones, APointLiesOnTheBorderOfTheShapeItMakes) {
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
   const Tooth tooth = cavum::testing::dentin_block(2, 2, 0.2);
   for (int i = 0; i < 50; ++i) {
-    Scenario s = read_scenario(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml"), "f").scenario;
-    ShapeSpec& prism = s.zones.target[1];
-    ASSERT_EQ(prism.kind, ShapeSpec::Kind::prism);
+    scenarios::Scenario s = scenarios::read_scenario(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml"), "f").scenario;
+    scenarios::ShapeSpec& prism = s.zones.target[1];
+    ASSERT_EQ(prism.kind, scenarios::ShapeSpec::Kind::prism);
     prism.at_mm = {draw(-2, 2), draw(-2, 2), draw(-3, 0)};
     prism.axis = normalized(Vec3{draw(-0.5, 0.5), draw(-0.5, 0.5), 1});
     prism.turn_deg = draw(-180, 180);
     prism.outline.centre_mm = {draw(-1, 1), draw(-1, 1), 0};
     const double opening_z_mm = prism.at_mm.z + 0.5 * prism.axis.z * prism.height_mm;
     const AuthorZone zone = author_zones(s, opening_z_mm, {})[1];
-    const auto shape = ShapeMaker(tooth, "f").make({prism});
+    const auto shape = scenarios::ShapeMaker(tooth, "f").make({prism});
     ASSERT_EQ(zone.points_mm.size(), 4u);
     for (const Vec3 p : zone.points_mm) EXPECT_NEAR(shape->distance_mm(zone.in_tooth(p)), 0, 1e-9);
     const Vec3 middle = (zone.points_mm[0] + zone.points_mm[2]) / 2;
@@ -287,4 +287,4 @@ TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::station

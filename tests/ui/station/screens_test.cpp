@@ -16,7 +16,7 @@
 #include "ui/station/replay_player.h"
 #include "ui/station/theme.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using namespace std::chrono_literals;
@@ -114,29 +114,29 @@ TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
 class Coach : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    ExamOptions options;
+    scenarios::ExamOptions options;
     options.candidate = "t";
     options.device = "none";
-    setup_ = prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
+    setup_ = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
     setup_->scenario.force_limit_n = 2.0;
   }
   static void TearDownTestSuite() { setup_.reset(); }
   /// Cutting at a place of the block, whose cavity is a cylinder of 1.1 mm, 1.6 mm deep below z = 0.
-  static LiveView cutting(Vec3 at) {
-    LiveView v;
+  static scenarios::LiveView cutting(Vec3 at) {
+    scenarios::LiveView v;
     v.output.proxy_mm = at;
     v.output.contact = v.output.cutting = true;
     v.output.rpm = 200000;
     v.output.rendered_force_n = {0, 0, 1.0};
     return v;
   }
-  static inline std::unique_ptr<ExamSetup> setup_;
+  static inline std::unique_ptr<scenarios::ExamSetup> setup_;
 };
 
 TEST_F(Coach, IsSilentWhileTheWorkIsGood) { EXPECT_EQ(coaching_hint(*setup_, cutting({0.3, 0, -0.6})), ""); }
 
 TEST_F(Coach, WarnsOfForceBeforeAnythingElse) {
-  LiveView v = cutting({3, 0, -0.6});
+  scenarios::LiveView v = cutting({3, 0, -0.6});
   v.output.rendered_force_n = {0, 0, 2.6};
   EXPECT_NE(coaching_hint(*setup_, v).find("2.6 N"), std::string::npos) << coaching_hint(*setup_, v);
 }
@@ -152,7 +152,7 @@ TEST_F(Coach, TellsThatTheFloorIsNear) {
 }
 
 TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
-  LiveView v = cutting({0, 0, 4});
+  scenarios::LiveView v = cutting({0, 0, 4});
   v.output.contact = v.output.cutting = false;
   EXPECT_NE(coaching_hint(*setup_, v).find("in the air"), std::string::npos);
 }
@@ -160,14 +160,14 @@ TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
 TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("home").c_str(), 1);
-  ExamOptions options;
+  scenarios::ExamOptions options;
   options.candidate = "t";
   options.device = "simulated Omni";
-  const auto setup = prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
+  const auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
   {
-    auto candidate = make_simulated_candidate(*setup, "novice", 3, OmniModel{});
-    const auto exam = Exam::start(*setup, folder.file("s.cavum"), candidate.start_mm());
-    run_exam(*exam, candidate);
+    auto candidate = scenarios::make_simulated_candidate(*setup, "novice", 3, OmniModel{});
+    const auto exam = scenarios::Exam::start(*setup, folder.file("s.cavum"), candidate.start_mm());
+    scenarios::run_exam(*exam, candidate);
     exam->close("{}");
   }
   ReplayPlayer player(folder.file("s.cavum"));
@@ -188,7 +188,7 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
     EXPECT_EQ(player.hash(), chunk.state_hash) << "after tick " << chunk.first_tick + chunk.ticks << ", seed " << seed;
   }
   go(player.ticks());
-  EXPECT_NE(player.runner().finish, Finish::running);
+  EXPECT_NE(player.runner().finish, scenarios::Finish::running);
   EXPECT_EQ(player.instruction(), "");
   go(0);
   EXPECT_EQ(player.runner().ticks, 0);
@@ -263,4 +263,4 @@ TEST(Theme, AClockRoundsUpSoThatZeroMeansTimeIsUp) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::station

@@ -15,7 +15,7 @@
 #include "tests/faults/full_disk.h"
 #include "tests/grading/ledger/school.h"
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using namespace std::chrono_literals;
@@ -57,7 +57,7 @@ TEST_F(SittingTest, LeadsFromTheCodeToASealedResult) {
   std::size_t patches = 0;
   ASSERT_TRUE(goes_on(sitting, [&] {
     if (sitting.stage() != Stage::running) return true;
-    const LiveView view = sitting.live().view();
+    const scenarios::LiveView view = sitting.live().view();
     EXPECT_GE(view.ticks, last);
     last = view.ticks;
     changed.clear();
@@ -218,8 +218,8 @@ TEST_F(SittingTest, GivesEachCandidateAFileOfHisOwnInAFolder) {
 
 TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
   const testing_ledger::School school;
-  const std::string ticket = school.ticket("4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "50"}}; });
-  const std::string candidate = parse_ticket(ticket, "", "ticket").candidate;
+  const std::string ticket = school.ticket("4711", [](ledger::Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "50"}}; });
+  const std::string candidate = ledger::parse_ticket(ticket, "", "ticket").candidate;
   options_.tickets = school.file("tickets");
   std::filesystem::create_directories(options_.tickets);
   write_text_file(options_.tickets + "/" + candidate + ".ticket", ticket + "\n");
@@ -270,4 +270,4 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::station

@@ -23,7 +23,7 @@
 
 extern char** environ;
 
-namespace cavum {
+namespace cavum::station {
 namespace {
 
 using namespace std::chrono_literals;
@@ -314,13 +314,13 @@ Prefix prefix_of(const std::string& path, std::size_t most) {
 
 /// The same exam without any window, for `seconds`.
 void run_without_window(const std::string& path, double seconds) {
-  ExamOptions options;
+  scenarios::ExamOptions options;
   options.candidate = "T5";
   options.device = "simulated Omni, operator expert";
   options.position_quantum_mm = OmniModel{}.quantum_mm;
-  const auto setup = prepare_exam(k_scenario, options);
-  const auto device = make_candidate_device(*setup, "expert", 1);
-  LiveExam live(*setup, path, *device, device->start_mm());
+  const auto setup = scenarios::prepare_exam(k_scenario, options);
+  const auto device = scenarios::make_candidate_device(*setup, "expert", 1);
+  scenarios::LiveExam live(*setup, path, *device, device->start_mm());
   live.start();
   while (static_cast<double>(live.view().ticks) < 1000.0 * seconds) std::this_thread::sleep_for(20ms);
   live.ask_to_end();
@@ -461,4 +461,4 @@ TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::station

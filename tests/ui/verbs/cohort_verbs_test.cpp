@@ -4,7 +4,7 @@
 
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using nlohmann::json;
@@ -60,4 +60,4 @@ TEST_F(CohortVerbs, AClassIsReportedInWordsFiguresAndPictures) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -4,7 +4,7 @@
 
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using testing_ui::k_data;
@@ -106,4 +106,4 @@ TEST_F(ExplainVerbs, ARecordingIsMadeAlongTheProtocolsMotion) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

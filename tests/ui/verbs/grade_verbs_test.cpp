@@ -10,7 +10,7 @@
 #include "engine/base/file.h"
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using nlohmann::json;
@@ -352,4 +352,4 @@ TEST_F(GradeVerb, ACorrectedScenarioIsMeasuredAnewForAWholeFolder) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

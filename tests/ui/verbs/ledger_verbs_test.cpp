@@ -6,7 +6,7 @@
 
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -325,4 +325,4 @@ TEST_F(LedgerVerbs, NoExportIsWrittenOverAKeyOrIdentities) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -5,7 +5,7 @@
 
 #include "tests/ui/program.h"
 
-namespace cavum {
+namespace cavum::ui {
 namespace {
 
 using nlohmann::json;
@@ -80,4 +80,4 @@ TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace cavum
+}  // namespace cavum::ui

@@ -13,7 +13,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "ui/report/figures/packed_array.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr double k_colours_end_mm = 0.5, k_wanted_px = 560;
@@ -51,7 +51,7 @@ std::vector<int> tops(const Octree& tree) {
 }
 
 /// Where hard tissue was cut through into a hollow: how far beyond the target that went, mm, at least 0.
-double through_mm(const GradeInput& input, int x, int y, int top, int was) {
+double through_mm(const grading::GradeInput& input, int x, int y, int top, int was) {
   double beyond = 0;
   for (int z = top + 1; z <= was; ++z) {
     const Octree& before = input.before.octree;
@@ -74,9 +74,9 @@ Bytes png_of(cairo_surface_t* surface) {
 
 /// The tooth before and after, column by column.
 struct Columns {
-  explicit Columns(const GradeInput& graded)
+  explicit Columns(const grading::GradeInput& graded)
       : input(graded), size(graded.before.octree.size()), was(tops(graded.before.octree)), is(tops(graded.after)) {}
-  const GradeInput& input;
+  const grading::GradeInput& input;
   IVec3 size;
   std::vector<int> was, is;
   /// Columns beyond the tooth's are those at its edge.
@@ -89,10 +89,10 @@ struct Columns {
 /// Of a column that still has a top: by its distance from the target where it was cut or should have been.
 Colour colour_of_top(const Columns& columns, int x, int y) {
   const Octree& before = columns.input.before.octree;
-  const ZoneMap& zones = columns.input.zones;
+  const scenarios::ZoneMap& zones = columns.input.zones;
   const int top = columns.is[columns.index(x, y)], was = columns.was[columns.index(x, y)];
   // the natural wall of a hollow is no cut
-  const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = zones.zone({x, y, top}) == Zone::target;
+  const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = zones.zone({x, y, top}) == scenarios::Zone::target;
   if (cut || left) return of_deviation(zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()}));
   return top < was ? of_deviation(through_mm(columns.input, x, y, top, was)) : k_tooth;
 }
@@ -160,7 +160,7 @@ std::string key_svg(double left, double top, double mm_px) {
 
 }  // namespace
 
-Picture picture_from_above(const GradeInput& input) {
+Picture picture_from_above(const grading::GradeInput& input) {
   const Columns columns(input);
   const IVec3 n = columns.size;
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
@@ -177,4 +177,4 @@ Picture picture_from_above(const GradeInput& input) {
   return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut"};
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -4,9 +4,9 @@
 #include "grading/grade.h"
 #include "ui/report/print/document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// A picture with its key. Blue: so much of the target was left; orange: so much was cut beyond it; white: as planned.
-[[nodiscard]] Picture picture_from_above(const GradeInput& input);
+[[nodiscard]] Picture picture_from_above(const grading::GradeInput& input);
 
-}  // namespace cavum
+}  // namespace cavum::report

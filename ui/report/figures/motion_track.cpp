@@ -6,7 +6,7 @@
 
 #include "grading/measures/motion.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr std::size_t k_step_ticks = 20;
@@ -19,7 +19,7 @@ T whole(double v) {
 
 }  // namespace
 
-MotionTrack make_motion_track(const GradeInput& input, std::size_t most) {
+MotionTrack make_motion_track(const grading::GradeInput& input, std::size_t most) {
   MotionTrack t;
   const std::size_t ticks = std::min(input.inputs.size(), input.records.size());
   std::size_t step = k_step_ticks;
@@ -30,7 +30,7 @@ MotionTrack make_motion_track(const GradeInput& input, std::size_t most) {
     const Pose pose = input.inputs[first].pose();
     const Vec3 tip = pose.tip_mm, axis = rotation(pose.rotation) * Vec3{0, 0, 1};
     double force = 0;
-    for (std::size_t i = first; i < end; ++i) force = std::max(force, force_n(input.records[i]));
+    for (std::size_t i = first; i < end; ++i) force = std::max(force, grading::force_n(input.records[i]));
     t.x_um.push_back(whole<std::int16_t>(tip.x * 1e3));
     t.y_um.push_back(whole<std::int16_t>(tip.y * 1e3));
     t.z_um.push_back(whole<std::int16_t>(tip.z * 1e3));
@@ -47,4 +47,4 @@ MotionTrack make_motion_track(const GradeInput& input, std::size_t most) {
   return t;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

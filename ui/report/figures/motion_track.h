@@ -7,7 +7,7 @@
 
 #include "grading/grade.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// Sample i belongs to i · step_s and what follows until the next.
 struct MotionTrack {
@@ -22,6 +22,6 @@ struct MotionTrack {
 };
 
 /// Steps of 20 ms, longer for recordings of more than `most` of them.
-[[nodiscard]] MotionTrack make_motion_track(const GradeInput& input, std::size_t most = 45'000);
+[[nodiscard]] MotionTrack make_motion_track(const grading::GradeInput& input, std::size_t most = 45'000);
 
-}  // namespace cavum
+}  // namespace cavum::report

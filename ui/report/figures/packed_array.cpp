@@ -10,7 +10,7 @@
 #include "engine/base/bytes.h"
 #include "engine/base/error.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr int k_level = 9;  // of zstd: higher ones take seconds for a tooth and save little
@@ -47,4 +47,4 @@ nlohmann::json packed_array(std::span<const std::int8_t> values, bool delta) { r
 nlohmann::json packed_array(std::span<const std::uint16_t> values, bool delta) { return pack(values, "u16", delta); }
 nlohmann::json packed_array(std::span<const std::int16_t> values, bool delta) { return pack(values, "i16", delta); }
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-namespace cavum {
+namespace cavum::report {
 
 /// {"type":"u8|i8|u16|i16","n":count,"delta":bool,"zstd":base64}. With `delta` each value is kept as its difference from the one before it, modulo
 /// 2^bits, which packs what moves smoothly better.
@@ -18,4 +18,4 @@ namespace cavum {
 /// Base64 with padding, one line.
 [[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -10,22 +10,26 @@
 
 #include "engine/base/text.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr double k_scale_px_per_mm = 25;
 
 /// A section that could be shown, and why.
 struct Wish {
-  View view;
+  scenarios::View view;
   Vec3 through_mm;
   std::string why;
 };
 
-double at_of(View view, Vec3 p) { return view == View::mesio_distal ? p.y : view == View::bucco_lingual ? p.x : p.z; }
+double at_of(scenarios::View view, Vec3 p) {
+  return view == scenarios::View::mesio_distal ? p.y : view == scenarios::View::bucco_lingual ? p.x : p.z;
+}
 
-std::string place_text(View view, double at_mm) {
-  const char* name = view == View::mesio_distal ? "Mesio-distal, y = " : view == View::bucco_lingual ? "Bucco-lingual, x = " : "Horizontal, z = ";
+std::string place_text(scenarios::View view, double at_mm) {
+  const char* name = view == scenarios::View::mesio_distal    ? "Mesio-distal, y = "
+                     : view == scenarios::View::bucco_lingual ? "Bucco-lingual, x = "
+                                                              : "Horizontal, z = ";
   std::string number = fixed(at_mm, 2);
   if (number == "-0.00") number = "0.00";
   return fmt::format("{}{} mm", name, number);
@@ -37,10 +41,10 @@ struct Worst {
   double mm = 0;
 };
 /// The place of the largest deviation of all walls; none where nothing was measured.
-std::optional<Worst> worst(const Result& r, double WallMeasures::*largest, Trace WallMeasures::*where) {
+std::optional<Worst> worst(const grading::Result& r, double grading::WallMeasures::*largest, grading::Trace grading::WallMeasures::*where) {
   std::optional<Worst> w;
-  for (std::size_t i = 0; i < k_walls; ++i) {
-    const WallMeasures& m = r.shape.wall[i];
+  for (std::size_t i = 0; i < scenarios::k_walls; ++i) {
+    const grading::WallMeasures& m = r.shape.wall[i];
     if ((m.*where).tick < 0 || !(m.*largest > 0) || (w && w->mm >= m.*largest)) continue;
     w = Worst{(m.*where).site_mm, i, m.*largest};
   }
@@ -48,28 +52,35 @@ std::optional<Worst> worst(const Result& r, double WallMeasures::*largest, Trace
 }
 
 /// The section in which the deviation of a wall shows.
-View view_of(std::size_t wall) {
-  const auto w = static_cast<Wall>(wall);
-  return w == Wall::buccal || w == Wall::lingual ? View::bucco_lingual : View::mesio_distal;
+scenarios::View view_of(std::size_t wall) {
+  const auto w = static_cast<scenarios::Wall>(wall);
+  return w == scenarios::Wall::buccal || w == scenarios::Wall::lingual ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;
 }
-View other(View v) { return v == View::mesio_distal ? View::bucco_lingual : View::mesio_distal; }
+scenarios::View other(scenarios::View v) {
+  return v == scenarios::View::mesio_distal ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;
+}
 
-std::vector<Wish> wishes(const Result& r, const GradeInput& input) {
+std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& input) {
   const Vec3 low = input.zones.target_low_mm(), high = input.zones.target_high_mm(), middle = (low + high) * 0.5, extent = high - low;
   const std::string through = "through the middle of the target";
-  std::vector<Wish> list{{View::mesio_distal, middle, through}, {View::bucco_lingual, middle, through}, {View::horizontal, middle, through}};
-  const auto over = worst(r, &WallMeasures::max_over_mm, &WallMeasures::worst_over);
-  const auto under = worst(r, &WallMeasures::max_under_mm, &WallMeasures::worst_under);
+  std::vector<Wish> list{{scenarios::View::mesio_distal, middle, through},
+                         {scenarios::View::bucco_lingual, middle, through},
+                         {scenarios::View::horizontal, middle, through}};
+  const auto over = worst(r, &grading::WallMeasures::max_over_mm, &grading::WallMeasures::worst_over);
+  const auto under = worst(r, &grading::WallMeasures::max_under_mm, &grading::WallMeasures::worst_under);
   const auto named = [](const char* what, const Worst& w) {
-    return fmt::format("worst {}, {} mm at the {}{}", what, fixed(w.mm, 2), w.wall == static_cast<std::size_t>(Wall::floor) ? "" : "wall towards ",
-                       wall_name(static_cast<Wall>(w.wall)));
+    return fmt::format("worst {}, {} mm at the {}{}", what, fixed(w.mm, 2),
+                       w.wall == static_cast<std::size_t>(scenarios::Wall::floor) ? "" : "wall towards ",
+                       scenarios::wall_name(static_cast<scenarios::Wall>(w.wall)));
   };
-  if (const PerforationTruth& p = r.perforation.fault; p.perforated)
-    for (const View v : {View::mesio_distal, View::bucco_lingual}) list.push_back({v, p.first.site_mm, p.tissue + " broken into here"});
+  if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
+    for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
+      list.push_back({v, p.first.site_mm, p.tissue + " broken into here"});
   else
     for (const auto& e : r.perforation.events)
       if (e.fault && list.size() < 5)
-        for (const View v : {View::mesio_distal, View::bucco_lingual}) list.push_back({v, e.site_mm, "breakthrough in the force here"});
+        for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
+          list.push_back({v, e.site_mm, "breakthrough in the force here"});
   if (over) {
     list.push_back({view_of(over->wall), over->site_mm, named("overcut", *over)});
     list.push_back({other(view_of(over->wall)), over->site_mm, named("overcut", *over)});
@@ -81,26 +92,27 @@ std::vector<Wish> wishes(const Result& r, const GradeInput& input) {
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {
     const std::string place = fmt::format("through the target at {} % of its ", fixed(100 * share, 0));
-    list.push_back({View::horizontal, low + extent * share, place + "height"});
-    list.push_back({View::mesio_distal, low + extent * share, place + "width"});
-    list.push_back({View::bucco_lingual, low + extent * share, place + "length"});
+    list.push_back({scenarios::View::horizontal, low + extent * share, place + "height"});
+    list.push_back({scenarios::View::mesio_distal, low + extent * share, place + "width"});
+    list.push_back({scenarios::View::bucco_lingual, low + extent * share, place + "length"});
   }
   for (int i = 1; list.size() < 64; ++i)  // a target of a few leaves: beside it
-    list.push_back({View::horizontal, low - Vec3{0, 0, i * input.zones.leaf_mm()}, "below the target"});
+    list.push_back({scenarios::View::horizontal, low - Vec3{0, 0, i * input.zones.leaf_mm()}, "below the target"});
   return list;
 }
 
 /// Three sections through the middle of the target, moved to the place of a perforation when there is one.
-std::array<std::string, 3> three_sections(const Result& r, const GradeInput& input) {
+std::array<std::string, 3> three_sections(const grading::Result& r, const grading::GradeInput& input) {
   const Vec3 low = input.zones.target_low_mm(), high = input.zones.target_high_mm();
   const Vec3 at = r.perforation.fault.perforated ? r.perforation.fault.first.site_mm : (low + high) * 0.5;
   const double across = low.z + 0.35 * (high.z - low.z);
-  const auto draw = [&](View view, double at_mm, const char* name) {
-    return section_svg(input.before, &input.after, input.zones,
-                       {view, at_mm, k_scale_px_per_mm, fmt::format("{}{} mm", name, fixed(at_mm, 2)), input.scenario.accommodations.high_contrast});
+  const auto draw = [&](scenarios::View view, double at_mm, const char* name) {
+    return scenarios::section_svg(
+        input.before, &input.after, input.zones,
+        {view, at_mm, k_scale_px_per_mm, fmt::format("{}{} mm", name, fixed(at_mm, 2)), input.scenario.accommodations.high_contrast});
   };
-  return {draw(View::mesio_distal, at.y, "mesial-distal, y = "), draw(View::bucco_lingual, at.x, "buccal-lingual, x = "),
-          draw(View::horizontal, across, "across, z = ")};
+  return {draw(scenarios::View::mesio_distal, at.y, "mesial-distal, y = "), draw(scenarios::View::bucco_lingual, at.x, "buccal-lingual, x = "),
+          draw(scenarios::View::horizontal, across, "across, z = ")};
 }
 
 /// The number behind the first `key` of an SVG element, px.
@@ -113,33 +125,33 @@ double svg_px(const std::string& svg, const std::string& key) {
 
 }  // namespace
 
-std::vector<SectionPicture> section_pictures(const Result& r, const GradeInput& input) {
+std::vector<SectionPicture> section_pictures(const grading::Result& r, const grading::GradeInput& input) {
   std::vector<SectionPicture> pictures;
-  std::vector<std::pair<View, int>> shown;  // by leaf
+  std::vector<std::pair<scenarios::View, int>> shown;  // by leaf
   const Octree& tree = input.before.octree;
   for (const Wish& w : wishes(r, input)) {
     if (pictures.size() == k_report_sections) break;
     const IVec3 leaf = tree.leaf_at(w.through_mm);
-    const std::pair key{w.view, w.view == View::mesio_distal ? leaf.y : w.view == View::bucco_lingual ? leaf.x : leaf.z};
+    const std::pair key{w.view, w.view == scenarios::View::mesio_distal ? leaf.y : w.view == scenarios::View::bucco_lingual ? leaf.x : leaf.z};
     if (std::find(shown.begin(), shown.end(), key) != shown.end()) continue;
     shown.push_back(key);
     SectionPicture p{w.view, at_of(w.view, w.through_mm), "", ""};
     const std::string place = place_text(p.view, p.at_mm);
     p.title = fmt::format("{}: {}", place, w.why);
-    p.svg = section_svg(input.before, &input.after, input.zones,
-                        {p.view, p.at_mm, k_scale_px_per_mm, place, input.scenario.accommodations.high_contrast});
+    p.svg = scenarios::section_svg(input.before, &input.after, input.zones,
+                                   {p.view, p.at_mm, k_scale_px_per_mm, place, input.scenario.accommodations.high_contrast});
     pictures.push_back(std::move(p));
   }
   return pictures;
 }
 
-std::string sections_svg(const Result& r, const GradeInput& input) {
+std::string sections_svg(const grading::Result& r, const grading::GradeInput& input) {
   constexpr double k_margin_px = 10, k_text_px = 30;
   const auto group = [](double x, double y, const std::string& content) {
     return fmt::format("<g transform='translate({} {})'>{}</g>\n", fixed(x, 0), fixed(y, 2), content);
   };
   const auto pictures = three_sections(r, input);
-  const std::string legend = legend_svg(true, input.scenario.accommodations.high_contrast);
+  const std::string legend = scenarios::legend_svg(true, input.scenario.accommodations.high_contrast);
   double height = 0, x = k_margin_px;
   for (const auto& p : pictures) height = std::max(height, svg_px(p, "height='"));
   std::string body;
@@ -156,4 +168,4 @@ std::string sections_svg(const Result& r, const GradeInput& input) {
       group(k_margin_px, all - k_text_px, legend));
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

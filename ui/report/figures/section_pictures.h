@@ -8,10 +8,10 @@
 #include "grading/grade.h"
 #include "scenarios/review/picture.h"
 
-namespace cavum {
+namespace cavum::report {
 
 struct SectionPicture {
-  View view = View::mesio_distal;
+  scenarios::View view = scenarios::View::mesio_distal;
   double at_mm = 0.0;  ///< where it is cut, along the axis looked at, tooth frame
   std::string title;   ///< with its place: "Mesio-distal, y = 0.12 mm: through the middle of the target"
   std::string svg;     ///< a complete `<svg>` element
@@ -19,9 +19,9 @@ struct SectionPicture {
 
 inline constexpr std::size_t k_report_sections = 8;
 /// Always k_report_sections, no two the same.
-[[nodiscard]] std::vector<SectionPicture> section_pictures(const Result& result, const GradeInput& input);
+[[nodiscard]] std::vector<SectionPicture> section_pictures(const grading::Result& result, const grading::GradeInput& input);
 
 /// Three sections (through the middle of the target, or the place of a perforation) with the key to their colours: one standalone SVG document.
-[[nodiscard]] std::string sections_svg(const Result& result, const GradeInput& input);
+[[nodiscard]] std::string sections_svg(const grading::Result& result, const grading::GradeInput& input);
 
-}  // namespace cavum
+}  // namespace cavum::report

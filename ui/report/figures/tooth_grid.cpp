@@ -9,7 +9,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "grading/measures/removed_map.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr double k_wanted_cell_mm = 0.1, k_around_target_mm = 1.0;
@@ -119,7 +119,7 @@ ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
   return g;
 }
 
-ChangedCells make_changed_cells(const ToothGrid& g, const GradeInput& input) {
+ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& input) {
   const Octree& tree = input.before.octree;
   const auto cell_at = [&](Vec3 p) {
     const Vec3 c = (p - g.origin_mm) / g.cell_mm;
@@ -151,8 +151,8 @@ ChangedCells make_changed_cells(const ToothGrid& g, const GradeInput& input) {
         box.distance[i] = static_cast<std::int8_t>(std::lround(std::clamp(steps, -127.0, 127.0)));
       }
   const auto ticks = static_cast<double>(std::max<std::size_t>(1, input.records.size()));
-  const RemovedMap map(input.removed, std::numeric_limits<std::int64_t>::max());
-  RemovedMap::Marks seen = map.marks();
+  const grading::RemovedMap map(input.removed, std::numeric_limits<std::int64_t>::max());
+  grading::RemovedMap::Marks seen = map.marks();
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (!tree.is_solid(r.leaf.tissue) || tree.tissue(leaf) == k_air || !seen.first_time(leaf)) continue;  // listed twice: the first time counts
@@ -175,4 +175,4 @@ std::vector<std::uint8_t> shares_of(const std::vector<std::uint16_t>& solid, int
   return shares;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

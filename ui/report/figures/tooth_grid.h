@@ -8,7 +8,7 @@
 
 #include "grading/grade.h"
 
-namespace cavum {
+namespace cavum::report {
 
 struct ToothGrid {
   int edge_leaves = 2;               ///< a cell is so many leaves wide
@@ -43,9 +43,9 @@ struct ChangedCells {
   std::vector<std::int8_t> distance;       ///< of the cell's centre from the target, 0.02 mm, + = outside, clamped
 };
 inline constexpr double k_distance_step_mm = 0.02;
-[[nodiscard]] ChangedCells make_changed_cells(const ToothGrid& grid, const GradeInput& input);
+[[nodiscard]] ChangedCells make_changed_cells(const ToothGrid& grid, const grading::GradeInput& input);
 
 /// A share of a cell's leaves in 1/255, to the nearest: it gives the number of leaves back for cells of up to 128.
 [[nodiscard]] std::vector<std::uint8_t> shares_of(const std::vector<std::uint16_t>& solid, int cell_leaves);
 
-}  // namespace cavum
+}  // namespace cavum::report

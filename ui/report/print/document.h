@@ -9,7 +9,7 @@
 
 #include "engine/base/vec.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// A moment of the exam that the page can go to.
 struct Jump {
@@ -87,4 +87,4 @@ struct Document {
   std::vector<std::string> footer;  ///< at the end of the page, on every page of paper the first line alone
 };
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -7,7 +7,7 @@
 #include "engine/base/text.h"
 #include "ui/report/print/page_assets.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 std::string exact(double v) { return fixed(v, 4); }
@@ -107,4 +107,4 @@ std::string html_of(const Document& d, const nlohmann::json& data) {
   return h;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

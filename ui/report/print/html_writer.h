@@ -7,9 +7,9 @@
 
 #include "ui/report/print/document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// `data`: what the page moves (report_data.h). `colours` and layout are those of page_style().
 [[nodiscard]] std::string html_of(const Document& document, const nlohmann::json& data);
 
-}  // namespace cavum
+}  // namespace cavum::report

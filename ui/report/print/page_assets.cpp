@@ -19,7 +19,7 @@ extern "C" {
 extern const char cavum_page_script_begin[], cavum_page_script_end[], cavum_page_style_begin[], cavum_page_style_end[];
 }
 
-namespace cavum {
+namespace cavum::report {
 
 std::string_view page_script() noexcept {
   return {cavum_page_script_begin, static_cast<std::size_t>(cavum_page_script_end - cavum_page_script_begin)};
@@ -27,4 +27,4 @@ std::string_view page_script() noexcept {
 
 std::string_view page_style() noexcept { return {cavum_page_style_begin, static_cast<std::size_t>(cavum_page_style_end - cavum_page_style_begin)}; }
 
-}  // namespace cavum
+}  // namespace cavum::report

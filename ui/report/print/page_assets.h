@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace cavum {
+namespace cavum::report {
 
 /// One minified script, UTF-8, to stand in a `<script>` element as it is: it contains no `</script`. Licences of what is bundled are in it.
 [[nodiscard]] std::string_view page_script() noexcept;
@@ -12,4 +12,4 @@ namespace cavum {
 /// The style sheet for screen and print, UTF-8, to stand in a `<style>` element as it is.
 [[nodiscard]] std::string_view page_style() noexcept;
 
-}  // namespace cavum
+}  // namespace cavum::report

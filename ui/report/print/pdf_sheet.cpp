@@ -18,7 +18,7 @@ extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
 #endif
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr double k_page_width = 595.28, k_page_height = 841.89, k_side = 42, k_top = 50, k_bottom = 50;
@@ -271,4 +271,4 @@ int PdfSheet::finish() {
   return s_->page;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

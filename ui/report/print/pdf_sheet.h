@@ -8,7 +8,7 @@
 
 #include "ui/report/print/document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 struct PdfColour {
   double r = 0.1, g = 0.1, b = 0.1;
@@ -72,4 +72,4 @@ class PdfSheet {
   std::unique_ptr<State> s_;
 };
 
-}  // namespace cavum
+}  // namespace cavum::report

@@ -6,7 +6,7 @@
 #include "engine/base/text.h"
 #include "ui/report/print/pdf_sheet.h"
 
-namespace cavum {
+namespace cavum::report {
 namespace {
 
 constexpr double k_text_pt = 9.5, k_small_pt = 8, k_cell_pt = 7.8, k_padding_pt = 3, k_gap_pt = 6;
@@ -230,4 +230,4 @@ std::string pdf_of(const Document& document) {
   return bytes;
 }
 
-}  // namespace cavum
+}  // namespace cavum::report

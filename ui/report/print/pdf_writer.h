@@ -6,9 +6,9 @@
 
 #include "ui/report/print/document.h"
 
-namespace cavum {
+namespace cavum::report {
 
 /// The bytes of the file; the same document gives the same bytes on the same computer. Throws Error when a picture cannot be drawn.
 [[nodiscard]] std::string pdf_of(const Document& document);
 
-}  // namespace cavum
+}  // namespace cavum::report
