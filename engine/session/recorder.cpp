@@ -15,6 +15,7 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "engine/base/version.h"
 #include "engine/base/write_file.h"
 #include "engine/servo/servo.h"
 #include "engine/session/chain.h"
@@ -30,7 +31,7 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
   const std::string tick = fmt::format("{:.17g}", parse_servo_config(setup.servo_toml, "servo settings").tick_s);
   std::map<std::string, std::string> meta{
       {"format", std::to_string(k_session_format)},
-      {"engine_version", CAVUM_VERSION},
+      {"engine_version", version()},
       {"physics_version", std::to_string(k_physics_version)},
       {"candidate", setup.candidate},
       {"device", setup.device},

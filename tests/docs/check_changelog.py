@@ -1,7 +1,7 @@
 """Usage: check_changelog.py SOURCE_DIR
 
 Prints what is wrong with CHANGELOG.md and exits with 1. Versions stand newest first: `## X.Y.Z, YYYY-MM-DD`, with `## Unreleased` above them where something is
-under way. The newest version is the one that CMakeLists.txt builds. The line below the first heading names the physics version and the format of sessions
+under way. The newest version is that of engine/base/version.cpp. The line below the first heading names the physics version and the format of sessions
 that the sources have: a change of either that nobody wrote down is found.
 """
 import datetime
@@ -36,9 +36,9 @@ def problems(root):
     for newer, older in zip(versions, versions[1:]):
         if newer[0] <= older[0] or newer[1] < older[1]:
             out.append(f"CHANGELOG.md: {'.'.join(map(str, newer[0]))} stands above a version that is not older")
-    built = re.search(r"project\(cavum VERSION (\d+)\.(\d+)\.(\d+)", (root / "CMakeLists.txt").read_text())
+    built = re.search(r'return "(\d+)\.(\d+)\.(\d+)"', (root / "engine/base/version.cpp").read_text())
     if not versions or not built or tuple(int(n) for n in built.groups()) != versions[0][0]:
-        out.append("CHANGELOG.md: its newest version is not the one that CMakeLists.txt builds")
+        out.append("CHANGELOG.md: its newest version is not that of engine/base/version.cpp")
     first = text[HEADING.search(text).end():].lstrip("\n").split("\n", 1)[0] if headings else ""
     formats = FORMATS.fullmatch(first)
     physics = constant(root, "engine/servo/servo.h", "k_physics_version")

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/text.h"
+#include "engine/base/version.h"
 #include "scenarios/review/picture.h"
 #include "ui/parts/chart_svg.h"
 #include "ui/report/print/html_writer.h"
@@ -235,7 +236,7 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   add_agreement(d, f);
   add_to_look_at(d, f);
   d.footer = {fmt::format("Class of the exam {}, {}", f.exam, count(f.n, "candidate", "candidates")),
-              "Formulae and sources: grading/cohort/README.md of Cavum " CAVUM_VERSION "."};
+              fmt::format("Formulae and sources: grading/cohort/README.md of Cavum {}.", version())};
   return d;
 }
 

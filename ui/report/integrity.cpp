@@ -6,6 +6,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/base/version.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/explain_session.h"
@@ -94,8 +95,8 @@ void add_integrity(Document& d, const ReportSource& s) {
                                  : i.replay == Replay::agrees                       ? "tamper-evident and replay-verified"
                                                                                     : "tamper-evident, not replayed for this report",
                                  s.filing ? fmt::format("; ledger entry {}", s.filing->entry) : ""));
-  d.footer.push_back("Tooth " + s.facts.tooth_hash.substr(0, 16) + ", leaf " + fixed(s.result.leaf_mm, 3) +
-                     " mm. Definitions: docs/grading.md of Cavum " CAVUM_VERSION ".");
+  d.footer.push_back(fmt::format("Tooth {}, leaf {} mm. Definitions: docs/grading.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16),
+                                 fixed(s.result.leaf_mm, 3), version()));
 }
 
 }  // namespace cavum::report

@@ -11,6 +11,7 @@
 
 #include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
+#include "engine/base/version.h"
 #include "engine/servo/servo.h"
 #include "scenarios/file/parse.h"
 #include "ui/parts/terminal.h"
@@ -20,7 +21,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, not the end of an exam
   const cavum::ui::SafeTerminal terminal;
   CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
-  app.set_version_flag("--version", fmt::format("cavum {}, physics {}", CAVUM_VERSION, cavum::k_physics_version));
+  app.set_version_flag("--version", fmt::format("cavum {}, physics {}", cavum::version(), cavum::k_physics_version));
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   int exit_code = 0;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/version.h"
 #include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/hardware/udev_rule.h"
 #include "ui/verbs/verbs.h"
@@ -52,7 +53,7 @@ void write_verb(std::ostream& out, const CLI::App& verb, const std::string& path
 }
 
 void write_man_page(std::ostream& out, const CLI::App& app) {
-  out << ".TH CAVUM 1 \"\" \"cavum " << CAVUM_VERSION << "\" \"User Commands\"\n"
+  out << ".TH CAVUM 1 \"\" \"cavum " << version() << "\" \"User Commands\"\n"
       << ".SH NAME\ncavum \\- " << roff(app.get_description()) << "\n"
       << ".SH SYNOPSIS\n.B cavum\n.I VERB\n[\n.I ARGUMENT ...\n]\n"
       << ".SH DESCRIPTION\nEach verb explains itself with \\-\\-help. Without anything named, \\fBcavum exam\\fP runs a demonstration.\n"

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/base/version.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // Fontconfig keeps what it once read until the program ends: that is no leak of ours.
@@ -142,7 +143,7 @@ PdfSheet::PdfSheet(const Document& document, int pages, std::string& out) : s_(n
   State& s = *s_;
   s.surface = cairo_pdf_surface_create_for_stream(append, &s.out, k_page_width, k_page_height);
   cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_TITLE, one_line(document.title).c_str());
-  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATOR, "Cavum " CAVUM_VERSION);
+  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATOR, ("Cavum " + std::string(version())).c_str());
   // the exam's own date, so that the same report gives the same bytes
   cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATE_DATE, one_line(document.created).c_str());
   s.cairo = cairo_create(s.surface);

@@ -1,0 +1,8 @@
+// CMakeLists.txt reads the version here.
+#include "engine/base/version.h"
+
+namespace cavum {
+
+const char* version() noexcept { return "0.2.0"; }
+
+}  // namespace cavum
