@@ -263,22 +263,28 @@ TEST_F(CommandLine, PerforatorFailsAndForceAndTissueAgreeWithin100Milliseconds) 
 }
 
 TEST_F(CommandLine, AMolarThatCameAsMeshesTakesTheSameExam) {
-  const std::string tooth = "--tooth " + path("imported.cvt");
   import_molar(path("imported.cvt"));
   if (HasFatalFailure() || IsSkipped()) return;
-  const std::string scenario = k_data + "/scenarios/molar_access.toml";
+  const std::string scenario = k_data + "/scenarios/molar_access.toml", tooth = "--tooth " + path("imported.cvt");
   EXPECT_EQ(exam(scenario, "expert", tooth)["verdict"], "pass");
-  const json perforator = exam(scenario, "perforator", tooth);
-  EXPECT_EQ(perforator["verdict"], "fail");
-  EXPECT_LE(best_gap_s(perforator), 0.1);
+  std::string junit_says = "tests=\"1\"";
+  if (std::getenv("CAVUM_DEEP") != nullptr) {
+    const json novice = exam(scenario, "novice", tooth);
+    EXPECT_NE(novice["verdict"], "pass");
+    EXPECT_NE(reasons(novice).find("wall"), std::string::npos);
+    const json perforator = exam(scenario, "perforator", tooth);
+    EXPECT_EQ(perforator["verdict"], "fail");
+    EXPECT_LE(best_gap_s(perforator), 0.1);
+    junit_says = "tests=\"3\"";
+  }
   const Ran replay = run("replay " + folder_.path().string() + " --verify --json --junit " + path("j.xml"));
   EXPECT_EQ(replay.exit_code, 0) << replay.out;
-  EXPECT_NE(read_text_file(path("j.xml")).find("tests=\"2\""), std::string::npos);
+  EXPECT_NE(read_text_file(path("j.xml")).find(junit_says), std::string::npos);
 }
 
-TEST_F(CommandLine, AnExamKilledAtTwentyRandomMomentsIsResumed) {
-  Random random(testing_basics::drawn_seed("CommandLine.AnExamKilledAtTwentyRandomMomentsIsResumed"));
-  for (int i = 0; i < 20; ++i) {
+TEST_F(CommandLine, AnExamKilledAtRandomMomentsIsResumed) {
+  Random random(testing_basics::drawn_seed("CommandLine.AnExamKilledAtRandomMomentsIsResumed"));
+  for (int i = std::getenv("CAVUM_DEEP") != nullptr ? 20 : 8; i > 0; --i) {
     const std::string session = path("killed" + std::to_string(i) + ".cavum");
     const pid_t child = fork();
     if (child == 0) {

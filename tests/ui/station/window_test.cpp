@@ -47,7 +47,7 @@ class StationWindow : public ::testing::Test {
   [[nodiscard]] pid_t start(const std::string& script, const std::string& more = "", const std::string& scenario = k_scenario) const {
     write_text_file(folder_.file("script"), script);
     const std::string command = "exec " CAVUM_BINARY " station " + scenario + " --out " + session() + " --script " + folder_.file("script") +
-                                " --pictures " CAVUM_PICTURES " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+                                " --pictures " CAVUM_PICTURES " " + size_ + " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
     return start_command(command);
   }
   static pid_t start_command(const std::string& command) {
@@ -78,6 +78,7 @@ class StationWindow : public ::testing::Test {
   }
 
   testing_basics::Folder folder_;
+  std::string size_ = "--width 800 --height 500";  ///< of the window: the processor draws it
 
  private:
   static inline std::unique_ptr<testing_station::VirtualScreen> screen_;
@@ -120,6 +121,7 @@ sleep 0.5
 key enter
 )";
   std::filesystem::remove_all(CAVUM_PICTURES);
+  size_.clear();  // as on a desk: people look at these pictures
   EXPECT_EQ(run(script), 0) << said();
   const VerifyReport verified = verify_session(session());
   EXPECT_TRUE(verified.verified) << (verified.findings.empty() ? "" : verified.findings[0]);
