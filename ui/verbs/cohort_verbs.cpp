@@ -26,7 +26,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct CohortArguments {
   cohort::SimulatedClass wanted;
   std::string folder, key, exam, marks, out;
   double borderline = 3;
@@ -34,9 +34,9 @@ struct Options {
   bool as_json = false;
 };
 
-SigningKey key_of(const Options& o) { return ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key); }
+SigningKey key_of(const CohortArguments& o) { return ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key); }
 
-void simulate(const Options& o) {
+void simulate(const CohortArguments& o) {
   ledger::Ledger ledger(o.folder, key_of(o));
   ledger::Identities identities(ledger.places().identities());
   const auto start = std::chrono::steady_clock::now();
@@ -53,7 +53,7 @@ void simulate(const Options& o) {
                 static_cast<double>(sat.bytes) * 1e-6);
 }
 
-void report(const Options& o) {
+void report(const CohortArguments& o) {
   const ledger::LedgerPlaces places{o.folder};
   const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
@@ -96,7 +96,7 @@ void report(const Options& o) {
 }  // namespace
 
 void add_cohort_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CohortArguments>();
   auto* cohort = app.add_subcommand("cohort", "A class as a whole: how hard, how reliable, how fair the exam was");
   cohort->require_subcommand(1);
   auto* v = cohort->add_subcommand("simulate", "A class of simulated students of differing skill sits an exam and is filed");

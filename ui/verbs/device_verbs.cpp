@@ -27,7 +27,7 @@
 namespace cavum::ui {
 namespace {
 
-struct Options {
+struct DeviceArguments {
   bool json = false, test = false, calibrate = false, live = false, place = false, no_push = false;
   std::string id, stylus;
   double seconds = 3.0;
@@ -62,7 +62,7 @@ nlohmann::json axis_json(const HidField& axis) {
   return {{"page", axis.page}, {"usage", axis.usage}, {"bits", axis.bits}, {"least", axis.least}, {"most", axis.most}};
 }
 
-void list(const Options& o) {
+void list(const DeviceArguments& o) {
   if (!o.id.empty()) {
     std::uint16_t vendor = 0, product = 0;
     parse_usb_id(o.id, "--pedal", vendor, product);
@@ -102,7 +102,7 @@ void list(const Options& o) {
   std::cout << styluses_text(o.live) << std::flush;
 }
 
-int test(const Options& o) {
+int test(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
   if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be tested", pedal.problem);
   if (!o.json) std::cout << "move the pedal " << pedal.id() << " for " << plain_number(o.seconds) << " s ...\n" << std::flush;
@@ -138,7 +138,7 @@ int test(const Options& o) {
   return heard.reports > 0 ? 0 : 1;
 }
 
-void calibrate(const Options& o) {
+void calibrate(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
   if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be calibrated", pedal.problem);
   const std::string path = station_pedal_path();
@@ -172,7 +172,7 @@ void calibrate(const Options& o) {
 }
 
 /// The list anew twice a second, until Ctrl-C.
-void watch(const Options& o) {
+void watch(const DeviceArguments& o) {
   const Interrupt interrupt;
   while (!Interrupt::asked()) {
     if (::isatty(STDOUT_FILENO) == 1) command_terminal("\033[H\033[2J");
@@ -185,7 +185,7 @@ void watch(const Options& o) {
 }  // namespace
 
 void add_device_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<DeviceArguments>();
   auto* devices = app.add_subcommand("devices", "What is plugged in and what is wrong with it");
   devices->add_option("--pedal", o->id, "vendor and product, for example 068e:00f2; needed when there are several");
   auto* stylus =

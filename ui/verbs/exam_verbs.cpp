@@ -36,7 +36,7 @@
 namespace cavum::ui {
 namespace {
 
-struct Options {
+struct ExamArguments {
   std::string scenario, candidate, motion, operator_name, device, point, out, out_if_full, ticket, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
@@ -80,26 +80,26 @@ std::unique_ptr<scenarios::InputSource> read_motion(const std::string& path, con
   return std::make_unique<scenarios::PlayedMotion>(std::move(motion), tray, path);
 }
 
-std::unique_ptr<scenarios::InputSource> make_source(const Options& o, const scenarios::ExamSetup& setup) {
+std::unique_ptr<scenarios::InputSource> make_source(const ExamArguments& o, const scenarios::ExamSetup& setup) {
   if (!o.motion.empty()) return read_motion(o.motion, setup.point_names);
   OmniModel omni;
   omni.delay_ticks = o.delay_ticks;
   return std::make_unique<scenarios::SimulatedCandidate>(scenarios::make_simulated_candidate(setup, o.operator_name, o.seed, omni));
 }
 
-std::string source_name(const Options& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
+std::string source_name(const ExamArguments& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
 
-MotionSource motion_source(const Options& o) {
+MotionSource motion_source(const ExamArguments& o) {
   if (!o.motion.empty()) return {"motion_file", std::filesystem::path(o.motion).filename().string()};
   return {"operator", o.operator_name};
 }
 
-SourceNotes source_notes(const Options& o) {
+SourceNotes source_notes(const ExamArguments& o) {
   if (!o.motion.empty()) return {{"motion_file", std::filesystem::path(o.motion).filename().string()}};
   return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
 }
 
-std::unique_ptr<scenarios::ExamSetup> make_setup(const Options& o, const LiveSource* live = nullptr) {
+std::unique_ptr<scenarios::ExamSetup> make_setup(const ExamArguments& o, const LiveSource* live = nullptr) {
   scenarios::ExamOptions options;
   options.candidate = o.candidate;
   options.tooth_file = o.tooth;
@@ -128,7 +128,7 @@ std::unique_ptr<scenarios::ExamSetup> make_setup(const Options& o, const LiveSou
 }
 
 /// Begins to record, and uses the ticket up.
-std::unique_ptr<scenarios::Exam> begin_exam(const Options& o, const scenarios::ExamSetup& setup, Vec3 first_tip_mm) {
+std::unique_ptr<scenarios::Exam> begin_exam(const ExamArguments& o, const scenarios::ExamSetup& setup, Vec3 first_tip_mm) {
   std::optional<ledger::HeldTicket> held;
   if (!o.ticket.empty()) held = ledger::read_ticket(o.ticket);
   return scenarios::begin_somewhere(o.out, o.out_if_full, [&](const std::string& path) {
@@ -137,7 +137,7 @@ std::unique_ptr<scenarios::Exam> begin_exam(const Options& o, const scenarios::E
 }
 
 /// Grades what was recorded, seals the session with it, prints it.
-void finish(const Options& o, scenarios::Exam& exam, const nlohmann::json& servo = {}) {
+void finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& servo = {}) {
   grading::ClosedExam closed;
   write_somewhere(exam, o.out_if_full, [&] { closed = grading::grade_and_close(exam); });
   const std::string& session = exam.recorder().path();
@@ -162,7 +162,7 @@ void finish(const Options& o, scenarios::Exam& exam, const nlohmann::json& servo
 }
 
 /// What would spoil the end of an exam is said before it begins.
-void require_places(const Options& o) {
+void require_places(const ExamArguments& o) {
   const auto file = [](const std::string& model) { return model.ends_with(".toml") ? model : std::string(); };
   require_own_places({{"--out " + o.out, o.out}, {"--report " + o.report, o.report}, {"--out-if-full " + o.out_if_full, o.out_if_full}},
                      {{"", o.scenario}, {"", o.motion}, {"", o.tooth}, {"", o.rubric}, {"", file(o.model)}, {"", o.ticket}});
@@ -178,7 +178,7 @@ nlohmann::json servo_json(const scenarios::LiveReport& report) {
 
 /// An exam with a hand on it, until it is over, the operator is done, a signal comes or the device fails. Returns 0 when it is over and sealed, 1
 /// when it was only stopped: such a session can be resumed.
-int run_live(const Options& o, const scenarios::ExamSetup& setup, LiveSource& source, std::unique_ptr<scenarios::Exam> begun) {
+int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSource& source, std::unique_ptr<scenarios::Exam> begun) {
   scenarios::LiveExam live(setup, begun ? std::move(begun) : begin_exam(o, setup, source.first_tip_mm()), source.device());
   live.exam().set_second_place(o.out_if_full);  // before its threads run
   RecordingWatch recording(o.out);
@@ -222,11 +222,11 @@ int run_live(const Options& o, const scenarios::ExamSetup& setup, LiveSource& so
   return 1;
 }
 
-std::unique_ptr<LiveSource> open_source(const Options& o) {
+std::unique_ptr<LiveSource> open_source(const ExamArguments& o) {
   return open_live_source({.device = o.device, .operator_name = o.operator_name, .seed = o.seed, .point = o.point});
 }
 
-int run_new_live(const Options& o) {
+int run_new_live(const ExamArguments& o) {
   require_places(o);
   const Interrupt interrupt;
   const auto source = open_source(o);
@@ -235,7 +235,7 @@ int run_new_live(const Options& o) {
   return run_live(o, *setup, *source, nullptr);
 }
 
-int run_new(const Options& o) {
+int run_new(const ExamArguments& o) {
   ledger::require_candidate_id("--candidate", o.candidate);
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
@@ -258,7 +258,7 @@ int run_new(const Options& o) {
 }
 
 /// What `cavum exam` runs when nothing at all is named: the simulated expert opens the shipped molar, in a session with a report, here.
-Options demonstration(Options o) {
+ExamArguments demonstration(ExamArguments o) {
   char name[64];
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -271,14 +271,14 @@ Options demonstration(Options o) {
   return o;
 }
 
-bool names_nothing(const Options& o) {
+bool names_nothing(const ExamArguments& o) {
   for (const auto& given : {o.scenario, o.candidate, o.ticket, o.motion, o.operator_name, o.device, o.out, o.tooth, o.rubric})
     if (!given.empty()) return false;
   return true;
 }
 
 /// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
-void require_same(const Options& o, const SessionSetup& held) {
+void require_same(const ExamArguments& o, const SessionSetup& held) {
   const auto differs = [&o](const std::string& option, const std::string& what) {
     throw Error(option, fmt::format("is not the {} that {} was begun with", what, o.out), "leave it out, or name another session with --out");
   };
@@ -294,7 +294,7 @@ void require_same(const Options& o, const SessionSetup& held) {
 }
 
 /// Takes up a killed exam with new motion, or closes it as it stands.
-int run_resumed(const Options& o) {
+int run_resumed(const ExamArguments& o) {
   if (o.motion.empty() && o.operator_name.empty() && o.device.empty() && !o.end)
     throw Error("cavum exam --resume", "nothing to go on with",
                 "give --motion, --operator or --device to continue, or --end to close the exam as it stands");
@@ -341,7 +341,7 @@ int run_resumed(const Options& o) {
 }  // namespace
 
 void add_exam_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ExamArguments>();
   auto* exam = app.add_subcommand("exam", "Run a timed exam, record it, grade it and seal the recording; without anything named, a demonstration");
   exam->add_option("scenario", o->scenario, "scenario file (.toml)");
   exam->add_option("--candidate", o->candidate, "candidate's pseudonym");

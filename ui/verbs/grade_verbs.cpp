@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct GradeArguments {
   std::vector<std::string> sessions;
   std::string why, out;
   MarkingOptions marking;
@@ -45,7 +45,7 @@ void write_new(const std::string& path, const Json& json) {
   write_text_file(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
 }
 
-void run_grade_one(const std::string& path, const Options& o) {
+void run_grade_one(const std::string& path, const GradeArguments& o) {
   const MarkedSession g = marked_session(path, o.marking);
   if (!o.marking.rubric.empty())
     for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
@@ -69,7 +69,7 @@ void run_grade_one(const std::string& path, const Options& o) {
 }
 
 /// Several sessions as one table; a session that cannot be graded is a row of its own. Returns how many could not.
-int run_grade_many(const std::vector<std::string>& files, const Options& o) {
+int run_grade_many(const std::vector<std::string>& files, const GradeArguments& o) {
   Json list = Json::array();
   std::string table = "  old               new               change  session\n";
   int failed = 0, compared = 0;
@@ -127,7 +127,7 @@ int run_grade_many(const std::vector<std::string>& files, const Options& o) {
   return failed;
 }
 
-int run_grade(const Options& o) {
+int run_grade(const GradeArguments& o) {
   if (o.measures) {
     std::cout << grading::measures_page();
     return 0;
@@ -148,7 +148,7 @@ int run_grade(const Options& o) {
 }  // namespace
 
 void add_grade_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<GradeArguments>();
   auto* grades = app.add_subcommand("grade", "Mark recorded exams, by their own rubric or another, or by a corrected scenario");
   auto* sessions = grades->add_option("session", o->sessions, "session files (.cavum), or folders of them")->required();
   grades->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");

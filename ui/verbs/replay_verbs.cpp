@@ -26,7 +26,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct ReplayArguments {
   std::string path, junit;
   std::optional<std::string> station_key;
   bool verify = false, as_json = false;
@@ -136,7 +136,7 @@ void print(const Outcome& o) {
   for (const auto& f : r.findings) std::printf("  - %s\n", one_line(f).c_str());
 }
 
-int run(const Options& options) {
+int run(const ReplayArguments& options) {
   const std::string station_key = options.station_key ? parse_public_key(*options.station_key, "--station-key") : "";
   const bool folder = std::filesystem::is_directory(options.path);
   const std::vector<std::string> sessions = folder ? sessions_in(options.path) : std::vector{options.path};
@@ -159,7 +159,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_replay_verbs(CLI::App& app, int& exit_code) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayArguments>();
   CLI::App* verb = app.add_subcommand("replay", "Simulate a recorded session again and compare every tick");
   verb->add_option("session", options->path, "a .cavum file, or a folder searched for them")->required();
   verb->add_flag("--verify", options->verify, "check chain, signature, every tick, every removed leaf and the final tooth")->required();

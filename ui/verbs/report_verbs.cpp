@@ -22,7 +22,7 @@
 namespace cavum::ui {
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::string session, out, reader = "instructor", ledger;
   MarkingOptions marking;
   bool overwrite = false, with_name = false, no_replay = false, pdf = false;
@@ -32,7 +32,7 @@ struct Options {
 };
 
 /// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
-report::ReportIntegrity integrity_of(const std::string& path, const Options& o, const ledger::FiledSession* filed) {
+report::ReportIntegrity integrity_of(const std::string& path, const ReportArguments& o, const ledger::FiledSession* filed) {
   const bool replayed_then = filed != nullptr && filed->findings.empty();
   report::ReportIntegrity i = report::read_integrity(path, !o.no_replay && !replayed_then);
   if (replayed_then && i.findings.empty()) {
@@ -60,7 +60,7 @@ Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSessio
 }
 
 /// Writes the report of one session; `filed` and `ledger` are null without a ledger.
-void write_report(const std::string& session, const std::string& out, const Options& o, const report::ReportLedger* ledger,
+void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
                   const ledger::FiledSession* filed) {
   const ledger::Regrade* regrade = filed != nullptr && !o.marking.anew() ? report::regrade_for(*filed, o.for_whom()) : nullptr;
   const MarkedSession m = regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade)) : marked_session(session, o.marking);
@@ -83,7 +83,7 @@ void write_report(const std::string& session, const std::string& out, const Opti
             << ")\n";
 }
 
-void run_report(const Options& o) {
+void run_report(const ReportArguments& o) {
   const bool picture = o.out.ends_with(".svg");
   if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
     throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
@@ -98,13 +98,13 @@ void run_report(const Options& o) {
 }
 
 /// A student's report for each released session.
-int run_all(const Options& o) {
+int run_all(const ReportArguments& o) {
   const report::ReportLedger ledger(o.ledger);
   std::error_code failed_to_make;
   std::filesystem::create_directories(o.out, failed_to_make);
   if (failed_to_make)
     throw Error("--out " + o.out, fmt::format("cannot be made ({})", failed_to_make.message()), "name a folder that you may write to");
-  Options each = o;
+  ReportArguments each = o;
   each.reader = "student";
   int written = 0, failed = 0;
   for (const auto& s : ledger.registry.sessions) {
@@ -126,7 +126,7 @@ int run_all(const Options& o) {
 }  // namespace
 
 void add_report_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ReportArguments>();
   auto* one = app.add_subcommand("report", "Write the report of a recorded exam, or its sections as a picture");
   one->add_option("session", o->session, "session file (.cavum)")->required();
   one->add_option("--out", o->out, "file to write: .html or .pdf for the report, .svg for three sections alone")->required();
@@ -145,7 +145,7 @@ void add_report_verbs(CLI::App& app, int& exit_code) {
     exit_code = 0;
   });
 
-  const auto a = std::make_shared<Options>();
+  const auto a = std::make_shared<ReportArguments>();
   auto* all = app.get_subcommand("ledger")->add_subcommand("report", "A student's report for each released result, named by pseudonym and entry");
   all->add_option("folder", a->ledger, "the ledger's folder")->required();
   all->add_option("--out", a->out, "folder for the reports")->required();

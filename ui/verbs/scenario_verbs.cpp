@@ -30,13 +30,13 @@
 namespace cavum::ui {
 namespace {
 
-struct Options {
+struct ScenarioArguments {
   std::string scenario, tooth, tooth_kind = "molar", task, out, model = "consistent";
   std::uint64_t seed = 1;
   bool json = false, force = false, careless = false;
 };
 
-int check(const Options& o) {
+int check(const ScenarioArguments& o) {
   const scenarios::CheckedScenario checked = scenarios::check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
@@ -86,7 +86,7 @@ std::array<grading::BoundedVolume, scenarios::k_zones> zone_volumes(const Tooth&
   return volumes;
 }
 
-int show(const Options& o) {
+int show(const ScenarioArguments& o) {
   if (!o.out.ends_with(".svg")) throw Error(o.out, "the zones are drawn as SVG only", "use a name ending in .svg");
   require_writable(o.out);
   const scenarios::Scenario s = scenarios::load_scenario(o.scenario);
@@ -176,7 +176,7 @@ std::string advice_for_expert(const grading::Result& r) {
 }
 
 /// The built-in expert takes the exam.
-Solved solve_exam(const Options& o, const scenarios::ExamSetup& setup, const std::string& session) {
+Solved solve_exam(const ScenarioArguments& o, const scenarios::ExamSetup& setup, const std::string& session) {
   Solved solved;
   std::unique_ptr<scenarios::SimulatedCandidate> expert;
   try {
@@ -228,7 +228,7 @@ std::string advice_for(const Caught& c) {
       named.id, fixed(named.points, 1), fixed(named.max, 1), value);
 }
 
-Caught catch_careless(const Options& o, const scenarios::ExamSetup& setup, const std::string& session) {
+Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& setup, const std::string& session) {
   scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
   Caught c{taken(setup, candidate, session), {}, false, {}};
   for (const auto& one : c.result.criteria)
@@ -256,7 +256,7 @@ std::string to_text(const Caught& c) {
   return s;
 }
 
-int solve(const Options& o) {
+int solve(const ScenarioArguments& o) {
   if (!o.out.empty()) require_writable(o.out);
   scenarios::ExamOptions options;
   options.candidate = "built-in expert";
@@ -320,7 +320,7 @@ std::string first_task(const std::string& tooth) {
   return first;
 }
 
-int make_new(const Options& o) {
+int make_new(const ScenarioArguments& o) {
   require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
   write_text_file(o.out, scenarios::scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task), {.may_replace = o.force});
@@ -331,7 +331,7 @@ int make_new(const Options& o) {
 }  // namespace
 
 void add_scenario_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ScenarioArguments>();
   auto* verb = app.add_subcommand("scenario", "Write and check exam scenarios");
   verb->require_subcommand(1);
 

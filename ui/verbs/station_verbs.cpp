@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t k_longest_code = 47;
 
-struct Options {
+struct StationArguments {
   station::StationOptions station;
   std::string author;
   EnrolOptions enrol;
@@ -82,7 +82,7 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
   static_cast<void>(scenarios::prepare_exam(o.sitting.scenario, trial));
 }
 
-int run(const Options& o) {
+int run(const StationArguments& o) {
   if (!o.enrol.code.empty() || o.enrol.replace_key) {
     EnrolOptions enrol = o.enrol;
     enrol.out = o.station.sitting.out;
@@ -154,7 +154,7 @@ void add_enrolment(CLI::App* station, EnrolOptions& enrol) {
 }  // namespace
 
 void add_station_verbs(CLI::App& app, int& exit_code) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<StationArguments>();
   station::StationOptions& s = o->station;
   s.sitting.out = ".";
   auto* station = app.add_subcommand("station", "The exam window: sign-in, check of the devices, briefing, exam, result");
