@@ -46,8 +46,8 @@ class Library : public ::testing::TestWithParam<std::string> {
     return scenarios::prepare_exam(file(), options);
   }
   /// Recorded and read back, with zones and tooth of the setup.
-  [[nodiscard]] grading::Result taken_by(const std::string& who, const scenarios::ExamSetup& setup, std::uint64_t further = 0) const {
-    const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000 + further;
+  [[nodiscard]] grading::Result taken_by(const std::string& who, const scenarios::ExamSetup& setup) const {
+    const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000;
     scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, who, seed, OmniModel{});
     const std::string session = folder_.file(who + "-" + std::to_string(seed) + ".cavum");
     const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
@@ -82,15 +82,12 @@ TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
 
 TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   const auto setup = prepared();
-  grading::Result expert = taken_by("expert", *setup);
-  // In one of a hundred sessions the force alone looks like a perforation, and a person decides (docs/grading.md): then by another draw, twice at
-  // most.
-  for (std::uint64_t more = 1; more <= 2 && expert.verdict == grading::Verdict::review; ++more) {
-    if (text_of(expert).find("the force shows a faulty breakthrough, the tissue does not") == std::string::npos) break;
-    std::cout << "false alarm of the force: once more\n";
-    expert = taken_by("expert", *setup, 100000 * more);
-  }
-  EXPECT_EQ(expert.verdict, grading::Verdict::pass) << text_of(expert);
+  const grading::Result expert = taken_by("expert", *setup);
+  // In one of a hundred sessions the force alone looks like a perforation, and a person decides (docs/grading.md). How often is measured with the
+  // detector; here it may be the only doubt.
+  const bool force_alone = expert.verdict == grading::Verdict::review &&
+                           text_of(expert).find("the force shows a faulty breakthrough, the tissue does not") != std::string::npos;
+  EXPECT_TRUE(expert.verdict == grading::Verdict::pass || force_alone) << text_of(expert);
   EXPECT_GE(expert.points, 90) << text_of(expert);
   for (const auto& c : expert.criteria) EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << c.reason;
   EXPECT_EQ(expert.progress.finish, "completed") << text_of(expert);
