@@ -121,6 +121,7 @@ bool FalconStylus::wait(double seconds) {
 
 void FalconStylus::run() {
   constexpr double k_look_again_s = 0.2;
+  const UsbWatch watch;
   do {
     try {
       FalconUsb usb;

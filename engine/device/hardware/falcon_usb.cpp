@@ -74,6 +74,14 @@ std::string falcon_problem(bool& there) {
   return {};
 }
 
+UsbWatch::UsbWatch() noexcept {
+  if (libusb_init(&context_) != 0) context_ = nullptr;
+}
+
+UsbWatch::~UsbWatch() {
+  if (context_ != nullptr) libusb_exit(context_);
+}
+
 FalconUsb::FalconUsb() {
   Context context;
   bool there = false;

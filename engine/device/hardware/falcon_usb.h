@@ -19,6 +19,19 @@ inline constexpr std::uint16_t k_falcon_vendor = 0x0403, k_falcon_product = 0xcb
 /// Empty when a Falcon is plugged in and may be opened; otherwise what is wrong, and what to do. `there`: whether one is plugged in.
 [[nodiscard]] std::string falcon_problem(bool& there);
 
+/// libusb watches what is plugged in as long as anybody uses it. Held between one search and the next, it need not begin anew each time, and misses
+/// nothing in between.
+class UsbWatch {
+ public:
+  UsbWatch() noexcept;  ///< where libusb does not start, the search says so
+  ~UsbWatch();
+  UsbWatch(const UsbWatch&) = delete;
+  UsbWatch& operator=(const UsbWatch&) = delete;
+
+ private:
+  libusb_context* context_ = nullptr;
+};
+
 class FalconUsb {
  public:
   /// Opens the first Falcon. Throws Error when there is none, or it may not be opened (with the udev rule).
