@@ -22,7 +22,7 @@ struct Step {
 struct CauseSearch {
   const Recording& recording;
   const ExplainOptions& options;
-  std::function<void()> done;  ///< called after each twin, from any thread
+  std::function<void()> done;  ///< called after each look
   Motion motion;
   std::vector<Term> causes;
   std::vector<double> p_values;  ///< of causes

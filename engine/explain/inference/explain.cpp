@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <string_view>
 
 #include "engine/base/text.h"
 #include "engine/explain/inference/causes.h"
@@ -95,13 +95,29 @@ void conclude(Explanation& e, bool one_way) {
 
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
 void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
-  constexpr double k_known = 0.1;  // relative; rigs are calibrated to a few percent
+  constexpr double k_told = 0.1, k_known = 0.2;  // relative: said, and more than a rig is off by that was calibrated
+  if (e.verdict == "data_fault") return;
+  if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
+    e.verdict = "unexplained";
+    e.unexplained = Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+    return;
+  }
   if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
   const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
-  const bool off = std::fabs(c - 1.0) > k_known && (e.c.low > (1.0 + k_known) * *rig.c_n_s_per_mm || e.c.high < (1.0 - k_known) * *rig.c_n_s_per_mm);
+  const auto off = [&](double ratio, const Interval& i, double given) {
+    return std::fabs(ratio - 1.0) > k_known && (i.low > (1.0 + k_known) * given || i.high < (1.0 - k_known) * given);
+  };
+  const bool k_off = off(k, e.k, *rig.k_n_per_mm), c_off = off(c, e.c, *rig.c_n_s_per_mm);
   const std::string text = fmt::format("fitted k is {:.3g} times, c is {:.3g} times that of rig.toml", k, c);
-  if (std::fabs(k - 1.0) > k_known || off) e.notes.push_back(text);
-  if (e.verdict != "clean" || !off || std::fabs(k - 1.0) > 0.5 * k_known) return;
+  if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.push_back(text);
+  if (e.verdict != "clean") return;
+  if (k_off) {
+    e.verdict = "unexplained";
+    e.unexplained = Unexplained{"x_mm", "k differs from that of rig.toml", std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+    e.next_experiment = "press a spring of known stiffness, and hang known weights on the load cell";
+    return;
+  }
+  if (!c_off || std::fabs(k - 1.0) > 0.5 * k_told) return;
   if (speed_known || c <= 0.0) {  // no clock does that
     e.verdict = "unexplained";
     e.unexplained = Unexplained{"v_mm_s", "c differs from that of rig.toml",
@@ -123,7 +139,7 @@ Explanation opened(const Recording& given, const ExplainOptions& options) {
   e.data_faults = data_faults(given);
   e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
   e.notes = e.recording->notes;
-  if (options.twins == 0) e.notes.emplace_back("without twins: judged as if independent noise were all that could mislead; causes may be false");
+  if (options.surrogates == 0) e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
@@ -146,7 +162,7 @@ bool make_offsets(CauseSearch& search) {
 void alias_short_lags(std::vector<Cause>& causes, const CauseSearch& search) {
   for (auto& cause : causes) {
     const char* other = mechanism_of(cause.term).like_when_short;
-    if (is_too_short_to_tell(cause.term, search.motion, search.recording.v_mm_s.size() > 0) &&
+    if (is_too_short_to_tell(cause.term, search.motion, search.motion.speed_sd_mm_s > 0.0) &&
         std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
       cause.aliases.emplace_back(other);
   }
@@ -173,17 +189,88 @@ void alias_offsets(std::vector<Cause>& causes) {
   }
 }
 
+/// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was looked at.
+bool is_signed(const Cause& c) {
+  const Mechanism& m = mechanism_of(c.term);
+  for (const auto& [name, i] : c.parameters)
+    if (!std::isfinite(i.low) || !std::isfinite(i.high)) return false;
+  for (std::size_t i = 0; i < m.shape.size(); ++i) {
+    const ShapeRange& range = m.shape[i];
+    if (!range.fitted || c.term.shape[i] == 0.0 || std::string_view(range.name) == "v0_mm_s") continue;  // a sign has no width
+    const double edge = 1e-3 * (range.logarithmic ? c.term.shape[i] : range.high - range.low);
+    if (c.term.shape[i] < range.low + edge || c.term.shape[i] > range.high - edge) return false;
+  }
+  // several of one kind (offsets of sessions, two channels): one that is there is enough
+  return std::any_of(c.parameters.begin(), c.parameters.end(), [&](const auto& p) {
+    const bool counts = &p == &c.parameters.front() || m.from_residual || std::string_view(m.name) == "cross_talk";
+    const double nothing = p.first == "m" || p.first == "n" ? 1.0 : 0.0;
+    return counts && (p.second.low > nothing || p.second.high < nothing);
+  });
+}
+
+/// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back: the strongest doubt first. True: some were.
+bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first) {
+  bool changed = false;
+  while (!causes.empty()) {
+    Explanation now;
+    now.causes = causes;
+    set_parameters(now, search.step.view, search.step.null, search.step.judgement.inflation);
+    const auto gains = gain_of_each(first.view, search.causes, search.step.view.spread);
+    std::size_t worst = causes.size();
+    for (std::size_t i = 0; i < causes.size(); ++i) {
+      now.causes[i].gain_percent = gains[i];
+      if (is_signed(now.causes[i]) && gains[i].low > 0.0) continue;
+      if (worst == causes.size() || gains[i].value < gains[worst].value) worst = i;
+    }
+    causes = now.causes;
+    if (getenv("TRACE")) for (std::size_t i = 0; i < causes.size(); ++i) { fprintf(stderr, "gate %s gain %.2f (%.2f) signed %d", mechanism_of(causes[i].term).name, gains[i].value, gains[i].low, (int)is_signed(now.causes[i])); for (auto& [n, v] : causes[i].parameters) fprintf(stderr, " %s %.4g [%.4g %.4g]", n.c_str(), v.value, v.low, v.high); fprintf(stderr, "\n"); }  // TRACE
+    if (worst == causes.size()) break;
+    causes.erase(causes.begin() + static_cast<std::ptrdiff_t>(worst));
+    search.causes.erase(search.causes.begin() + static_cast<std::ptrdiff_t>(worst));
+    search.p_values.erase(search.p_values.begin() + static_cast<std::ptrdiff_t>(worst));
+    changed = true;
+    look_again(search);
+    for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
+  }
+  return changed;
+}
+
 /// Parameters, gain, noise and what is left. `first`: the look without causes.
-void put_figures(Explanation& e, const Step& first, const Step& last) {
+void put_figures(Explanation& e, const ExplainOptions& options, const Step& first, const Step& last) {
   set_parameters(e, last.view, last.null, last.judgement.inflation);
   list_not_testable(e, first.scores.candidates, first.view.scene);
   e.base = {last.view.base_fit.value[0], last.view.base_fit.value[1]};
   e.noise = last.view.noise;
-  e.gain = heldout_gain(first.view, first.scores, first.null, e.causes.size(), e.noise.sd_n);
+  e.spread = last.view.spread;
+  e.gain = heldout_gain(first.view, first.null, options, last.view.spread, e.noise.sd_n);
   e.structures = last.scores.structures;
   e.candidates = first.scores.candidates;
   e.before = first.view;
   e.after = last.view;
+}
+
+/// What the first look saw, and the sessions left out did not confirm.
+std::optional<Unexplained> doubtful(const Step& first) {
+  const Structure* best = nullptr;
+  for (const auto& s : first.scores.structures)
+    if (best == nullptr || s.gain > best->gain) best = &s;
+  if (best == nullptr) return std::nullopt;
+  return Unexplained{best->variable, best->form + ", which does not hold from session to session", best->effect_n};
+}
+
+/// What sessions differ in, and whether the recorded speed was used, as notes.
+void say_what_differs(Explanation& e, const Motion& motion) {
+  if (!motion.speed_note.empty()) e.notes.push_back(motion.speed_note);
+  if (motion.noise_mm > 0.0) e.notes.push_back(fmt::format("the positions are noisy: {:.2g} um from row to row", 1e3 * motion.noise_mm));
+  const SessionSpread& s = e.spread;
+  std::vector<std::string> differ;
+  if (s[k_force_zero] > 0.5 * e.noise.sd_n) differ.push_back(fmt::format("the zero of the force by {:.2g} N", s[k_force_zero]));
+  if (s[k_surface_place] > 0.003) differ.push_back(fmt::format("the place of the surface by {:.2g} mm", s[k_surface_place]));
+  if (s[k_stiffness] > 0.01) differ.push_back(fmt::format("stiffness by {:.2g} %", 100.0 * s[k_stiffness]));
+  if (s[k_lateness] > 5e-4) differ.push_back(fmt::format("lateness of the force, or c, by {:.2g} ms", 1e3 * s[k_lateness]));
+  std::string list;
+  for (const auto& d : differ) list += (list.empty() ? "" : ", ") + d;
+  if (!list.empty()) e.notes.push_back(fmt::format("sessions differ (standard deviation): {}", list));
 }
 
 /// What is named, alone or as what fits as well, was testable in the end: the first look had not taken the other causes out yet.
@@ -210,12 +297,10 @@ void drop_lesser_causes(Explanation& e, const Step& last) {
 Explanation explain(const Recording& given, const ExplainOptions& options) {
   Explanation e = opened(given, options);
   if (!e.data_faults.empty()) return e;
-  // three looks are the most that is usual; the bar never runs backwards
-  const double expected = static_cast<double>(options.twins) * 2.0;
-  std::atomic<int> finished{0};
+  int finished = 0;
   const auto done = [&] {
     const int n = ++finished;
-    if (options.progress) options.progress(0.9 * (1.0 - std::exp(-2.0 * n / expected)));
+    if (options.progress) options.progress(0.9 * (1.0 - std::exp(-0.7 * n)));  // two looks are usual; the bar never runs backwards
   };
 
   CauseSearch search = begin_search(*e.recording, options, done);
@@ -226,10 +311,15 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   if (one_way) changed = make_offsets(search) || changed;
   if (changed) look_again(search);
   for (std::size_t i = 0; i < search.causes.size(); ++i) e.causes[i].term = search.causes[i];
+  const bool named = !e.causes.empty();
+  take_back(search, e.causes, first);
   alias_short_lags(e.causes, search);
   drop_named_aliases(e.causes);
   if (one_way) alias_offsets(e.causes);
-  put_figures(e, first, search.step);
+  put_figures(e, options, first, search.step);
+  if (!e.causes.empty() && e.gain.percent.low <= 0.0) e.causes.clear();
+  if (named && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
+  say_what_differs(e, search.motion);
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
   conclude(e, one_way);

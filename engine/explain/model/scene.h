@@ -28,7 +28,8 @@ struct Scene {
   Series spinning;               ///< 1 where spindle_rpm > 0; all 0 without that column
   Series weight;                 ///< 0..1: less where the position leaves the base force uncertain, and near contact transitions
   Series left_n;                 ///< force that base and causes leave; empty outside of a view with products
-  std::vector<double> lines_hz;  ///< lines found in the residual, candidates of chatter (lines.h)
+  std::vector<double> lines_hz;  ///< lines found in the residual in contact, candidates of chatter (lines.h)
+  std::vector<double> lines_in_air_hz;  ///< and anywhere, candidates of interference
 };
 
 /// Of relative_k or relative_c in a row; 1 where all is one tissue.

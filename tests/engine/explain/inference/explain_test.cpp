@@ -158,7 +158,7 @@ TEST(Explain, AnIntervalHoldsTheTruthOfAStiffnessThatGrows) {
 
 TEST(Explain, WithoutTwinsAPlainRuleAnswersAndSaysSo) {
   ExplainOptions plain;
-  plain.twins = 0;
+  plain.surrogates = 0;
   const Explanation e = explain(made::recording({}, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); }), plain);
   EXPECT_EQ(first_cause(e), "coulomb_friction") << to_text(e);
   ASSERT_FALSE(e.notes.empty());
