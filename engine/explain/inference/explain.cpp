@@ -12,6 +12,7 @@
 #include "engine/explain/inference/intervals.h"
 #include "engine/explain/recording/faults.h"
 #include "engine/explain/recording/specimens.h"
+#include "engine/explain/recording/stamps.h"
 
 namespace cavum::explain {
 namespace {
@@ -96,7 +97,7 @@ void conclude(Explanation& e, bool one_way) {
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
 void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   constexpr double k_told = 0.1, k_known = 0.2;  // relative: said, and more than a rig is off by that was calibrated
-  if (e.verdict == "data_fault") return;
+  if (e.verdict == "data_fault" || e.after->scene.touching.maxCoeff() < 0.5) return;
   if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
     e.verdict = "unexplained";
     e.unexplained = Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
@@ -137,7 +138,9 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
 Explanation opened(const Recording& given, const ExplainOptions& options) {
   Explanation e;
   e.data_faults = data_faults(given);
-  e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
+  const std::optional<Recording> even = e.data_faults.empty() && !given.exact_motion ? with_even_stamps(given) : std::nullopt;
+  const Recording& stamped = even ? *even : given;
+  e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
   e.notes = e.recording->notes;
   if (options.surrogates == 0) e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
@@ -159,8 +162,11 @@ bool make_offsets(CauseSearch& search) {
   return changed;
 }
 
-void alias_short_lags(std::vector<Cause>& causes, const CauseSearch& search) {
+void alias_by_shape(std::vector<Cause>& causes, const CauseSearch& search) {
   for (auto& cause : causes) {
+    if (const auto& same = mechanism_of(cause.term).same_as; same)
+      if (const char* name = same(cause.term.shape); name != nullptr && std::find(cause.aliases.begin(), cause.aliases.end(), name) == cause.aliases.end())
+        cause.aliases.emplace_back(name);
     const char* other = mechanism_of(cause.term).like_when_short;
     if (is_too_short_to_tell(cause.term, search.motion, search.motion.speed_sd_mm_s > 0.0) &&
         std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
@@ -189,6 +195,9 @@ void alias_offsets(std::vector<Cause>& causes) {
   }
 }
 
+constexpr double k_zero_differs = 0.5;        // of the noise
+constexpr double k_least_gain_percent = 0.2;  // of the error on sessions left out: less is of no use to anybody
+
 /// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was looked at.
 bool is_signed(const Cause& c) {
   const Mechanism& m = mechanism_of(c.term);
@@ -197,7 +206,7 @@ bool is_signed(const Cause& c) {
   for (std::size_t i = 0; i < m.shape.size(); ++i) {
     const ShapeRange& range = m.shape[i];
     if (!range.fitted || c.term.shape[i] == 0.0 || std::string_view(range.name) == "v0_mm_s") continue;  // a sign has no width
-    const double edge = 1e-3 * (range.logarithmic ? c.term.shape[i] : range.high - range.low);
+    const double edge = range.logarithmic ? 1e-3 * c.term.shape[i] : 1e-6 * (range.high - range.low);
     if (c.term.shape[i] < range.low + edge || c.term.shape[i] > range.high - edge) return false;
   }
   // several of one kind (offsets of sessions, two channels): one that is there is enough
@@ -219,7 +228,7 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
     std::size_t worst = causes.size();
     for (std::size_t i = 0; i < causes.size(); ++i) {
       now.causes[i].gain_percent = gains[i];
-      if (is_signed(now.causes[i]) && gains[i].low > 0.0) continue;
+      if (is_signed(now.causes[i]) && gains[i].low > k_least_gain_percent) continue;
       if (worst == causes.size() || gains[i].value < gains[worst].value) worst = i;
     }
     causes = now.causes;
@@ -260,6 +269,7 @@ std::optional<Unexplained> doubtful(const Step& first) {
 
 /// What sessions differ in, and whether the recorded speed was used, as notes.
 void say_what_differs(Explanation& e, const Motion& motion) {
+  if ((motion.x_mm <= 0.0).all()) e.notes.emplace_back("the tool never touches: only what acts in air can be found");
   if (!motion.speed_note.empty()) e.notes.push_back(motion.speed_note);
   if (motion.noise_mm > 0.0) e.notes.push_back(fmt::format("the positions are noisy: {:.2g} um from row to row", 1e3 * motion.noise_mm));
   const SessionSpread& s = e.spread;
@@ -313,13 +323,15 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   for (std::size_t i = 0; i < search.causes.size(); ++i) e.causes[i].term = search.causes[i];
   const bool named = !e.causes.empty();
   take_back(search, e.causes, first);
-  alias_short_lags(e.causes, search);
+  alias_by_shape(e.causes, search);
   drop_named_aliases(e.causes);
   if (one_way) alias_offsets(e.causes);
   put_figures(e, options, first, search.step);
   if (!e.causes.empty() && e.gain.percent.low <= 0.0) e.causes.clear();
   if (named && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
   say_what_differs(e, search.motion);
+  if (e.causes.empty() && !e.unexplained && e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
+    e.unexplained = Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
   conclude(e, one_way);

@@ -33,7 +33,7 @@ double power_at(const Recording& r, const Series& z, double hz) {
 
 }  // namespace
 
-std::vector<double> strongest_lines_hz(const Scene& scene, const Series& whitened, int count) {
+std::vector<double> strongest_lines_hz(const Scene& scene, const Series& whitened, int count, const std::vector<double>& known_hz) {
   const Recording& r = *scene.recording;
   const Series& z = whitened;
   Eigen::Index longest = 0;
@@ -52,7 +52,7 @@ std::vector<double> strongest_lines_hz(const Scene& scene, const Series& whitene
     for (std::size_t i = 0; i < n / 2; ++i) power[i] += std::norm(spectrum[i]);
   }
   const double bin_hz = 1.0 / (static_cast<double>(n) * dt);
-  std::set<double> own;  // rates of the spindle as the sampling shows them
+  std::set<double> own(known_hz.begin(), known_hz.end());  // and rates of the spindle as the sampling shows them
   if (const Series* rpm = r.column("spindle_rpm")) {
     std::set<double> rates;
     for (Eigen::Index i = 0; i < rpm->size() && rates.size() < 64; i += 50)

@@ -8,7 +8,8 @@ namespace cavum::explain {
 
 /// Frequencies, Hz, of the strongest lines of `whitened` (weighted residual, white when nothing is left) times the contact,
 /// above 1 Hz, strongest first; the spindle's own aliased rates are left out. At most `count`.
-[[nodiscard]] std::vector<double> strongest_lines_hz(const Scene& scene, const Series& whitened, int count);
+/// Those near `known_hz` are left out as well.
+[[nodiscard]] std::vector<double> strongest_lines_hz(const Scene& scene, const Series& whitened, int count, const std::vector<double>& known_hz);
 /// Highest frequency that is looked at, as a share of the sampling rate: near half of it nothing can be told.
 inline constexpr double k_highest_line = 0.45;
 

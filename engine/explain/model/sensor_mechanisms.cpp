@@ -205,8 +205,8 @@ Mechanism position_late() {
 Grid ringing_grid(const Scene& s) {
   const double fastest = 0.4 / std::max(1e-6, s.dt_s.mean());
   Grid g;
-  for (const double hz : {6.0, 9.0, 13.0, 18.0, 25.0, 35.0, 50.0})
-    for (const double damping : {0.03, 0.15})
+  for (const double hz : {7.0, 9.0, 11.5, 14.5, 18.0, 23.0, 29.0, 36.0, 45.0})
+    for (const double damping : {0.03, 0.12})
       if (hz < fastest) g.push_back({hz, damping});
   return g;
 }
@@ -214,21 +214,19 @@ Grid ringing_grid(const Scene& s) {
 Mechanism ringing() {
   return {
       .name = "ringing",
-      .equation = "y - F_sim + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too",
+      .equation = "s (y - F_sim) + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too",
       .words = "a load cell or holder that swings at its own frequency after each jerk",
       .separate = "tap the holder in air, and press in ramps that end suddenly: the same frequency rings down after each",
       .shape = {{"frequency_hz", 1.0, 1e4, true, true}, {"damping_ratio", 0.003, 0.7, true, true}},
       .grid = ringing_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
-            return Columns{{resonance(s, s.motion.a_mm_s2, p[0], p[1])}, resonance(s, s.spring_mm, p[0], p[1]) - s.spring_mm,
-                           resonance(s, s.damper_mm_s, p[0], p[1]) - s.damper_mm_s};
+            return Columns{{resonance(s, s.force_n, p[0], p[1]) - s.force_n, resonance(s, s.motion.a_mm_s2, p[0], p[1])}, {}, {}};
           },
       .parameters =
           [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"frequency_hz", p[0]}, {"damping_ratio", p[1]}, {"mass_kg", own[0] * 1000.0}};
+            return std::vector<NamedValue>{{"share", own[0]}, {"frequency_hz", p[0]}, {"damping_ratio", p[1]}, {"mass_kg", own[1] * 1000.0}};
           },
-      .variant_of = "delay",
   };
 }
 

@@ -332,8 +332,11 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   v.scene.left_n = v.residual_n + v.session_n;
   Series z = v.residual_n;
   whitening_of(v).apply(z);
-  v.scene.lines_hz = strongest_lines_hz(v.scene, z * v.scene.active, 2);
-  v.scene.lines_in_air_hz = strongest_lines_hz(v.scene, z, 2);
+  std::vector<double> known_hz;
+  for (const auto& term : causes)
+    if (const Mechanism& m = mechanism_at(term.mechanism); m.by_session && m.from_residual) known_hz.push_back(term.shape[0]);
+  v.scene.lines_hz = strongest_lines_hz(v.scene, z * v.scene.active, 2, known_hz);
+  v.scene.lines_in_air_hz = strongest_lines_hz(v.scene, z, 2, known_hz);
   WhiteColumns columns(v);
   add_known(v, columns, base);
   for (std::size_t m = 0; m < mechanisms().size(); ++m)

@@ -65,24 +65,20 @@ void units(const Recording& r, std::vector<std::string>& faults) {
   double xf = 0.0, xx = 0.0, ff = 0.0;
   for (Eigen::Index i = 0; i < r.rows(); ++i)
     if (r.x_mm[i] > 0.0) xf += r.x_mm[i] * r.f_n[i], xx += r.x_mm[i] * r.x_mm[i], ff += r.f_n[i] * r.f_n[i];
-  if (!(xx > 0.0)) {
-    faults.push_back("x_mm is never positive, so the tool never touches; check the sign and the zero of the position");
-    return;
-  }
-  if (xf < -k_against * std::sqrt(xx * ff)) {
+  if (xx > 0.0 && xf < -k_against * std::sqrt(xx * ff)) {
     faults.push_back(
         fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, multiply f_n by -1",
                     plain_number(xf / xx)));
     return;
   }
-  if (r.rig.k_n_per_mm) {
+  if (r.rig.k_n_per_mm && xx > 0.0) {
     const double ratio = xf / xx / *r.rig.k_n_per_mm;
     if (ratio > 50.0 || (ratio > 0.0 && ratio < 0.02))
       faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; is x in metres or micrometres, or f in grams?",
                                    plain_number(ratio)));
   }
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff();
-  if (range < 0.02 && pressed > 0.1)
+  if (range < 0.02 && pressed > 0.1 && xx > 0.0)
     faults.push_back(
         fmt::format("units: all motion is within {} mm and yet {} N are reached; is x_mm in metres?", plain_number(range), plain_number(pressed)));
   if (range > 1000.0) faults.push_back(fmt::format("units: x_mm spans {} mm; is it in micrometres?", plain_number(range)));
