@@ -5,8 +5,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
-constexpr double k_worth_saying = 0.1;     // of the noise: a dependence below it is the motion's own error as likely as not
+constexpr double k_alias_chi2 = 10.0;   // a rival this close fits as well
+constexpr double k_worth_saying = 0.1;  // of the noise: a dependence below it is the motion's own error as likely as not
 constexpr double k_worth_refining = 0.4;
 constexpr std::size_t k_refined = 5;
 
@@ -23,16 +23,6 @@ Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, c
   s.null = null_of(s.view, o.surrogates, o.seed * 1000003ULL + causes.size());
   s.judgement = judge(s.view, s.null);
   s.view.white.reset();
-  if (getenv("TRACE")) {  // TRACE
-    const Entries en = entries_of(s.view);
-    const auto g = score_gains(s.view, s.view.products.spreads, observed_data(s.view.products.spreads)).col(0).eval();
-    std::vector<std::size_t> order;
-    for (std::size_t e = 0; e < en.count(); ++e) order.push_back(e);
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return s.judgement.z[a] > s.judgement.z[b]; });
-    fprintf(stderr, "look with %zu causes: k %.4f c %.4f noise sd %.4f step %.4f order %zu spread %.4g %.4g %.4g %.4g largest z %.1f..%.1f weight %.3f\n", causes.size(), s.view.base_fit.value[0], s.view.base_fit.value[1], s.view.noise.sd_n, s.view.noise.step_sd_n, s.view.noise.ar.size(), s.view.spread[0], s.view.spread[1], s.view.spread[2], s.view.spread[3], s.null.largest_z.empty() ? 0 : s.null.largest_z[s.null.largest_z.size() / 2], s.null.largest_z.empty() ? 0 : s.null.largest_z.back(), s.view.scene.weight.mean());
-    for (auto& t : causes) { fprintf(stderr, "  has %s", mechanism_at(t.mechanism).name); for (double x : t.shape) fprintf(stderr, " %.4g", x); fprintf(stderr, "\n"); }
-    for (std::size_t i = 0; i < 9; ++i) { const std::size_t e = order[i]; fprintf(stderr, "  %-20s gain %9.1f null %8.1f+-%7.1f z %7.1f p %.4f fit gain %.1f testable %d\n", e < mechanisms().size() ? mechanism_at((int)e).name : en.variables[e - mechanisms().size()].c_str(), g[(long)e], s.null.mean.size() ? s.null.mean[(long)e] : 0, s.null.mean.size() ? s.null.scatter[(long)e] : 0, s.judgement.z[e], s.judgement.p_value[e], e < mechanisms().size() ? s.scores.candidates[e].gain : 0, e < mechanisms().size() ? (int)s.scores.candidates[e].testable : 1); }
-  }
   return s;
 }
 
@@ -113,7 +103,8 @@ const Structure* improbable_structure(const Step& step) {
   const Entries entries = entries_of(step.view);
   const double least_n = k_worth_saying * step.view.noise.sd_n;
   for (std::size_t s = 0; s < step.scores.structures.size(); ++s)
-    if (step.scores.structures[s].effect_n > least_n && step.judgement.p_value[entries.of_variable(step.scores.structures[s].variable)] < k_alpha && (best == nullptr || step.scores.structures[s].gain > best->gain))
+    if (step.scores.structures[s].effect_n > least_n && step.judgement.p_value[entries.of_variable(step.scores.structures[s].variable)] < k_alpha &&
+        (best == nullptr || step.scores.structures[s].gain > best->gain))
       best = &step.scores.structures[s];
   return best;
 }

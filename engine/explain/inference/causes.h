@@ -1,4 +1,4 @@
-// The search for causes: one after the other, as long as a candidate gains what no twin does; then each is held against all others in its place.
+// The search for causes: one after the other, as long as a candidate gains what no surrogate does; then each is held against all others in its place.
 #pragma once
 
 #include <functional>

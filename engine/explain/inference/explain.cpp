@@ -100,10 +100,11 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   if (e.verdict == "data_fault" || e.after->scene.touching.maxCoeff() < 0.5) return;
   if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
     e.verdict = "unexplained";
-    e.unexplained = Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+    e.unexplained =
+        Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
     return;
   }
-  if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
+  if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0 || e.recording->relative_k.size() > 0) return;
   const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
   const auto off = [&](double ratio, const Interval& i, double given) {
     return std::fabs(ratio - 1.0) > k_known && (i.low > (1.0 + k_known) * given || i.high < (1.0 - k_known) * given);
@@ -114,7 +115,8 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   if (e.verdict != "clean") return;
   if (k_off) {
     e.verdict = "unexplained";
-    e.unexplained = Unexplained{"x_mm", "k differs from that of rig.toml", std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+    e.unexplained = Unexplained{"x_mm", "k differs from that of rig.toml",
+                                std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
     e.next_experiment = "press a spring of known stiffness, and hang known weights on the load cell";
     return;
   }
@@ -142,7 +144,8 @@ Explanation opened(const Recording& given, const ExplainOptions& options) {
   const Recording& stamped = even ? *even : given;
   e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
   e.notes = e.recording->notes;
-  if (options.surrogates == 0) e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");
+  if (options.surrogates == 0)
+    e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
@@ -165,7 +168,8 @@ bool make_offsets(CauseSearch& search) {
 void alias_by_shape(std::vector<Cause>& causes, const CauseSearch& search) {
   for (auto& cause : causes) {
     if (const auto& same = mechanism_of(cause.term).same_as; same)
-      if (const char* name = same(cause.term.shape); name != nullptr && std::find(cause.aliases.begin(), cause.aliases.end(), name) == cause.aliases.end())
+      if (const char* name = same(cause.term.shape);
+          name != nullptr && std::find(cause.aliases.begin(), cause.aliases.end(), name) == cause.aliases.end())
         cause.aliases.emplace_back(name);
     const char* other = mechanism_of(cause.term).like_when_short;
     if (is_too_short_to_tell(cause.term, search.motion, search.motion.speed_sd_mm_s > 0.0) &&
@@ -198,7 +202,8 @@ void alias_offsets(std::vector<Cause>& causes) {
 constexpr double k_zero_differs = 0.5;        // of the noise
 constexpr double k_least_gain_percent = 0.2;  // of the error on sessions left out: less is of no use to anybody
 
-/// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was looked at.
+/// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was
+/// looked at.
 bool is_signed(const Cause& c) {
   const Mechanism& m = mechanism_of(c.term);
   for (const auto& [name, i] : c.parameters)
@@ -217,6 +222,23 @@ bool is_signed(const Cause& c) {
   });
 }
 
+/// A shape that goes by another law's name as well, as that law where it fits best; none for all others.
+std::optional<Term> by_its_other_name(const CauseSearch& search, std::size_t i) {
+  const auto& same = mechanism_of(search.causes[i]).same_as;
+  const char* name = same ? same(search.causes[i].shape) : nullptr;
+  if (name == nullptr) return std::nullopt;
+  std::optional<Term> best;
+  double least = 1e300;
+  const int at = known_mechanism(name);
+  if (std::any_of(search.causes.begin(), search.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(at); })) return std::nullopt;
+  for (auto& shape : starts(mechanism_at(at), search.step.view.scene)) {
+    auto causes = search.causes;
+    causes[i] = {at, shape};
+    if (const double chi2 = penalised_chi2(search.step.view, causes); chi2 < least) least = chi2, best = causes[i];
+  }
+  return best;
+}
+
 /// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back: the strongest doubt first. True: some were.
 bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first) {
   bool changed = false;
@@ -232,12 +254,18 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
       if (worst == causes.size() || gains[i].value < gains[worst].value) worst = i;
     }
     causes = now.causes;
-    if (getenv("TRACE")) for (std::size_t i = 0; i < causes.size(); ++i) { fprintf(stderr, "gate %s gain %.2f (%.2f) signed %d", mechanism_of(causes[i].term).name, gains[i].value, gains[i].low, (int)is_signed(now.causes[i])); for (auto& [n, v] : causes[i].parameters) fprintf(stderr, " %s %.4g [%.4g %.4g]", n.c_str(), v.value, v.low, v.high); fprintf(stderr, "\n"); }  // TRACE
     if (worst == causes.size()) break;
+    changed = true;
+    if (const auto plainer = by_its_other_name(search, worst)) {
+      search.causes[worst] = *plainer;
+      look_again(search);
+      for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
+      causes[worst].aliases.clear();
+      continue;
+    }
     causes.erase(causes.begin() + static_cast<std::ptrdiff_t>(worst));
     search.causes.erase(search.causes.begin() + static_cast<std::ptrdiff_t>(worst));
     search.p_values.erase(search.p_values.begin() + static_cast<std::ptrdiff_t>(worst));
-    changed = true;
     look_again(search);
     for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
   }

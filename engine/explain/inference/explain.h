@@ -22,9 +22,8 @@ struct Cause {
   std::vector<std::string> aliases;  ///< other mechanisms that fit these data as well
   std::vector<std::pair<std::string, Interval>> parameters;
   double p_value = 1;
-  double probability = 0;  ///< that it, or one of its aliases, is at work
-  double effect_n = 0;     ///< root mean square of its force
-  Interval gain_percent;   ///< of the error on sessions not seen, by it alone beside the others
+  double effect_n = 0;    ///< root mean square of its force
+  Interval gain_percent;  ///< of the error on sessions not seen, by it alone beside the others
 };
 
 struct Unexplained {

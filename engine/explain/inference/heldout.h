@@ -8,7 +8,8 @@ namespace cavum::explain {
 
 /// `first` is the view without causes, `null` its surrogates, `spread` what sessions differ by beside the causes. Folds are the view's.
 /// rmse over the rows left out, of all folds; interval: percentiles of 500 resamplings of the folds.
-[[nodiscard]] Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& options, const SessionSpread& spread, double noise_floor_n);
+[[nodiscard]] Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& options, const SessionSpread& spread,
+                                double noise_floor_n);
 
 /// What each of `causes` gains on sessions that the others and it were fitted without, in percent of the error without it; in their order.
 [[nodiscard]] std::vector<Interval> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread);

@@ -83,8 +83,8 @@ struct Beside {
   Eigen::MatrixXd moved;     ///< the model's parameters, [parameters, recordings]
 };
 
-Beside beside_model(const View& v, const Eigen::MatrixXd& model, const SpreadSums& sums, const Eigen::MatrixXd& observed, const Eigen::VectorXd& squares,
-                    bool with_prior) {
+Beside beside_model(const View& v, const Eigen::MatrixXd& model, const SpreadSums& sums, const Eigen::MatrixXd& observed,
+                    const Eigen::VectorXd& squares, bool with_prior) {
   const Eigen::MatrixXd with = sums.all * model;  // [columns, parameters]
   Eigen::MatrixXd own = model.transpose() * with;
   Eigen::MatrixXd b = model.transpose() * observed;
@@ -110,9 +110,14 @@ Beside beside_model(const View& v, const Eigen::MatrixXd& model, const SpreadSum
 
 /// Fall of chi² by a group of directions. A single one, or those of a mechanism with a range, must point the way that makes sense: `one_sided`.
 Eigen::VectorXd gains_of(const Beside& u, const std::vector<Direction>& group, bool one_sided) {
-  const Eigen::MatrixXd d = as_matrix(group, u.columns.rows());
-  Eigen::MatrixXd own = d.transpose() * (u.columns * d);
-  const Eigen::MatrixXd b = d.transpose() * u.observed;
+  const auto n = static_cast<Eigen::Index>(group.size());
+  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, u.observed.cols());
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const auto& [column, factor] : group[static_cast<std::size_t>(i)]) {
+      b.row(i) += factor * u.observed.row(column);
+      for (Eigen::Index j = 0; j < n; ++j)
+        for (const auto& [other, times] : group[static_cast<std::size_t>(j)]) own(i, j) += factor * times * u.columns(column, other);
+    }
   own.diagonal() *= 1.0 + 1e-9;
   own.diagonal().array() += 1e-12;
   const Eigen::MatrixXd x = own.ldlt().solve(b);
@@ -206,7 +211,8 @@ Eigen::MatrixXd score_gains(const View& v, const std::vector<SpreadSums>& sums, 
   const bool is_data = recordings == 1;
   const Eigen::MatrixXd model = as_matrix(directions_of_model(v), columns);
   std::vector<Beside> under;
-  for (std::size_t u = 0; u < sums.size(); ++u) under.push_back(beside_model(v, model, sums[u], observed.with_columns[u], observed.squares[u], is_data));
+  for (std::size_t u = 0; u < sums.size(); ++u)
+    under.push_back(beside_model(v, model, sums[u], observed.with_columns[u], observed.squares[u], is_data));
   Eigen::VectorXd alone = under.front().left;
   for (const auto& u : under) alone = alone.cwiseMin(u.left);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(entries.count()), recordings);
@@ -273,7 +279,8 @@ void judge_lines(const View& v, Judgement& j, double least_p) {
 /// That the surface lies elsewhere in each session is a spread between them: the likelihood falls without it, by half a chi² of one degree by chance.
 void judge_surface(const View& v, Judgement& j, double least_p) {
   const int surface = known_mechanism("contact_offset");
-  if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return t.mechanism == surface; }) || v.spread[k_surface_place] <= 0.0) return;
+  if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return t.mechanism == surface; }) || v.spread[k_surface_place] <= 0.0)
+    return;
   const std::vector<SessionSpread> spreads = narrower_spreads(v.spread);
   double with = 1e300, without = 1e300;
   for (std::size_t u = 0; u < spreads.size(); ++u) {
@@ -291,6 +298,12 @@ Judgement judge(const View& v, const Null& null, int left_out) {
   const std::vector<SpreadSums> sums = sums_without(v.products, left_out);
   const Eigen::VectorXd gains = score_gains(v, sums, observed_data(sums)).col(0);
   const auto n = static_cast<double>(null.largest_z.size());
+  // what a wrong motion gains grows with the rows: without a fold there is less of it
+  double share = 1.0;
+  if (left_out >= 0) {
+    const auto [begin, end] = v.folds[static_cast<std::size_t>(left_out)];
+    share -= static_cast<double>(end - begin) / static_cast<double>(v.force_n.size());
+  }
   Judgement j;
   for (Eigen::Index e = 0; e < gains.size(); ++e) {
     if (null.largest_z.empty()) {  // the plain rule: as if noise alone could gain anything, times the number of things that are tried
@@ -298,12 +311,11 @@ Judgement judge(const View& v, const Null& null, int left_out) {
       j.p_value.push_back(std::min(1.0, k_plain_trials * std::exp(-0.5 * gains[e])));
       continue;
     }
-    j.z.push_back((gains[e] - null.mean[e]) / (null.scatter[e] + k_noise_gain));
+    j.z.push_back((gains[e] - share * null.mean[e]) / (share * null.scatter[e] + k_noise_gain));
     const auto above = null.largest_z.end() - std::lower_bound(null.largest_z.begin(), null.largest_z.end(), j.z.back());
     j.p_value.push_back((1.0 + static_cast<double>(above)) / (n + 1.0));
   }
-  if (!null.largest_z.empty())
-    j.inflation = std::max(1.0, null.mean.head(static_cast<Eigen::Index>(mechanisms().size())).mean() / k_noise_gain);
+  if (!null.largest_z.empty()) j.inflation = std::max(1.0, null.mean.head(static_cast<Eigen::Index>(mechanisms().size())).mean() / k_noise_gain);
   judge_lines(v, j, 1.0 / (n + 1.0));
   judge_surface(v, j, 1.0 / (n + 1.0));
   return j;

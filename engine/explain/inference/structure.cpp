@@ -1,8 +1,5 @@
 #include "engine/explain/inference/structure.h"
 
-#include <fmt/core.h>
-
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -29,11 +26,8 @@ Fitted fit_beside(const View& v, const std::vector<const Hypothesis*>& known, co
   return {before - f.chi2, f.value.segment(at, c.count)};
 }
 
-/// Root mean square of a curve's force: of the whitened one, in units of the noise.
-double effect_n(const View& v, const CurveHypothesis& c, const Eigen::VectorXd& value) {
-  const auto block = v.products.spreads.back().all.block(c.first, c.first, c.count, c.count);
-  return v.noise.sd_n * std::sqrt(std::max(0.0, value.dot(block * value)) / std::max(1.0, v.products.rows));
-}
+/// Root mean square of a curve's force.
+double effect_n(const CurveHypothesis& c, const Eigen::VectorXd& value) { return std::sqrt(std::max(0.0, value.dot(c.mean_products * value))); }
 
 }  // namespace
 
@@ -44,7 +38,7 @@ std::vector<Structure> structures(const View& v) {
     const Fitted f = fit_beside(v, known, c);
     const double gain = f.gain - k_parameter_penalty * static_cast<double>(c.count - 1);
     if (out.empty() || out.back().variable != c.variable) out.push_back({c.variable, "", -1e300, 0, 0});
-    if (gain > out.back().gain) out.back() = {c.variable, c.form, gain, f.gain, effect_n(v, c, f.value)};
+    if (gain > out.back().gain) out.back() = {c.variable, c.form, gain, f.gain, effect_n(c, f.value)};
   }
   return out;
 }

@@ -12,9 +12,9 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_motions = 24;       // drawn, and shared by the surrogates
-constexpr double k_certain_mean = 0.9995;   // of the rows' weights: beyond it the position leaves nothing open
-constexpr std::size_t k_at_a_time = 50;     // surrogates that one thread makes
+constexpr std::size_t k_motions = 24;      // drawn, and shared by the surrogates
+constexpr double k_certain_mean = 0.9995;  // of the rows' weights: beyond it the position leaves nothing open
+constexpr std::size_t k_at_a_time = 50;    // surrogates that one thread makes
 
 /// Largest number up to n with no prime factor above 5: what the transform is quick for.
 std::size_t smooth_length(std::size_t n) {
@@ -45,7 +45,8 @@ void draw_phases(const Series& z, const SessionRows& rows, Random& random, Eigen
         i < smooth ? in[i] : static_cast<float>(z[rows.begin + static_cast<Eigen::Index>(random.below(n))]);
 }
 
-/// What the force would be off by if the tool had moved otherwise, as far as the position leaves that open, whitened; empty when it leaves nothing open.
+/// What the force would be off by if the tool had moved otherwise, as far as the position leaves that open, whitened; empty when it leaves nothing
+/// open.
 Eigen::MatrixXf motion_errors(const View& v, std::uint64_t seed) {
   if (v.scene.weight.mean() > k_certain_mean) return {};
   const std::vector<Motion> drawn = draw_motions(*v.scene.recording, v.scene.motion, k_motions, seed);

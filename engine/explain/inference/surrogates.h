@@ -1,7 +1,7 @@
-// Recordings in which nothing is hidden, to learn what a search finds by chance: the noise of the recording with its own spectrum and phases drawn anew,
-// session by session; what an uncertain position does to the force; and sessions that differ as those of the recording do. The columns stay as they
-// are, so that hundreds of surrogates cost little.
-// Source: Theiler et al. 1992, Testing for nonlinearity in time series: the method of surrogate data.
+// Recordings in which nothing is hidden, to learn what a search finds by chance: the noise of the recording with its own spectrum and phases drawn
+// anew, session by session; what an uncertain position does to the force; and sessions that differ as those of the recording do. The columns stay as
+// they are, so that hundreds of surrogates cost little. Source: Theiler et al. 1992, Testing for nonlinearity in time series: the method of surrogate
+// data.
 #pragma once
 
 #include <cstdint>

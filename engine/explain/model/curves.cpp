@@ -82,7 +82,8 @@ class Curves {
           if (whole && s.end == r.rows()) continue;
           Series step = Series::Zero(r.rows());
           step.segment(at, (whole ? r.rows() : s.end) - at) = 1.0;
-          add("t_s", fmt::format("a step at about {} s of session {}{}", std::to_string(r.t_s[at]).substr(0, 5), s.name, whole ? "" : ", until its end"),
+          add("t_s",
+              fmt::format("a step at about {} s of session {}{}", std::to_string(r.t_s[at]).substr(0, 5), s.name, whole ? "" : ", until its end"),
               {std::move(step)});
         }
       }

@@ -70,7 +70,8 @@ void equations(const Eigen::MatrixXd& sums, const Products& products, std::size_
   }
 }
 
-FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_t u, const Parameter* p, Eigen::Index n, int left_out, bool covariance) {
+FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_t u, const Parameter* p, Eigen::Index n, int left_out,
+                    bool covariance) {
   Small a(n, n);
   Vector b(n);
   equations(sums.all, products, u, left_out, p, a, b);
@@ -116,7 +117,8 @@ std::vector<SpreadSums> sums_without(const Products& products, int left_out) {
   return out;
 }
 
-FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
+FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out,
+              bool covariance) {
   Parameter p[k_max_columns];
   const Eigen::Index n = lay_out(model, p);
   FitResult best;
@@ -128,7 +130,8 @@ FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, con
 }
 
 FitResult fit(const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
-  return left_out < 0 ? fit(products.spreads, products, model, -1, covariance) : fit(sums_without(products, left_out), products, model, left_out, covariance);
+  return left_out < 0 ? fit(products.spreads, products, model, -1, covariance)
+                      : fit(sums_without(products, left_out), products, model, left_out, covariance);
 }
 
 }  // namespace cavum::explain

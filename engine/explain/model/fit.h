@@ -20,9 +20,9 @@ struct Term {
 /// A term whose columns are in the products.
 struct Hypothesis {
   Term term;
-  Eigen::Index first = 0;    ///< its own columns
-  Eigen::Index own = 0;      ///< how many
-  Eigen::Index repeats = 1;  ///< folds (Products::folds) that have coefficients of their own for these columns; 1 = all share them
+  Eigen::Index first = 0;                 ///< its own columns
+  Eigen::Index own = 0;                   ///< how many
+  Eigen::Index repeats = 1;               ///< folds (Products::folds) that have coefficients of their own for these columns; 1 = all share them
   Eigen::Index spring = -1, damper = -1;  ///< changes of the columns of k and c; -1 = none
   /// These changes times this: between nothing (0) and the point of the grid (1) the search interpolates.
   double scale = 1.0;

@@ -97,10 +97,12 @@ double line_p_value(const Scene& scene, const Series& z, const Series& sine, con
   for (const auto& s : r.sessions) {
     const double length_s = r.t_s[s.end - 1] - r.t_s[s.begin];
     const auto power = [&](double offset_hz) {
-      std::complex<double> sum = 0.0;
-      for (Eigen::Index i = s.begin; i < s.end; ++i)
-        if (sine[i] != 0.0 || cosine[i] != 0.0)
-          sum += z[i] * std::complex<double>(cosine[i], -sine[i]) * std::polar(1.0, -2 * std::numbers::pi * offset_hz * (r.t_s[i] - r.t_s[s.begin]));
+      // rows are taken as even: an offset of a few turns in a session is no more than a slow turn of the phase
+      const double per_row = -2 * std::numbers::pi * offset_hz * length_s / static_cast<double>(std::max<Eigen::Index>(1, s.end - s.begin - 1));
+      const std::complex<double> step = std::polar(1.0, per_row);
+      std::complex<double> sum = 0.0, turn = 1.0;
+      for (Eigen::Index i = s.begin; i < s.end; ++i, turn *= step)
+        if (sine[i] != 0.0 || cosine[i] != 0.0) sum += z[i] * std::complex<double>(cosine[i], -sine[i]) * turn;
       return std::norm(sum);
     };
     if (!(length_s > 0.0)) continue;

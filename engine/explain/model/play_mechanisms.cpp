@@ -120,7 +120,8 @@ Mechanism hysteresis() {
           },
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
-      .same_as = [](const Shape& shape) { return shape[0] > 1.5 ? "coulomb_friction" : nullptr; },  // in air too: friction that gives before it slides
+      .same_as =
+          [](const Shape& shape) { return shape[0] > 1.5 ? "coulomb_friction" : nullptr; },  // in air too: friction that gives before it slides
   };
 }
 

@@ -7,9 +7,9 @@
 namespace cavum::explain {
 namespace {
 
-constexpr int k_passes = 60;                                          // of expectation maximisation; what is not there is at a tenth of its first guess by then
-constexpr SessionSpread k_first_guess{0.1, 0.05, 0.1, 0.005};         // N, mm, relative, s
-constexpr double k_worth = 1.0;                                       // of -2 log likelihood, for an effect to be kept
+constexpr int k_passes = 60;  // of expectation maximisation; what is not there is at a tenth of its first guess by then
+constexpr SessionSpread k_first_guess{0.1, 0.05, 0.1, 0.005, 0.2};  // N, mm, relative, s, relative
+constexpr double k_worth = 1.0;                                     // of -2 log likelihood, for an effect to be kept
 constexpr std::array k_narrower{0.3, 0.0};
 
 struct SessionSums {
@@ -58,11 +58,12 @@ SessionSpread maximised(const std::vector<SessionSums>& sessions, SessionSpread 
 
 }  // namespace
 
-Eigen::MatrixXd session_columns(const Scene& s) {
+Eigen::MatrixXd session_columns(const Scene& s, const Series& causes_n) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(s.force_n.size(), k_session_effects);
   out.col(k_force_zero).setOnes();
   out.col(k_surface_place) = (s.base.k_n_per_mm * s.active).matrix();
   out.col(k_stiffness) = (s.base.k_n_per_mm * s.spring_mm + s.base.c_n_s_per_mm * s.damper_mm_s).matrix();
+  if (causes_n.size() > 0) out.col(k_strength) = causes_n.matrix();
   for (const auto& rows : s.recording->sessions)
     for (Eigen::Index i = rows.begin + 1; i + 1 < rows.end; ++i)  // where contact lasts: its beginning is a step and no slope
       if (s.active[i - 1] > 0.5 && s.active[i] > 0.5 && s.active[i + 1] > 0.5)
@@ -79,7 +80,8 @@ Eigen::MatrixXd shrunk_inverse(const Eigen::MatrixXd& effects, const SessionSpre
   return d.asDiagonal() * solver.solve(Eigen::MatrixXd::Identity(k_session_effects, k_session_effects)) * d.asDiagonal();
 }
 
-Integrated integrate_out(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& with_effects, const Eigen::MatrixXd& effects, const SessionSpread& spread) {
+Integrated integrate_out(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& with_effects, const Eigen::MatrixXd& effects,
+                         const SessionSpread& spread) {
   Integrated out;
   const Eigen::MatrixXd inverse = shrunk_inverse(effects, spread, out.log_det);
   out.sums = sums;

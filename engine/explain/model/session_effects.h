@@ -1,7 +1,7 @@
-// What differs from session to session without being a mechanism: the zero of the force, the place of the surface, how stiff the site is, how late the
-// force comes. Each session draws its own, with a spread that is found from the data; so a session counts as one piece of evidence, however many rows it
-// has. Integrated out of the products of columns, session by session.
-// Sources: mixed model of Laird and Ware 1982; spreads by expectation maximisation (Dempster, Laird and Rubin 1977).
+// What differs from session to session without being a mechanism: the zero of the force, the place of the surface, how stiff the site is, how late
+// the force comes, how strong the causes are. Each session draws its own, with a spread that is found from the data; so a session counts as one piece
+// of evidence, however many rows it has. Integrated out of the products of columns, session by session. Sources: mixed model of Laird and Ware 1982;
+// spreads by expectation maximisation (Dempster, Laird and Rubin 1977).
 #pragma once
 
 #include <Eigen/Core>
@@ -18,14 +18,15 @@ enum SessionEffect : std::size_t {
   k_surface_place,  ///< mm: F(X + delta), to first order
   k_stiffness,      ///< relative, of the base force
   k_lateness,       ///< s: F(t - tau), to first order; c that differs looks the same
+  k_strength,       ///< relative, of the force of the causes
   k_session_effects
 };
 
 /// Standard deviation of each effect between sessions; 0 = they are alike.
 using SessionSpread = std::array<double, k_session_effects>;
 
-/// Columns of the effects, raw, shape [rows, k_session_effects]; a session's rows are its own.
-[[nodiscard]] Eigen::MatrixXd session_columns(const Scene& scene);
+/// Columns of the effects, raw, shape [rows, k_session_effects]; a session's rows are its own. `causes_n`: force of the causes, [rows], or empty.
+[[nodiscard]] Eigen::MatrixXd session_columns(const Scene& scene, const Series& causes_n);
 
 /// A session's products with its effects integrated out.
 struct Integrated {

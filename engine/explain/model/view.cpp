@@ -42,8 +42,8 @@ void set_prior(Products& p, const Rig& rig) {
 }
 
 /// Adds a session's products under each spread to `sums` (one for each spread; empty at first).
-void add_session(std::vector<SpreadSums>& sums, const std::vector<SessionSpread>& spreads, const Eigen::MatrixXd& own, const Eigen::MatrixXd& with_effects,
-                 const Eigen::MatrixXd& effects) {
+void add_session(std::vector<SpreadSums>& sums, const std::vector<SessionSpread>& spreads, const Eigen::MatrixXd& own,
+                 const Eigen::MatrixXd& with_effects, const Eigen::MatrixXd& effects) {
   if (sums.empty()) sums.resize(spreads.size(), {Eigen::MatrixXd::Zero(own.rows(), own.cols()), 0.0});
   for (std::size_t u = 0; u < spreads.size(); ++u) {
     const Integrated one = integrate_out(own, with_effects, effects, spreads[u]);
@@ -118,7 +118,9 @@ bool any_inside(const std::vector<Term>& causes) {
 
 void whiten_effects(View& v) {
   const Whitening white = whitening_of(v);
-  v.effects = session_columns(v.scene);
+  const bool any = !v.causes.empty() && v.model_n.size() > 0;
+  v.effects = session_columns(
+      v.scene, any ? Series(v.model_n - v.base_fit.value[0] * v.scene.spring_mm - v.base_fit.value[1] * v.scene.damper_mm_s) : Series());
   v.white_effects.resize(v.effects.rows(), v.effects.cols());
   for (Eigen::Index e = 0; e < v.effects.cols(); ++e) {
     Series column = v.effects.col(e).array();
@@ -342,7 +344,10 @@ View make_view(const Recording& recording, const Motion& motion, const std::vect
   for (std::size_t m = 0; m < mechanisms().size(); ++m)
     for (auto& shape : starts(mechanisms()[m], v.scene)) v.grid.push_back(columns.add_term({static_cast<int>(m), std::move(shape)}, false));
   for (auto& curve : curves_of(v.scene)) {
-    v.curves.push_back({curve.variable, curve.form, columns.count(), static_cast<Eigen::Index>(curve.columns.size())});
+    const auto count = static_cast<Eigen::Index>(curve.columns.size());
+    Eigen::MatrixXd raw(recording.rows(), count);
+    for (Eigen::Index i = 0; i < count; ++i) raw.col(i) = curve.columns[static_cast<std::size_t>(i)].matrix();
+    v.curves.push_back({curve.variable, curve.form, columns.count(), count, raw.transpose() * raw / static_cast<double>(recording.rows())});
     for (auto& c : curve.columns) columns.add(std::move(c));
   }
   v.white = columns.matrix();

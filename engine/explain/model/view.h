@@ -14,6 +14,7 @@ namespace cavum::explain {
 struct CurveHypothesis {
   std::string variable, form;
   Eigen::Index first = 0, count = 0;
+  Eigen::MatrixXd mean_products;  ///< of the columns as they are, [count, count]
 };
 
 /// Products of a session's columns with its effects, for surrogates.
@@ -29,15 +30,15 @@ struct View {
   Series force_n;  ///< what is to be explained: measured force less the fixed forces of a loaded model
   Series robust;   ///< weights of single rows
   std::vector<Term> causes;
-  FitResult base_fit;                            ///< k, c and the causes' coefficients (no tangents)
-  Series model_n;                                ///< their force, [rows]
-  SessionSpread spread{};                        ///< between sessions
-  Eigen::MatrixXd effects, white_effects;        ///< session_columns, raw and whitened
-  Series session_n;                              ///< force of what differs between sessions, [rows]
-  Series residual_n;                             ///< force − model − session_n
-  std::vector<Hypothesis> grid;                  ///< all mechanisms at all points of their grids
-  std::vector<Hypothesis> known;                 ///< the causes, with tangents
-  std::vector<CurveHypothesis> curves;           ///< of every variable
+  FitResult base_fit;                      ///< k, c and the causes' coefficients (no tangents)
+  Series model_n;                          ///< their force, [rows]
+  SessionSpread spread{};                  ///< between sessions
+  Eigen::MatrixXd effects, white_effects;  ///< session_columns, raw and whitened
+  Series session_n;                        ///< force of what differs between sessions, [rows]
+  Series residual_n;                       ///< force − model − session_n
+  std::vector<Hypothesis> grid;            ///< all mechanisms at all points of their grids
+  std::vector<Hypothesis> known;           ///< the causes, with tangents
+  std::vector<CurveHypothesis> curves;     ///< of every variable
   Products products;
   std::vector<SessionProducts> by_session;
   std::shared_ptr<const Eigen::MatrixXf> white;  ///< all columns of the products, whitened, [rows, columns]; let go when the surrogates are scored

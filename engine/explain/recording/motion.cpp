@@ -25,16 +25,17 @@ constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maxim
 // as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/recording/motion_test.cpp).
 constexpr double k_steps_of_span = 4.0;  // of the encoder, for its position to be held against a measured speed
 constexpr double k_prior_weight = 0.3, k_prior_walk = 1e-3;
+constexpr double k_stale_steps = 4.0, k_says_nothing = 1e6;  // steps or scatters of the position; mm²
 constexpr int k_passes_noisy = 20;
 constexpr double k_noisy_lasting_rows = 4.0;  // an error of a smoothed position
 constexpr double k_lasting_s = 0.2;           // at most: a cell of 0.055 mm at 0.25 mm/s
-constexpr double k_noisy_window_s = 0.05;    // on each side, over which the walk's variance is averaged where positions are noisy
-constexpr double k_least_noise_mm = 2e-4;    // below, positions count as exact
-constexpr double k_flicker = 0.1;            // of an encoder's steps that go back at once: then the position is noisy
+constexpr double k_noisy_window_s = 0.05;     // on each side, over which the walk's variance is averaged where positions are noisy
+constexpr double k_least_noise_mm = 2e-4;     // below, positions count as exact
+constexpr double k_flicker = 0.1;             // of an encoder's steps that go back at once: then the position is noisy
 constexpr double k_more_than_rounding = 1.5;  // scatter over that of a fine rounding
-constexpr Eigen::Index k_check_rows = 200;   // of a stretch in which the integral of the speed is held against the position
-constexpr double k_late_rows = 0.1;          // of a row, that a measured speed may be late
-constexpr double k_borrowed = 0.1;           // correlation
+constexpr Eigen::Index k_check_rows = 200;    // of a stretch in which the integral of the speed is held against the position
+constexpr double k_late_rows = 0.1;           // of a row, that a measured speed may be late
+constexpr double k_borrowed = 0.1;            // correlation
 
 struct State {
   double x = 0, v = 0, xx = 0, xv = 0, vv = 0;
@@ -54,7 +55,7 @@ void observe(State& s, double hx, double hv, double z, double r) {
 struct Session {
   Eigen::Index n = 0;
   const double *t = nullptr, *x = nullptr, *v = nullptr;
-  double q = 0, r_v = 0, noise = 0;  // a noisy position has no q: its rows are observations of this scatter
+  double q = 0, r_v = 0, noise = 0;        // a noisy position has no q: its rows are observations of this scatter
   double shared_rows = 1;                  // at most so many rows share the observation of one run
   std::vector<double> run_rows;            // length of the run that the row is in
   std::vector<double> r_x;                 // variance of the row's position; 0 = none
@@ -70,6 +71,10 @@ void set_observations(Session& s) {
   s.border_z.assign(n, 0.0);
   s.border_r.assign(n, 0.0);
   s.pin_z.assign(n, std::nan(""));
+  // a reading that stands still between two that move on was not taken anew, and says nothing
+  const double least = k_stale_steps * std::max({s.q, s.noise, k_exact_mm});
+  for (std::size_t i = 2; i + 1 < n; ++i)
+    if (s.x[i] == s.x[i - 1] && std::fabs(s.x[i - 1] - s.x[i - 2]) > least && std::fabs(s.x[i + 1] - s.x[i]) > least) s.r_x[i] = k_says_nothing;
   if (s.q <= 0.0) return;
   std::vector<std::size_t> run_of(n);
   s.run_rows.assign(n, 1.0);
@@ -77,7 +82,7 @@ void set_observations(Session& s) {
     std::size_t end = begin + 1;
     while (end < n && std::fabs(s.x[end] - s.x[begin]) < 0.5 * s.q) ++end;
     for (std::size_t i = begin; i < end; ++i) {
-      s.r_x[i] = s.q * s.q / 12.0 * std::min(s.shared_rows, static_cast<double>(end - begin));
+      if (s.r_x[i] < k_says_nothing) s.r_x[i] = s.q * s.q / 12.0 * std::min(s.shared_rows, static_cast<double>(end - begin));
       run_of[i] = end - begin;
       s.run_rows[i] = static_cast<double>(end - begin);
     }
@@ -182,7 +187,9 @@ void estimate(Session& s, Motion& out, Eigen::Index begin) {
         s.q > 0.0 && s.run_rows[i] > s.shared_rows && s.v == nullptr ? s.q * s.q / 12.0 * (1.0 - s.shared_rows / s.run_rows[i]) : 0.0;
     out.sd_x_mm[row] = std::sqrt(std::max({0.0, o.xx, repeated}));
     out.sd_v_mm_s[row] = std::sqrt(std::max(0.0, o.vv));
-    out.lasting_rows[row] = s.noise > 0.0 ? k_noisy_lasting_rows : s.q > 0.0 ? std::clamp(s.run_rows[i], 1.0, std::max(1.0, k_lasting_s / row_s)) : 1.0;
+    out.lasting_rows[row] = s.noise > 0.0 ? k_noisy_lasting_rows
+                            : s.q > 0.0   ? std::clamp(s.run_rows[i], 1.0, std::max(1.0, k_lasting_s / row_s))
+                                          : 1.0;
     // slope of a straight line through the speeds around: what the steps of an encoder do from row to row is no acceleration
     const auto half =
         (s.q > 0.0 || s.noise > 0.0) && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / row_s), 1L, 50L)) : 1;
@@ -435,8 +442,9 @@ Motion estimate_motion(const Recording& r) {
       out.speed_note = "v_mm_s was not needed: the positions are fine enough to give the speed";
     } else if (!check.of_use) {
       out.speed_note = fmt::format("v_mm_s was not used: it is {}, so the speed is taken from the positions",
-                                   check.borrowed > k_borrowed && std::fabs(check.late_s) < 2.0 * check.late_sd_s + 1e-4 ? "made from the positions and shares their errors"
-                                                                          : fmt::format("{:.1f} ms behind them", 1e3 * check.late_s));
+                                   check.borrowed > k_borrowed && std::fabs(check.late_s) < 2.0 * check.late_sd_s + 1e-4
+                                       ? "made from the positions and shares their errors"
+                                       : fmt::format("{:.1f} ms behind them", 1e3 * check.late_s));
     } else {
       out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
     }

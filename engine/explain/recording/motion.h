@@ -7,7 +7,8 @@
 //   the rows of the run, by those of 0.4 s at most;
 // - when it steps by one, x is at the border between the two: an observation nearly free of error. These carry the speed;
 // - x never leaves the cell that is shown: where the estimate does, the border is observed.
-// Where the position is noisy instead (its fourth differences do not vanish, or the encoder flickers), each row is one observation with that variance.
+// Where the position is noisy instead (its fourth differences do not vanish, or the encoder flickers), each row is one observation with that
+// variance.
 //
 // A recorded speed is one more observation of the same motion, of unknown filter and delay. Where the position alone is good enough it is not needed;
 // where it is late, or was made from the positions, it is not used, and a note says so.
@@ -57,8 +58,8 @@ struct SpeedCheck {
 [[nodiscard]] SpeedCheck check_speed(const Recording& recording);
 /// All sessions.
 [[nodiscard]] Motion estimate_motion(const Recording& recording);
-/// Motions that the recording leaves possible, drawn from what the smoother knows (forward filter, backward sampling: Carter and Kohn 1994). Where a rig
-/// came back to the same places under a coarse encoder, the places lie elsewhere within its cells, the same in all sessions.
+/// Motions that the recording leaves possible, drawn from what the smoother knows (forward filter, backward sampling: Carter and Kohn 1994). Where a
+/// rig came back to the same places under a coarse encoder, the places lie elsewhere within its cells, the same in all sessions.
 [[nodiscard]] std::vector<Motion> draw_motions(const Recording& recording, const Motion& estimate, std::size_t count, std::uint64_t seed);
 
 }  // namespace cavum::explain

@@ -1,7 +1,7 @@
-// The noise of a load cell: each sample remembers those before it, e_i = sum of phi_j e_(i-j) + u, and now and then u is large. Pink noise, a wandering
-// zero, mains hum and a resonance all look like this with enough phi. Whitening turns rows into independent ones, so that least squares and its standard
-// errors hold; robust weights bound what a single sample can say. Sources: Cochrane and Orcutt 1949; Levinson and Durbin's recursion (Brockwell and Davis
-// 1991, section 5.2); order by Schwarz 1978; weights after Huber 1964.
+// The noise of a load cell: each sample remembers those before it, e_i = sum of phi_j e_(i-j) + u, and now and then u is large. Pink noise, a
+// wandering zero, mains hum and a resonance all look like this with enough phi. Whitening turns rows into independent ones, so that least squares and
+// its standard errors hold; robust weights bound what a single sample can say. Sources: Cochrane and Orcutt 1949; Levinson and Durbin's recursion
+// (Brockwell and Davis 1991, section 5.2); order by Schwarz 1978; weights after Huber 1964.
 #pragma once
 
 #include "engine/explain/recording/recording.h"
@@ -15,8 +15,8 @@ struct Noise {
   std::vector<double> ar;  ///< phi_1 … phi_p; empty: rho alone
 };
 
-/// From the residual's correlations over up to k_noise_orders rows, each session about its own mean. Values beyond 6 scatters count as 6, and rows with
-/// weight under 0.5 are left out. An effect that is still in the residual is taken for noise: it makes the noise larger, never smaller.
+/// From the residual's correlations over up to k_noise_orders rows, each session about its own mean. Values beyond 6 scatters count as 6, and rows
+/// with weight under 0.5 are left out. An effect that is still in the residual is taken for noise: it makes the noise larger, never smaller.
 [[nodiscard]] Noise estimate_noise(const Recording& recording, const Series& residual_n, const Series& weight);
 
 inline constexpr int k_noise_orders = 24;

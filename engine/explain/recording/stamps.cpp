@@ -48,7 +48,8 @@ std::optional<Recording> with_even_stamps(const Recording& r) {
     out.t_s.segment(rows.begin, n) = even;
   }
   if (smooth > k_smoother * rough) return std::nullopt;
-  out.notes.push_back(fmt::format("t_s is uneven by {:.2g} ms, and the motion is smooth only over even stamps: rows were taken as sampled evenly", 1e3 * off));
+  out.notes.push_back(
+      fmt::format("t_s is uneven by {:.2g} ms, and the motion is smooth only over even stamps: rows were taken as sampled evenly", 1e3 * off));
   return out;
 }
 

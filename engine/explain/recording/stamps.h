@@ -1,4 +1,5 @@
-// Time stamps that were given when a row arrived and not when it was sampled: the motion is smooth over the number of the row, and rough over the stamp.
+// Time stamps that were given when a row arrived and not when it was sampled: the motion is smooth over the number of the row, and rough over the
+// stamp.
 #pragma once
 
 #include "engine/explain/recording/recording.h"
