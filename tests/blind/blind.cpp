@@ -99,7 +99,7 @@ Outcome run(const Options& o, const Request& request, const std::filesystem::pat
     outcome.simpler = ask_simpler(folder);
     if (!o.only_simpler) {
       std::filesystem::rename(folder / "answer.json", folder / "kept.json");
-      outcome.plain = ask(o.cavum, folder, request.seed % 1000000, "--twins 0");
+      outcome.plain = ask(o.cavum, folder, request.seed % 1000000, "--surrogates 0");
       std::filesystem::rename(folder / "kept.json", folder / "answer.json");
     }
   }

@@ -222,7 +222,7 @@ void print_simpler(const std::vector<Outcome>& outcomes) {
     if (o.verdict.answered) count("explain", m.found, m.causes, m.true_causes);
     if (o.plain.answered) {
       const Mark plain = mark({o.hidden, o.plain, {}, {}});
-      count("explain without twins", plain.found, plain.causes, plain.true_causes);
+      count("explain without surrogates", plain.found, plain.causes, plain.true_causes);
     }
     count_list("thresholded least squares", o.simpler.thresholded);
     count_list("forward BIC", o.simpler.forward_bic);

@@ -29,7 +29,7 @@ struct ExplainArgs {
   std::string data, rig, force, model, material, model_out, out, protocol;
   std::vector<std::string> columns;
   std::uint64_t seed = 1;
-  std::size_t twins = explain::ExplainOptions{}.twins;
+  std::size_t surrogates = explain::ExplainOptions{}.surrogates;
   bool json = false, laws = false;
 };
 
@@ -119,7 +119,7 @@ void run_explain(const ExplainArgs& a) {
   explain::Recording recording = read_data(a);
   explain::ExplainOptions options;
   options.seed = a.seed;
-  options.twins = a.twins;
+  options.surrogates = a.surrogates;
   options.progress = progress_bar();
   const ForceModel start = load_model(a.model.empty() ? "paper" : a.model);
   explain::Series added;
@@ -168,16 +168,16 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
       ->expected(0, 1)
       ->default_str("protocol.html");
   verb->add_flag("--laws", args->laws, "print the table of laws that are looked for: equation, parameters, ranges, what shows each best");
-  verb->add_option("--seed", args->seed, "of the twins; the same seed gives the same answer")->check(seed_check())->capture_default_str();
-  verb->add_option("--twins", args->twins, "simulated twins at most, for each step of the search; 0: none, a plain rule for comparison")
+  verb->add_option("--seed", args->seed, "of the surrogates; the same seed gives the same answer")->check(seed_check())->capture_default_str();
+  verb->add_option("--surrogates", args->surrogates, "recordings in which nothing is hidden, for each step of the search; 0: none, a plain rule for comparison")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& text) {
             int n = -1;
-            return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 8 && n <= 1000)) ? std::string()
-                                                                                           : fmt::format("'{}' is neither 0 nor 8 to 1000", text);
+            return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 99 && n <= 1000)) ? std::string()
+                                                                                           : fmt::format("'{}' is neither 0 nor 99 to 1000", text);
           },
-          "0, or 8 to 1000"));
+          "0, or 99 to 1000"));
   verb->add_flag("--json", args->json, "one JSON object on standard output");
   verb->callback([args, &exit_code] {
     run_explain(*args);

@@ -5,16 +5,12 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_first_twins = 10;  // enough when the answer is plain
-constexpr double k_plain = 6.0;            // z this many times what the twins reach needs no more twins
-constexpr double k_alias_chi2 = 10.0;      // a rival this close fits as well
+constexpr double k_alias_chi2 = 10.0;   // a rival this close fits as well
+constexpr double k_worth_saying = 0.1;  // of the noise: a dependence below it is the motion's own error as likely as not
 constexpr double k_worth_refining = 0.4;
 constexpr std::size_t k_refined = 5;
 
-double best_p(const Step& s) { return *std::min_element(s.judgement.p_value.begin(), s.judgement.p_value.end()); }
-double best_z(const Step& s) { return *std::max_element(s.judgement.z.begin(), s.judgement.z.end()); }
-
-Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o, const std::function<void()>& done) {
+Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o) {
   ViewOptions options;
   options.fixed_n = o.fixed_n;
   if (!causes.empty()) {
@@ -22,26 +18,27 @@ Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, c
     causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
     options.products = true;
   }
-  options.sharp = true;
   Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
   s.scores = scores_of(s.view);
-  const std::uint64_t seed = o.seed * 1000003ULL + causes.size();
-  add_twins(s.null, s.view, std::min(k_first_twins, o.twins), seed, o.fixed_n, done);
-  s.judgement = judge(s.scores, s.null);
-  double reach = 1.0;
-  for (const auto& twin : s.null.twins) {
-    Scores as_data = twin;
-    as_data.structures = s.scores.structures;
-    for (auto& structure : as_data.structures) structure.raw_gain = 0.0;
-    as_data.blur = s.scores.blur;
-    const Judgement j = judge(as_data, s.null);
-    reach = std::max(reach, *std::max_element(j.z.begin(), j.z.end()));
-  }
-  if (best_p(s) < 0.06 && best_z(s) < k_plain * reach) {
-    add_twins(s.null, s.view, o.twins, seed, o.fixed_n, done);
-    s.judgement = judge(s.scores, s.null);
-  }
+  s.null = null_of(s.view, o.surrogates, o.seed * 1000003ULL + causes.size());
+  s.judgement = judge(s.view, s.null);
+  s.view.white.reset();
   return s;
+}
+
+/// Where a cause has taken the place of one that was not yet known, its shape is somewhere else once that is: each is tried anew over its grid.
+std::vector<Term> restarted(const View& v, std::vector<Term> causes) {
+  double least = fit_terms(v, causes).chi2;
+  for (std::size_t i = 0; i + 1 < causes.size(); ++i) {
+    const Mechanism& m = mechanism_at(causes[i].mechanism);
+    if (m.shape.empty() || m.from_residual) continue;
+    for (const auto& shape : starts(m, v.scene)) {
+      auto trial = causes;
+      trial[i].shape = shape;
+      if (const double chi2 = fit_terms(v, trial).chi2; chi2 < least) least = chi2, causes = trial;
+    }
+  }
+  return causes;
 }
 
 struct Rival {
@@ -69,6 +66,7 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
       std::vector<Term> causes = others;
       causes.push_back(start);
       causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
+      if (!others.empty()) causes = refine(v, restarted(v, causes), 1);  // all together, or the first takes a part of the second
       const View own_contact = without_pulling(v, causes);
       causes = refine(own_contact, causes, 1, others.size());
       const FitResult fitted = fit_terms(own_contact, causes);
@@ -102,9 +100,11 @@ std::vector<const Candidate*> improbable(const Step& step) {
 /// The structure that gains most of those that are; null: none is.
 const Structure* improbable_structure(const Step& step) {
   const Structure* best = nullptr;
-  const std::size_t after = mechanisms().size();
+  const Entries entries = entries_of(step.view);
+  const double least_n = k_worth_saying * step.view.noise.sd_n;
   for (std::size_t s = 0; s < step.scores.structures.size(); ++s)
-    if (step.judgement.p_value[after + s] < k_alpha && (best == nullptr || step.scores.structures[s].gain > best->gain))
+    if (step.scores.structures[s].effect_n > least_n && step.judgement.p_value[entries.of_variable(step.scores.structures[s].variable)] < k_alpha &&
+        (best == nullptr || step.scores.structures[s].gain > best->gain))
       best = &step.scores.structures[s];
   return best;
 }
@@ -141,7 +141,10 @@ CauseSearch begin_search(const Recording& recording, const ExplainOptions& optio
   return search;
 }
 
-void look_again(CauseSearch& s) { s.step = look(s.recording, s.motion, s.causes, s.options, s.done); }
+void look_again(CauseSearch& s) {
+  s.step = look(s.recording, s.motion, s.causes, s.options);
+  if (s.done) s.done();
+}
 
 std::optional<Unexplained> add_causes(CauseSearch& search) {
   while (true) {

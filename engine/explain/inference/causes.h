@@ -1,4 +1,4 @@
-// The search for causes: one after the other, as long as a candidate gains what no twin does; then each is held against all others in its place.
+// The search for causes: one after the other, as long as a candidate gains what no surrogate does; then each is held against all others in its place.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct Step {
 struct CauseSearch {
   const Recording& recording;
   const ExplainOptions& options;
-  std::function<void()> done;  ///< called after each twin, from any thread
+  std::function<void()> done;  ///< called after each look
   Motion motion;
   std::vector<Term> causes;
   std::vector<double> p_values;  ///< of causes

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <string_view>
 
 #include "engine/base/text.h"
 #include "engine/explain/inference/causes.h"
@@ -12,6 +12,7 @@
 #include "engine/explain/inference/intervals.h"
 #include "engine/explain/recording/faults.h"
 #include "engine/explain/recording/specimens.h"
+#include "engine/explain/recording/stamps.h"
 
 namespace cavum::explain {
 namespace {
@@ -95,13 +96,31 @@ void conclude(Explanation& e, bool one_way) {
 
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
 void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
-  constexpr double k_known = 0.1;  // relative; rigs are calibrated to a few percent
-  if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0) return;
+  constexpr double k_told = 0.1, k_known = 0.2;  // relative: said, and more than a rig is off by that was calibrated
+  if (e.verdict == "data_fault" || e.after->scene.touching.maxCoeff() < 0.5) return;
+  if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
+    e.verdict = "unexplained";
+    e.unexplained =
+        Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+    return;
+  }
+  if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0 || e.recording->relative_k.size() > 0) return;
   const double k = e.base.k_n_per_mm / *rig.k_n_per_mm, c = e.base.c_n_s_per_mm / *rig.c_n_s_per_mm;
-  const bool off = std::fabs(c - 1.0) > k_known && (e.c.low > (1.0 + k_known) * *rig.c_n_s_per_mm || e.c.high < (1.0 - k_known) * *rig.c_n_s_per_mm);
+  const auto off = [&](double ratio, const Interval& i, double given) {
+    return std::fabs(ratio - 1.0) > k_known && (i.low > (1.0 + k_known) * given || i.high < (1.0 - k_known) * given);
+  };
+  const bool k_off = off(k, e.k, *rig.k_n_per_mm), c_off = off(c, e.c, *rig.c_n_s_per_mm);
   const std::string text = fmt::format("fitted k is {:.3g} times, c is {:.3g} times that of rig.toml", k, c);
-  if (std::fabs(k - 1.0) > k_known || off) e.notes.push_back(text);
-  if (e.verdict != "clean" || !off || std::fabs(k - 1.0) > 0.5 * k_known) return;
+  if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.push_back(text);
+  if (e.verdict != "clean") return;
+  if (k_off) {
+    e.verdict = "unexplained";
+    e.unexplained = Unexplained{"x_mm", "k differs from that of rig.toml",
+                                std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+    e.next_experiment = "press a spring of known stiffness, and hang known weights on the load cell";
+    return;
+  }
+  if (!c_off || std::fabs(k - 1.0) > 0.5 * k_told) return;
   if (speed_known || c <= 0.0) {  // no clock does that
     e.verdict = "unexplained";
     e.unexplained = Unexplained{"v_mm_s", "c differs from that of rig.toml",
@@ -121,9 +140,12 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
 Explanation opened(const Recording& given, const ExplainOptions& options) {
   Explanation e;
   e.data_faults = data_faults(given);
-  e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(given) ? on_common_scale(given) : given);
+  const std::optional<Recording> even = e.data_faults.empty() && !given.exact_motion ? with_even_stamps(given) : std::nullopt;
+  const Recording& stamped = even ? *even : given;
+  e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
   e.notes = e.recording->notes;
-  if (options.twins == 0) e.notes.emplace_back("without twins: judged as if independent noise were all that could mislead; causes may be false");
+  if (options.surrogates == 0)
+    e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
     e.next_experiment = "correct the recording: " + e.data_faults.front();
@@ -143,10 +165,14 @@ bool make_offsets(CauseSearch& search) {
   return changed;
 }
 
-void alias_short_lags(std::vector<Cause>& causes, const CauseSearch& search) {
+void alias_by_shape(std::vector<Cause>& causes, const CauseSearch& search) {
   for (auto& cause : causes) {
+    if (const auto& same = mechanism_of(cause.term).same_as; same)
+      if (const char* name = same(cause.term.shape);
+          name != nullptr && std::find(cause.aliases.begin(), cause.aliases.end(), name) == cause.aliases.end())
+        cause.aliases.emplace_back(name);
     const char* other = mechanism_of(cause.term).like_when_short;
-    if (is_too_short_to_tell(cause.term, search.motion, search.recording.v_mm_s.size() > 0) &&
+    if (is_too_short_to_tell(cause.term, search.motion, search.motion.speed_sd_mm_s > 0.0) &&
         std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
       cause.aliases.emplace_back(other);
   }
@@ -173,17 +199,116 @@ void alias_offsets(std::vector<Cause>& causes) {
   }
 }
 
+constexpr double k_zero_differs = 0.5;        // of the noise
+constexpr double k_least_gain_percent = 0.2;  // of the error on sessions left out: less is of no use to anybody
+
+/// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was
+/// looked at.
+bool is_signed(const Cause& c) {
+  const Mechanism& m = mechanism_of(c.term);
+  for (const auto& [name, i] : c.parameters)
+    if (!std::isfinite(i.low) || !std::isfinite(i.high)) return false;
+  for (std::size_t i = 0; i < m.shape.size(); ++i) {
+    const ShapeRange& range = m.shape[i];
+    if (!range.fitted || c.term.shape[i] == 0.0 || std::string_view(range.name) == "v0_mm_s") continue;  // a sign has no width
+    const double edge = range.logarithmic ? 1e-3 * c.term.shape[i] : 1e-6 * (range.high - range.low);
+    if (c.term.shape[i] < range.low + edge || c.term.shape[i] > range.high - edge) return false;
+  }
+  // several of one kind (offsets of sessions, two channels): one that is there is enough
+  return std::any_of(c.parameters.begin(), c.parameters.end(), [&](const auto& p) {
+    const bool counts = &p == &c.parameters.front() || m.from_residual || std::string_view(m.name) == "cross_talk";
+    const double nothing = p.first == "m" || p.first == "n" ? 1.0 : 0.0;
+    return counts && (p.second.low > nothing || p.second.high < nothing);
+  });
+}
+
+/// A shape that goes by another law's name as well, as that law where it fits best; none for all others.
+std::optional<Term> by_its_other_name(const CauseSearch& search, std::size_t i) {
+  const auto& same = mechanism_of(search.causes[i]).same_as;
+  const char* name = same ? same(search.causes[i].shape) : nullptr;
+  if (name == nullptr) return std::nullopt;
+  std::optional<Term> best;
+  double least = 1e300;
+  const int at = known_mechanism(name);
+  if (std::any_of(search.causes.begin(), search.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(at); })) return std::nullopt;
+  for (auto& shape : starts(mechanism_at(at), search.step.view.scene)) {
+    auto causes = search.causes;
+    causes[i] = {at, shape};
+    if (const double chi2 = penalised_chi2(search.step.view, causes); chi2 < least) least = chi2, best = causes[i];
+  }
+  return best;
+}
+
+/// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back: the strongest doubt first. True: some were.
+bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first) {
+  bool changed = false;
+  while (!causes.empty()) {
+    Explanation now;
+    now.causes = causes;
+    set_parameters(now, search.step.view, search.step.null, search.step.judgement.inflation);
+    const auto gains = gain_of_each(first.view, search.causes, search.step.view.spread);
+    std::size_t worst = causes.size();
+    for (std::size_t i = 0; i < causes.size(); ++i) {
+      now.causes[i].gain_percent = gains[i];
+      if (is_signed(now.causes[i]) && gains[i].low > k_least_gain_percent) continue;
+      if (worst == causes.size() || gains[i].value < gains[worst].value) worst = i;
+    }
+    causes = now.causes;
+    if (worst == causes.size()) break;
+    changed = true;
+    if (const auto plainer = by_its_other_name(search, worst)) {
+      search.causes[worst] = *plainer;
+      look_again(search);
+      for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
+      causes[worst].aliases.clear();
+      continue;
+    }
+    causes.erase(causes.begin() + static_cast<std::ptrdiff_t>(worst));
+    search.causes.erase(search.causes.begin() + static_cast<std::ptrdiff_t>(worst));
+    search.p_values.erase(search.p_values.begin() + static_cast<std::ptrdiff_t>(worst));
+    look_again(search);
+    for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
+  }
+  return changed;
+}
+
 /// Parameters, gain, noise and what is left. `first`: the look without causes.
-void put_figures(Explanation& e, const Step& first, const Step& last) {
+void put_figures(Explanation& e, const ExplainOptions& options, const Step& first, const Step& last) {
   set_parameters(e, last.view, last.null, last.judgement.inflation);
   list_not_testable(e, first.scores.candidates, first.view.scene);
   e.base = {last.view.base_fit.value[0], last.view.base_fit.value[1]};
   e.noise = last.view.noise;
-  e.gain = heldout_gain(first.view, first.scores, first.null, e.causes.size(), e.noise.sd_n);
+  e.spread = last.view.spread;
+  e.gain = heldout_gain(first.view, first.null, options, last.view.spread, e.noise.sd_n);
   e.structures = last.scores.structures;
   e.candidates = first.scores.candidates;
   e.before = first.view;
   e.after = last.view;
+}
+
+/// What the first look saw, and the sessions left out did not confirm.
+std::optional<Unexplained> doubtful(const Step& first) {
+  const Structure* best = nullptr;
+  for (const auto& s : first.scores.structures)
+    if (best == nullptr || s.gain > best->gain) best = &s;
+  if (best == nullptr) return std::nullopt;
+  return Unexplained{best->variable, best->form + ", which does not hold from session to session", best->effect_n};
+}
+
+/// What sessions differ in, and whether the recorded speed was used, as notes.
+void say_what_differs(Explanation& e, const Motion& motion) {
+  if ((motion.x_mm <= 0.0).all()) e.notes.emplace_back("the tool never touches: only what acts in air can be found");
+  if (!motion.speed_note.empty()) e.notes.push_back(motion.speed_note);
+  if (motion.noise_mm > 0.0) e.notes.push_back(fmt::format("the positions are noisy: {:.2g} um from row to row", 1e3 * motion.noise_mm));
+  const SessionSpread& s = e.spread;
+  std::vector<std::string> differ;
+  if (s[k_force_zero] > 0.5 * e.noise.sd_n) differ.push_back(fmt::format("the zero of the force by {:.2g} N", s[k_force_zero]));
+  if (s[k_surface_place] > 0.003) differ.push_back(fmt::format("the place of the surface by {:.2g} mm", s[k_surface_place]));
+  if (s[k_stiffness] > 0.01) differ.push_back(fmt::format("stiffness by {:.2g} %", 100.0 * s[k_stiffness]));
+  if (s[k_lateness] > 5e-4) differ.push_back(fmt::format("lateness of the force, or c, by {:.2g} ms", 1e3 * s[k_lateness]));
+  std::string list;
+  for (const auto& d : differ) list += (list.empty() ? "" : ", ") + d;
+  if (!list.empty()) e.notes.push_back(fmt::format("sessions differ (standard deviation): {}", list));
 }
 
 /// What is named, alone or as what fits as well, was testable in the end: the first look had not taken the other causes out yet.
@@ -210,12 +335,10 @@ void drop_lesser_causes(Explanation& e, const Step& last) {
 Explanation explain(const Recording& given, const ExplainOptions& options) {
   Explanation e = opened(given, options);
   if (!e.data_faults.empty()) return e;
-  // three looks are the most that is usual; the bar never runs backwards
-  const double expected = static_cast<double>(options.twins) * 2.0;
-  std::atomic<int> finished{0};
+  int finished = 0;
   const auto done = [&] {
     const int n = ++finished;
-    if (options.progress) options.progress(0.9 * (1.0 - std::exp(-2.0 * n / expected)));
+    if (options.progress) options.progress(0.9 * (1.0 - std::exp(-0.7 * n)));  // two looks are usual; the bar never runs backwards
   };
 
   CauseSearch search = begin_search(*e.recording, options, done);
@@ -226,10 +349,17 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   if (one_way) changed = make_offsets(search) || changed;
   if (changed) look_again(search);
   for (std::size_t i = 0; i < search.causes.size(); ++i) e.causes[i].term = search.causes[i];
-  alias_short_lags(e.causes, search);
+  const bool named = !e.causes.empty();
+  take_back(search, e.causes, first);
+  alias_by_shape(e.causes, search);
   drop_named_aliases(e.causes);
   if (one_way) alias_offsets(e.causes);
-  put_figures(e, first, search.step);
+  put_figures(e, options, first, search.step);
+  if (!e.causes.empty() && e.gain.percent.low <= 0.0) e.causes.clear();
+  if (named && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
+  say_what_differs(e, search.motion);
+  if (e.causes.empty() && !e.unexplained && e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
+    e.unexplained = Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
   conclude(e, one_way);

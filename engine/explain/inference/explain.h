@@ -22,7 +22,8 @@ struct Cause {
   std::vector<std::string> aliases;  ///< other mechanisms that fit these data as well
   std::vector<std::pair<std::string, Interval>> parameters;
   double p_value = 1;
-  double effect_n = 0;  ///< root mean square of its force
+  double effect_n = 0;    ///< root mean square of its force
+  Interval gain_percent;  ///< of the error on sessions not seen, by it alone beside the others
 };
 
 struct Unexplained {
@@ -39,6 +40,7 @@ struct Gain {
   double noise_floor_n = 0;
   Interval percent;          ///< 100 (1 − extended/base)
   double share_percent = 0;  ///< of what lies between base and noise floor
+  std::vector<double> by_fold_percent;
 };
 
 struct Explanation {
@@ -51,6 +53,7 @@ struct Explanation {
   Base base;  ///< fitted with the causes
   Interval k, c;
   Noise noise;
+  SessionSpread spread{};  ///< what sessions differ by, beside the causes
   std::string next_experiment;
   std::vector<Structure> structures;           ///< of the residual that is left
   std::vector<Candidate> candidates;           ///< of the first look, for the report
@@ -60,10 +63,10 @@ struct Explanation {
 
 struct ExplainOptions {
   std::uint64_t seed = 1;
-  std::size_t twins = 24;  ///< at most, for each step of the search; 0 = a plain rule instead of the null, for comparison
+  std::size_t surrogates = 199;  ///< for each step of the search; 0 = a plain rule instead of the null, for comparison
   int max_causes = 3;
   const Series* fixed_n = nullptr;       ///< forces of a loaded model, [rows]
-  std::function<void(double)> progress;  ///< 0..1, may be called from other threads
+  std::function<void(double)> progress;  ///< 0..1
 };
 
 [[nodiscard]] Explanation explain(const Recording& recording, const ExplainOptions& options = {});

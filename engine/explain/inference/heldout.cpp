@@ -10,33 +10,34 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_rivals = 3;  // refined in each fold
+constexpr std::size_t k_rivals = 3;      // refined in each fold
+constexpr double k_least_earned = 10.0;  // chi² that a cause must earn
 
 /// Causes found without one fold: `view` gives that fold no weight.
-std::vector<Term> search_without(const View& view, const Scores& whole, const Null& null, int fold, std::size_t count) {
+std::vector<Term> search_without(const View& view, const Null& null, int fold, int most) {
   std::vector<Term> causes;
   View now = view;
-  for (std::size_t step = 0; step < count; ++step) {
-    Scores scores = whole;
-    scores.candidates = candidates_of(now, fold);
-    const Judgement j = judge(scores, null);
+  for (int step = 0; step < most; ++step) {
+    const std::vector<Candidate> candidates = candidates_of(now, fold);
+    const Judgement j = judge(now, null, fold);
     std::vector<std::pair<double, const Candidate*>> found;
-    for (std::size_t m = 0; m < scores.candidates.size(); ++m)
-      if (scores.candidates[m].testable && j.p_value[m] < k_alpha) found.emplace_back(-scores.candidates[m].gain, &scores.candidates[m]);
+    for (std::size_t m = 0; m < candidates.size(); ++m)
+      if (candidates[m].testable && j.p_value[m] < k_alpha && candidates[m].gain > 0.0) found.emplace_back(-candidates[m].gain, &candidates[m]);
     if (found.empty()) break;
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    double least = 1e300;
+    double least = penalised_chi2(now, causes) - k_least_earned * (step > 0 ? 2.0 * j.inflation : 1.0);  // as the search with all sessions asks
     std::vector<Term> best;
     for (std::size_t i = 0; i < std::min(k_rivals, found.size()); ++i) {
       std::vector<Term> trial = causes;
       now.causes = causes;
       trial.push_back(start_of(now, *found[i].second));
-      trial = refine(now, trial, 1, causes.size());
+      trial = refine(now, trial, 1);
       const double chi2 = penalised_chi2(now, trial);
       if (chi2 < least) least = chi2, best = trial;
     }
+    if (best.empty()) break;
     causes = best;
-    if (step + 1 == count) break;
+    if (step + 1 == most) break;
     // further steps see the products with this cause at its point of the grid
     const Candidate* chosen = nullptr;
     for (const auto& f : found)
@@ -73,52 +74,109 @@ void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index
   }
 }
 
-}  // namespace
+/// Sum of the squares of what `terms`, fitted without the fold, leave in it.
+class Folds {
+ public:
+  Folds(const View& first, const SessionSpread& spread) : first_(first), spread_(spread), white_(whitening_of(first)) {}
 
-Gain heldout_gain(const View& first, const Scores& scores, const Null& null, std::size_t count, double noise_floor_n) {
-  const std::size_t folds = first.folds.size();
-  std::vector<double> base(folds, 0.0), extended(folds, 0.0), rows(folds, 0.0);
-  independent_runs(folds, [&](std::size_t f) {
-    View masked = first;
-    const auto [begin, end] = first.folds[f];
-    masked.robust.segment(begin, end - begin) = 0.0;
-    const auto causes = count > 0 ? search_without(masked, scores, null, static_cast<int>(f), count) : std::vector<Term>{};
-    const auto error2 = [&](const std::vector<Term>& terms) {
-      const View seen = terms.empty() ? masked : without_pulling(masked, terms);
-      Eigen::VectorXd value = fit_terms(seen, terms).value;
-      fill_phases(seen, terms, begin, end, value);
-      const Series model = force_of(seen.scene, terms, value);
-      return (first.force_n - model).segment(begin, end - begin).square().sum();
-    };
-    base[f] = error2({});
-    extended[f] = causes.empty() ? base[f] : error2(causes);
-    rows[f] = static_cast<double>(end - begin);
-  });
-  const auto rmse = [&](const std::vector<double>& e, const std::vector<std::size_t>& which) {
-    double sum = 0.0, n = 0.0;
-    for (const std::size_t f : which) sum += e[f], n += rows[f];
-    return std::sqrt(sum / std::max(1.0, n));
-  };
-  std::vector<std::size_t> all(folds);
-  for (std::size_t i = 0; i < folds; ++i) all[i] = i;
-  Gain g;
-  g.base_rmse_n = rmse(base, all);
-  g.extended_rmse_n = rmse(extended, all);
-  g.noise_floor_n = noise_floor_n;
-  g.percent.value = 100.0 * (1.0 - g.extended_rmse_n / std::max(1e-300, g.base_rmse_n));
+  [[nodiscard]] View without(std::size_t fold) const {
+    View out = first_;
+    const auto [begin, end] = first_.folds[fold];
+    out.robust.segment(begin, end - begin) = 0.0;
+    return out;
+  }
+  [[nodiscard]] double error2(const View& masked, std::size_t fold, const std::vector<Term>& terms) const {
+    const auto [begin, end] = first_.folds[fold];
+    const View seen = terms.empty() ? masked : without_pulling(masked, terms);
+    Eigen::VectorXd value = fit_terms(seen, terms).value;
+    fill_phases(seen, terms, begin, end, value);
+    Series left = first_.force_n - force_of(seen.scene, terms, value);
+    Series z = left;
+    white_.apply(z);
+    left -= session_force_n(*first_.scene.recording, first_.effects, first_.white_effects, z, spread_);
+    return left.segment(begin, end - begin).square().sum();
+  }
+
+ private:
+  const View& first_;
+  SessionSpread spread_;
+  Whitening white_;
+};
+
+double rmse(const std::vector<double>& error2, const std::vector<double>& rows, const std::vector<std::size_t>& which) {
+  double sum = 0.0, n = 0.0;
+  for (const std::size_t f : which) sum += error2[f], n += rows[f];
+  return std::sqrt(sum / std::max(1.0, n));
+}
+
+/// 100 (1 - with/without), with the percentiles of 500 resamplings of the folds.
+Interval percent_of(const std::vector<double>& without, const std::vector<double>& with, const std::vector<double>& rows) {
+  const std::size_t folds = rows.size();
+  std::vector<std::size_t> which(folds);
+  const auto percent = [&] { return 100.0 * (1.0 - rmse(with, rows, which) / std::max(1e-300, rmse(without, rows, which))); };
+  for (std::size_t i = 0; i < folds; ++i) which[i] = i;
+  Interval out{percent(), 0, 0};
   std::vector<double> resampled;
   Random random(1);
   for (int i = 0; i < 500; ++i) {
-    std::vector<std::size_t> which;
-    for (std::size_t k = 0; k < folds; ++k) which.push_back(random.below(folds));
-    resampled.push_back(100.0 * (1.0 - rmse(extended, which) / std::max(1e-300, rmse(base, which))));
+    for (std::size_t k = 0; k < folds; ++k) which[k] = random.below(folds);
+    resampled.push_back(percent());
   }
   std::sort(resampled.begin(), resampled.end());
-  g.percent.low = std::min(g.percent.value, resampled[12]);
-  g.percent.high = std::max(g.percent.value, resampled[487]);
+  out.low = std::min(out.value, resampled[12]);
+  out.high = std::max(out.value, resampled[487]);
+  return out;
+}
+
+std::vector<double> rows_of(const View& v) {
+  std::vector<double> out;
+  for (const auto& [begin, end] : v.folds) out.push_back(static_cast<double>(end - begin));
+  return out;
+}
+
+}  // namespace
+
+Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& options, const SessionSpread& spread, double noise_floor_n) {
+  const std::size_t folds = first.folds.size();
+  std::vector<double> base(folds, 0.0), extended(folds, 0.0);
+  const Folds left_out(first, spread);
+  independent_runs(folds, [&](std::size_t f) {
+    const View masked = left_out.without(f);
+    const auto causes = search_without(masked, null, static_cast<int>(f), options.max_causes);
+    base[f] = left_out.error2(masked, f, {});
+    extended[f] = causes.empty() ? base[f] : left_out.error2(masked, f, causes);
+  });
+  const std::vector<double> rows = rows_of(first);
+  std::vector<std::size_t> all(folds);
+  for (std::size_t i = 0; i < folds; ++i) all[i] = i;
+  Gain g;
+  g.base_rmse_n = rmse(base, rows, all);
+  g.extended_rmse_n = rmse(extended, rows, all);
+  g.noise_floor_n = noise_floor_n;
+  g.percent = percent_of(base, extended, rows);
+  for (std::size_t f = 0; f < folds; ++f) g.by_fold_percent.push_back(100.0 * (1.0 - std::sqrt(extended[f] / std::max(1e-300, base[f]))));
   const double could = g.base_rmse_n - noise_floor_n;
   g.share_percent = could > 0.0 ? std::clamp(100.0 * (g.base_rmse_n - g.extended_rmse_n) / could, 0.0, 100.0) : 0.0;
   return g;
+}
+
+std::vector<Interval> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread) {
+  const std::size_t folds = first.folds.size();
+  const Folds left_out(first, spread);
+  std::vector<std::vector<double>> without(causes.size(), std::vector<double>(folds, 0.0));
+  std::vector<double> with(folds, 0.0);
+  independent_runs(folds, [&](std::size_t f) {
+    const View masked = left_out.without(f);
+    with[f] = left_out.error2(masked, f, causes);
+    for (std::size_t c = 0; c < causes.size(); ++c) {
+      auto others = causes;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
+      without[c][f] = left_out.error2(masked, f, others);
+    }
+  });
+  std::vector<Interval> out;
+  for (std::size_t c = 0; c < causes.size(); ++c) out.push_back(percent_of(without[c], with, rows_of(first)));
+  return out;
 }
 
 }  // namespace cavum::explain

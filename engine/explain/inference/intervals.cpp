@@ -69,7 +69,7 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
       trial[c].shape = start;
       if (const double chi2 = fit_terms(v, trial).chi2; chi2 < least) least = chi2, causes = trial;
     }
-    if (least > own + 0.2 * (v.products.all(0, 0) - own)) continue;
+    if (least > own + 0.2 * (v.products.spreads.back().all(0, 0) - own)) continue;
     causes = refine(v, causes, 1, c);
     const FitResult f = fit_terms(v, causes);
     if (f.chi2 > own + k_same_chi2 * inflation) continue;
@@ -85,9 +85,9 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
 /// Values of all causes' parameters, then of k and c, as the fit has them and found in other ways.
 struct Findings {
   using Values = std::vector<std::vector<NamedValue>>;
-  Eigen::VectorXd truth;  ///< what the twins were made with: shapes as they are, tangents 0
+  Eigen::VectorXd truth;  ///< what the surrogates were made with: shapes as they are, tangents 0
   Values middle;
-  std::vector<Values> without, twins;  ///< without each session in turn; in each twin
+  std::vector<Values> without, surrogates;  ///< without each session in turn; as each surrogate moves them
 };
 
 Findings findings_of(const View& v, const FitResult& f, const std::vector<const Hypothesis*>& known, const Null& null) {
@@ -96,10 +96,10 @@ Findings findings_of(const View& v, const FitResult& f, const std::vector<const 
   out.truth.head(v.base_fit.value.size()) = v.base_fit.value;
   out.truth.tail(out.truth.size() - v.base_fit.value.size()).setZero();
   out.middle = named_values(v, out.truth);
-  const std::size_t folds = v.products.by_session.size();
+  const std::size_t folds = v.products.folds.size();
   for (std::size_t s = 0; s < folds && folds > 1; ++s) out.without.push_back(named_values(v, fit(v.products, known, static_cast<int>(s)).value));
-  for (const auto& value : null.values)
-    if (value.size() == out.truth.size()) out.twins.push_back(named_values(v, value));
+  for (Eigen::Index i = 0; i < null.moved.cols(); ++i)
+    if (null.moved.rows() == out.truth.size()) out.surrogates.push_back(named_values(v, out.truth + null.moved.col(i)));
   return out;
 }
 
@@ -116,12 +116,12 @@ double noise_variance(const View& v, const FitResult& f, const Findings& found, 
   return std::max(1.0, f.chi2 / std::max(1.0, v.products.rows)) * slope.dot(f.covariance * slope);
 }
 
-/// What twins scatter by, with their bias added, where that is more than `variance`.
-double with_twins(double variance, const Findings& found, std::size_t c, std::size_t p) {
+/// What surrogates scatter by, with their bias added, where that is more than `variance`.
+double with_surrogates(double variance, const Findings& found, std::size_t c, std::size_t p) {
   double bias = 0.0, scatter = 0.0;
-  const auto n = static_cast<double>(found.twins.size());
-  for (const auto& twin : found.twins) {
-    const double d = twin[c][p].value - found.middle[c][p].value;
+  const auto n = static_cast<double>(found.surrogates.size());
+  for (const auto& surrogate : found.surrogates) {
+    const double d = surrogate[c][p].value - found.middle[c][p].value;
     bias += d / n;
     scatter += d * d / n;
   }
@@ -164,7 +164,7 @@ void set_parameters(Explanation& e, const View& v, const Null& null, double infl
     const double open = is_cause && mechanism_at(v.causes[c].mechanism).open ? mechanism_at(v.causes[c].mechanism).open(v.scene) : 0.0;
     for (std::size_t p = 0; p < found.middle[c].size(); ++p) {
       const auto& [name, value] = found.middle[c][p];
-      const double half = half_width(with_twins(noise_variance(v, f, found, c, p), found, c, p) + open * open, found, c, p);
+      const double half = half_width(with_surrogates(noise_variance(v, f, found, c, p), found, c, p) + open * open, found, c, p);
       Interval out{value, value - half, value + half};
       for (const auto& form : forms)
         for (const auto& other : form)

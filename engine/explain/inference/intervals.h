@@ -1,4 +1,4 @@
-// Parameters of the causes, and how sure they are: 95 % intervals that hold what noise, the twins, single sessions and other forms of the same
+// Parameters of the causes, and how sure they are: 95 % intervals that hold what noise, the surrogates, single sessions and other forms of the same
 // mechanism leave open.
 #pragma once
 

@@ -1,28 +1,23 @@
 #include "engine/explain/inference/search.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <string>
 
-#include "engine/explain/inference/twin.h"
-#include "engine/statistics/independent_runs.h"
+#include "engine/explain/model/lines.h"
 
 namespace cavum::explain {
 namespace {
 
 constexpr double k_testable = 0.05;  // of a column's norm left beside k and c, docs/physics.md section 13
 constexpr double k_scales[] = {0.04, 0.12, 0.3, 0.55, 0.8, 1.0, 1.3};
-constexpr double k_twin_doubt = 2.0;
-constexpr double k_expected_gain = 12.0;  // of the best of a grid, or of a curve of five parameters, in noise alone
-constexpr double k_least_width = 0.35, k_least_top = 1.5;
-constexpr double k_blur_gain = 12.0;
 constexpr double k_plain_trials = 200.0;  // hypotheses of the grids and curves, about
 constexpr double k_noise_gain = 3.0;      // what the best of a mechanism's grid gains in noise alone, about
 
 /// Share of the norm of `h`'s force that k and c cannot take over.
 double share_left(const View& v, const Hypothesis& h) {
-  const Eigen::MatrixXd& g = v.products.all;
+  const Eigen::MatrixXd& g = v.products.spreads.back().all;  // what sessions differ in takes no one's place
   const auto share = [&](auto product, double norm2) {
     // residual of a column on columns 1 and 2
     const double a = g(1, 1), b = g(1, 2), c = g(2, 2), p = product(1), q = product(2);
@@ -44,23 +39,93 @@ double share_left(const View& v, const Hypothesis& h) {
   return best;
 }
 
-struct Spread {
-  double mean = 0, sd = 0;
-};
+/// Columns of the products that a parameter sums up, with their factors.
+using Direction = std::vector<std::pair<Eigen::Index, double>>;
 
-Spread spread_of(const std::vector<double>& v, std::size_t without) {
-  double sum = 0, square = 0, n = 0;
-  for (std::size_t i = 0; i < v.size(); ++i)
-    if (i != without) sum += v[i], square += v[i] * v[i], n += 1;
-  if (n < 1) return {};
-  const double mean = sum / n;
-  return {mean, n > 1 ? std::sqrt(std::max(0.0, square / n - mean * mean) * n / (n - 1)) : 0.0};
+/// k, c, the causes' coefficients and tangents.
+std::vector<Direction> directions_of_model(const View& v) {
+  std::vector<Direction> out{{{1, 1.0}}, {{2, 1.0}}};
+  for (const auto& h : v.known) {
+    if (h.spring >= 0) out[0].emplace_back(h.spring, 1.0);
+    if (h.damper >= 0) out[1].emplace_back(h.damper, 1.0);
+    for (Eigen::Index i = 0; i < h.own; ++i) out.push_back({{h.first + i, 1.0}});
+  }
+  for (const auto& h : v.known)
+    for (Eigen::Index i = 0; i < h.tangent_count; ++i) out.push_back({{h.tangents + i, 1.0}});
+  return out;
 }
 
-double z_of(double gain, const Spread& s, double blur) {
-  // Twins are like the data, but not the same: their motion is an estimate, so they show less of what a coarse encoder does at
-  // sharp stops. What they gain on average beyond noise may be off by k_twin_doubt, and a blurred recording gains k_blur_gain more.
-  return (gain - s.mean) / (s.sd + k_noise_gain + k_blur_gain * blur + k_twin_doubt * std::max(0.0, s.mean - k_expected_gain));
+/// What a hypothesis adds, to first order: its own columns, and what it changes in those of k and c.
+std::vector<Direction> directions_of(const View& v, const Hypothesis& h) {
+  std::vector<Direction> out;
+  for (Eigen::Index i = 0; i < h.own; ++i) out.push_back({{h.first + i, 1.0}});
+  if (h.spring >= 0 || h.damper >= 0) {
+    Direction change;
+    if (h.spring >= 0) change.emplace_back(h.spring, v.base_fit.value[0]);
+    if (h.damper >= 0) change.emplace_back(h.damper, v.base_fit.value[1]);
+    out.push_back(std::move(change));
+  }
+  return out;
+}
+
+Eigen::MatrixXd as_matrix(const std::vector<Direction>& directions, Eigen::Index columns) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(columns, static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (const auto& [column, factor] : directions[i]) out(column, static_cast<Eigen::Index>(i)) += factor;
+  return out;
+}
+
+/// The model's part taken out of all columns and forces, under one spread.
+struct Beside {
+  Eigen::MatrixXd columns;   ///< [columns, columns]
+  Eigen::MatrixXd observed;  ///< [columns, recordings]
+  Eigen::VectorXd left;      ///< -2 log likelihood of the model alone, [recordings]
+  Eigen::MatrixXd moved;     ///< the model's parameters, [parameters, recordings]
+};
+
+Beside beside_model(const View& v, const Eigen::MatrixXd& model, const SpreadSums& sums, const Eigen::MatrixXd& observed,
+                    const Eigen::VectorXd& squares, bool with_prior) {
+  const Eigen::MatrixXd with = sums.all * model;  // [columns, parameters]
+  Eigen::MatrixXd own = model.transpose() * with;
+  Eigen::MatrixXd b = model.transpose() * observed;
+  Eigen::VectorXd squared = squares;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    own(i, i) += v.products.prior[i];
+    if (!with_prior) continue;  // a surrogate has the base that it was made with
+    b.row(i).array() += v.products.prior[i] * v.products.prior_at[i];
+    squared.array() += v.products.prior[i] * v.products.prior_at[i] * v.products.prior_at[i];
+  }
+  const Eigen::VectorXd scale = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-10;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(scaled);
+  Beside out;
+  out.moved = scale.asDiagonal() * solver.solve(scale.asDiagonal() * b);
+  out.observed = observed - with * out.moved;
+  out.left = squared - b.cwiseProduct(out.moved).colwise().sum().transpose();
+  out.left.array() += sums.log_det;
+  out.columns = sums.all - with * (scale.asDiagonal() * solver.solve(scale.asDiagonal() * with.transpose()));
+  return out;
+}
+
+/// Fall of chi² by a group of directions. A single one, or those of a mechanism with a range, must point the way that makes sense: `one_sided`.
+Eigen::VectorXd gains_of(const Beside& u, const std::vector<Direction>& group, bool one_sided) {
+  const auto n = static_cast<Eigen::Index>(group.size());
+  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, u.observed.cols());
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const auto& [column, factor] : group[static_cast<std::size_t>(i)]) {
+      b.row(i) += factor * u.observed.row(column);
+      for (Eigen::Index j = 0; j < n; ++j)
+        for (const auto& [other, times] : group[static_cast<std::size_t>(j)]) own(i, j) += factor * times * u.columns(column, other);
+    }
+  own.diagonal() *= 1.0 + 1e-9;
+  own.diagonal().array() += 1e-12;
+  const Eigen::MatrixXd x = own.ldlt().solve(b);
+  Eigen::VectorXd gain = b.cwiseProduct(x).colwise().sum().transpose().cwiseMax(0.0);
+  if (one_sided)
+    for (Eigen::Index i = 0; i < gain.size(); ++i)
+      if (x.col(i).minCoeff() <= 0.0) gain[i] = 0.0;
+  return gain.unaryExpr([](double g) { return std::isfinite(g) ? g : 0.0; });
 }
 
 }  // namespace
@@ -76,8 +141,7 @@ Eigen::Index parameters_of(const Term& term, const Scene& scene) {
 std::vector<Candidate> candidates_of(const View& v, int left_out) {
   std::vector<Candidate> out(mechanisms().size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i].hypothesis.term.mechanism = static_cast<int>(i), out[i].testable = false;
-  const Eigen::MatrixXd sums =
-      left_out < 0 ? v.products.all : Eigen::MatrixXd(v.products.all - v.products.by_session[static_cast<std::size_t>(left_out)]);
+  const std::vector<SpreadSums> sums = sums_without(v.products, left_out);
   std::vector<const Hypothesis*> model = known_of(v);
   const bool one_way = moves_one_way(v.scene.motion);
   const double before = fit(sums, v.products, model, left_out).chi2;
@@ -110,7 +174,7 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
   return out;
 }
 
-Scores scores_of(const View& view) { return {candidates_of(view), structures(view), 1.0 - view.scene.weight.mean()}; }
+Scores scores_of(const View& view) { return {candidates_of(view), structures(view)}; }
 
 double best_pair_gain(const View& v, const std::vector<Candidate>& candidates) {
   std::vector<const Hypothesis*> model = known_of(v);
@@ -129,57 +193,131 @@ double best_pair_gain(const View& v, const std::vector<Candidate>& candidates) {
   return best;
 }
 
-void add_twins(Null& null, const View& view, std::size_t count, std::uint64_t seed, const Series* fixed_n, const std::function<void()>& done) {
-  const std::size_t first = null.twins.size();
-  if (count <= first) return;
-  null.twins.resize(count);
-  null.values.resize(count);
-  independent_runs(count - first, [&](std::size_t i) {
-    const Recording twin = make_twin(view, seed + 0x9e3779b97f4a7c15ULL * (first + i + 1));
-    ViewOptions options;
-    options.fixed_n = fixed_n;
-    const View seen = make_view(twin, estimate_motion(twin), view.causes, {}, options);
-    null.twins[first + i] = scores_of(seen);
-    null.values[first + i] = fit(seen.products, known_of(seen)).value;
-    if (done) done();
-  });
+std::size_t Entries::count() const { return mechanisms().size() + variables.size(); }
+std::size_t Entries::of_variable(const std::string& name) const {
+  return mechanisms().size() + static_cast<std::size_t>(std::find(variables.begin(), variables.end(), name) - variables.begin());
 }
 
-Judgement judge(const Scores& data, const Null& null) {
-  const std::size_t mechanisms_n = data.candidates.size(), entries = mechanisms_n + data.structures.size();
-  const std::size_t n = null.twins.size();
-  const auto gain_in = [&](const Scores& s, std::size_t e) {
-    if (e < mechanisms_n) return std::max(0.0, s.candidates[e].raw_gain);
-    const std::string& name = data.structures[e - mechanisms_n].variable;
-    for (const auto& structure : s.structures)
-      if (structure.variable == name) return std::max(0.0, structure.raw_gain);
-    return 0.0;
-  };
-  std::vector<double> largest(n, -1e300);
-  Judgement j;
-  double gained = 0.0;
-  if (n == 0) {  // the plain rule: as if noise alone could gain anything, times the number of things that are tried
-    for (std::size_t e = 0; e < entries; ++e) {
-      const double gain = e < mechanisms_n ? data.candidates[e].raw_gain : data.structures[e - mechanisms_n].raw_gain;
-      j.z.push_back(gain / k_noise_gain);
-      j.p_value.push_back(std::min(1.0, k_plain_trials * std::exp(-0.5 * std::max(0.0, gain))));
+Entries entries_of(const View& v) {
+  Entries out;
+  for (const auto& c : v.curves)
+    if (out.variables.empty() || out.variables.back() != c.variable) out.variables.push_back(c.variable);
+  return out;
+}
+
+Eigen::MatrixXd score_gains(const View& v, const std::vector<SpreadSums>& sums, const Observed& observed) {
+  const Entries entries = entries_of(v);
+  const Eigen::Index recordings = observed.with_columns.front().cols(), columns = sums.front().all.rows();
+  const bool is_data = recordings == 1;
+  const Eigen::MatrixXd model = as_matrix(directions_of_model(v), columns);
+  std::vector<Beside> under;
+  for (std::size_t u = 0; u < sums.size(); ++u)
+    under.push_back(beside_model(v, model, sums[u], observed.with_columns[u], observed.squares[u], is_data));
+  Eigen::VectorXd alone = under.front().left;
+  for (const auto& u : under) alone = alone.cwiseMin(u.left);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(entries.count()), recordings);
+  const auto keep = [&](std::size_t entry, const std::vector<Direction>& group, bool one_sided) {
+    for (const auto& u : under) {
+      auto row = out.row(static_cast<Eigen::Index>(entry));
+      row = row.cwiseMax((alone - u.left + gains_of(u, group, one_sided)).transpose());
     }
-    return j;
+  };
+  const bool one_way = moves_one_way(v.scene.motion);
+  for (const auto& h : v.grid) {
+    const Mechanism& m = mechanism_at(h.term.mechanism);
+    if (m.by_session) continue;  // lines are judged by their neighbours in frequency
+    const bool offset = one_way && m.one_way == OneWay::is_offset;
+    if (!offset && share_left(v, h) < k_testable) continue;
+    if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(h.term.mechanism); })) continue;
+    const auto group = directions_of(v, h);
+    keep(static_cast<std::size_t>(h.term.mechanism), group, m.own.low == 0.0 || (h.own == 0 && group.size() == 1));
   }
-  for (std::size_t e = 0; e < entries; ++e) {
-    std::vector<double> twins(n);
-    for (std::size_t t = 0; t < n; ++t) twins[t] = gain_in(null.twins[t], e);
-    // a twin is judged by the others, as the data are
-    for (std::size_t t = 0; t < n; ++t) largest[t] = std::max(largest[t], z_of(twins[t], spread_of(twins, t), data.blur));
-    const Spread all = spread_of(twins, n);
-    j.z.push_back(z_of(gain_in(data, e), all, data.blur));
-    if (e < mechanisms_n) gained += all.mean;
+  for (const auto& c : v.curves) {
+    std::vector<Direction> group;
+    for (Eigen::Index i = 0; i < c.count; ++i) group.push_back({{c.first + i, 1.0}});
+    keep(entries.of_variable(c.variable), group, false);
   }
-  j.inflation = std::max(1.0, gained / static_cast<double>(mechanisms_n) / k_noise_gain);
-  const Spread top = spread_of(largest, n);
-  // Gumbel by moments; never less than what z in honest units would be, for the doubt in z's denominator shrinks the twins' z too
-  const double width = std::max(k_least_width, top.sd * std::sqrt(6.0) / 3.14159265358979), at = std::max(k_least_top, top.mean - 0.5772 * width);
-  for (const double z : j.z) j.p_value.push_back(-std::expm1(-std::exp(-(z - at) / width)));
+  return out;
+}
+
+Null null_of(const View& v, std::size_t surrogates, std::uint64_t seed) {
+  Null out;
+  if (surrogates == 0) return out;
+  const Observed observed = observed_surrogates(v, surrogates, seed);
+  const Eigen::MatrixXd gains = score_gains(v, v.products.spreads, observed);
+  const auto n = static_cast<double>(surrogates);
+  out.mean = gains.rowwise().mean();
+  out.scatter = ((gains.colwise() - out.mean).array().square().rowwise().sum() / std::max(1.0, n - 1.0)).sqrt().matrix();
+  for (Eigen::Index i = 0; i < gains.cols(); ++i)
+    out.largest_z.push_back(((gains.col(i) - out.mean).array() / (out.scatter.array() + k_noise_gain)).maxCoeff());
+  std::sort(out.largest_z.begin(), out.largest_z.end());
+  out.moved = beside_model(v, as_matrix(directions_of_model(v), v.products.spreads.front().all.rows()), v.products.spreads.front(),
+                           observed.with_columns.front(), observed.squares.front(), false)
+                  .moved;
+  return out;
+}
+
+namespace {
+
+/// Lines are part of the noise's own spectrum, which surrogates have too: they are judged by their neighbours in frequency.
+void judge_lines(const View& v, Judgement& j, double least_p) {
+  Series z = v.residual_n;
+  whitening_of(v).apply(z);
+  std::vector<std::pair<Series, Series>> seen;
+  for (const auto& h : v.grid) {
+    const Mechanism& m = mechanism_at(h.term.mechanism);
+    if (!m.by_session) continue;
+    const Columns c = m.columns(v.scene, h.term.shape);
+    Series sine = Series::Zero(z.size()), cosine = sine;
+    for (std::size_t i = 0; i + 1 < c.own.size(); i += 2) sine += c.own[i], cosine += c.own[i + 1];
+    const double p = line_p_value(v.scene, z, sine, cosine, m.from_residual ? line_trials(v.scene) : static_cast<double>(v.grid.size()));
+    double& kept = j.p_value[static_cast<std::size_t>(h.term.mechanism)];
+    kept = std::min(kept, std::max(least_p, p));
+  }
+}
+
+/// That the surface lies elsewhere in each session is a spread between them: the likelihood falls without it, by half a chi² of one degree by chance.
+void judge_surface(const View& v, Judgement& j, double least_p) {
+  const int surface = known_mechanism("contact_offset");
+  if (std::any_of(v.causes.begin(), v.causes.end(), [&](const Term& t) { return t.mechanism == surface; }) || v.spread[k_surface_place] <= 0.0)
+    return;
+  const std::vector<SessionSpread> spreads = narrower_spreads(v.spread);
+  double with = 1e300, without = 1e300;
+  for (std::size_t u = 0; u < spreads.size(); ++u) {
+    const double left = fit({v.products.spreads[u]}, v.products, known_of(v)).chi2;
+    (spreads[u][k_surface_place] > 0.0 ? with : without) = std::min(spreads[u][k_surface_place] > 0.0 ? with : without, left);
+  }
+  const double p = 0.5 * std::erfc(std::sqrt(std::max(0.0, without - with) / 2.0));
+  double& kept = j.p_value[static_cast<std::size_t>(surface)];
+  kept = std::min(kept, std::max(least_p, p));
+}
+
+}  // namespace
+
+Judgement judge(const View& v, const Null& null, int left_out) {
+  const std::vector<SpreadSums> sums = sums_without(v.products, left_out);
+  const Eigen::VectorXd gains = score_gains(v, sums, observed_data(sums)).col(0);
+  const auto n = static_cast<double>(null.largest_z.size());
+  // what a wrong motion gains grows with the rows: without a fold there is less of it
+  double share = 1.0;
+  if (left_out >= 0) {
+    const auto [begin, end] = v.folds[static_cast<std::size_t>(left_out)];
+    share -= static_cast<double>(end - begin) / static_cast<double>(v.force_n.size());
+  }
+  Judgement j;
+  for (Eigen::Index e = 0; e < gains.size(); ++e) {
+    if (null.largest_z.empty()) {  // the plain rule: as if noise alone could gain anything, times the number of things that are tried
+      j.z.push_back(gains[e] / k_noise_gain);
+      j.p_value.push_back(std::min(1.0, k_plain_trials * std::exp(-0.5 * gains[e])));
+      continue;
+    }
+    j.z.push_back((gains[e] - share * null.mean[e]) / (share * null.scatter[e] + k_noise_gain));
+    const auto above = null.largest_z.end() - std::lower_bound(null.largest_z.begin(), null.largest_z.end(), j.z.back());
+    j.p_value.push_back((1.0 + static_cast<double>(above)) / (n + 1.0));
+  }
+  if (!null.largest_z.empty()) j.inflation = std::max(1.0, null.mean.head(static_cast<Eigen::Index>(mechanisms().size())).mean() / k_noise_gain);
+  judge_lines(v, j, 1.0 / (n + 1.0));
+  judge_surface(v, j, 1.0 / (n + 1.0));
   return j;
 }
 

@@ -1,12 +1,11 @@
 // The search for causes: what each mechanism would gain beside the causes known so far, judged against what the same
-// search finds in twins without it.
+// search finds in surrogates, in which nothing is hidden.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "engine/explain/inference/structure.h"
-#include "engine/explain/model/view.h"
+#include "engine/explain/inference/surrogates.h"
 
 namespace cavum::explain {
 
@@ -25,7 +24,6 @@ struct Candidate {
 struct Scores {
   std::vector<Candidate> candidates;
   std::vector<Structure> structures;
-  double blur = 0;  ///< 0..1: share of the rows' weight that a coarse position costs
 };
 
 [[nodiscard]] std::vector<Candidate> candidates_of(const View& view, int left_out = -1);
@@ -33,23 +31,34 @@ struct Scores {
 /// Gain of the best two mechanisms together, grid only.
 [[nodiscard]] double best_pair_gain(const View& view, const std::vector<Candidate>& candidates);
 
-/// Twins of one view, each scored as the data were.
+/// What is judged: mechanisms() in order, then the variables of View::curves.
+struct Entries {
+  std::vector<std::string> variables;
+  [[nodiscard]] std::size_t count() const;
+  [[nodiscard]] std::size_t of_variable(const std::string& name) const;  ///< count() when there is none of that name
+};
+[[nodiscard]] Entries entries_of(const View& view);
+
+/// To first order, fall of -2 log likelihood by each entry beside base and causes, in each of the observed recordings; shape [entries, recordings].
+/// `sums`: those that `observed` belongs to.
+[[nodiscard]] Eigen::MatrixXd score_gains(const View& view, const std::vector<SpreadSums>& sums, const Observed& observed);
+
+/// What surrogates of one view gain.
 struct Null {
-  std::vector<Scores> twins;
-  std::vector<Eigen::VectorXd> values;  ///< of the causes with tangents, one for each twin
+  Eigen::VectorXd mean, scatter;  ///< of the gains, by entry
+  std::vector<double> largest_z;  ///< of each surrogate, ascending
+  Eigen::MatrixXd moved;          ///< of k, c and the causes' parameters (as FitResult has them), by the surrogates' noise; [parameters, surrogates]
 };
+[[nodiscard]] Null null_of(const View& view, std::size_t surrogates, std::uint64_t seed);
 
-/// Adds twins up to `count`. `done(i)` is called as they finish, from any thread.
-void add_twins(Null& null, const View& view, std::size_t count, std::uint64_t seed, const Series* fixed_n, const std::function<void()>& done);
-
-/// The data against their twins. An entry is a mechanism (0 … mechanisms) or a structure (after them).
+/// The data against their surrogates.
 struct Judgement {
-  std::vector<double> z;        ///< (gain − mean of twins) / scatter, by entry
-  std::vector<double> p_value;  ///< chance that the largest z of a twin exceeds it (Gumbel fit to the twins' largest)
-  double inflation = 1.0;       ///< what twins gain on average, over what noise alone would
+  std::vector<double> z;        ///< (gain − mean of surrogates) / scatter, by entry
+  std::vector<double> p_value;  ///< share of surrogates, the recording among them, whose largest z is as large: never below 1/(surrogates + 1)
+  double inflation = 1.0;       ///< what surrogates gain on average, over what independent noise would
 };
-/// Without any twins: the chance that independent noise gains as much in one of all trials.
-[[nodiscard]] Judgement judge(const Scores& data, const Null& null);
+/// `left_out`: a fold that is not looked at; -1 = none. Without any surrogates: the chance that independent noise gains as much in one of all trials.
+[[nodiscard]] Judgement judge(const View& view, const Null& null, int left_out = -1);
 
 /// Shapes of `causes` that fit best, starting where they are; coordinate search on each fitted shape within its range.
 [[nodiscard]] std::vector<Term> refine(const View& view, std::vector<Term> causes, int cycles, std::size_t first = 0);

@@ -92,6 +92,12 @@ Columns chatter_columns(const Scene& s, const Shape& p) {
   return line(s, turns - turns.floor(), p[1] > 0.5 ? Series(s.touching * s.spinning) : s.touching);
 }
 
+std::vector<NamedValue> line_parameters(const Shape& p, const Shape& own, Base) {
+  std::vector<NamedValue> named{{"amplitude_n", amplitude_of(own)}, {"frequency_hz", p[0]}};
+  if (own.size() == 2) named.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
+  return named;
+}
+
 std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{name, own[0]}}; }
 
 Mechanism edge_force() {
@@ -198,17 +204,36 @@ Mechanism chatter() {
             return g;
           },
       .columns = chatter_columns,
-      .parameters =
-          [](const Shape& p, const Shape& own, Base) {
-            std::vector<NamedValue> named{{"amplitude_n", amplitude_of(own)}, {"frequency_hz", p[0]}};
-            if (own.size() == 2) named.push_back({"phase_turns", std::atan2(own[1], own[0]) / k_turn});
-            return named;
-          },
+      .parameters = line_parameters,
       .shape_in_term =
           [](const Shape& shape, TermParameters& out) {
             out.emplace_back("spinning", shape[1]);
             return true;
           },
+      .from_residual = true,
+      .by_session = true,
+  };
+}
+
+Mechanism interference() {
+  return {
+      .name = "interference",
+      .equation = "A sin(2 pi f t + phase), in air too",
+      .words = "a pick-up of a fixed frequency, as from the mains; the frequency is the one that the sampling shows",
+      .separate = "record in air, the drive at rest: interference stays; at another sampling rate, an alias moves",
+      .shape = {{"frequency_hz", 0.1, 1e5, false, true}},
+      .grid =
+          [](const Scene& s) {
+            Grid g;
+            for (const double hz : s.lines_in_air_hz) g.push_back({hz});
+            return g;
+          },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            const Series turns = s.recording->t_s * p[0];
+            return line(s, turns - turns.floor(), Series::Ones(turns.size()));
+          },
+      .parameters = line_parameters,
       .from_residual = true,
       .by_session = true,
   };
@@ -262,7 +287,7 @@ Series removed_since_new_mm3(const Scene& scene, bool carried) { return worn_mm3
 
 std::vector<Mechanism> cutting_mechanisms() {
   return {
-      edge_force(), wear(), run_out(), chatter(), coolant(), thermal_softening(),
+      edge_force(), wear(), run_out(), chatter(), interference(), coolant(), thermal_softening(),
   };
 }
 

@@ -44,17 +44,17 @@ Eigen::Index lay_out(const std::vector<const Hypothesis*>& model, Parameter* p) 
   return n;
 }
 
-/// Left and right side of the normal equations, from the sums of products.
-void equations(const Eigen::MatrixXd& sums, const Products& products, int left_out, const Parameter* p, Small& a, Vector& b) {
+/// Left and right side of the normal equations under spread `u`, from the sums of products.
+void equations(const Eigen::MatrixXd& sums, const Products& products, std::size_t u, int left_out, const Parameter* p, Small& a, Vector& b) {
   const Eigen::MatrixXd nothing;
-  const auto sums_of = [&](Eigen::Index session) -> const Eigen::MatrixXd& {
-    if (session < 0) return sums;
-    return session == left_out ? nothing : products.by_session[static_cast<std::size_t>(session)];
+  const auto sums_of = [&](Eigen::Index fold) -> const Eigen::MatrixXd& {
+    if (fold < 0) return sums;
+    return fold == left_out ? nothing : products.folds[static_cast<std::size_t>(fold)][u].all;
   };
   for (Eigen::Index i = 0; i < b.size(); ++i) {
     const Eigen::MatrixXd& own = sums_of(p[i].session);
     b[i] = 0.0;
-    for (int u = 0; u < p[i].count && own.size() > 0; ++u) b[i] += p[i].factor[u] * own(0, p[i].column[u]);
+    for (int at = 0; at < p[i].count && own.size() > 0; ++at) b[i] += p[i].factor[at] * own(0, p[i].column[at]);
     for (Eigen::Index j = 0; j <= i; ++j) {
       const bool apart = p[i].session >= 0 && p[j].session >= 0 && p[i].session != p[j].session;
       const Eigen::MatrixXd& g = p[i].session >= 0 ? own : sums_of(p[j].session);
@@ -63,29 +63,19 @@ void equations(const Eigen::MatrixXd& sums, const Products& products, int left_o
         a(i, j) = a(j, i) = 0.0;
         continue;
       }
-      for (int u = 0; u < p[i].count; ++u)
-        for (int v = 0; v < p[j].count; ++v) sum += p[i].factor[u] * p[j].factor[v] * g(p[i].column[u], p[j].column[v]);
+      for (int at = 0; at < p[i].count; ++at)
+        for (int v = 0; v < p[j].count; ++v) sum += p[i].factor[at] * p[j].factor[v] * g(p[i].column[at], p[j].column[v]);
       a(i, j) = a(j, i) = sum;
     }
   }
 }
 
-}  // namespace
-
-Eigen::Index Hypothesis::parameters() const {
-  Eigen::Index fitted = 0;
-  const auto& ranges = mechanism_at(term.mechanism).shape;
-  for (std::size_t i = 0; i < ranges.size(); ++i) fitted += ranges[i].fitted && term.shape[i] != 0.0;
-  return own + repeats - 1 + fitted;
-}
-
-FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
-  Parameter p[k_max_columns];
-  const Eigen::Index n = lay_out(model, p);
+FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_t u, const Parameter* p, Eigen::Index n, int left_out,
+                    bool covariance) {
   Small a(n, n);
   Vector b(n);
-  equations(sums, products, left_out, p, a, b);
-  double yy = sums(0, 0);
+  equations(sums.all, products, u, left_out, p, a, b);
+  double yy = sums.all(0, 0);
   for (Eigen::Index i = 0; i < 2; ++i) {
     a(i, i) += products.prior[i];
     b[i] += products.prior[i] * products.prior_at[i];
@@ -102,14 +92,46 @@ FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::
   const Vector xs = solver.solve(bs);
   out.solved = solver.info() == Eigen::Success && xs.allFinite();
   out.value = xs.cwiseProduct(scale);
-  out.chi2 = out.solved ? yy - bs.dot(xs) : yy;
+  out.chi2 = (out.solved ? yy - bs.dot(xs) : yy) + sums.log_det;
   if (covariance) out.covariance = scale.asDiagonal() * solver.solve(Small::Identity(n, n)) * scale.asDiagonal();
   return out;
 }
 
+}  // namespace
+
+Eigen::Index Hypothesis::parameters() const {
+  Eigen::Index fitted = 0;
+  const auto& ranges = mechanism_at(term.mechanism).shape;
+  for (std::size_t i = 0; i < ranges.size(); ++i) fitted += ranges[i].fitted && term.shape[i] != 0.0;
+  return own + repeats - 1 + fitted;
+}
+
+std::vector<SpreadSums> sums_without(const Products& products, int left_out) {
+  std::vector<SpreadSums> out = products.spreads;
+  if (left_out < 0) return out;
+  for (std::size_t u = 0; u < out.size(); ++u) {
+    const SpreadSums& fold = products.folds[static_cast<std::size_t>(left_out)][u];
+    out[u].all -= fold.all;
+    out[u].log_det -= fold.log_det;
+  }
+  return out;
+}
+
+FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out,
+              bool covariance) {
+  Parameter p[k_max_columns];
+  const Eigen::Index n = lay_out(model, p);
+  FitResult best;
+  for (std::size_t u = 0; u < sums.size(); ++u) {
+    FitResult one = fit_under(sums[u], products, u, p, n, left_out, covariance);
+    if (u == 0 || one.chi2 < best.chi2) best = std::move(one);
+  }
+  return best;
+}
+
 FitResult fit(const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
-  if (left_out < 0) return fit(products.all, products, model, -1, covariance);
-  return fit(products.all - products.by_session[static_cast<std::size_t>(left_out)], products, model, left_out, covariance);
+  return left_out < 0 ? fit(products.spreads, products, model, -1, covariance)
+                      : fit(sums_without(products, left_out), products, model, left_out, covariance);
 }
 
 }  // namespace cavum::explain

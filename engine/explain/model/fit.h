@@ -1,5 +1,6 @@
 // Least squares of the base and any set of mechanisms together, on sums of products kept session by session: then a
-// search over hundreds of hypotheses, and leaving a session out, cost only small matrices.
+// search over hundreds of hypotheses, and leaving a session out, cost only small matrices. What differs from session to session is integrated out
+// (session_effects.h), by each of a few spreads; the likeliest of them counts, so that a cause may explain it.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +20,9 @@ struct Term {
 /// A term whose columns are in the products.
 struct Hypothesis {
   Term term;
-  Eigen::Index first = 0;    ///< its own columns
-  Eigen::Index own = 0;      ///< how many
-  Eigen::Index repeats = 1;  ///< sessions (Products::by_session) that have coefficients of their own for these columns; 1 = all share them
+  Eigen::Index first = 0;                 ///< its own columns
+  Eigen::Index own = 0;                   ///< how many
+  Eigen::Index repeats = 1;               ///< folds (Products::folds) that have coefficients of their own for these columns; 1 = all share them
   Eigen::Index spring = -1, damper = -1;  ///< changes of the columns of k and c; -1 = none
   /// These changes times this: between nothing (0) and the point of the grid (1) the search interpolates.
   double scale = 1.0;
@@ -31,26 +32,34 @@ struct Hypothesis {
   [[nodiscard]] Eigen::Index parameters() const;  ///< linear ones and fitted shapes; a phase for each session beside one amplitude
 };
 
-/// Sums of products of whitened columns: 0 the force, 1 the column of k, 2 that of c, then the hypotheses'.
-struct Products {
-  std::vector<Eigen::MatrixXd> by_session;  // or by fold, View::folds
+/// Sums of products of whitened columns under one spread: 0 the force, 1 the column of k, 2 that of c, then the hypotheses'.
+struct SpreadSums {
   Eigen::MatrixXd all;
-  double rows = 0;  ///< sum of weights, so that chi² of a good model is about this
+  double log_det = 0;  ///< what the spread costs
+};
+
+struct Products {
+  std::vector<SpreadSums> spreads;             ///< as narrower_spreads has them: the first as found, the last without any
+  std::vector<std::vector<SpreadSums>> folds;  ///< [fold][spread], View::folds
+  double rows = 0;                             ///< sum of weights, so that chi² of a good model is about this
   /// Information that rig.toml gives: 1/sd² and the value, of k and c.
   double prior[2] = {0, 0}, prior_at[2] = {0, 0};
 };
 
+/// Sums of all folds but `left_out` (-1 = all).
+[[nodiscard]] std::vector<SpreadSums> sums_without(const Products& products, int left_out);
+
 struct FitResult {
-  double chi2 = 0;
+  double chi2 = 0;             ///< with the cost of the spread; the least of all spreads
   Eigen::VectorXd value;       ///< k, c, then own coefficients of each hypothesis in turn, then tangents of each in turn
   Eigen::MatrixXd covariance;  ///< of value, in units in which the noise is 1; only when asked for
   bool solved = false;
 };
 
-/// All sessions but `left_out` (-1 = all).
+/// All folds but `left_out` (-1 = all).
 [[nodiscard]] FitResult fit(const Products& products, const std::vector<const Hypothesis*>& model, int left_out = -1, bool covariance = false);
-/// The same; `sums` are those of all sessions but `left_out`.
-[[nodiscard]] FitResult fit(const Eigen::MatrixXd& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out = -1,
-                            bool covariance = false);
+/// The same; `sums` are those of all folds but `left_out`.
+[[nodiscard]] FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, const std::vector<const Hypothesis*>& model,
+                            int left_out = -1, bool covariance = false);
 
 }  // namespace cavum::explain

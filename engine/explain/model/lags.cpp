@@ -65,10 +65,11 @@ Columns delayed(const Scene& s, double tau_s) {
     Eigen::Index j = rows.begin;
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double then = t[i] - tau_s;
-      while (j + 1 < i && t[j + 1] <= then) ++j;
-      if (then <= t[rows.begin] || j + 1 >= rows.end) {  // before the recording the tool stood where it begins
-        out.spring[i] = s.spring_mm[rows.begin];
-        out.damper[i] = s.damper_mm_s[rows.begin];
+      while (j + 2 < rows.end && t[j + 1] <= then) ++j;
+      if (then <= t[rows.begin] || then >= t[rows.end - 1]) {  // before and after the recording the tool stood where it begins and ends
+        const Eigen::Index end = then <= t[rows.begin] ? rows.begin : rows.end - 1;
+        out.spring[i] = s.spring_mm[end];
+        out.damper[i] = s.damper_mm_s[end];
         continue;
       }
       const Way w = way_to(s, j + 1);
@@ -98,6 +99,27 @@ Columns lagged(const Scene& s, double tau_s) {
   }
   out.spring -= s.spring_mm;
   out.damper -= s.damper_mm_s;
+  return out;
+}
+
+Series resonance(const Scene& s, const Series& u, double frequency_hz, double damping) {
+  Series out = Series::Zero(u.size());
+  const double w = 2 * 3.14159265358979323846 * frequency_hz, fade = damping * w, swing = w * std::sqrt(1.0 - damping * damping);
+  for (const auto& rows : s.recording->sessions) {
+    double y = u[rows.begin], slope = 0.0;
+    out[rows.begin] = y;
+    for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) {
+      // exact for u straight from row to row: the response follows u, behind by 2 damping/w, and what is left of before rings down
+      const double dt = s.dt_s[i - 1], rate = dt > 0.0 ? (u[i] - u[i - 1]) / dt : 0.0, behind = 2.0 * damping / w * rate;
+      const double off = y - (u[i - 1] - behind), off_slope = slope - rate;
+      const double down = std::exp(-fade * dt), c = std::cos(swing * dt), d = std::sin(swing * dt);
+      const double b = (off_slope + fade * off) / swing;
+      const double left = down * (off * c + b * d);
+      slope = rate + down * (-fade * (off * c + b * d) + swing * (b * c - off * d));
+      y = u[i] - behind + left;
+      out[i] = y;
+    }
+  }
   return out;
 }
 

@@ -93,8 +93,10 @@ struct Mechanism {
   const char* variant_of = nullptr;  ///< the law whose variant it is: a model holds one of them at most
   OneWay one_way = OneWay::told;
   const char* like_when_short = nullptr;  ///< a lag in tau_s: the one that cannot be told from it when both are shorter than the data resolve
-  bool in_recordings = true;              ///< false: no recording of k and c can show it, whatever the motion
-  bool from_residual = false;             ///< its grid is what this recording's residual shows: given as known, it needs none
+  /// A shape that goes by another law's name as well; nullptr: it does not.
+  std::function<const char*(const std::vector<double>& shape)> same_as{};
+  bool in_recordings = true;   ///< false: no recording of k and c can show it, whatever the motion
+  bool from_residual = false;  ///< its grid is what this recording's residual shows: given as known, it needs none
   /// A shape with fewer numbers to start from as well; empty: none.
   std::function<std::vector<double>(const std::vector<double>& shape)> simpler{};
 

@@ -13,16 +13,16 @@ using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
 /// Play of radius b (variants 0: of the penetration; 1: of the position, in air too; 3: the same, with contact where the encoder shows it and not
-/// the tip), or of width b behind the motion (2).
+/// the tip; 4: of the position, the surface being where the tip met it on the way in), or of width b behind the motion (2).
 Series played(const Scene& s, int variant, double b) {
   Series out(s.force_n.size());
   for (const auto& rows : s.recording->sessions) {
-    const auto input = [&](Eigen::Index i) { return variant == 1 || variant == 3 ? s.motion.x_mm[i] : std::max(0.0, s.motion.x_mm[i]); };
+    const auto input = [&](Eigen::Index i) { return variant == 1 || variant >= 3 ? s.motion.x_mm[i] : std::max(0.0, s.motion.x_mm[i]); };
     double y = input(rows.begin);
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double x = input(i);
       y = played_mm(y, x, b, variant == 2 ? 0.0 : b);
-      out[i] = y;
+      out[i] = variant == 4 ? y + b : y;
     }
   }
   return variant == 3 ? out : Series(out.max(0.0));
@@ -30,7 +30,7 @@ Series played(const Scene& s, int variant, double b) {
 
 Grid play_grid(const Scene& s) {
   Grid g;
-  for (const double variant : {0.0, 1.0, 2.0, 3.0})
+  for (const double variant : {0.0, 1.0, 2.0, 3.0, 4.0})
     for (const double part : {0.005, 0.015, 0.04, 0.1, 0.25}) g.push_back({variant, part * deepest_mm(s)});
   return g;
 }
@@ -61,11 +61,11 @@ Grid loop_grid(const Scene& s) {
 Mechanism backlash() {
   return {
       .name = "backlash",
-      .equation = "k (play(X, b) - X)",
+      .equation = "k (play(X, b) - X), b half of the whole play",
       .words = "play between the measured position and the tip",
       .separate = "reverse within contact, slowly, several times",
       .term = &k_backlash,
-      .shape = {{"variant", 0, 3, false, false}, {"b_mm", 1e-5, 100, true, true}},
+      .shape = {{"variant", 0, 4, false, false}, {"b_mm", 1e-5, 100, true, true}},
       .grid = play_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
@@ -81,7 +81,7 @@ Mechanism backlash() {
       },
       .shape_in_term =
           [](const Shape& shape, TermParameters& out) {
-            if (shape[0] < 0.5) return false;  // a play that keeps its place in air
+            if (shape[0] < 0.5 || shape[0] > 3.5) return false;  // a play that keeps its place in air, or whose surface was found by touch
             if (shape[0] == 2.0) out.emplace_back("ahead_mm", 0.0);
             if (shape[0] == 3.0) out.emplace_back("seen", 1.0);
             return true;
@@ -120,6 +120,8 @@ Mechanism hysteresis() {
           },
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
+      .same_as =
+          [](const Shape& shape) { return shape[0] > 1.5 ? "coulomb_friction" : nullptr; },  // in air too: friction that gives before it slides
   };
 }
 

@@ -8,7 +8,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_lasting_s = 0.2;  // how long an error of position lasts: a cell of 0.055 mm at 0.25 mm/s
+constexpr double k_summed_most = 400.0;
 
 }  // namespace
 
@@ -32,9 +32,10 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
   const Eigen::Index n = recording.rows();
   for (Series* a : {&s.touching, &s.active, &s.spring_mm, &s.damper_mm_s, &s.force_n, &s.spinning, &s.weight}) *a = Series::Zero(n);
   // noise of correlation rho, summed over many rows, is that of independent rows times (1 + rho)/(1 - rho)
-  const double lasting = recording.rows() > 0 ? k_lasting_s / std::max(1e-6, s.dt_s.mean()) : 1.0;
-  const double noise2 = noise_sd_n * noise_sd_n * std::max(1.0, (1.0 + rho) / (1.0 - rho)) / std::max(1.0, lasting);
+  const double summed = std::clamp((1.0 + rho) / std::max(1e-3, 1.0 - rho), 1.0, k_summed_most);
   for (Eigen::Index i = 0; i < n; ++i) {
+    const double lasting = motion.lasting_rows.size() > 0 ? motion.lasting_rows[i] : 1.0;
+    const double noise2 = noise_sd_n * noise_sd_n * std::min(summed, lasting) / lasting;
     const double rk = relative_at(recording.relative_k, i), rc = relative_at(recording.relative_c, i);
     const double k = rk * base.k_n_per_mm, c = rc * base.c_n_s_per_mm;
     const double x = motion.x_mm[i], v = motion.v_mm_s[i], sx = motion.sd_x_mm[i], sv = motion.sd_v_mm_s[i];

@@ -1,5 +1,5 @@
 // What a mechanism may look at: the motion as estimated, the base force that the engine's law gives on it, who was in
-// contact, and the other columns. One scene is one recording (or one twin of it) seen with one pair of k and c.
+// contact, and the other columns. One scene is one recording (or one motion that it leaves possible) seen with one pair of k and c.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,16 @@ struct Scene {
   Motion motion;
   Base base;
   Series dt_s;
-  Series touching;               ///< 0..1: probability that X > 0, given the uncertainty of X
-  Series active;                 ///< touching, and the force of the contact is above zero (not clipped by "never pulls")
-  Series spring_mm;              ///< X · active (times relative_k): the column of k
-  Series damper_mm_s;            ///< V · active (times relative_c): the column of c
-  Series force_n;                ///< base force F_sim
-  Series spinning;               ///< 1 where spindle_rpm > 0; all 0 without that column
-  Series weight;                 ///< 0..1: less where the position leaves the base force uncertain, and near contact transitions
-  Series left_n;                 ///< force that base and causes leave; empty outside of a view with products
-  std::vector<double> lines_hz;  ///< lines found in the residual, candidates of chatter (lines.h)
+  Series touching;                      ///< 0..1: probability that X > 0, given the uncertainty of X
+  Series active;                        ///< touching, and the force of the contact is above zero (not clipped by "never pulls")
+  Series spring_mm;                     ///< X · active (times relative_k): the column of k
+  Series damper_mm_s;                   ///< V · active (times relative_c): the column of c
+  Series force_n;                       ///< base force F_sim
+  Series spinning;                      ///< 1 where spindle_rpm > 0; all 0 without that column
+  Series weight;                        ///< 0..1: less where the position leaves the base force uncertain, and near contact transitions
+  Series left_n;                        ///< force that base and causes leave; empty outside of a view with products
+  std::vector<double> lines_hz;         ///< lines found in the residual in contact, candidates of chatter (lines.h)
+  std::vector<double> lines_in_air_hz;  ///< and anywhere, candidates of interference
 };
 
 /// Of relative_k or relative_c in a row; 1 where all is one tissue.

@@ -183,6 +183,53 @@ Mechanism low_pass() {
   };
 }
 
+Mechanism position_late() {
+  return {
+      .name = "position_late",
+      .equation = "F_sim(t + tau) - F_sim(t)",
+      .words = "a position channel that comes later than the force",
+      .separate = "press in fast ramps at two speeds with sharp reversals, and shake the tool in air: a mass shows there, a late position does not",
+      .shape = {{"tau_s", 2e-4, 2.0, true, true}},
+      .grid = delay_grid,
+      .columns = [](const Scene& s, const Shape& p) { return delayed(s, -p[0]); },
+      .parameters =
+          [](const Shape& p, const Shape&, Base) {
+            return std::vector<NamedValue>{{"tau_s", p[0]}};
+          },
+      .open = clock_s,
+      .variant_of = "delay",
+  };
+}
+
+/// Lightly damped, and slow enough for the sampling.
+Grid ringing_grid(const Scene& s) {
+  const double fastest = 0.4 / std::max(1e-6, s.dt_s.mean());
+  Grid g;
+  for (const double hz : {7.0, 9.0, 11.5, 14.5, 18.0, 23.0, 29.0, 36.0, 45.0})
+    for (const double damping : {0.03, 0.12})
+      if (hz < fastest) g.push_back({hz, damping});
+  return g;
+}
+
+Mechanism ringing() {
+  return {
+      .name = "ringing",
+      .equation = "s (y - F_sim) + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too",
+      .words = "a load cell or holder that swings at its own frequency after each jerk",
+      .separate = "tap the holder in air, and press in ramps that end suddenly: the same frequency rings down after each",
+      .shape = {{"frequency_hz", 1.0, 1e4, true, true}, {"damping_ratio", 0.003, 0.7, true, true}},
+      .grid = ringing_grid,
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return Columns{{resonance(s, s.force_n, p[0], p[1]) - s.force_n, resonance(s, s.motion.a_mm_s2, p[0], p[1])}, {}, {}};
+          },
+      .parameters =
+          [](const Shape& p, const Shape& own, Base) {
+            return std::vector<NamedValue>{{"share", own[0]}, {"frequency_hz", p[0]}, {"damping_ratio", p[1]}, {"mass_kg", own[1] * 1000.0}};
+          },
+  };
+}
+
 Mechanism saturation() {
   return {
       .name = "saturation",
@@ -204,7 +251,7 @@ Mechanism saturation() {
 
 std::vector<Mechanism> sensor_mechanisms() {
   return {
-      gravity_posture(), inertia(), gain_error(), cross_talk(), delay(), low_pass(), saturation(),
+      gravity_posture(), inertia(), gain_error(), cross_talk(), delay(), low_pass(), position_late(), ringing(), saturation(),
   };
 }
 

@@ -1,32 +1,54 @@
-// One look at a recording with the causes known so far: motion, base force, noise, weights, and the products of all
-// hypotheses, ready for the search. The data and every twin go through this same function.
+// One look at a recording with the causes known so far: motion, base force, noise, what differs between sessions, weights, and the products of all
+// hypotheses, ready for the search.
 #pragma once
 
+#include <memory>
+
+#include "engine/explain/model/curves.h"
 #include "engine/explain/model/fit.h"
+#include "engine/explain/model/session_effects.h"
 
 namespace cavum::explain {
 
+/// A curve whose columns are in the products.
+struct CurveHypothesis {
+  std::string variable, form;
+  Eigen::Index first = 0, count = 0;
+  Eigen::MatrixXd mean_products;  ///< of the columns as they are, [count, count]
+};
+
+/// Products of a session's columns with its effects, for surrogates.
+struct SessionProducts {
+  Eigen::Index begin = 0, end = 0;  ///< rows
+  Eigen::MatrixXd with_effects;     ///< [columns, effects]
+  Eigen::MatrixXd effects;          ///< [effects, effects]
+};
+
 struct View {
   Scene scene;
-  Motion sharp;  ///< estimate_sharp_motion of a coarse recording without a measured speed, for twins; else empty
   Noise noise;
   Series force_n;  ///< what is to be explained: measured force less the fixed forces of a loaded model
   Series robust;   ///< weights of single rows
   std::vector<Term> causes;
-  FitResult base_fit;             ///< k, c and the causes' coefficients (no tangents)
-  Series model_n;                 ///< their force, [rows]
-  Series residual_n;              ///< force − model
-  std::vector<Hypothesis> grid;   ///< all mechanisms at all points of their grids
-  std::vector<Hypothesis> known;  ///< the causes, with tangents
+  FitResult base_fit;                      ///< k, c and the causes' coefficients (no tangents)
+  Series model_n;                          ///< their force, [rows]
+  SessionSpread spread{};                  ///< between sessions
+  Eigen::MatrixXd effects, white_effects;  ///< session_columns, raw and whitened
+  Series session_n;                        ///< force of what differs between sessions, [rows]
+  Series residual_n;                       ///< force − model − session_n
+  std::vector<Hypothesis> grid;            ///< all mechanisms at all points of their grids
+  std::vector<Hypothesis> known;           ///< the causes, with tangents
+  std::vector<CurveHypothesis> curves;     ///< of every variable
   Products products;
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> folds;  ///< rows [begin, end) that are left out together; products.by_session follows them
+  std::vector<SessionProducts> by_session;
+  std::shared_ptr<const Eigen::MatrixXf> white;  ///< all columns of the products, whitened, [rows, columns]; let go when the surrogates are scored
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> folds;  ///< rows [begin, end) that are left out together; products.folds follows them
 };
 
 /// At most 12 folds: sessions, neighbouring ones together when there are more; five stretches when there is one session.
 [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> folds_of(const Recording& recording);
 
 struct ViewOptions {
-  bool sharp = false;               ///< fill View::sharp
   bool products = true;             ///< false: only the base and the causes are fitted
   const Series* fixed_n = nullptr;  ///< forces of a loaded model, [rows]; nullptr = none
 };

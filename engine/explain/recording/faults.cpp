@@ -13,6 +13,8 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_time_tolerance = 0.02;  // of the slope of x over the integral of v: a clock is far better, a quantised position not much
+constexpr double k_of_one_run = 0.3;       // correlation of x with the integral of v, below which they are not of one run
+constexpr double k_clock_alone = 0.3;      // of what the slope is off by, that may be left when a clock is all that is wrong
 constexpr double k_unit_band = 3.0;        // a unit taken for another is off by 1000; no calibration is off by 300
 constexpr double k_against = 0.5;          // correlation of force and penetration, about zero, below which the force pulls
 constexpr double k_clipped_share = 0.002;  // of all rows at the limit
@@ -45,13 +47,15 @@ void speed_against_position(const Recording& r, std::vector<std::string>& faults
                                    plain_number(slope)));
       return;
     }
-  if (agree < 0.7 * agreement.expected_correlation) {
+  if (agree < k_of_one_run) {
     faults.push_back(
         fmt::format("time base: x_mm and the integral of v_mm_s have little in common (correlation {}); check that both belong to the same run",
                     plain_number(agree)));
     return;
   }
-  if (std::fabs(slope - 1.0) > k_time_tolerance + 4.0 * agreement.slope_sd)
+  // a wrong clock changes the slope and nothing else; a speed that was filtered changes the rest as well, and is not used (motion.h)
+  const double rest = std::sqrt(std::max(0.0, 1.0 - std::pow(agree / agreement.expected_correlation, 2)));
+  if (std::fabs(slope - 1.0) > k_time_tolerance + 4.0 * agreement.slope_sd && rest < k_clock_alone * std::fabs(slope - 1.0))
     faults.push_back(
         fmt::format("time base: x_mm moves {} times as far as the integral of v_mm_s over t_s says; correct the sampling rate", plain_number(slope)));
 }
@@ -61,24 +65,20 @@ void units(const Recording& r, std::vector<std::string>& faults) {
   double xf = 0.0, xx = 0.0, ff = 0.0;
   for (Eigen::Index i = 0; i < r.rows(); ++i)
     if (r.x_mm[i] > 0.0) xf += r.x_mm[i] * r.f_n[i], xx += r.x_mm[i] * r.x_mm[i], ff += r.f_n[i] * r.f_n[i];
-  if (!(xx > 0.0)) {
-    faults.push_back("x_mm is never positive, so the tool never touches; check the sign and the zero of the position");
-    return;
-  }
-  if (xf < -k_against * std::sqrt(xx * ff)) {
+  if (xx > 0.0 && xf < -k_against * std::sqrt(xx * ff)) {
     faults.push_back(
         fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, multiply f_n by -1",
                     plain_number(xf / xx)));
     return;
   }
-  if (r.rig.k_n_per_mm) {
+  if (r.rig.k_n_per_mm && xx > 0.0) {
     const double ratio = xf / xx / *r.rig.k_n_per_mm;
     if (ratio > 50.0 || (ratio > 0.0 && ratio < 0.02))
       faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; is x in metres or micrometres, or f in grams?",
                                    plain_number(ratio)));
   }
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff();
-  if (range < 0.02 && pressed > 0.1)
+  if (range < 0.02 && pressed > 0.1 && xx > 0.0)
     faults.push_back(
         fmt::format("units: all motion is within {} mm and yet {} N are reached; is x_mm in metres?", plain_number(range), plain_number(pressed)));
   if (range > 1000.0) faults.push_back(fmt::format("units: x_mm spans {} mm; is it in micrometres?", plain_number(range)));

@@ -1,10 +1,16 @@
 #include "engine/explain/recording/motion.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "engine/base/random.h"
+#include "engine/explain/recording/holds.h"
+#include "engine/statistics/independent_runs.h"
 #include "engine/statistics/order.h"
+#include "engine/statistics/statistics.h"
 
 namespace cavum::explain {
 namespace {
@@ -19,6 +25,17 @@ constexpr int k_passes_exact = 3, k_passes_coarse = 12;  // of expectation maxim
 // as heavy as 0.3 of what a row says. With it the stated standard deviations match the errors (tests/engine/explain/recording/motion_test.cpp).
 constexpr double k_steps_of_span = 4.0;  // of the encoder, for its position to be held against a measured speed
 constexpr double k_prior_weight = 0.3, k_prior_walk = 1e-3;
+constexpr double k_stale_steps = 4.0, k_says_nothing = 1e6;  // steps or scatters of the position; mm²
+constexpr int k_passes_noisy = 20;
+constexpr double k_noisy_lasting_rows = 4.0;  // an error of a smoothed position
+constexpr double k_lasting_s = 0.2;           // at most: a cell of 0.055 mm at 0.25 mm/s
+constexpr double k_noisy_window_s = 0.05;     // on each side, over which the walk's variance is averaged where positions are noisy
+constexpr double k_least_noise_mm = 2e-4;     // below, positions count as exact
+constexpr double k_flicker = 0.1;             // of an encoder's steps that go back at once: then the position is noisy
+constexpr double k_more_than_rounding = 1.5;  // scatter over that of a fine rounding
+constexpr Eigen::Index k_check_rows = 200;    // of a stretch in which the integral of the speed is held against the position
+constexpr double k_late_rows = 0.1;           // of a row, that a measured speed may be late
+constexpr double k_borrowed = 0.1;            // correlation
 
 struct State {
   double x = 0, v = 0, xx = 0, xv = 0, vv = 0;
@@ -38,7 +55,7 @@ void observe(State& s, double hx, double hv, double z, double r) {
 struct Session {
   Eigen::Index n = 0;
   const double *t = nullptr, *x = nullptr, *v = nullptr;
-  double q = 0, r_v = 0;
+  double q = 0, r_v = 0, noise = 0;        // a noisy position has no q: its rows are observations of this scatter
   double shared_rows = 1;                  // at most so many rows share the observation of one run
   std::vector<double> run_rows;            // length of the run that the row is in
   std::vector<double> r_x;                 // variance of the row's position; 0 = none
@@ -50,10 +67,14 @@ struct Session {
 
 void set_observations(Session& s) {
   const auto n = static_cast<std::size_t>(s.n);
-  s.r_x.assign(n, k_exact_mm * k_exact_mm);
+  s.r_x.assign(n, k_exact_mm * k_exact_mm + s.noise * s.noise);
   s.border_z.assign(n, 0.0);
   s.border_r.assign(n, 0.0);
   s.pin_z.assign(n, std::nan(""));
+  // a reading that stands still between two that move on was not taken anew, and says nothing
+  const double least = k_stale_steps * std::max({s.q, s.noise, k_exact_mm});
+  for (std::size_t i = 2; i + 1 < n; ++i)
+    if (s.x[i] == s.x[i - 1] && std::fabs(s.x[i - 1] - s.x[i - 2]) > least && std::fabs(s.x[i + 1] - s.x[i]) > least) s.r_x[i] = k_says_nothing;
   if (s.q <= 0.0) return;
   std::vector<std::size_t> run_of(n);
   s.run_rows.assign(n, 1.0);
@@ -61,7 +82,7 @@ void set_observations(Session& s) {
     std::size_t end = begin + 1;
     while (end < n && std::fabs(s.x[end] - s.x[begin]) < 0.5 * s.q) ++end;
     for (std::size_t i = begin; i < end; ++i) {
-      s.r_x[i] = s.q * s.q / 12.0 * std::min(s.shared_rows, static_cast<double>(end - begin));
+      if (s.r_x[i] < k_says_nothing) s.r_x[i] = s.q * s.q / 12.0 * std::min(s.shared_rows, static_cast<double>(end - begin));
       run_of[i] = end - begin;
       s.run_rows[i] = static_cast<double>(end - begin);
     }
@@ -125,7 +146,7 @@ void smooth(Session& s, std::vector<double>& moved) {
   }
 }
 
-void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
+void estimate(Session& s, Motion& out, Eigen::Index begin) {
   const auto n = static_cast<std::size_t>(s.n);
   set_observations(s);
   // a first guess that follows everything: the speed of the whole way may change within 50 ms
@@ -137,8 +158,9 @@ void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
   s.filtered.resize(n);
   s.smoothed.resize(n);
   std::vector<double> moved(n, 0.0), sums(n + 1, 0.0);
-  const int passes = s.q > 0.0 ? (sharp ? 2 * k_passes_coarse : k_passes_coarse) : k_passes_exact;
-  const std::size_t window = sharp ? 0 : k_window;
+  const int passes = s.noise > 0.0 ? k_passes_noisy : s.q > 0.0 ? k_passes_coarse : k_passes_exact;
+  const double row_s = std::max(1e-9, (s.t[n - 1] - s.t[0]) / static_cast<double>(n - 1));
+  const std::size_t window = s.noise > 0.0 ? static_cast<std::size_t>(std::clamp(k_noisy_window_s / row_s, 2.0, 200.0)) : k_window;
   for (int pass = 0; pass < passes; ++pass) {
     filter(s);
     smooth(s, moved);
@@ -147,7 +169,7 @@ void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
     for (std::size_t i = 0; i + 1 < n; ++i) {
       const std::size_t from = i > window ? i - window : 0, to = std::min(n - 1, i + window + 1);
       const double seen = (sums[to] - sums[from]) / static_cast<double>(to - from);
-      s.walk[i] = std::max(k_min_walk, s.q > 0.0 ? (seen + k_prior_weight * k_prior_walk) / (1.0 + k_prior_weight) : seen);
+      s.walk[i] = std::max(k_min_walk, s.q > 0.0 || s.noise > 0.0 ? (seen + k_prior_weight * k_prior_walk) / (1.0 + k_prior_weight) : seen);
     }
     if (s.q > 0.0 && pass >= 1)
       for (std::size_t i = 0; i < n; ++i) {
@@ -165,9 +187,12 @@ void estimate(Session& s, Motion& out, Eigen::Index begin, bool sharp) {
         s.q > 0.0 && s.run_rows[i] > s.shared_rows && s.v == nullptr ? s.q * s.q / 12.0 * (1.0 - s.shared_rows / s.run_rows[i]) : 0.0;
     out.sd_x_mm[row] = std::sqrt(std::max({0.0, o.xx, repeated}));
     out.sd_v_mm_s[row] = std::sqrt(std::max(0.0, o.vv));
+    out.lasting_rows[row] = s.noise > 0.0 ? k_noisy_lasting_rows
+                            : s.q > 0.0   ? std::clamp(s.run_rows[i], 1.0, std::max(1.0, k_lasting_s / row_s))
+                                          : 1.0;
     // slope of a straight line through the speeds around: what the steps of an encoder do from row to row is no acceleration
-    const double dt = (s.t[n - 1] - s.t[0]) / static_cast<double>(n - 1);
-    const auto half = s.q > 0.0 && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / std::max(1e-9, dt)), 1L, 50L)) : 1;
+    const auto half =
+        (s.q > 0.0 || s.noise > 0.0) && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / row_s), 1L, 50L)) : 1;
     const std::size_t before = i > half ? i - half : 0, after = std::min(n - 1, i + half);
     double mean = 0.0, moment = 0.0, square = 0.0;
     for (std::size_t j = before; j <= after; ++j) mean += s.t[j] / static_cast<double>(after - before + 1);
@@ -215,46 +240,145 @@ double seen_quantum_mm(const Recording& r) {
 
 namespace {
 
-Motion estimated(const Recording& r, bool sharp) {
-  Motion out;
-  const Eigen::Index n = r.rows();
-  for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
-  if (r.exact_motion) {
-    out.x_mm = r.x_mm;
-    out.v_mm_s = r.v_mm_s;
-    for (const auto& rows : r.sessions)
-      for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) out.a_mm_s2[i] = (r.v_mm_s[i] - r.v_mm_s[i - 1]) / (r.t_s[i] - r.t_s[i - 1]);
-    return out;
-  }
-  out.quantum_mm = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
-  if (r.v_mm_s.size() > 0) out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
-  const bool recedes = surface_recedes(r);
-  for (const auto& rows : r.sessions) {
-    Session s;
-    s.n = rows.end - rows.begin;
-    s.t = r.t_s.data() + rows.begin;
-    s.x = r.x_mm.data() + rows.begin;
-    s.v = r.v_mm_s.size() > 0 && !recedes ? r.v_mm_s.data() + rows.begin : nullptr;
-    s.r_v = out.speed_sd_mm_s * out.speed_sd_mm_s;
-    s.q = out.quantum_mm > 1e-5 ? out.quantum_mm : 0.0;
-    s.shared_rows = std::max(8.0, k_shared_s * static_cast<double>(s.n - 1) / std::max(1e-9, s.t[s.n - 1] - s.t[0]));
-    if (s.n < 2) {
-      out.x_mm.segment(rows.begin, s.n) = r.x_mm.segment(rows.begin, s.n);
-      continue;
+/// A session as the smoother takes it. `speed`: the measured one is an observation.
+Session session_of(const Recording& r, const Motion& m, const SessionRows& rows, bool speed) {
+  Session s;
+  s.n = rows.end - rows.begin;
+  s.t = r.t_s.data() + rows.begin;
+  s.x = r.x_mm.data() + rows.begin;
+  s.v = speed ? r.v_mm_s.data() + rows.begin : nullptr;
+  s.r_v = m.speed_sd_mm_s * m.speed_sd_mm_s;
+  s.noise = m.noise_mm > 0.0 ? std::hypot(m.noise_mm, m.quantum_mm / std::sqrt(12.0)) : 0.0;
+  s.q = m.quantum_mm > 1e-5 && s.noise == 0.0 ? m.quantum_mm : 0.0;
+  s.shared_rows = std::max(8.0, k_shared_s * static_cast<double>(s.n - 1) / std::max(1e-9, s.t[s.n - 1] - s.t[0]));
+  return s;
+}
+
+bool is_coarse(const Motion& m) { return m.quantum_mm > 1e-5 || m.noise_mm > 0.0; }
+
+/// Backwards through what the filter knew: each state given the next one as it was drawn.
+void draw_backwards(const Session& s, Random& random, double* x, double* v) {
+  double to_x = 0.0, to_v = 0.0;
+  for (auto i = static_cast<std::size_t>(s.n); i-- > 0;) {
+    State at = s.filtered[i];
+    if (i + 1 < static_cast<std::size_t>(s.n)) {
+      const double dt = s.t[i + 1] - s.t[i];
+      const State &f = at, &p = s.predicted[i + 1];
+      const double det = p.xx * p.vv - p.xv * p.xv;
+      const double ixx = p.vv / det, ixv = -p.xv / det, ivv = p.xx / det;
+      const double axx = f.xx + dt * f.xv, axv = f.xv, avx = f.xv + dt * f.vv, avv = f.vv;
+      const double gxx = axx * ixx + axv * ixv, gxv = axx * ixv + axv * ivv, gvx = avx * ixx + avv * ixv, gvv = avx * ixv + avv * ivv;
+      const double ex = to_x - p.x, ev = to_v - p.v;
+      State o;
+      o.x = f.x + gxx * ex + gxv * ev;
+      o.v = f.v + gvx * ex + gvv * ev;
+      o.xx = f.xx - (gxx * axx + gxv * axv);
+      o.xv = f.xv - (gxx * avx + gxv * avv);
+      o.vv = f.vv - (gvx * avx + gvv * avv);
+      at = o;
     }
-    estimate(s, out, rows.begin, sharp);
-    if (recedes)
-      for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-        const Eigen::Index a = std::max(rows.begin, i - 1), b = std::min(rows.end - 1, i + 1);
-        out.v_mm_s[i] = r.v_mm_s[i];
-        out.sd_v_mm_s[i] = out.speed_sd_mm_s;
-        out.a_mm_s2[i] = (r.v_mm_s[b] - r.v_mm_s[a]) / (r.t_s[b] - r.t_s[a]);
-      }
+    const double sx = std::sqrt(std::max(0.0, at.xx)), by = random.normal();
+    const double slope = at.xx > 0.0 ? at.xv / at.xx : 0.0, rest = std::sqrt(std::max(0.0, at.vv - slope * at.xv));
+    to_x = at.x + sx * by;
+    to_v = at.v + slope * sx * by + rest * random.normal();
+    x[i] = to_x;
+    v[i] = to_v;
   }
-  return out;
 }
 
 }  // namespace
+
+double position_noise_mm(const Recording& r, double quantum_mm) {
+  constexpr Eigen::Index k_stretch = 40;
+  std::vector<double> scatter;
+  double steps = 0.0, back = 0.0;
+  for (const auto& s : r.sessions) {
+    for (Eigen::Index from = s.begin; from + k_stretch + 4 <= s.end; from += k_stretch) {
+      std::vector<double> d;
+      for (Eigen::Index i = from; i < from + k_stretch; ++i)
+        d.push_back(std::fabs(r.x_mm[i] - 4 * r.x_mm[i + 1] + 6 * r.x_mm[i + 2] - 4 * r.x_mm[i + 3] + r.x_mm[i + 4]));
+      scatter.push_back(1.4826 * median(std::move(d)) / std::sqrt(70.0));
+    }
+    double last = 0.0;
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) {
+      const double step = r.x_mm[i] - r.x_mm[i - 1];
+      if (std::fabs(step) > 0.5 * quantum_mm && quantum_mm > 0.0) {
+        steps += 1.0;
+        if (last * step < 0.0) back += 1.0;
+        last = step;
+      } else {
+        last = 0.0;
+      }
+    }
+  }
+  if (scatter.empty()) return 0.0;
+  const double seen = quantile(std::move(scatter), 0.3);
+  if (quantum_mm > 1e-5) {
+    const double rounding = quantum_mm / std::sqrt(12.0), beside = std::sqrt(std::max(0.0, seen * seen - rounding * rounding));
+    if (back >= k_flicker * steps) return std::max(0.3 * quantum_mm, beside);
+    return seen > k_more_than_rounding * rounding ? beside : 0.0;
+  }
+  return seen > k_least_noise_mm ? seen : 0.0;
+}
+
+SpeedCheck check_speed(const Recording& r) {
+  constexpr Eigen::Index k_near = 4;  // rows on each side that make the fine structure
+  std::vector<double> over_v, square_v, borrowed;
+  for (const auto& s : r.sessions) {
+    double ev = 0.0, vv = 0.0, odd = 0.0, ww = 0.0, dd = 0.0;
+    for (Eigen::Index from = s.begin; from + k_check_rows <= s.end; from += k_check_rows) {
+      const Eigen::Index n = k_check_rows;
+      const Series t = r.t_s.segment(from, n) - r.t_s[from], v = r.v_mm_s.segment(from, n), line = t - t.mean();
+      Series e = r.x_mm.segment(from, n);  // less the integral of v: how late v is, times v, and the error of the position
+      double way = 0.0;
+      const auto slope = [&](Eigen::Index i) {
+        const Eigen::Index a = std::max<Eigen::Index>(0, i - 1), b = std::min(n - 1, i + 1);
+        return (v[b] - v[a]) / (t[b] - t[a]);
+      };
+      for (Eigen::Index i = 1; i < n; ++i) {  // trapezoids, and what bends between their ends
+        const double dt = t[i] - t[i - 1];
+        e[i] -= way += 0.5 * (v[i] + v[i - 1]) * dt - dt * dt / 12.0 * (slope(i) - slope(i - 1));
+      }
+      const auto straightened = [&](Series u) {
+        u -= u.mean();
+        return Series(u - line * ((line * u).sum() / std::max(1e-300, line.square().sum())));
+      };
+      e = straightened(e);
+      const Series u = straightened(v);
+      ev += (e * u).sum();
+      vv += u.square().sum();
+      // a speed made from positions has their errors in it, those after with one sign and those before with the other
+      for (Eigen::Index i = k_near; i + k_near < n; ++i) {
+        const double w = v[i] - v.segment(i - k_near, 2 * k_near + 1).mean();
+        const double d = e.segment(i + 1, k_near).mean() - e.segment(i - k_near, k_near).mean();
+        odd += w * d;
+        ww += w * w;
+        dd += d * d;
+      }
+    }
+    if (vv > 0.0) over_v.push_back(ev), square_v.push_back(vv);
+    if (ww > 0.0 && dd > 0.0) borrowed.push_back(odd / std::sqrt(ww * dd));
+  }
+  SpeedCheck out;
+  const std::size_t n = over_v.size();
+  if (n < 2 || borrowed.size() < 2) return out;
+  double all_ev = 0.0, all_vv = 0.0;
+  for (std::size_t i = 0; i < n; ++i) all_ev += over_v[i], all_vv += square_v[i];
+  out.late_s = all_ev / all_vv;
+  double square = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double without = (all_ev - over_v[i]) / std::max(1e-300, all_vv - square_v[i]) - out.late_s;
+    square += without * without;
+  }
+  out.late_sd_s = std::sqrt(square * static_cast<double>(n - 1) / static_cast<double>(n));
+  const MeanSd fine = mean_sd(borrowed);
+  out.borrowed = fine.mean;
+  const double row_s = intervals_s(r).mean();
+  const bool late = std::fabs(out.late_s) > std::max(k_late_rows * row_s, 3.0 * out.late_sd_s) || out.late_sd_s > 0.3 * row_s;
+  const bool made = fine.mean > std::max(k_borrowed, 3.0 * fine.sd / std::sqrt(static_cast<double>(borrowed.size())));
+  out.of_use = !late && !made;
+  return out;
+}
 
 Agreement position_over_speed(const Recording& r) {
   if (r.v_mm_s.size() == 0) return {};
@@ -298,7 +422,85 @@ bool moves_one_way(const Motion& m) {
   return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
 }
 
-Motion estimate_motion(const Recording& r) { return estimated(r, false); }
-Motion estimate_sharp_motion(const Recording& r) { return estimated(r, true); }
+Motion estimate_motion(const Recording& r) {
+  Motion out;
+  const Eigen::Index n = r.rows();
+  for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
+  out.lasting_rows = Series::Ones(n);
+  if (r.exact_motion) {
+    out.x_mm = r.x_mm;
+    out.v_mm_s = r.v_mm_s;
+    for (const auto& rows : r.sessions)
+      for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) out.a_mm_s2[i] = (r.v_mm_s[i] - r.v_mm_s[i - 1]) / (r.t_s[i] - r.t_s[i - 1]);
+    return out;
+  }
+  out.quantum_mm = r.rig.position_quantum_mm > 0.0 ? r.rig.position_quantum_mm : seen_quantum_mm(r);
+  out.noise_mm = position_noise_mm(r, out.quantum_mm);
+  const bool recedes = surface_recedes(r);
+  if (r.v_mm_s.size() > 0 && !recedes) {
+    if (const SpeedCheck check = check_speed(r); !is_coarse(out)) {
+      out.speed_note = "v_mm_s was not needed: the positions are fine enough to give the speed";
+    } else if (!check.of_use) {
+      out.speed_note = fmt::format("v_mm_s was not used: it is {}, so the speed is taken from the positions",
+                                   check.borrowed > k_borrowed && std::fabs(check.late_s) < 2.0 * check.late_sd_s + 1e-4
+                                       ? "made from the positions and shares their errors"
+                                       : fmt::format("{:.1f} ms behind them", 1e3 * check.late_s));
+    } else {
+      out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
+    }
+  }
+  if (recedes) out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
+  for (const auto& rows : r.sessions) {
+    Session s = session_of(r, out, rows, out.speed_sd_mm_s > 0.0 && !recedes);
+    if (s.n < 2) {
+      out.x_mm.segment(rows.begin, s.n) = r.x_mm.segment(rows.begin, s.n);
+      continue;
+    }
+    estimate(s, out, rows.begin);
+    if (recedes)
+      for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
+        const Eigen::Index a = std::max(rows.begin, i - 1), b = std::min(rows.end - 1, i + 1);
+        out.v_mm_s[i] = r.v_mm_s[i];
+        out.sd_v_mm_s[i] = out.speed_sd_mm_s;
+        out.a_mm_s2[i] = (r.v_mm_s[b] - r.v_mm_s[a]) / (r.t_s[b] - r.t_s[a]);
+      }
+  }
+  return out;
+}
+
+std::vector<Motion> draw_motions(const Recording& r, const Motion& m, std::size_t count, std::uint64_t seed) {
+  std::vector<Motion> out(count, m);
+  const double q = m.quantum_mm > 1e-5 && m.noise_mm == 0.0 ? m.quantum_mm : 0.0;
+  const Holds holds = q > 0.0 ? find_holds(r, q) : Holds{};
+  for (auto& one : out) one.sd_x_mm.setZero(), one.sd_v_mm_s.setZero();
+  if (holds.repeat()) {
+    for (std::size_t i = 0; i < count; ++i) {
+      Random random(seed + 0x9e3779b97f4a7c15ULL * (i + 1));
+      out[i].x_mm = replaced_holds(r, m.x_mm, holds, q, random);
+      const Series off = out[i].x_mm - m.x_mm;
+      for (const auto& rows : r.sessions)
+        for (Eigen::Index row = rows.begin; row < rows.end; ++row) {
+          const Eigen::Index a = std::max(rows.begin, row - 1), b = std::min(rows.end - 1, row + 1);
+          if (b > a) out[i].v_mm_s[row] += (off[b] - off[a]) / (r.t_s[b] - r.t_s[a]);
+        }
+    }
+    return out;
+  }
+  const bool recedes = surface_recedes(r);
+  Motion scratch = m;
+  for (std::size_t at = 0; at < r.sessions.size(); ++at) {
+    const SessionRows& rows = r.sessions[at];
+    Session s = session_of(r, m, rows, m.speed_sd_mm_s > 0.0 && !recedes);
+    if (s.n < 2 || r.exact_motion) continue;
+    estimate(s, scratch, rows.begin);
+    independent_runs(count, [&](std::size_t i) {
+      Random random(seed + 0x9e3779b97f4a7c15ULL * (i + 1) + 0x632be59bd9b4e019ULL * (at + 1));
+      Series v = Series::Zero(s.n);
+      draw_backwards(s, random, out[i].x_mm.data() + rows.begin, v.data());
+      if (!recedes) out[i].v_mm_s.segment(rows.begin, s.n) = v;
+    });
+  }
+  return out;
+}
 
 }  // namespace cavum::explain

@@ -7,6 +7,11 @@
 //   the rows of the run, by those of 0.4 s at most;
 // - when it steps by one, x is at the border between the two: an observation nearly free of error. These carry the speed;
 // - x never leaves the cell that is shown: where the estimate does, the border is observed.
+// Where the position is noisy instead (its fourth differences do not vanish, or the encoder flickers), each row is one observation with that
+// variance.
+//
+// A recorded speed is one more observation of the same motion, of unknown filter and delay. Where the position alone is good enough it is not needed;
+// where it is late, or was made from the positions, it is not used, and a note says so.
 // Source: Rauch, Tung, Striebel 1965; expectation maximisation of the walk's variance after Shumway and Stoffer 1982.
 #pragma once
 
@@ -18,8 +23,11 @@ namespace cavum::explain {
 struct Motion {
   Series x_mm, v_mm_s, a_mm_s2;
   Series sd_x_mm, sd_v_mm_s;   ///< one standard deviation
+  Series lasting_rows;         ///< how many rows an error of the position lasts, >= 1: as long as a coarse encoder shows one value
   double quantum_mm = 0.0;     ///< of the encoder: given, or seen in the data
-  double speed_sd_mm_s = 0.0;  ///< scatter of the measured speed; 0 without a v column
+  double noise_mm = 0.0;       ///< of the position, from row to row, beside the quantum; 0 = not to be seen
+  double speed_sd_mm_s = 0.0;  ///< scatter of the measured speed, where it was used
+  std::string speed_note;      ///< why a measured speed was not used, in words; empty = it was, or there is none
 };
 
 /// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
@@ -38,10 +46,20 @@ struct Agreement {
 [[nodiscard]] Agreement position_over_speed(const Recording& recording);
 /// True when x_mm counts from a surface that is cut away under the tool: then the measured speed is the tip's, and no derivative of x.
 [[nodiscard]] bool surface_recedes(const Recording& recording);
-/// All sessions. The measured speed is used when `recording` has one.
+/// Scatter of the positions from row to row, mm, from their fourth differences, which a smooth motion hardly has; `quantum_mm` of rounding taken off.
+/// 0 where nothing is seen beside the rounding.
+[[nodiscard]] double position_noise_mm(const Recording& recording, double quantum_mm);
+/// How the recorded speed stands to the position.
+struct SpeedCheck {
+  double late_s = 0, late_sd_s = 0;  ///< the speed behind the position
+  double borrowed = 0;               ///< correlation of its fine structure with the error of the position: 0 when it was measured by itself
+  bool of_use = false;               ///< neither late nor made from the positions
+};
+[[nodiscard]] SpeedCheck check_speed(const Recording& recording);
+/// All sessions.
 [[nodiscard]] Motion estimate_motion(const Recording& recording);
-/// The same with speeds that change as suddenly as the data allow: the walk's variance is found for each row by itself, so that
-/// a few rows take all of a change. Truer to sharp stops, less so to smooth motion; twins of a coarse recording move like this.
-[[nodiscard]] Motion estimate_sharp_motion(const Recording& recording);
+/// Motions that the recording leaves possible, drawn from what the smoother knows (forward filter, backward sampling: Carter and Kohn 1994). Where a
+/// rig came back to the same places under a coarse encoder, the places lie elsewhere within its cells, the same in all sessions.
+[[nodiscard]] std::vector<Motion> draw_motions(const Recording& recording, const Motion& estimate, std::size_t count, std::uint64_t seed);
 
 }  // namespace cavum::explain

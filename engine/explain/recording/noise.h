@@ -1,6 +1,7 @@
-// The noise of a load cell: each sample remembers the last one, e' = ρ e + u, and now and then u is large. Whitening
-// turns rows into independent ones, so that least squares and its standard errors hold; robust weights bound what a
-// single sample can say. Source: Cochrane and Orcutt 1949; weights after Huber 1964.
+// The noise of a load cell: each sample remembers those before it, e_i = sum of phi_j e_(i-j) + u, and now and then u is large. Pink noise, a
+// wandering zero, mains hum and a resonance all look like this with enough phi. Whitening turns rows into independent ones, so that least squares and
+// its standard errors hold; robust weights bound what a single sample can say. Sources: Cochrane and Orcutt 1949; Levinson and Durbin's recursion
+// (Brockwell and Davis 1991, section 5.2); order by Schwarz 1978; weights after Huber 1964.
 #pragma once
 
 #include "engine/explain/recording/recording.h"
@@ -8,16 +9,19 @@
 namespace cavum::explain {
 
 struct Noise {
-  double rho = 0.0;      ///< correlation with the row before, in [0, 0.995]
-  double sd_n = 0.0;     ///< of e, N
-  double step_sd_n = 0;  ///< of u = e' − ρ e, N
+  double rho = 0.0;        ///< correlation with the row before
+  double sd_n = 0.0;       ///< of e, N
+  double step_sd_n = 0;    ///< of u, N
+  std::vector<double> ar;  ///< phi_1 … phi_p; empty: rho alone
 };
 
-/// From the differences of the residual over 1 to 5 rows, which a slow effect that is still in it hardly touches:
-/// E[(e_{i+h} − e_i)²]/2 = sd²(1 − ρ^h). Rows with weight under 0.5 and those next to gaps are left out.
+/// From the residual's correlations over up to k_noise_orders rows, each session about its own mean. Values beyond 6 scatters count as 6, and rows
+/// with weight under 0.5 are left out. An effect that is still in the residual is taken for noise: it makes the noise larger, never smaller.
 [[nodiscard]] Noise estimate_noise(const Recording& recording, const Series& residual_n, const Series& weight);
 
-/// Rows z → sqrt(w)·(z_i − ρ z_{i−1})/step_sd; the first of a session z·sqrt(1 − ρ²)/step_sd. In place; shape [rows].
+inline constexpr int k_noise_orders = 24;
+
+/// Rows z → sqrt(w)·(z_i − sum of phi_j z_{i−j})/step_sd; the first p of a session by the predictors of lower order. In place; shape [rows].
 class Whitening {
  public:
   /// `robust`: extra weights, shape [rows], or empty.
@@ -28,8 +32,8 @@ class Whitening {
 
  private:
   const Recording* recording_;
-  Noise noise_;
-  Series root_weight_;  ///< sqrt of weight over step_sd; pairs take the smaller
+  std::vector<std::vector<double>> predictors_;  ///< of order 0 to p
+  Series root_weight_;                           ///< over the standard deviation of the row's innovation; what is uncertain before adds to it
 };
 
 /// Huber weights of innovations z in units of their scatter: 1 up to 2.5, then 2.5/|z|.

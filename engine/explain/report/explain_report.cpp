@@ -34,8 +34,12 @@ json to_json(const Explanation& e) {
   for (const auto& c : e.causes) {
     json parameters = json::object();
     for (const auto& [name, interval] : c.parameters) parameters[name] = to_json(interval);
-    j["causes"].push_back(
-        {{"mechanism", mechanism_of(c).name}, {"aliases", c.aliases}, {"parameters", parameters}, {"p_value", c.p_value}, {"effect_n", c.effect_n}});
+    j["causes"].push_back({{"mechanism", mechanism_of(c).name},
+                           {"aliases", c.aliases},
+                           {"parameters", parameters},
+                           {"p_value", c.p_value},
+                           {"effect_n", c.effect_n},
+                           {"gain", to_json(c.gain_percent)}});
   }
   j["unexplained"] = nullptr;
   if (e.unexplained) j["unexplained"] = {{"variable", e.unexplained->variable}, {"effect_n", e.unexplained->effect_n}, {"form", e.unexplained->form}};
@@ -69,6 +73,8 @@ std::string to_text(const Explanation& e) {
     const Mechanism& m = mechanism_of(c);
     out += printed("\ncause: %s (%s), %.4f N rms, p = %.2g\n", m.name, m.words, c.effect_n, c.p_value);
     out += printed("  force %s\n", m.equation);
+    out += printed("  alone it lowers the error on sessions not seen by %.1f %% (%.1f to %.1f)\n", c.gain_percent.value, c.gain_percent.low,
+                   c.gain_percent.high);
     for (const auto& [name, i] : c.parameters) out += printed("  %-20s %12.5g   95 %%: %.5g to %.5g\n", name.c_str(), i.value, i.low, i.high);
     if (!c.aliases.empty()) {
       out += "  fits as well:";

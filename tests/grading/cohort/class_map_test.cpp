@@ -9,6 +9,7 @@
 
 #include "engine/session/session_reader.h"
 #include "scenarios/file/parse.h"
+#include "tests/engine/support/basics.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum::cohort {
@@ -52,9 +53,7 @@ TEST(ClassMap, CountsWhoRemovedWhatShouldStayAndLeftWhatShouldGo) {
 
 TEST(ClassMap, TheBoxMayGrowInAnyOrder) {
   const Block b;
-  const auto seed = std::random_device{}();
-  std::mt19937 random(seed);
-  SCOPED_TRACE(seed);
+  std::mt19937_64 random(testing_basics::drawn_seed("ClassMap"));
   std::map<std::array<int, 3>, int> plain;
   ClassMap map(b.zones);
   constexpr int k_sessions = 20;

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <random>
 
+#include "tests/engine/support/basics.h"
 #include "tests/grading/ledger/faulty_vfs.h"
 #include "tests/grading/ledger/school.h"
 
@@ -38,8 +39,7 @@ void expect_nothing_lost(const School& school, const std::vector<std::string>& a
 }
 
 void try_all(DiskFault fault, const char* name) {
-  const std::uint64_t seed = std::random_device{}();
-  std::cout << name << ": seed " << seed << "\n";
+  const std::uint64_t seed = testing_basics::drawn_seed(name);
   const School fresh;
   int n = 1, changes = 0;
   for (bool happened = true; happened; ++n) {

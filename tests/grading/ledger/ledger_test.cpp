@@ -10,6 +10,7 @@
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/ledger_schema.h"
+#include "tests/engine/support/basics.h"
 #include "tests/grading/ledger/old_ledger.h"
 
 namespace cavum::ledger {
@@ -497,7 +498,7 @@ TEST(ParseUtc, AgreesWithTheCalendar) {
   for (const char* bad :
        {"2026-11-21", "2026-11-21T18:30", "2026-02-29T00:00Z", "2026-13-01T00:00Z", "2026-11-21T24:00Z", "21.11.2026", "2026-11-21T18:30Zx"})
     EXPECT_THROW(static_cast<void>(parse_utc(bad, "t")), Error) << bad;
-  std::mt19937_64 random(std::random_device{}());
+  std::mt19937_64 random(testing_basics::drawn_seed("LedgerTime"));
   for (int i = 0; i < 1000; ++i) {
     const std::int64_t t = static_cast<std::int64_t>(random() % 4'000'000'000ULL) * 1'000'000'000;
     EXPECT_EQ(parse_utc(utc_text(t), "t"), t) << utc_text(t);

@@ -7,6 +7,7 @@
 
 #include "engine/base/bytes.h"
 #include "engine/base/random.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::ledger {
 namespace {
@@ -33,11 +34,7 @@ std::vector<Sha256> drawn_leaves(std::size_t n, Random& random) {
   return leaves;
 }
 
-std::uint64_t new_seed() {
-  const std::uint64_t seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  return seed;
-}
+std::uint64_t new_seed() { return testing_basics::drawn_seed("Merkle"); }
 
 TEST(Merkle, RootsAreThoseOfTheReference) {
   EXPECT_EQ(to_hex(merkle_root({})), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

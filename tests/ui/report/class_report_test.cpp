@@ -6,6 +6,7 @@
 
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/parse.h"
+#include "tests/engine/support/basics.h"
 #include "tests/ui/program.h"
 #include "tests/ui/report/unpack.h"
 
@@ -23,10 +24,7 @@ class ClassReport : public ::testing::Test {
     tooth_.tooth = load_tooth(setup->session.tooth, "block");
     tooth_.zones = scenarios::build_zones(tooth_.scenario, tooth_.tooth);
     tooth_.map = std::make_unique<cohort::ClassMap>(tooth_.zones);
-    const auto seed = std::random_device{}();
-    RecordProperty("seed", std::to_string(seed));
-    std::printf("seed %u\n", seed);
-    std::mt19937 random(seed);
+    std::mt19937_64 random(testing_basics::drawn_seed("ClassReport"));
     for (int i = 0; i < 7; ++i) {
       std::vector<IVec3> removed;
       const Vec3 middle = (tooth_.zones.target_low_mm() + tooth_.zones.target_high_mm()) * 0.5;

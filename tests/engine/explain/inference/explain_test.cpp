@@ -156,13 +156,13 @@ TEST(Explain, AnIntervalHoldsTheTruthOfAStiffnessThatGrows) {
   EXPECT_LT(parameter(e, "m").high - parameter(e, "m").low, 0.2);
 }
 
-TEST(Explain, WithoutTwinsAPlainRuleAnswersAndSaysSo) {
+TEST(Explain, WithoutSurrogatesAPlainRuleAnswersAndSaysSo) {
   ExplainOptions plain;
-  plain.twins = 0;
+  plain.surrogates = 0;
   const Explanation e = explain(made::recording({}, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); }), plain);
   EXPECT_EQ(first_cause(e), "coulomb_friction") << to_text(e);
   ASSERT_FALSE(e.notes.empty());
-  EXPECT_NE(e.notes.back().find("without twins"), std::string::npos);
+  EXPECT_NE(e.notes.front().find("without surrogates"), std::string::npos);
 }
 
 TEST(Explain, TheSameSeedGivesTheSameAnswer) {

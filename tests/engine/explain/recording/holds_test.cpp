@@ -8,14 +8,17 @@
 
 #include "engine/explain/inference/explain.h"
 #include "tests/engine/explain/made_recording.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::explain {
 namespace {
 
 constexpr double k_quantum_mm = 0.055;
 
+/// Another one at each call, all from the same draw.
 std::uint64_t new_seed(const char* what) {
-  const std::uint64_t seed = std::random_device{}();
+  static Random random(testing_basics::drawn_seed("Holds"));
+  const std::uint64_t seed = random.next();
   std::cout << what << ": seed " << seed << "\n";
   return seed;
 }
