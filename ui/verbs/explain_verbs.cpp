@@ -169,13 +169,14 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
       ->default_str("protocol.html");
   verb->add_flag("--laws", args->laws, "print the table of laws that are looked for: equation, parameters, ranges, what shows each best");
   verb->add_option("--seed", args->seed, "of the surrogates; the same seed gives the same answer")->check(seed_check())->capture_default_str();
-  verb->add_option("--surrogates", args->surrogates, "recordings in which nothing is hidden, for each step of the search; 0: none, a plain rule for comparison")
+  verb->add_option("--surrogates", args->surrogates,
+                   "recordings in which nothing is hidden, for each step of the search; 0: none, a plain rule for comparison")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& text) {
             int n = -1;
             return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 99 && n <= 1000)) ? std::string()
-                                                                                           : fmt::format("'{}' is neither 0 nor 99 to 1000", text);
+                                                                                            : fmt::format("'{}' is neither 0 nor 99 to 1000", text);
           },
           "0, or 99 to 1000"));
   verb->add_flag("--json", args->json, "one JSON object on standard output");
