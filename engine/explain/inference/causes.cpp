@@ -9,6 +9,7 @@ constexpr double k_alias_chi2 = 10.0;   // a rival this close fits as well
 constexpr double k_worth_saying = 0.1;  // of the noise: a dependence below it is the motion's own error as likely as not
 constexpr double k_worth_refining = 0.4;
 constexpr std::size_t k_refined = 5;
+constexpr double k_gone = 0.1;  // of a structure's gain: the rest, when the causes found explain it
 
 Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o) {
   ViewOptions options;
@@ -53,7 +54,7 @@ std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std
   std::sort(candidates.begin(), candidates.end(), [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
   std::vector<Rival> out;
   for (const auto* c : candidates) {
-    if (out.size() >= k_refined || c->gain < k_worth_refining * candidates.front()->gain) break;
+    if (out.size() >= k_refined || (c != candidates.front() && c->gain < k_worth_refining * candidates.front()->gain)) break;
     View beside = v;
     beside.causes = others;
     std::vector<Term> begin{start_of(beside, *c)};
@@ -116,6 +117,26 @@ bool beats_mechanisms(const Structure& structure, double gain, const Step& step)
 
 Unexplained as_unexplained(const Structure& s) { return {s.variable, s.form, s.effect_n}; }
 
+/// A search as it was before a cause that a structure beats: to go back to, unless the causes then found leave nothing of the structure.
+struct Doubt {
+  std::vector<Term> causes;
+  std::vector<double> p_values;
+  Step step;
+  Structure structure;
+};
+
+/// The end of the search: what is left, or what was doubted from the start.
+std::optional<Unexplained> ended(CauseSearch& search, std::optional<Doubt> doubt) {
+  const Structure* left = improbable_structure(search.step);
+  if (doubt && left != nullptr && left->gain > k_gone * doubt->structure.gain) {
+    search.causes = std::move(doubt->causes);
+    search.p_values = std::move(doubt->p_values);
+    search.step = std::move(doubt->step);
+    return as_unexplained(doubt->structure);
+  }
+  return left != nullptr ? std::optional(as_unexplained(*left)) : std::nullopt;
+}
+
 /// Candidates that gain anything in the place of cause `i`, each refined beside the others; best first.
 std::vector<Rival> rivals_in_place(const CauseSearch& search, std::size_t i, const std::vector<Term>& others) {
   const View rest = without(search.step.view, i);
@@ -147,18 +168,19 @@ void look_again(CauseSearch& s) {
 }
 
 std::optional<Unexplained> add_causes(CauseSearch& search) {
+  std::optional<Doubt> doubt;  // of all that follows
   while (true) {
     const Step& step = search.step;
     const std::vector<const Candidate*> found = improbable(step);
     const Structure* structure = improbable_structure(step);
     const bool full = static_cast<int>(search.causes.size()) >= search.options.max_causes;
-    if (found.empty() || full) return structure != nullptr ? std::optional(as_unexplained(*structure)) : std::nullopt;
+    if (found.empty() || full) return ended(search, std::move(doubt));
     const auto rivals = rivals_of(step.view, search.causes, found);
-    if (rivals.empty()) return std::nullopt;
+    if (rivals.empty()) return ended(search, std::move(doubt));
     const double before = penalised_chi2(step.view, search.causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
     const double gain = before - rivals.front().chi2;
-    if (structure != nullptr && beats_mechanisms(*structure, gain, step)) return as_unexplained(*structure);
-    if (gain < k_alias_chi2) return std::nullopt;
+    if (gain < k_alias_chi2) return ended(search, std::move(doubt));
+    if (!doubt && structure != nullptr && beats_mechanisms(*structure, gain, step)) doubt = Doubt{search.causes, search.p_values, step, *structure};
     const auto at = static_cast<std::size_t>(rivals.front().mechanism);
     search.causes = refine(step.view, rivals.front().causes, 1);
     search.p_values.push_back(step.judgement.p_value[at]);
@@ -191,7 +213,9 @@ bool weigh_causes(CauseSearch& search, std::vector<Cause>& weighed) {
     }
     const double own = penalised_chi2(search.step.view, causes);
     for (const auto& r : rivals)
-      if (r.mechanism != causes[i].mechanism && r.chi2 - own < k_alias_chi2 * inflation + 0.003 * earned &&
+      if (law_of(r.mechanism) != law_of(causes[i].mechanism)) cause.rivals.push_back({mechanism_at(r.mechanism).name, r.chi2 - own});
+    for (const auto& r : rivals)
+      if (r.mechanism != causes[i].mechanism && r.chi2 - own < within_alias(earned, inflation) &&
           r.parameters <= parameters_of(causes[i], search.step.view.scene))
         cause.aliases.emplace_back(mechanism_at(r.mechanism).name);
     cause.term = causes[i];

@@ -18,6 +18,9 @@ struct Step {
   Judgement judgement;
 };
 
+/// How far in chi² one explanation may be behind another that earned `earned`, and count as fitting as well.
+[[nodiscard]] inline double within_alias(double earned, double inflation) { return 10.0 * inflation + 0.003 * earned; }
+
 /// What is known so far. `recording` and `options` must outlive it.
 struct CauseSearch {
   const Recording& recording;

@@ -199,8 +199,19 @@ void alias_offsets(std::vector<Cause>& causes) {
   }
 }
 
-constexpr double k_zero_differs = 0.5;        // of the noise
-constexpr double k_least_gain_percent = 0.2;  // of the error on sessions left out: less is of no use to anybody
+constexpr double k_zero_differs = 0.5;  // of the noise
+constexpr int k_rounds = 2;
+constexpr double k_least_gain_percent = 1.0, k_least_low_percent = 0.5;  // of the error on sessions left out: less is of no use to anybody
+
+/// Friction that falls with speed is more than friction only where Fs lies above Fc for sure.
+bool falls_with_speed(const Cause& c) {
+  double slides = 0.0, sticks = 0.0;
+  for (const auto& [name, i] : c.parameters)
+    if (name == "fc_n") slides = i.value;
+  for (const auto& [name, i] : c.parameters)
+    if (name == "fs_n") sticks = i.low;
+  return sticks > slides;
+}
 
 /// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was
 /// looked at.
@@ -214,6 +225,7 @@ bool is_signed(const Cause& c) {
     const double edge = range.logarithmic ? 1e-3 * c.term.shape[i] : 1e-6 * (range.high - range.low);
     if (c.term.shape[i] < range.low + edge || c.term.shape[i] > range.high - edge) return false;
   }
+  if (std::string_view(m.name) == "stribeck_friction" && !falls_with_speed(c)) return false;
   // several of one kind (offsets of sessions, two channels): one that is there is enough
   return std::any_of(c.parameters.begin(), c.parameters.end(), [&](const auto& p) {
     const bool counts = &p == &c.parameters.front() || m.from_residual || std::string_view(m.name) == "cross_talk";
@@ -222,24 +234,61 @@ bool is_signed(const Cause& c) {
   });
 }
 
-/// A shape that goes by another law's name as well, as that law where it fits best; none for all others.
-std::optional<Term> by_its_other_name(const CauseSearch& search, std::size_t i) {
-  const auto& same = mechanism_of(search.causes[i]).same_as;
-  const char* name = same ? same(search.causes[i].shape) : nullptr;
-  if (name == nullptr) return std::nullopt;
-  std::optional<Term> best;
-  double least = 1e300;
-  const int at = known_mechanism(name);
-  if (std::any_of(search.causes.begin(), search.causes.end(), [&](const Term& t) { return law_of(t.mechanism) == law_of(at); })) return std::nullopt;
-  for (auto& shape : starts(mechanism_at(at), search.step.view.scene)) {
+/// Cause `i` said with fewer numbers, and all causes' penalised chi² then.
+struct Plainer {
+  Term term;
+  double chi2 = 1e300;
+};
+
+/// The plainer law that it becomes at an end of its range, another name of its shape, or its own law with fewer numbers: whichever fits best. None
+/// for those that have none.
+std::optional<Plainer> plainer_of(const CauseSearch& search, std::size_t i) {
+  const View& v = search.step.view;
+  const Term& term = search.causes[i];
+  const Mechanism& m = mechanism_of(term);
+  std::vector<Term> begin;
+  const auto add_law = [&](const char* name) {
+    const int at = name != nullptr ? known_mechanism(name) : -1;
+    for (std::size_t c = 0; c < search.causes.size(); ++c)
+      if (at < 0 || (c != i && law_of(search.causes[c].mechanism) == law_of(at))) return;
+    for (auto& shape : starts(mechanism_at(at), v.scene)) begin.push_back({at, shape});
+  };
+  add_law(m.plainer);
+  add_law(m.same_as ? m.same_as(term.shape) : nullptr);
+  if (m.simpler)
+    if (auto shape = m.simpler(term.shape); !shape.empty()) begin.push_back({term.mechanism, std::move(shape)});
+  std::optional<Plainer> best;
+  for (const auto& start : begin) {
     auto causes = search.causes;
-    causes[i] = {at, shape};
-    if (const double chi2 = penalised_chi2(search.step.view, causes); chi2 < least) least = chi2, best = causes[i];
+    causes[i] = start;
+    if (const double chi2 = penalised_chi2(v, causes); !best || chi2 < best->chi2) best = Plainer{start, chi2};
   }
-  return best;
+  if (!best) return best;
+  auto causes = search.causes;
+  causes[i] = best->term;
+  causes = refine(v, causes, 1);
+  return Plainer{causes[i], penalised_chi2(v, causes)};
 }
 
-/// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back: the strongest doubt first. True: some were.
+/// Causes that say no more than a plainer law does become it. True: some did.
+bool prefer_plainer(CauseSearch& search) {
+  bool changed = false;
+  for (std::size_t i = 0; i < search.causes.size(); ++i) {
+    if (mechanism_of(search.causes[i]).plainer == nullptr) continue;
+    const auto plainer = plainer_of(search, i);
+    if (!plainer) continue;
+    auto others = search.causes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double own = penalised_chi2(search.step.view, search.causes), earned = penalised_chi2(search.step.view, others) - own;
+    if (plainer->chi2 - own > within_alias(earned, search.step.judgement.inflation)) continue;
+    search.causes[i] = plainer->term;
+    changed = true;
+  }
+  return changed;
+}
+
+/// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back, or said by a plainer law: the strongest doubt
+/// first. True: a plainer law took a place.
 bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first) {
   bool changed = false;
   while (!causes.empty()) {
@@ -248,19 +297,22 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
     set_parameters(now, search.step.view, search.step.null, search.step.judgement.inflation);
     const auto gains = gain_of_each(first.view, search.causes, search.step.view.spread);
     std::size_t worst = causes.size();
+    std::optional<Plainer> plainer;
     for (std::size_t i = 0; i < causes.size(); ++i) {
       now.causes[i].gain_percent = gains[i];
-      if (is_signed(now.causes[i]) && gains[i].low > k_least_gain_percent) continue;
-      if (worst == causes.size() || gains[i].value < gains[worst].value) worst = i;
+      if (is_signed(now.causes[i]) && gains[i].low > k_least_low_percent && gains[i].value > k_least_gain_percent) continue;
+      if (auto in_place = plainer ? std::nullopt : plainer_of(search, i))
+        worst = i, plainer = in_place;  // what stands in its place may need the others
+      if (!plainer && (worst == causes.size() || gains[i].value < gains[worst].value)) worst = i;
     }
     causes = now.causes;
     if (worst == causes.size()) break;
-    changed = true;
-    if (const auto plainer = by_its_other_name(search, worst)) {
-      search.causes[worst] = *plainer;
+    if (plainer) {
+      search.causes[worst] = plainer->term;
       look_again(search);
       for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
       causes[worst].aliases.clear();
+      changed = true;
       continue;
     }
     causes.erase(causes.begin() + static_cast<std::ptrdiff_t>(worst));
@@ -311,6 +363,17 @@ void say_what_differs(Explanation& e, const Motion& motion) {
   if (!list.empty()) e.notes.push_back(fmt::format("sessions differ (standard deviation): {}", list));
 }
 
+/// A zero of the force, or a lateness, that differs between sessions by what no simulation should miss; none where they are alike.
+std::optional<Unexplained> sessions_apart(const Explanation& e) {
+  if (e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
+    return Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
+  const double late_n =
+      e.spread[k_lateness] * std::sqrt(e.after->effects.col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects.rows()));
+  if (late_n > k_zero_differs * e.noise.sd_n)
+    return Unexplained{"session", "a lateness of the force, or c, that differs from session to session", late_n};
+  return std::nullopt;
+}
+
 /// What is named, alone or as what fits as well, was testable in the end: the first look had not taken the other causes out yet.
 void drop_named_untestable(Explanation& e) {
   std::erase_if(e.not_testable, [&](const NotTestable& n) {
@@ -344,13 +407,25 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   CauseSearch search = begin_search(*e.recording, options, done);
   const Step first = search.step;
   const bool one_way = moves_one_way(search.motion);
-  e.unexplained = add_causes(search);
-  bool changed = weigh_causes(search, e.causes);
-  if (one_way) changed = make_offsets(search) || changed;
-  if (changed) look_again(search);
-  for (std::size_t i = 0; i < search.causes.size(); ++i) e.causes[i].term = search.causes[i];
-  const bool named = !e.causes.empty();
-  take_back(search, e.causes, first);
+  const auto find = [&] {
+    for (int again = 0; again <= k_rounds; ++again) {
+      e.unexplained = add_causes(search);
+      e.causes.clear();
+      bool changed = weigh_causes(search, e.causes);
+      changed = prefer_plainer(search) || changed;
+      if (one_way) changed = make_offsets(search) || changed;
+      for (std::size_t i = 0; i < search.causes.size(); ++i) e.causes[i].term = search.causes[i];
+      if (!changed) return;
+      look_again(search);
+      if (search.causes.empty()) return;
+    }
+  };
+  find();
+  bool named = !e.causes.empty();
+  for (int again = 0; again < k_rounds && take_back(search, e.causes, first); ++again) {  // beside a plainer law others may show
+    find();
+    named = named || !e.causes.empty();
+  }
   alias_by_shape(e.causes, search);
   drop_named_aliases(e.causes);
   if (one_way) alias_offsets(e.causes);
@@ -358,8 +433,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   if (!e.causes.empty() && e.gain.percent.low <= 0.0) e.causes.clear();
   if (named && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
   say_what_differs(e, search.motion);
-  if (e.causes.empty() && !e.unexplained && e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
-    e.unexplained = Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
+  if (e.causes.empty() && !e.unexplained) e.unexplained = sessions_apart(e);
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
   conclude(e, one_way);

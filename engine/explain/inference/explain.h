@@ -17,9 +17,16 @@ struct Interval {
   double value = 0, low = 0, high = 0;  ///< 95 %
 };
 
+/// Another mechanism in the place of a cause, refitted beside the others.
+struct RivalFit {
+  std::string mechanism;
+  double behind_chi2 = 0;  ///< how much worse it fits, each parameter counted; negative where it fits better
+};
+
 struct Cause {
   Term term;
   std::vector<std::string> aliases;  ///< other mechanisms that fit these data as well
+  std::vector<RivalFit> rivals;      ///< best first; those that were worth a refit
   std::vector<std::pair<std::string, Interval>> parameters;
   double p_value = 1;
   double effect_n = 0;    ///< root mean square of its force

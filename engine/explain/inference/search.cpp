@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/explain/model/lines.h"
+#include "engine/statistics/order.h"
 
 namespace cavum::explain {
 namespace {
@@ -126,6 +127,15 @@ Eigen::VectorXd gains_of(const Beside& u, const std::vector<Direction>& group, b
     for (Eigen::Index i = 0; i < gain.size(); ++i)
       if (x.col(i).minCoeff() <= 0.0) gain[i] = 0.0;
   return gain.unaryExpr([](double g) { return std::isfinite(g) ? g : 0.0; });
+}
+
+/// What surrogates gain by a mechanism that these data can show: the middle of all, for one that goes with the residual's own spectrum gains far
+/// more.
+double usual_gain(const Null& null) {
+  std::vector<double> gains;
+  for (std::size_t m = 0; m < mechanisms().size(); ++m)
+    if (const double gain = null.mean[static_cast<Eigen::Index>(m)]; gain > 0.0) gains.push_back(gain);
+  return gains.empty() ? 0.0 : median(std::move(gains));
 }
 
 }  // namespace
@@ -315,7 +325,7 @@ Judgement judge(const View& v, const Null& null, int left_out) {
     const auto above = null.largest_z.end() - std::lower_bound(null.largest_z.begin(), null.largest_z.end(), j.z.back());
     j.p_value.push_back((1.0 + static_cast<double>(above)) / (n + 1.0));
   }
-  if (!null.largest_z.empty()) j.inflation = std::max(1.0, null.mean.head(static_cast<Eigen::Index>(mechanisms().size())).mean() / k_noise_gain);
+  if (!null.largest_z.empty()) j.inflation = std::max(1.0, usual_gain(null) / k_noise_gain);
   judge_lines(v, j, 1.0 / (n + 1.0));
   judge_surface(v, j, 1.0 / (n + 1.0));
   return j;

@@ -25,7 +25,7 @@ Series sign_of_motion(const Scene& s, double v0_mm_s) {
   return out;
 }
 
-/// Speeds from 2 % to 60 % of the fastest tenth of the motion.
+/// These parts of the speed that the fastest tenth of the motion exceeds.
 std::vector<double> speeds(const Scene& s, std::initializer_list<double> parts) {
   std::vector<double> v;
   for (Eigen::Index i = 0; i < s.motion.v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion.v_mm_s[i]));
@@ -52,7 +52,7 @@ Mechanism coulomb_friction() {
       .shape = {{"v0_mm_s", 1e-5, 100, true, true}},
       .grid =
           [](const Scene& s) {
-            return as_grid(speeds(s, {0.01, 0.03, 0.1, 0.3, 0.8}));
+            return as_grid(speeds(s, {0.001, 0.01, 0.03, 0.1, 0.3, 0.8}));
           },
       .columns =
           [](const Scene& s, const Shape& p) {
@@ -102,6 +102,7 @@ Mechanism stribeck_friction() {
       },
       .own = k_positive,
       .variant_of = "coulomb_friction",
+      .plainer = "coulomb_friction",
       .one_way = OneWay::needs_reversal,
   };
 }

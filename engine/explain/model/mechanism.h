@@ -91,6 +91,8 @@ struct Mechanism {
   // What tells it from others
   OwnRange own{};
   const char* variant_of = nullptr;  ///< the law whose variant it is: a model holds one of them at most
+  /// A law with fewer numbers that it becomes at an end of its range: the one to name when the data do not tell more.
+  const char* plainer = nullptr;
   OneWay one_way = OneWay::told;
   const char* like_when_short = nullptr;  ///< a lag in tau_s: the one that cannot be told from it when both are shorter than the data resolve
   /// A shape that goes by another law's name as well; nullptr: it does not.

@@ -1,7 +1,6 @@
 // What the measurement does to the force: weight of the handpiece, inertia, gain, cross-talk, delay, lag, saturation.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "engine/explain/model/lags.h"
 #include "engine/explain/model/mechanism.h"
@@ -19,15 +18,6 @@ constexpr double k_radians = 3.14159265358979323846 / 180.0;
 
 Grid no_shape(const Scene&) { return {{}}; }
 
-Grid posture_grid(const Scene& s) {
-  const Series* posture = s.recording->column("posture_deg");
-  std::set<double> zero{0.0};  // the posture in which the load cell was zeroed: level, or one that was recorded
-  for (Eigen::Index i = 0; i < posture->size() && zero.size() < 6; ++i) zero.insert(std::round((*posture)[i] * 10.0) / 10.0);
-  Grid g;
-  for (const double z : zero) g.push_back({z});
-  return g;
-}
-
 /// From half a row to 0.3 s.
 Grid lag_grid(const Scene& s) {
   const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
@@ -36,10 +26,11 @@ Grid lag_grid(const Scene& s) {
   return g;
 }
 
-/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so half rows up to 8 rows.
+/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so parts of a row up to 8 rows.
 Grid delay_grid(const Scene& s) {
   const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
   Grid g;
+  for (const double rows : {0.12, 0.25}) g.push_back({rows * row});
   for (int half = 1; half <= 16; ++half) g.push_back({0.5 * half * row});
   for (const double rows : {10.0, 13.0, 18.0, 25.0, 35.0}) g.push_back({rows * row});
   return g;
@@ -54,7 +45,7 @@ Grid saturation_grid(const Scene& s) {
   if (pressed.size() < 100) return {};
   std::sort(pressed.begin(), pressed.end());
   Grid g;
-  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995}) g.push_back({quantile_of_sorted(pressed, part)});
+  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995, 0.998, 0.9993}) g.push_back({quantile_of_sorted(pressed, part)});
   return g;
 }
 
@@ -70,16 +61,16 @@ Mechanism gravity_posture() {
       .words = "the weight of the handpiece, which changes with posture",
       .separate = "hold the tool in air in three postures",
       .needs = {"posture_deg"},
-      .shape = {{"theta0_deg", -180, 180, false, false}},
-      .grid = posture_grid,
+      .grid = no_shape,
       .columns =
-          [](const Scene& s, const Shape& p) {
+          [](const Scene& s, const Shape&) {
             const Series* posture = s.recording->column("posture_deg");
-            return Columns{{(*posture * k_radians).sin() - std::sin(p[0] * k_radians)}, {}, {}};
+            return Columns{{(*posture * k_radians).sin(), Series::Ones(posture->size())}, {}, {}};
           },
       .parameters =
-          [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"weight_n", own[0]}, {"theta0_deg", p[0]}};
+          [](const Shape&, const Shape& own, Base) {  // beyond a right angle the zero is a bias: no posture has it
+            const double sine = own[0] != 0.0 ? std::clamp(-own[1] / own[0], -1.0, 1.0) : 0.0;
+            return std::vector<NamedValue>{{"weight_n", own[0]}, {"theta0_deg", std::asin(sine) / k_radians}};
           },
   };
 }
@@ -227,6 +218,7 @@ Mechanism ringing() {
           [](const Shape& p, const Shape& own, Base) {
             return std::vector<NamedValue>{{"share", own[0]}, {"frequency_hz", p[0]}, {"damping_ratio", p[1]}, {"mass_kg", own[1] * 1000.0}};
           },
+      .plainer = "inertia",
   };
 }
 

@@ -14,9 +14,18 @@ constexpr std::size_t k_least_sessions = 8;
 constexpr double k_scatter = 0.2;
 constexpr double k_onset = 0.02;  // of the peak force
 
+constexpr double k_follows = 0.5;  // correlation of force and depth below the surface: less is no pressing
+
 struct Specimen {
   double surface_mm = 0, depth_mm = 0, peak_n = 0;
 };
+
+/// Correlation of the force with the depth below the surface.
+double correlation(const Recording& r, const SessionRows& s, double surface_mm) {
+  const Series depth = (r.x_mm.segment(s.begin, s.end - s.begin) - surface_mm).max(0.0), force = r.f_n.segment(s.begin, s.end - s.begin);
+  const Series a = depth - depth.mean(), b = force - force.mean();
+  return (a * b).sum() / std::sqrt(std::max(1e-300, a.square().sum() * b.square().sum()));
+}
 
 Specimen specimen_of(const Recording& r, const SessionRows& s) {
   Eigen::Index top = 0;
@@ -39,16 +48,17 @@ Specimen specimen_of(const Recording& r, const SessionRows& s) {
 
 bool are_specimens(const Recording& r) {
   if (r.sessions.size() < k_least_sessions || r.rig.k_n_per_mm) return false;
-  double sum = 0.0, square = 0.0;
+  double sum = 0.0, square = 0.0, follows = 0.0;
   for (const auto& s : r.sessions) {
     const Specimen p = specimen_of(r, s);
     if (!(p.depth_mm > 0.0) || !(p.peak_n > 0.0)) return false;
+    follows += correlation(r, s, p.surface_mm);
     const double k = p.peak_n / p.depth_mm;
     sum += k;
     square += k * k;
   }
   const double n = static_cast<double>(r.sessions.size()), mean = sum / n;
-  return std::sqrt(std::max(0.0, square / n - mean * mean)) > k_scatter * mean;
+  return follows > k_follows * n && std::sqrt(std::max(0.0, square / n - mean * mean)) > k_scatter * mean;
 }
 
 Recording on_common_scale(const Recording& r) {

@@ -34,12 +34,15 @@ json to_json(const Explanation& e) {
   for (const auto& c : e.causes) {
     json parameters = json::object();
     for (const auto& [name, interval] : c.parameters) parameters[name] = to_json(interval);
+    json rivals = json::array();
+    for (const auto& r : c.rivals) rivals.push_back({{"mechanism", r.mechanism}, {"behind_chi2", r.behind_chi2}});
     j["causes"].push_back({{"mechanism", mechanism_of(c).name},
                            {"aliases", c.aliases},
                            {"parameters", parameters},
                            {"p_value", c.p_value},
                            {"effect_n", c.effect_n},
-                           {"gain", to_json(c.gain_percent)}});
+                           {"gain", to_json(c.gain_percent)},
+                           {"rivals", rivals}});
   }
   j["unexplained"] = nullptr;
   if (e.unexplained) j["unexplained"] = {{"variable", e.unexplained->variable}, {"effect_n", e.unexplained->effect_n}, {"form", e.unexplained->form}};
