@@ -85,6 +85,24 @@ void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
     std::cout << to_text(overview) << (a.out.empty() ? "" : fmt::format("written: {}\n", a.out));
 }
 
+/// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
+void require_conventions(const ExplainArgs& a, const explain::Recording& recording) {
+  try {
+    explain::require_conventions(recording, a.data);
+  } catch (const Error& refused) {
+    explain::Explanation said;
+    said.verdict = "data_fault";
+    said.recording = std::make_shared<const explain::Recording>(recording);
+    said.notes = recording.notes;
+    for (const explain::Doubt& d : explain::judge_conventions(recording).doubts)
+      if (d.clear) said.data_faults.push_back(fmt::format("{}; give {}", d.what, d.options));
+    said.next_experiment = "correct the recording: " + said.data_faults.front();
+    if (!a.out.empty()) write_text_file(a.out, explanation_html(said, a.data));
+    if (a.json) print_json(to_json(said));
+    throw;
+  }
+}
+
 /// What is none may have a header that such a table cannot have.
 bool is_table(const std::string& text, const std::string& path) {
   try {
@@ -129,7 +147,7 @@ void run_explain(const ExplainArgs& a) {
   if (ran_table(a)) return;
   explain::Recording recording = read_data(a);
   if (a.dry_run) return show_overview(a, recording);
-  explain::require_conventions(recording, a.data);
+  require_conventions(a, recording);
   explain::ExplainOptions options;
   options.seed = a.seed;
   options.surrogates = a.surrogates;

@@ -81,7 +81,7 @@ std::size_t require_column(const Header& header, const std::string& wanted, cons
 /// Its unit does not say that it is something else.
 bool can_be(const HeaderName& h, Role role) {
   if (h.unit.empty() || find_unit(h.unit, role)) return true;
-  return h.marked && !is_unit(h.unit);  // an unknown unit is told, not passed over
+  return h.marked && !is_unit(h.unit) && !is_other_unit(h.unit);  // an unknown unit is told, not passed over
 }
 
 /// Candidates of one step of likeness: 0 our own name, 1 its letter with another unit, 2 what machines write.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/error.h"
@@ -13,7 +14,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr Eigen::Index k_least_rows_judged = 50, k_most_rows_judged = 200'000;
+constexpr Eigen::Index k_least_rows_judged = 50, k_most_rows_judged = 200'000, k_most_rows_refined = 20'000;
 constexpr int k_bins = 60;
 constexpr double k_least_rows_of_bin = 4.0;
 constexpr double k_bend_over_line = 0.3;   // squares left by the bend over those left by a straight line: a weight on a joint is no contact
@@ -74,6 +75,42 @@ std::pair<double, double> flat_side(const Recording& r, double at, int towards) 
   return {std::sqrt(std::max(0.0, ss / n - s / n * (s / n))), n / static_cast<double>(r.rows())};
 }
 
+/// Force over depth and speed from one place of the surface: squares left by k and c in contact, and by nothing in air.
+double squares_from(const std::vector<std::array<double, 3>>& rows, double at) {
+  double xx = 0, xv = 0, vv = 0, xf = 0, vf = 0;
+  for (const auto& [x, v, f] : rows)
+    if (const double u = x - at; u > 0.0) xx += u * u, xv += u * v, vv += v * v, xf += u * f, vf += v * f;
+  const double d = xx * vv - xv * xv;
+  const double k = d > 1e-9 * xx * vv ? (xf * vv - vf * xv) / d : xx > 0.0 ? xf / xx : 0.0, c = d > 1e-9 * xx * vv ? (vf * xx - xf * xv) / d : 0.0;
+  double out = 0.0;
+  for (const auto& [x, v, f] : rows) out += std::pow(f - (x > at ? std::max(0.0, k * (x - at) + c * v) : 0.0), 2);
+  return out;
+}
+
+/// The same place by all rows and with the damper, which makes the mean force begin earlier than the contact does.
+double refined_surface_mm(const Recording& r, const ContactSeen& seen) {
+  const Eigen::Index stride = std::max<Eigen::Index>(1, r.rows() / k_most_rows_refined);
+  const double turn = seen.towards, push = seen.reached_n < 0.0 ? -1.0 : 1.0;
+  std::vector<std::array<double, 3>> rows;  // position along the feed, its speed, force
+  for (const SessionRows& s : r.sessions)
+    for (Eigen::Index i = s.begin + 2; i + 2 < s.end; i += stride)
+      if (const double dt = r.t_s[i + 2] - r.t_s[i - 2]; dt > 0.0)
+        rows.push_back({turn * r.x_mm[i], turn * (r.x_mm[i + 2] - r.x_mm[i - 2]) / dt, push * (r.f_n[i] - seen.air_n)});
+  double low = 1e300, high = -1e300;
+  for (const auto& row : rows) low = std::min(low, row[0]), high = std::max(high, row[0]);
+  double best = turn * seen.at_mm, width = 0.3 * (high - best);
+  for (int round = 0; round < 4 && width > 0.0; ++round, width /= 5.0) {
+    double least = 1e300;
+    const double middle = best;
+    for (int i = -8; i <= 8; ++i)
+      if (const double at = middle + width * i / 8.0; at < high) {
+        const double squares = squares_from(rows, at);
+        if (squares < least) least = squares, best = at;
+      }
+  }
+  return turn * best;
+}
+
 std::optional<ContactSeen> find_contact(const Recording& r) {
   const Means m = means_over_position(r);
   if (m.x.size() < 8) return std::nullopt;
@@ -96,7 +133,9 @@ std::optional<ContactSeen> find_contact(const Recording& r) {
   const bool bends = least < k_bend_over_line * line && least < (1.0 - k_bend_explains) * constant;
   if (!bends || share < k_air_share || std::fabs(best.level) > k_air_level * std::fabs(far) || std::fabs(far) < k_over_air_scatter * scatter)
     return std::nullopt;
-  return ContactSeen{at, best.level, far, towards};
+  ContactSeen seen{at, best.level, far, towards};
+  seen.at_mm = refined_surface_mm(r, seen);
+  return seen;
 }
 
 void judge_signs(const ContactSeen& seen, bool has_speed, double speed_agrees, std::vector<Doubt>& doubts) {

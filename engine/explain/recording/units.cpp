@@ -120,6 +120,11 @@ bool is_unit(std::string_view name) {
   return std::any_of(k_roles.begin(), k_roles.end(), [&](Role role) { return find_unit(name, role).has_value(); });
 }
 
+bool is_other_unit(std::string_view name) {
+  constexpr std::array<std::string_view, 18> k_others{"rpm", "1/min", "U/min", "Hz", "kHz", "\xc2\xb0" "C", "degC", "C", "K", "%", "A", "mA", "W", "Pa", "kPa", "MPa", "bar", "g/s"};
+  return std::find(k_others.begin(), k_others.end(), name) != k_others.end();
+}
+
 Unit at_lever(const Unit& unit, Role role, double lever_mm) {
   Unit out = unit;
   if (!unit.on_lever) return out;

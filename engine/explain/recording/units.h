@@ -22,6 +22,8 @@ struct Unit {
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view name, Role role);
 /// True for a unit of any role: "mm", "N", "deg/s".
 [[nodiscard]] bool is_unit(std::string_view name);
+/// True for units of what is no time, way, speed or force: rpm, Hz, °C, %, A, MPa.
+[[nodiscard]] bool is_other_unit(std::string_view name);
 /// The same at a lever of `lever_mm` > 0: angle × lever, torque / lever.
 [[nodiscard]] Unit at_lever(const Unit& unit, Role role, double lever_mm);
 /// All that `find_unit` knows for a role, parted by commas.
