@@ -23,7 +23,8 @@ constexpr Eigen::Index k_most_points = 4000;  // of a chart: more cannot be told
 std::pair<std::string, std::string> name_and_value(const std::string& option, const std::string& given, const std::string& example) {
   const std::size_t at = given.find('=');
   if (at == std::string::npos || at == 0 || at + 1 == given.size())
-    throw Error(fmt::format("{} {}", option, one_line(given)), "is not of the form NAME=" + example, fmt::format("write for example {}", option == "--unit" ? "--unit f=gf" : "--column f=Fz"));
+    throw Error(fmt::format("{} {}", option, one_line(given)), "is not of the form NAME=" + example,
+                fmt::format("write for example {}", option == "--unit" ? "--unit f=gf" : "--column f=Fz"));
   return {given.substr(0, at), given.substr(at + 1)};
 }
 
@@ -60,16 +61,16 @@ Series running_time_s(const Recording& r) {
 
 }  // namespace
 
-bool ReadingArgs::empty() const {
-  return columns.empty() && units.empty() && negate.empty() && surface->count() == 0 && lever->count() == 0;
-}
+bool ReadingArgs::empty() const { return columns.empty() && units.empty() && negate.empty() && surface->count() == 0 && lever->count() == 0; }
 
 void add_reading_options(CLI::App& verb, ReadingArgs& args) {
   verb.add_option("--column", args.columns, "NAME=COLUMN: the file calls NAME (t, x, v, f, session, ...) something else; may be repeated");
-  verb.add_option("--unit", args.units, "NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated");
+  verb.add_option("--unit", args.units,
+                  "NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated");
   verb.add_option("--negate", args.negate, "x, v or f: the file counts it the other way; may be repeated");
   args.surface = verb.add_option("--surface-mm", args.surface_mm, "where the surface is in the file's positions")->check(CLI::Range(-1e6, 1e6));
-  args.lever = verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(CLI::Range(1e-3, 1e5));
+  args.lever =
+      verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(CLI::Range(1e-3, 1e5));
 }
 
 explain::ReadingOptions reading_options(const ReadingArgs& args) {
@@ -96,15 +97,16 @@ std::string overview_html(const Recording& r, const explain::Overview& overview,
   }
   const Series time = running_time_s(r);
   std::string out = fmt::format(
-      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title><style>"
+      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>{0}</title><style>"
       "body{{font:16px/1.5 sans-serif;color:#222;max-width:68em;margin:2em auto;padding:0 1em}}h1{{font-size:1.5em;word-break:break-all}}"
       "svg{{max-width:100%;height:auto}}pre{{white-space:pre-wrap;background:#f2f2f2;padding:1em}}</style></head><body>\n<h1>{0}</h1>\n"
       "<p>What was understood, before anything is explained.</p>\n",
       xml_text(title));
   if (r.x_mm.size() > 0) {
     out += chart_over("force over position", "penetration x, mm", "force f, N", thinned(r.x_mm, r.f_n), ChartSeries::Style::dots, surface);
-    out += chart_over("position over time", "time t, s; sessions one behind the other", "penetration x, mm", thinned(time, r.x_mm), ChartSeries::Style::line,
-                      surface_beside);
+    out += chart_over("position over time", "time t, s; sessions one behind the other", "penetration x, mm", thinned(time, r.x_mm),
+                      ChartSeries::Style::line, surface_beside);
   }
   out += chart_over("force over time", "time t, s; sessions one behind the other", "force f, N", thinned(time, r.f_n), ChartSeries::Style::line, {});
   // words may hold the control characters of a file's names: xml_text keeps line ends as references, which pre shows

@@ -117,7 +117,8 @@ bool ran_table(const ExplainArgs& a) {
   if (a.data.ends_with(".cavum")) return false;
   const std::string text = read_text_file(a.data, k_largest_table);
   if (!is_table(text, a.data)) return false;
-  if (a.dry_run) throw Error("--dry-run", fmt::format("{} is a table of means, without motion", a.data), "leave it out: a table is taken at its word");
+  if (a.dry_run)
+    throw Error("--dry-run", fmt::format("{} is a table of means, without motion", a.data), "leave it out: a table is taken at its word");
   if (!a.model.empty() || !a.model_out.empty())
     throw Error(a.data, "is a table of means, without motion", "leave out --model and --model-out; no force model follows from it");
   const explain::TableExplanation result = explain::explain_table(explain::parse_stiffness_table(text, a.data));

@@ -22,7 +22,8 @@ std::string_view names_of(Role role) {
     case Role::time:
       return " time zeit timestamp timestamps elapsed elapsedtime testtime prufzeit testzeit uhrzeit temps tiempo datetime stamp clock timeofday ";
     case Role::position:
-      return " position pos displacement disp extension travel depth penetration indentation crosshead crossheadposition weg standardweg traversenweg "
+      return " position pos displacement disp extension travel depth penetration indentation crosshead crossheadposition weg standardweg "
+             "traversenweg "
              "traverse eindringtiefe tiefe stroke hub way deplacement desplazamiento z zpos zposition angle winkel jointangle ";
     case Role::speed:
       return " speed velocity vel geschwindigkeit vitesse velocidad vz zspeed zvelocity angularvelocity ";
@@ -34,8 +35,8 @@ std::string_view names_of(Role role) {
 
 /// Columns that laws know by these names (contracts.md): never one of the motion unless an option says so.
 bool is_known_beside(std::string_view name) {
-  constexpr std::array<std::string_view, 11> k_beside{"spindle_rpm", "wet",         "posture_deg", "approach_deg", "removed_mm3", "bur_id",
-                                                      "site",        "layer",       "temperature_c", "fy_n",       "fz_n"};
+  constexpr std::array<std::string_view, 11> k_beside{"spindle_rpm", "wet",   "posture_deg",   "approach_deg", "removed_mm3", "bur_id",
+                                                      "site",        "layer", "temperature_c", "fy_n",         "fz_n"};
   return std::find(k_beside.begin(), k_beside.end(), name) != k_beside.end();
 }
 
@@ -115,7 +116,8 @@ std::optional<std::size_t> find_column(const Header& header, const std::vector<b
       for (std::size_t i = 0; i < header.size(); ++i)
         if (const std::string letters = plain_letters(header[i].name); !taken[i] && (letters == "y" || letters == "z")) found.push_back(i);
     if (likeness == 2 && found.size() > 1)  // fz_n and its like are lateral forces unless nothing else is there
-      if (std::vector<std::size_t> rest = found; std::erase_if(rest, [&](std::size_t i) { return is_known_beside(header[i].whole); }) > 0 && !rest.empty())
+      if (std::vector<std::size_t> rest = found;
+          std::erase_if(rest, [&](std::size_t i) { return is_known_beside(header[i].whole); }) > 0 && !rest.empty())
         found = rest;
     if (found.size() > 1) {
       std::vector<std::string> names;
@@ -171,10 +173,15 @@ void check_options(const Header& header, const ReadingOptions& options, const Co
     const auto role = role_of(name);
     return role && plan.of(*role) != nullptr;
   };
-  for (const auto& [of, unit] : options.units)
-    if (!there(of) && std::none_of(plan.motion.begin(), plan.motion.end(), [&](const auto& c) { return c.header.whole == of || c.header.name == of; }))
-      throw Error(at, fmt::format("--unit {}={}: there is no such column among time, position, speed and force", one_line(of), one_line(unit)),
+  for (const auto& given : options.units) {
+    const std::string& of = given.first;
+    const bool is_header =
+        std::any_of(plan.motion.begin(), plan.motion.end(), [&](const auto& c) { return c.header.whole == of || c.header.name == of; });
+    if (!there(of) && !is_header)
+      throw Error(at,
+                  fmt::format("--unit {}={}: there is no such column among time, position, speed and force", one_line(of), one_line(given.second)),
                   fmt::format("name t, x, v or f; the header has {}", list_of_names(all_names(header))));
+  }
   for (const std::string& name : options.negate) {
     if (const auto role = role_of(name); !role || *role == Role::time)
       throw Error(fmt::format("--negate {}", one_line(name)), "is no column that can be counted the other way", "write --negate x, v or f");
@@ -222,7 +229,8 @@ ColumnPlan plan_columns(const Header& header, const ReadingOptions& options, con
   }
   check_options(header, options, plan, at);
   for (std::size_t i = 0; i < plan.names.size(); ++i)
-    if (std::find(plan.names.begin(), plan.names.begin() + static_cast<std::ptrdiff_t>(i), plan.names[i]) != plan.names.begin() + static_cast<std::ptrdiff_t>(i))
+    if (std::find(plan.names.begin(), plan.names.begin() + static_cast<std::ptrdiff_t>(i), plan.names[i]) !=
+        plan.names.begin() + static_cast<std::ptrdiff_t>(i))
       throw Error(at, fmt::format("there are two columns '{}'", plan.names[i]), "rename one");
   return plan;
 }

@@ -17,13 +17,13 @@ namespace {
 constexpr Eigen::Index k_least_rows_judged = 50, k_most_rows_judged = 200'000, k_most_rows_refined = 20'000;
 constexpr int k_bins = 60;
 constexpr double k_least_rows_of_bin = 4.0;
-constexpr double k_bend_over_line = 0.3;   // squares left by the bend over those left by a straight line: a weight on a joint is no contact
-constexpr double k_bend_explains = 0.75;   // of the scatter of the means
-constexpr double k_air_share = 0.05;       // of the rows on the flat side, at least
-constexpr double k_air_level = 0.4;        // of the force reached: the flat side is near zero
-constexpr double k_over_air_scatter = 4.0; // the force reached over the scatter on the flat side
-constexpr double k_far_mm = 0.3;           // a surface set by hand is nearer
-constexpr double k_against_speed = -0.5;   // correlation below which the speed is counted against the position
+constexpr double k_bend_over_line = 0.3;    // squares left by the bend over those left by a straight line: a weight on a joint is no contact
+constexpr double k_bend_explains = 0.75;    // of the scatter of the means
+constexpr double k_air_share = 0.05;        // of the rows on the flat side, at least
+constexpr double k_air_level = 0.4;         // of the force reached: the flat side is near zero
+constexpr double k_over_air_scatter = 4.0;  // the force reached over the scatter on the flat side
+constexpr double k_far_mm = 0.3;            // a surface set by hand is nearer
+constexpr double k_against_speed = -0.5;    // correlation below which the speed is counted against the position
 
 /// Mean force in equal steps of the position.
 struct Means {
@@ -35,7 +35,7 @@ Means means_over_position(const Recording& r) {
   const Eigen::Index stride = std::max<Eigen::Index>(1, r.rows() / k_most_rows_judged);
   const double low = r.x_mm.minCoeff(), span = r.x_mm.maxCoeff() - low;
   std::vector<double> n(k_bins, 0.0), sum(k_bins, 0.0), sum_x(k_bins, 0.0);
-  if (!(span > 0.0)) return {};
+  if (!(span > 0.0) || !std::isfinite(span)) return {};
   for (Eigen::Index i = 0; i < r.rows(); i += stride) {
     const auto b = static_cast<std::size_t>(std::clamp((r.x_mm[i] - low) / span * k_bins, 0.0, k_bins - 1.0));
     n[b] += 1.0, sum[b] += r.f_n[i], sum_x[b] += r.x_mm[i];
@@ -157,17 +157,19 @@ void judge_origin(const Recording& r, const ContactSeen& seen, std::vector<Doubt
   const double before = r.reading && r.reading->surface_mm ? *r.reading->surface_mm : 0.0;
   const bool negated = r.reading && r.reading->columns.of(Role::position) != nullptr && r.reading->columns.of(Role::position)->negated;
   const double surface = negated ? before - seen.at_mm : before + seen.at_mm;
-  doubts.push_back({true,
-                    fmt::format("contact begins at x = {} mm and goes {} mm deep: x is a machine's own position, not the penetration from the surface",
-                                plain_number(seen.at_mm), plain_number(depth)),
-                    fmt::format("--surface-mm {:.3f}", surface)});
+  doubts.push_back(
+      {true,
+       fmt::format("contact begins at x = {} mm and goes {} mm deep: x is a machine's own position, not the penetration from the surface",
+                   plain_number(seen.at_mm), plain_number(depth)),
+       fmt::format("--surface-mm {:.3f}", surface)});
 }
 
 /// A speed that is counted against the position, where the position itself is not to be turned.
 void judge_speed(const Conventions& c, std::vector<Doubt>& doubts) {
   const bool turned = c.contact && c.contact->towards < 0;
   if (c.speed_agrees >= k_against_speed || turned) return;
-  doubts.push_back({true, fmt::format("the speed is counted against the position (correlation {} with its change)", plain_number(c.speed_agrees)), "--negate v"});
+  doubts.push_back(
+      {true, fmt::format("the speed is counted against the position (correlation {} with its change)", plain_number(c.speed_agrees)), "--negate v"});
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ struct Doubt {
 
 /// Where the force leaves its level in air: a bend of the mean force over the position, flat on one side.
 struct ContactSeen {
-  double at_mm = 0.0;    ///< position where it begins, as the recording counts
-  double air_n = 0.0;    ///< level on the flat side
+  double at_mm = 0.0;      ///< position where it begins, as the recording counts
+  double air_n = 0.0;      ///< level on the flat side
   double reached_n = 0.0;  ///< mean force at the far end, over air_n; negative when compression is
-  int towards = 1;       ///< 1: contact lies at greater positions; -1: at smaller ones
+  int towards = 1;         ///< 1: contact lies at greater positions; -1: at smaller ones
 };
 
 struct Conventions {

@@ -20,8 +20,8 @@ struct Stamp {
 /// Which date a stamp with slashes means.
 enum class SlashOrder { unknown, month_first, day_first };
 
-/// 2026-11-24T10:15:30.123 (a blank for T; Z or +01:00 behind), 24.11.2026 10:15:30,123, 11/24/2026 10:15:30, 10:15:30.123 (AM, PM), a date alone. None
-/// when it is none of these, or no date of the calendar. A date with slashes needs `order`.
+/// 2026-11-24T10:15:30.123 (a blank for T; Z or +01:00 behind), 24.11.2026 10:15:30,123, 11/24/2026 10:15:30, 10:15:30.123 (AM, PM), a date alone.
+/// None when it is none of these, or no date of the calendar. A date with slashes needs `order`.
 [[nodiscard]] std::optional<Stamp> parse_stamp(std::string_view text, SlashOrder order = SlashOrder::unknown);
 /// Order that a stamp with slashes shows: one of its numbers is beyond 12. Unknown otherwise; none where there are no slashes.
 [[nodiscard]] std::optional<SlashOrder> slash_order(std::string_view text);
@@ -35,8 +35,8 @@ class StampReader {
   /// `declared`: the column says its unit, so numbers are of that unit unless they are years away from it.
   StampReader(Decimal decimal, double factor, bool declared) : decimal_(decimal), factor_(factor), declared_(declared) {}
 
-  /// Seconds; dates, times of day and seconds since 1970 from the first row, past midnight where only times of day are there. None when the cell is no
-  /// stamp of the first row's kind.
+  /// Seconds; dates, times of day and seconds since 1970 from the first row, past midnight where only times of day are there. None when the cell is
+  /// no stamp of the first row's kind.
   [[nodiscard]] std::optional<double> seconds(std::string_view cell);
   /// Why the last cell was none, where more is known than that: a date that may be the 4th of November or the 11th of April.
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }

@@ -84,16 +84,14 @@ void units(const Recording& r, std::vector<std::string>& faults) {
   for (Eigen::Index i = 0; i < r.rows(); ++i)
     if (r.x_mm[i] > 0.0) xf += r.x_mm[i] * r.f_n[i], xx += r.x_mm[i] * r.x_mm[i], ff += r.f_n[i] * r.f_n[i];
   if (xx > 0.0 && xf < -k_against * std::sqrt(xx * ff)) {
-    faults.push_back(
-        fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, give --negate f",
-                    plain_number(xf / xx)));
+    faults.push_back(fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, give --negate f",
+                                 plain_number(xf / xx)));
     return;
   }
   if (r.rig.k_n_per_mm && xx > 0.0) {
     const double ratio = xf / xx / *r.rig.k_n_per_mm;
     if (ratio > 50.0 || (ratio > 0.0 && ratio < 0.02))
-      faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; {}",
-                                   plain_number(ratio), unit_words(ratio)));
+      faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; {}", plain_number(ratio), unit_words(ratio)));
   }
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff();
   if (range < 0.02 && pressed > 0.1 && xx > 0.0)

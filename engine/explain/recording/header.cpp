@@ -79,7 +79,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string header_text(std::string_view bytes) {
-  const std::string as_it_is = one_line(bytes);  // bytes that are no UTF-8 are ? there
+  std::string as_it_is = one_line(bytes);  // bytes that are no UTF-8 are ? there
   if (std::count(as_it_is.begin(), as_it_is.end(), '?') == std::count(bytes.begin(), bytes.end(), '?')) return as_it_is;
   std::string utf8;
   for (const char c : bytes) {
@@ -110,10 +110,20 @@ HeaderName read_header_name(std::string_view cell, std::string_view line_unit) {
 }
 
 std::string plain_letters(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, char>, 14> k_marked{{{"\xc3\xa4", 'a'}, {"\xc3\x84", 'a'}, {"\xc3\xb6", 'o'}, {"\xc3\x96", 'o'},
-                                                                         {"\xc3\xbc", 'u'}, {"\xc3\x9c", 'u'}, {"\xc3\xa9", 'e'}, {"\xc3\x89", 'e'},
-                                                                         {"\xc3\xa8", 'e'}, {"\xc3\xa0", 'a'}, {"\xc3\xa1", 'a'}, {"\xc3\xad", 'i'},
-                                                                         {"\xc3\xb3", 'o'}, {"\xc3\xb1", 'n'}}};
+  constexpr std::array<std::pair<std::string_view, char>, 14> k_marked{{{"\xc3\xa4", 'a'},
+                                                                        {"\xc3\x84", 'a'},
+                                                                        {"\xc3\xb6", 'o'},
+                                                                        {"\xc3\x96", 'o'},
+                                                                        {"\xc3\xbc", 'u'},
+                                                                        {"\xc3\x9c", 'u'},
+                                                                        {"\xc3\xa9", 'e'},
+                                                                        {"\xc3\x89", 'e'},
+                                                                        {"\xc3\xa8", 'e'},
+                                                                        {"\xc3\xa0", 'a'},
+                                                                        {"\xc3\xa1", 'a'},
+                                                                        {"\xc3\xad", 'i'},
+                                                                        {"\xc3\xb3", 'o'},
+                                                                        {"\xc3\xb1", 'n'}}};
   std::string out;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const char c = name[i];

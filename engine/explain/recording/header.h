@@ -10,10 +10,10 @@ namespace cavum::explain {
 
 /// "Fz [N]" is the name Fz with the unit N, and so are "Fz (N)", "Fz/N", "Fz, N" and, less surely, "Fz_N".
 struct HeaderName {
-  std::string whole;               ///< as it stands there, UTF-8 on one line
-  std::string name;                ///< without its unit
-  std::string unit;                ///< "" where there is none
-  bool marked = false;             ///< the unit is in brackets, or behind / or a comma: it is meant as one, whether it is known or not
+  std::string whole;    ///< as it stands there, UTF-8 on one line
+  std::string name;     ///< without its unit
+  std::string unit;     ///< "" where there is none
+  bool marked = false;  ///< the unit is in brackets, or behind / or a comma: it is meant as one, whether it is known or not
 };
 
 /// `line_unit`: what stands below it on a line of units; it goes before one in the name.

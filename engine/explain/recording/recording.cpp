@@ -98,9 +98,14 @@ void note_reading(const Reading& reading, const StampReader& stamps, Recording& 
       if (stamps.kind() != StampReader::Kind::seconds) out.notes.push_back(fmt::format("time: column '{}' holds {}", c.header.whole, stamps.words()));
       if (stamps.kind() != StampReader::Kind::seconds || c.unit.factor == 1.0) continue;
     }
-    if (c.unit.mass_word) out.notes.push_back(fmt::format("UNIT: column '{}' is in {}, a mass: taken as the force that it weighs ({} N for 1)", c.header.whole, c.header.unit, plain_number(c.unit.factor)));
-    else if (c.unit.factor != 1.0) out.notes.push_back(fmt::format("unit: column '{}' is in {}: times {} for {}", c.header.whole, c.unit.shown, plain_number(c.unit.factor), contract_name(c.role)));
-    else if (!c.declared) out.notes.push_back(fmt::format("unit: column '{}' does not say its unit: taken as {}", c.header.whole, c.unit.shown));
+    if (c.unit.mass_word)
+      out.notes.push_back(fmt::format("UNIT: column '{}' is in {}, a mass: taken as the force that it weighs ({} N for 1)", c.header.whole,
+                                      c.header.unit, plain_number(c.unit.factor)));
+    else if (c.unit.factor != 1.0)
+      out.notes.push_back(fmt::format("unit: column '{}' is in {}: times {} for {}", c.header.whole, c.unit.shown, plain_number(c.unit.factor),
+                                      contract_name(c.role)));
+    else if (!c.declared)
+      out.notes.push_back(fmt::format("unit: column '{}' does not say its unit: taken as {}", c.header.whole, c.unit.shown));
     if (c.negated) out.notes.push_back(fmt::format("sign: column '{}' was counted the other way (--negate)", c.header.whole));
   }
 }

@@ -15,9 +15,9 @@ namespace {
 
 constexpr Eigen::Index k_least_stuck_rows = 20;
 constexpr double k_least_stuck_s = 0.2;
-constexpr double k_force_due = 0.25;     // of what the force does over the position, that it should have done while it stood still
-constexpr double k_way_due = 0.05;       // of the range of the position
-constexpr double k_speed_due = 0.3;      // of the usual speed: an offset of the speed is no motion
+constexpr double k_force_due = 0.25;  // of what the force does over the position, that it should have done while it stood still
+constexpr double k_way_due = 0.05;    // of the range of the position
+constexpr double k_speed_due = 0.3;   // of the usual speed: an offset of the speed is no motion
 constexpr int k_steps = 60;
 constexpr double k_gap_s = 0.3, k_gap_intervals = 20.0;
 constexpr double k_smoother_by = 5.0;
@@ -77,7 +77,8 @@ double force_due(const Recording& r, const Still& still, const ForceOver& over) 
 }
 
 std::string where_words(const Recording& r, const Still& s) {
-  return fmt::format("in session {} from {} to {} s", one_line(r.sessions[s.session].name), plain_number(r.t_s[s.begin]), plain_number(r.t_s[s.end - 1]));
+  return fmt::format("in session {} from {} to {} s", one_line(r.sessions[s.session].name), plain_number(r.t_s[s.begin]),
+                     plain_number(r.t_s[s.end - 1]));
 }
 
 void stuck_force(const Recording& r, std::vector<std::string>& faults) {
@@ -94,8 +95,9 @@ void stuck_force(const Recording& r, std::vector<std::string>& faults) {
     if (first == nullptr) first = &run;
   }
   if (first != nullptr)
-    faults.push_back(fmt::format("stuck force: f_n stands still at {} N {}{} while x_mm moves to where it differs; leave those rows out, or record anew",
-                                 plain_number(r.f_n[first->begin]), where_words(r, *first), stuck > 1 ? fmt::format(", and {} times more,", stuck - 1) : ""));
+    faults.push_back(
+        fmt::format("stuck force: f_n stands still at {} N {}{} while x_mm moves to where it differs; leave those rows out, or record anew",
+                    plain_number(r.f_n[first->begin]), where_words(r, *first), stuck > 1 ? fmt::format(", and {} times more,", stuck - 1) : ""));
 }
 
 void stuck_position(const Recording& r, std::vector<std::string>& faults) {
@@ -118,9 +120,10 @@ void stuck_position(const Recording& r, std::vector<std::string>& faults) {
     if (!first) first = run, gone = high - low;
   }
   if (first)
-    faults.push_back(fmt::format("stuck position: x_mm stands still at {} mm {}{} while v_mm_s goes on over {} mm; leave those rows out, or record anew",
-                                 plain_number(r.x_mm[first->begin]), where_words(r, *first), stuck > 1 ? fmt::format(", and {} times more,", stuck - 1) : "",
-                                 plain_number(gone)));
+    faults.push_back(
+        fmt::format("stuck position: x_mm stands still at {} mm {}{} while v_mm_s goes on over {} mm; leave those rows out, or record anew",
+                    plain_number(r.x_mm[first->begin]), where_words(r, *first), stuck > 1 ? fmt::format(", and {} times more,", stuck - 1) : "",
+                    plain_number(gone)));
 }
 
 /// Fourth differences over the range: a motion has hardly any, a force has its noise.
@@ -136,6 +139,7 @@ double roughness(const Recording& r, const Series& values) {
 }  // namespace
 
 std::vector<std::string> standstill_faults(const Recording& r) {
+  if (!std::isfinite(r.x_mm.maxCoeff() - r.x_mm.minCoeff())) return {};
   std::vector<std::string> faults;
   stuck_force(r, faults);
   stuck_position(r, faults);
@@ -167,8 +171,9 @@ std::vector<std::string> swap_faults(const Recording& r) {
   std::swap(swapped.x_mm, swapped.f_n);
   swapped.v_mm_s.resize(0);
   if (!judge_conventions(swapped).contact || roughness(r, r.x_mm) < k_smoother_by * roughness(r, r.f_n)) return {};
-  return {"columns: x_mm has the noise of a force and a flat stretch, f_n is smooth and goes both ways; they seem to be in each other's place, name them "
-          "with --column"};
+  return {
+      "columns: x_mm has the noise of a force and a flat stretch, f_n is smooth and goes both ways; they seem to be in each other's place, name them "
+      "with --column"};
 }
 
 }  // namespace cavum::explain

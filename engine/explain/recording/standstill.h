@@ -1,4 +1,5 @@
-// Instruments that did not record: a sensor or an encoder that stands still while the other moves, rows that are missing, columns in each other's place.
+// Instruments that did not record: a sensor or an encoder that stands still while the other moves, rows that are missing, columns in each other's
+// place.
 #pragma once
 
 #include <string>
@@ -8,8 +9,9 @@
 
 namespace cavum::explain {
 
-/// In words, each with what to do; empty when there is none. `standstill_faults`: f_n keeps one value, not its largest or least, over 20 rows and 0.2 s
-/// or more while x goes where the force of all other rows differs by a quarter of all it does; x_mm keeps one value while the measured speed goes on.
+/// In words, each with what to do; empty when there is none. `standstill_faults`: f_n keeps one value, not its largest or least, over 20 rows and 0.2
+/// s or more while x goes where the force of all other rows differs by a quarter of all it does; x_mm keeps one value while the measured speed goes
+/// on.
 [[nodiscard]] std::vector<std::string> standstill_faults(const Recording& recording);
 /// An interval above 0.3 s that is twenty times as long as 99 of 100 others.
 [[nodiscard]] std::vector<std::string> gap_faults(const Recording& recording);

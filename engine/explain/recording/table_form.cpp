@@ -47,11 +47,14 @@ Cells cells_of(const Line& line, char separator) {
   return cells;
 }
 
-bool is_number(std::string_view cell) { return number_in(cell, Decimal::point) || number_in(cell, Decimal::comma) || number_sign(cell) != NumberSign::none; }
+bool is_number(std::string_view cell) {
+  return number_in(cell, Decimal::point) || number_in(cell, Decimal::comma) || number_sign(cell) != NumberSign::none;
+}
 
 /// Names, none of which is a number.
 bool is_heading(const Cells& cells) {
-  return cells.size() > 1 && std::none_of(cells.begin(), cells.end(), is_number) && std::any_of(cells.begin(), cells.end(), [](auto c) { return !c.empty(); });
+  return cells.size() > 1 && std::none_of(cells.begin(), cells.end(), is_number) &&
+         std::any_of(cells.begin(), cells.end(), [](auto c) { return !c.empty(); });
 }
 
 bool is_data(const Cells& cells) {
@@ -61,7 +64,8 @@ bool is_data(const Cells& cells) {
 }
 
 std::string_view unbracketed(std::string_view cell) {
-  if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')'))) return cell.substr(1, cell.size() - 2);
+  if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
+    return cell.substr(1, cell.size() - 2);
   return cell;
 }
 
@@ -121,11 +125,27 @@ Decimal decimal_of(const std::vector<Line>& lines, std::size_t first, char separ
   return comma ? Decimal::comma : Decimal::point;
 }
 
+/// A header that stands in a comment right above the numbers, as numpy writes it: where it begins, behind the mark.
+std::optional<Line> header_in_comment(std::string_view text, const Line& data, char separator) {
+  const std::size_t end = text.substr(0, data.at).find_last_not_of("\r\n");
+  if (end == std::string_view::npos ||
+      std::count(text.begin() + static_cast<std::ptrdiff_t>(end), text.begin() + static_cast<std::ptrdiff_t>(data.at), '\n') > 1)
+    return std::nullopt;
+  const std::size_t before = text.substr(0, end).find_last_of("\r\n"), from = before == std::string_view::npos ? 0 : before + 1;
+  const std::string_view line = text.substr(from, end + 1 - from);
+  const std::size_t mark = line.find_first_of("#%/"), behind = line.find_first_not_of("#%/ \t", mark);
+  if (!is_comment_line(line) || mark == std::string_view::npos || behind == std::string_view::npos) return std::nullopt;
+  const Line out{from + behind, data.number - 1, line.substr(behind)};
+  const Cells heading = cells_of(out, separator);
+  return is_heading(heading) && heading.size() == cells_of(data, separator).size() ? std::optional(out) : std::nullopt;
+}
+
 /// A table whose cells and decimals are both parted by commas has twice the cells that its header has.
 void refuse_commas_twice(const std::vector<Line>& lines, const std::string& where) {
   for (std::size_t i = 0; i + 1 < lines.size() && i <= k_most_lines_before; ++i) {
     const Cells heading = cells_of(lines[i], ','), below = cells_of(lines[i + 1], ',');
-    if (is_heading(heading) && below.size() > heading.size() + 1 && below.size() <= 2 * heading.size() && std::all_of(below.begin(), below.end(), is_number))
+    if (is_heading(heading) && below.size() > heading.size() + 1 && below.size() <= 2 * heading.size() &&
+        std::all_of(below.begin(), below.end(), is_number))
       refuse(where, lines[i + 1], fmt::format("has {} cells for {} columns: commas part the cells and the decimals", below.size(), heading.size()),
              "save the table with semicolons or tabs between the cells");
   }
@@ -178,8 +198,17 @@ TableForm find_table_form(std::string_view text, const std::string& where) {
     }
   if (!found) {
     out.separator = most_frequent(lines.front().text);
-    if (is_data(cells_of(lines.front(), out.separator)))
+    if (is_data(cells_of(lines.front(), out.separator))) {
+      for (const char separator : k_separators)
+        if (const auto header = header_in_comment(text, lines.front(), separator)) {
+          out.separator = separator;
+          out.header_at = header->at;
+          out.header_line = header->number;
+          out.decimal = decimal_of(lines, 0, separator, where);
+          return out;
+        }
       refuse(where, lines.front(), "begins with numbers, without a header", "write names above them, such as session,t_s,x_mm,f_n");
+    }
     refuse_commas_twice(lines, where);
   }
   for (std::size_t i = 0; i < place.header; ++i) out.before.push_back(one_line(lines[i].text));

@@ -43,7 +43,7 @@ bool RowReader::next() {
   if (!next_line()) return false;
   while (cells_.size() > header_.size() && cells_.back().empty()) cells_.pop_back();
   if (cells_.size() != header_.size()) fail(fmt::format("has {} cells for {} columns", cells_.size(), header_.size()), "complete the row");
-  if (rows_++ == k_most_rows) fail(fmt::format("is beyond the limit of {} rows", k_most_rows), "split the table");
+  if (rows_++ == k_most_recording_rows) fail(fmt::format("is beyond the limit of {} rows", k_most_recording_rows), "split the table");
   return true;
 }
 

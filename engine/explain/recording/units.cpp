@@ -121,7 +121,25 @@ bool is_unit(std::string_view name) {
 }
 
 bool is_other_unit(std::string_view name) {
-  constexpr std::array<std::string_view, 18> k_others{"rpm", "1/min", "U/min", "Hz", "kHz", "\xc2\xb0" "C", "degC", "C", "K", "%", "A", "mA", "W", "Pa", "kPa", "MPa", "bar", "g/s"};
+  constexpr std::array<std::string_view, 18> k_others{"rpm",
+                                                      "1/min",
+                                                      "U/min",
+                                                      "Hz",
+                                                      "kHz",
+                                                      "\xc2\xb0"
+                                                      "C",
+                                                      "degC",
+                                                      "C",
+                                                      "K",
+                                                      "%",
+                                                      "A",
+                                                      "mA",
+                                                      "W",
+                                                      "Pa",
+                                                      "kPa",
+                                                      "MPa",
+                                                      "bar",
+                                                      "g/s"};
   return std::find(k_others.begin(), k_others.end(), name) != k_others.end();
 }
 

@@ -103,8 +103,7 @@ TEST_F(ExplainVerbs, ForceOfTheWrongSignIsRefusedAndSaysSoInJsonWhateverElseIsAs
 
 TEST_F(ExplainVerbs, ADryRunSaysWhatWasUnderstoodAndExplainsNothing) {
   std::string table = "Press 7;24.11.2026\nZeit [ms];Weg [mm];Kraft [mN]\n";
-  for (int i = 0; i < 400; ++i)
-    table += fmt::format("{};{},5;{}\n", 5 * i, 37 + (i % 200) / 50, -20 * std::max(0, i % 200 - 100) - i % 3);
+  for (int i = 0; i < 400; ++i) table += fmt::format("{};{},5;{}\n", 5 * i, 37 + (i % 200) / 50, -20 * std::max(0, i % 200 - 100) - i % 3);
   write_text_file(path("press.csv"), table);
   const auto j = run_json("explain " + path("press.csv") + " --dry-run --out " + path("press.html"));
   EXPECT_EQ(j["rows"], 400);

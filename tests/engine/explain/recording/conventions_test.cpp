@@ -113,7 +113,8 @@ TEST(Conventions, OptionsPutThemRight) {
 TEST(Overview, SaysWhatWasUnderstood) {
   std::string table = "Rig 7\nsession;time_ms;Weg [mm];Fz [mN]\n";
   for (int i = 0; i < 400; ++i)
-    table += std::string(i < 200 ? "a;" : "b;") + std::to_string(5 * i) + ";" + std::to_string(i % 200 - 100) + ",5;" + std::to_string(10 * std::max(0, i % 200 - 100)) + "\n";
+    table += std::string(i < 200 ? "a;" : "b;") + std::to_string(5 * i) + ";" + std::to_string(i % 200 - 100) + ",5;" +
+             std::to_string(10 * std::max(0, i % 200 - 100)) + "\n";
   const Overview o = overview_of(parse_recording(table, "r.csv"));
   EXPECT_EQ(o.rows, 400);
   ASSERT_EQ(o.sessions.size(), 2U);

@@ -28,12 +28,18 @@ void expect_motion(const Recording& r, double t_s, double x_mm, double f_n) {
 
 TEST(Units, OfEveryQuantityAreKnownByTheirFactors) {
   const std::vector<std::tuple<const char*, Role, double>> known{
-      {"kN", Role::force, 1000},          {"mN", Role::force, 1e-3},        {"gf", Role::force, 0.00980665},  {"g", Role::force, 0.00980665},
-      {"kgf", Role::force, 9.80665},      {"lbf", Role::force, 4.4482216},  {"ozf", Role::force, 0.27801385}, {"m", Role::position, 1000},
-      {"cm", Role::position, 10},         {"\xc2\xb5m", Role::position, 1e-3}, {"\xce\xbcm", Role::position, 1e-3}, {"\xb5m", Role::position, 1e-3},
-      {"um", Role::position, 1e-3},       {"in", Role::position, 25.4},     {"mil", Role::position, 0.0254},  {"ms", Role::time, 1e-3},
-      {"\xc2\xb5s", Role::time, 1e-6},    {"min", Role::time, 60},          {"mm/min", Role::speed, 1.0 / 60}, {"m/s", Role::speed, 1000},
-      {"um/s", Role::speed, 1e-3},        {"in/s", Role::speed, 25.4},      {"mm s-1", Role::speed, 1},       {"mm\xc2\xb7s\xe2\x81\xbb\xc2\xb9", Role::speed, 1}};
+      {"kN", Role::force, 1000},           {"mN", Role::force, 1e-3},
+      {"gf", Role::force, 0.00980665},     {"g", Role::force, 0.00980665},
+      {"kgf", Role::force, 9.80665},       {"lbf", Role::force, 4.4482216},
+      {"ozf", Role::force, 0.27801385},    {"m", Role::position, 1000},
+      {"cm", Role::position, 10},          {"\xc2\xb5m", Role::position, 1e-3},
+      {"\xce\xbcm", Role::position, 1e-3}, {"\xb5m", Role::position, 1e-3},
+      {"um", Role::position, 1e-3},        {"in", Role::position, 25.4},
+      {"mil", Role::position, 0.0254},     {"ms", Role::time, 1e-3},
+      {"\xc2\xb5s", Role::time, 1e-6},     {"min", Role::time, 60},
+      {"mm/min", Role::speed, 1.0 / 60},   {"m/s", Role::speed, 1000},
+      {"um/s", Role::speed, 1e-3},         {"in/s", Role::speed, 25.4},
+      {"mm s-1", Role::speed, 1},          {"mm\xc2\xb7s\xe2\x81\xbb\xc2\xb9", Role::speed, 1}};
   for (const auto& [name, role, factor] : known) {
     const auto unit = find_unit(name, role);
     ASSERT_TRUE(unit) << name;
@@ -55,8 +61,8 @@ TEST(Units, AnglesAndTorquesGoByTheLever) {
 }
 
 TEST(Reading, UnitsStandInTheHeaderInMoreThanOneForm) {
-  for (const std::string header : {"time [ms],pos (\xc2\xb5m),Fz/mN", "time_ms,pos_um,Fz_mN", "Time (ms),Position [um],Force [mN]", "t in ms,x in um,f in mN",
-                                   "t_ms,x_um,f_mn", "Zeit ms,Weg um,Kraft mN"})
+  for (const std::string header : {"time [ms],pos (\xc2\xb5m),Fz/mN", "time_ms,pos_um,Fz_mN", "Time (ms),Position [um],Force [mN]",
+                                   "t in ms,x in um,f in mN", "t_ms,x_um,f_mn", "Zeit ms,Weg um,Kraft mN"})
     expect_motion(parse_recording(header + "\n0,0,0\n5,250,1500\n", "r.csv"), 0.005, 0.25, 1.5);
 }
 
@@ -99,7 +105,8 @@ TEST(Reading, AJointNeedsItsLever) {
 
 TEST(Reading, DecimalCommasGoWithSemicolonsTabsAndWhiteSpace) {
   for (const std::string s : {";", "\t", "   ", " ; "})
-    expect_motion(parse_recording("t_s" + s + "x_mm" + s + "f_n\r\n0" + s + "0" + s + "0\r\n0,5" + s + "-1,25" + s + "1,5e-1\r\n", "r.csv"), 0.5, -1.25, 0.15);
+    expect_motion(parse_recording("t_s" + s + "x_mm" + s + "f_n\r\n0" + s + "0" + s + "0\r\n0,5" + s + "-1,25" + s + "1,5e-1\r\n", "r.csv"), 0.5,
+                  -1.25, 0.15);
   expect_motion(parse_recording("t_s,x_mm,f_n\n\"0\",\"0\",\"0\"\n\"0,5\",\"1,25\",\"2,5\"\n", "r.csv"), 0.5, 1.25, 2.5);
 }
 
@@ -118,7 +125,8 @@ TEST(Reading, ThousandsAreRefusedAndNotGuessed) {
 TEST(Reading, WhatAMachineWritesBeforeTheHeaderIsPassedOver) {
   const Recording r = parse_recording(
       "\xef\xbb\xbfPress 3000\r\nOperator: A. B.\r\nSpecimen;7\r\nDate;24.11.2026\r\n\r\n% a comment\r\n// another\r\n"
-      "Pr\xc3\xbc""fzeit;Standardweg;Standardkraft\r\ns;mm;N\r\n0,0;0,0;0,0\r\n0,1;0,2;0,3\r\n",
+      "Pr\xc3\xbc"
+      "fzeit;Standardweg;Standardkraft\r\ns;mm;N\r\n0,0;0,0;0,0\r\n0,1;0,2;0,3\r\n",
       "r.csv");
   expect_motion(r, 0.1, 0.2, 0.3);
   ASSERT_TRUE(r.reading);
@@ -136,7 +144,15 @@ TEST(Reading, LinesOfErrorsCountFromTheTopOfTheFile) {
 }
 
 TEST(Reading, Latin1IsRead) {
-  expect_motion(parse_recording("Zeit [s];Weg [\xb5m];Pr\xfc" "fkraft [mN]\n0;0;0\n1;500;250\n", "r.csv"), 1.0, 0.5, 0.25);
+  expect_motion(parse_recording("Zeit [s];Weg [\xb5m];Pr\xfc"
+                                "fkraft [mN]\n0;0;0\n1;500;250\n",
+                                "r.csv"),
+                1.0, 0.5, 0.25);
+}
+
+TEST(Reading, AHeaderMayStandInACommentRightAboveTheNumbers) {
+  expect_motion(parse_recording("# made by a script\n# t_s x_mm f_n\n0 0 0\n0.5 1.5 2.5\n", "r.csv"), 0.5, 1.5, 2.5);
+  EXPECT_TRUE(holds(refusal("# t_s x_mm f_n\n0 0 0\n0.5 oops 2.5\n"), "r.csv:3: 'oops'"));
 }
 
 TEST(Reading, NumbersWithoutAHeaderAreRefused) {
@@ -155,7 +171,9 @@ TEST(Reading, ColumnsAreNamedByOptionsInMoreThanOneForm) {
 
 TEST(Reading, AMissingColumnIsToldWithTheHeaderAndTheNearestName) {
   const std::string said = refusal("t_s,x_mm,Frce [N],humidity\n0,0,0,1\n1,1,1,1\n");
-  EXPECT_TRUE(holds(said, "no column 'f_n'") && holds(said, "did you mean 'Frce [N]'?") && holds(said, "'humidity'") && holds(said, "--column f=NAME")) << said;
+  EXPECT_TRUE(holds(said, "no column 'f_n'") && holds(said, "did you mean 'Frce [N]'?") && holds(said, "'humidity'") &&
+              holds(said, "--column f=NAME"))
+      << said;
   ReadingOptions options;
   options.names = {{"f", "Standardkaft"}};
   const std::string named = refusal("t_s,x_mm,Standardkraft\n0,0,0\n1,1,1\n", options);
@@ -164,7 +182,8 @@ TEST(Reading, AMissingColumnIsToldWithTheHeaderAndTheNearestName) {
 
 TEST(Reading, SeveralThatCouldBeItAreListedAndNotGuessed) {
   const std::string said = refusal("t_s,x_mm,Fz [N],Load [N]\n0,0,0,1\n1,1,1,1\n");
-  EXPECT_TRUE(holds(said, "several columns could be the force") && holds(said, "'Fz [N]'") && holds(said, "'Load [N]'") && holds(said, "--column f=")) << said;
+  EXPECT_TRUE(holds(said, "several columns could be the force") && holds(said, "'Fz [N]'") && holds(said, "'Load [N]'") && holds(said, "--column f="))
+      << said;
   EXPECT_TRUE(holds(refusal("t_s,x [mm],y [mm],z [mm],f_n\n0,0,0,0,0\n1,1,1,1,1\n"), "several columns could be the position"));
   // our own names go first, and lateral forces are no candidates beside them
   EXPECT_EQ(parse_recording("t_s,x_mm,f_n,fy_n,fz_n,Load\n0,0,1,2,3,4\n1,1,1,2,3,4\n", "r.csv").f_n[0], 1.0);
@@ -173,21 +192,21 @@ TEST(Reading, SeveralThatCouldBeItAreListedAndNotGuessed) {
 }
 
 TEST(Stamps, AreReadInAllTheirForms) {
-  for (const auto& [first, second, apart] : std::vector<std::tuple<const char*, const char*, double>>{
-           {"2026-11-24T10:15:30.123", "2026-11-24T10:15:30.625", 0.502},
-           {"2026-11-24 10:15:30Z", "2026-11-24 10:15:31.5Z", 1.5},
-           {"2026-11-24T10:15:30+01:00", "2026-11-24T09:15:31Z", 1.0},
-           {"24.11.2026 10:15:30,123", "24.11.2026 10:15:30,223", 0.1},
-           {"2024-02-28 23:59:59", "2024-02-29 00:00:01", 2.0},
-           {"2023-02-28 23:59:59", "2023-03-01 00:00:01", 2.0},
-           {"23:59:59.5", "00:00:00.25", 0.75},
-           {"11:59:59 PM", "12:00:01 AM", 2.0},
-           {"11/24/2026 10:15:30", "11/24/2026 10:15:32", 2.0},
-           {"24/11/2026 10:15:30", "24/11/2026 10:15:32", 2.0},
-           {"1764000000.25", "1764000001.5", 1.25},
-           {"1764000000250", "1764000001500", 1.25},
-           {"1764000000250000", "1764000001500000", 1.25},
-           {"1000.5", "1000.75", 0.25}}) {
+  for (const auto& [first, second, apart] :
+       std::vector<std::tuple<const char*, const char*, double>>{{"2026-11-24T10:15:30.123", "2026-11-24T10:15:30.625", 0.502},
+                                                                 {"2026-11-24 10:15:30Z", "2026-11-24 10:15:31.5Z", 1.5},
+                                                                 {"2026-11-24T10:15:30+01:00", "2026-11-24T09:15:31Z", 1.0},
+                                                                 {"24.11.2026 10:15:30,123", "24.11.2026 10:15:30,223", 0.1},
+                                                                 {"2024-02-28 23:59:59", "2024-02-29 00:00:01", 2.0},
+                                                                 {"2023-02-28 23:59:59", "2023-03-01 00:00:01", 2.0},
+                                                                 {"23:59:59.5", "00:00:00.25", 0.75},
+                                                                 {"11:59:59 PM", "12:00:01 AM", 2.0},
+                                                                 {"11/24/2026 10:15:30", "11/24/2026 10:15:32", 2.0},
+                                                                 {"24/11/2026 10:15:30", "24/11/2026 10:15:32", 2.0},
+                                                                 {"1764000000.25", "1764000001.5", 1.25},
+                                                                 {"1764000000250", "1764000001500", 1.25},
+                                                                 {"1764000000250000", "1764000001500000", 1.25},
+                                                                 {"1000.5", "1000.75", 0.25}}) {
     const bool comma = std::string(first).find(',') != std::string::npos;
     const std::string zero = comma ? "0,5" : "0.5";
     const Recording r = parse_recording("time;x_mm;f_n\n" + std::string(first) + ";0;" + zero + "\n" + second + ";0;" + zero + "\n", "r.csv");
@@ -207,7 +226,8 @@ TEST(Stamps, NoDayOfTheCalendarIsRefused) {
 }
 
 TEST(Stamps, ADateAndATimeOfDayMayHaveColumnsOfTheirOwn) {
-  const Recording r = parse_recording("Date,Time,x_mm,f_n\n2026-11-24,23:59:59.5,0,0\n2026-11-25,00:00:00.5,0,0\n2026-11-27,00:00:00.5,0,0\n", "r.csv");
+  const Recording r =
+      parse_recording("Date,Time,x_mm,f_n\n2026-11-24,23:59:59.5,0,0\n2026-11-25,00:00:00.5,0,0\n2026-11-27,00:00:00.5,0,0\n", "r.csv");
   EXPECT_NEAR(r.t_s[1] - r.t_s[0], 1.0, 1e-9);
   EXPECT_NEAR(r.t_s[2] - r.t_s[1], 2 * 86400.0, 1e-9);
 }
