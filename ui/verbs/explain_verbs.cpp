@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -86,9 +87,9 @@ void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
 }
 
 /// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
-void require_conventions(const ExplainArgs& a, const explain::Recording& recording) {
+void require_conventions(const ExplainArgs& a, explain::Recording& recording) {
   try {
-    explain::require_conventions(recording, a.data);
+    for (std::string& doubt : explain::require_conventions(recording, a.data)) recording.notes.push_back(std::move(doubt));
   } catch (const Error& refused) {
     explain::Explanation said;
     said.verdict = "data_fault";

@@ -20,17 +20,25 @@ const char* word_of(Role role) { return k_role_words[static_cast<std::size_t>(ro
 std::string_view names_of(Role role) {
   switch (role) {
     case Role::time:
-      return " time zeit timestamp timestamps elapsed elapsedtime testtime prufzeit testzeit uhrzeit temps tiempo datetime stamp clock timeofday ";
+      return " time zeit timestamp timestamps elapsed elapsedtime testtime prufzeit testzeit uhrzeit temps tiempo datetime stamp clock timeofday "
+             "xvalue ";
     case Role::position:
       return " position pos displacement disp extension travel depth penetration indentation crosshead crossheadposition weg standardweg "
              "traversenweg "
-             "traverse eindringtiefe tiefe stroke hub way deplacement desplazamiento z zpos zposition angle winkel jointangle ";
+             "traverse eindringtiefe tiefe stroke hub way deplacement desplazamiento z zpos zposition angle winkel jointangle jointposition ";
     case Role::speed:
-      return " speed velocity vel geschwindigkeit vitesse velocidad vz zspeed zvelocity angularvelocity ";
+      return " speed velocity vel geschwindigkeit vitesse velocidad vz zspeed zvelocity angularvelocity jointvelocity ";
     case Role::force:
-      return " force load kraft standardkraft prufkraft normalkraft normalforce axialforce fz fn fx fy fuerza loadcell torque moment drehmoment ";
+      return " force load kraft standardkraft prufkraft normalkraft normalforce axialforce fz fn fx fy fuerza loadcell torque moment drehmoment "
+             "jointtorque effort ";
   }
   return "";
+}
+
+/// Plain letters of a name, and of what stands behind its last point: "field.position" is a position.
+std::array<std::string, 2> letters_of(const HeaderName& h) {
+  const std::size_t point = h.name.rfind('.');
+  return {plain_letters(h.name), point == std::string::npos ? "" : plain_letters(std::string_view(h.name).substr(point + 1))};
 }
 
 /// Columns that laws know by these names (contracts.md): never one of the motion unless an option says so.
@@ -92,10 +100,12 @@ std::vector<std::size_t> candidates(const Header& header, const std::vector<bool
   for (std::size_t i = 0; i < header.size(); ++i) {
     const HeaderName& h = header[i];
     if (taken[i] || (likeness > 0 && !can_be(h, role))) continue;
-    const std::string letters = plain_letters(h.name);
+    const std::array<std::string, 2> letters = letters_of(h);
     const bool fits = likeness == 0   ? h.whole == contract
-                      : likeness == 1 ? letters == contract.substr(0, 1)
-                                      : !letters.empty() && names_of(role).find(fmt::format(" {} ", letters)) != std::string_view::npos;
+                      : likeness == 1 ? letters[0] == contract.substr(0, 1)
+                                      : std::any_of(letters.begin(), letters.end(), [&](const std::string& l) {
+                                          return !l.empty() && names_of(role).find(fmt::format(" {} ", l)) != std::string_view::npos;
+                                        });
     if (fits) out.push_back(i);
   }
   return out;

@@ -23,7 +23,8 @@ constexpr double k_air_share = 0.05;        // of the rows on the flat side, at 
 constexpr double k_air_level = 0.4;         // of the force reached: the flat side is near zero
 constexpr double k_over_air_scatter = 4.0;  // the force reached over the scatter on the flat side
 constexpr double k_far_mm = 0.3;            // a surface set by hand is nearer
-constexpr double k_against_speed = -0.5;    // correlation below which the speed is counted against the position
+constexpr double k_large_n = 50.0;
+constexpr double k_against_speed = -0.5;  // correlation below which the speed is counted against the position
 
 /// Mean force in equal steps of the position.
 struct Means {
@@ -164,6 +165,16 @@ void judge_origin(const Recording& r, const ContactSeen& seen, std::vector<Doubt
        fmt::format("--surface-mm {:.3f}", surface)});
 }
 
+/// A force that no hand and no small press reaches: nothing but k of a rig.toml tells it from another unit.
+void judge_size(const Recording& r, const ContactSeen& seen, std::vector<Doubt>& doubts) {
+  const double most = std::fabs(seen.reached_n);
+  if (most < k_large_n || r.rig.k_n_per_mm) return;
+  const ColumnReading* column = r.reading ? r.reading->columns.of(Role::force) : nullptr;
+  if (column != nullptr && column->declared && column->unit.factor != 1.0) return;
+  doubts.push_back(
+      {false, fmt::format("the force reaches {} N: if it is in mN or in grams, say so", plain_number(most)), "--unit f=mN or --unit f=gf"});
+}
+
 /// A speed that is counted against the position, where the position itself is not to be turned.
 void judge_speed(const Conventions& c, std::vector<Doubt>& doubts) {
   const bool turned = c.contact && c.contact->towards < 0;
@@ -188,14 +199,18 @@ Conventions judge_conventions(const Recording& r) {
   if (out.contact) {
     judge_signs(*out.contact, has_speed, out.speed_agrees, out.doubts);
     judge_origin(r, *out.contact, out.doubts);
+    judge_size(r, *out.contact, out.doubts);
   }
   judge_speed(out, out.doubts);
   return out;
 }
 
-void require_conventions(const Recording& r, const std::string& where) {
+std::vector<std::string> require_conventions(const Recording& r, const std::string& where) {
   const Conventions found = judge_conventions(r);
-  if (found.first_clear() == nullptr) return;
+  std::vector<std::string> notes;
+  for (const Doubt& d : found.doubts)
+    if (!d.clear) notes.push_back(fmt::format("doubt: {}; give {}", d.what, d.options));
+  if (found.first_clear() == nullptr) return notes;
   std::string what, options;
   for (const Doubt& d : found.doubts)
     if (d.clear) {

@@ -52,7 +52,7 @@ void look_at_columns(const Recording& r, Overview& out) {
       seen.header = column->header.whole;
       seen.unit = column->unit.shown;
       seen.factor = column->unit.factor;
-      seen.declared = column->declared;
+      seen.declared = column->declared || (role == Role::time && !r.reading->time_words.starts_with("numbers"));
       seen.negated = column->negated;
     }
     out.columns.push_back(seen);
@@ -83,7 +83,7 @@ Overview overview_of(const Recording& r) {
   force.rig.position_quantum_mm = 0.0;
   out.force_quantum_n = seen_quantum_mm(force);
   out.conventions = judge_conventions(r);
-  out.faults = data_faults(r);
+  if (out.conventions.first_clear() == nullptr) out.faults = data_faults(r);  // else they would be of another thing
   out.notes = r.notes;
   return out;
 }

@@ -36,7 +36,8 @@ struct Overview {
   std::vector<ColumnSeen> columns;                          ///< the motion first
   double position_quantum_mm = 0.0, force_quantum_n = 0.0;  ///< seen in the data; 0 = none
   Conventions conventions;
-  std::vector<std::string> faults, notes;
+  std::vector<std::string> faults;  ///< data_faults; not looked for where a doubt is clear
+  std::vector<std::string> notes;
   /// `explain` would refuse it, or call it a data fault.
   [[nodiscard]] bool refused() const { return conventions.first_clear() != nullptr || !faults.empty(); }
 };

@@ -40,7 +40,7 @@ TEST(Conventions, CompressionThatIsNegativeIsToldWithItsOption) {
   Recording r = made::recording({});
   r.f_n = -r.f_n;
   EXPECT_EQ(proposed(r), "--negate f");
-  EXPECT_THROW(require_conventions(r, "r.csv"), Error);
+  EXPECT_THROW(static_cast<void>(require_conventions(r, "r.csv")), Error);
 }
 
 TEST(Conventions, APositionThatGrowsOutOfTheMaterialIsToldWithItsSpeed) {
@@ -89,6 +89,17 @@ TEST(Conventions, ContactFromTheStartIsNotRefused) {
   r.x_mm = r.x_mm.max(0.0) + 0.05;
   r.f_n = 0.8 * r.x_mm;
   EXPECT_EQ(proposed(r), "");
+}
+
+TEST(Conventions, AForceThatNoHandReachesIsADoubtAndNoRefusal) {
+  Recording r = made::recording({});
+  r.f_n *= 1000.0;
+  r.rig = {};
+  const std::vector<std::string> notes = require_conventions(r, "r.csv");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes.front().find("--unit f=mN"), std::string::npos);
+  r.rig.k_n_per_mm = 800.0;
+  EXPECT_TRUE(require_conventions(r, "r.csv").empty()) << "a rig that says so";
 }
 
 TEST(Conventions, OptionsPutThemRight) {
