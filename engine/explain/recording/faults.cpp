@@ -137,7 +137,7 @@ std::vector<std::string> data_faults(const Recording& r) {
   const auto also = [&faults](std::vector<std::string> found) { std::move(found.begin(), found.end(), std::back_inserter(faults)); };
   if (!r.exact_motion) {
     also(swap_faults(r));
-    also(gap_faults(r));
+    also(jump_faults(r));
     also(standstill_faults(r));
     speed_against_position(r, faults);
   }

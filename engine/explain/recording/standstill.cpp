@@ -136,6 +136,28 @@ double roughness(const Recording& r, const Series& values) {
   return d.empty() || !(range > 0.0) ? 0.0 : median(std::move(d)) / range;
 }
 
+/// What rows are apart as a rule.
+struct Stride {
+  double interval_s = 0.0, speed_mm_s = 0.0;
+};
+
+double usual_speed_mm_s(const Recording& r) {
+  double squares = 0.0, n = 0.0;
+  for (const SessionRows& s : r.sessions)
+    for (Eigen::Index i = s.begin + 3; i < s.end; ++i)
+      if (const double dt = r.t_s[i] - r.t_s[i - 3]; dt > 0.0) squares += std::pow((r.x_mm[i] - r.x_mm[i - 3]) / dt, 2), n += 1.0;
+  return n > 0.0 ? std::sqrt(squares / n) : 0.0;
+}
+
+/// From row i - 1 to row i the tool moves as in one interval, at the speed that it has before and after, and not as in the time between them.
+bool goes_on(const Recording& r, Eigen::Index i, const Stride& usual) {
+  const double before = (r.x_mm[i - 1] - r.x_mm[i - 4]) / (r.t_s[i - 1] - r.t_s[i - 4]),
+               after = (r.x_mm[i + 3] - r.x_mm[i]) / (r.t_s[i + 3] - r.t_s[i]);
+  const double speed = 0.5 * (before + after), moved = std::fabs(r.x_mm[i] - r.x_mm[i - 1]);
+  if (std::fabs(speed) < k_speed_due * usual.speed_mm_s || std::fabs(after - before) > 0.5 * std::fabs(speed)) return false;
+  return moved < 5.0 * std::fabs(speed) * usual.interval_s && moved < 0.2 * std::fabs(speed) * (r.t_s[i] - r.t_s[i - 1]);
+}
+
 }  // namespace
 
 std::vector<std::string> standstill_faults(const Recording& r) {
@@ -146,23 +168,27 @@ std::vector<std::string> standstill_faults(const Recording& r) {
   return faults;
 }
 
-std::vector<std::string> gap_faults(const Recording& r) {
+std::vector<std::string> jump_faults(const Recording& r) {
   std::vector<double> intervals;
-  double longest = 0.0, after = 0.0;
-  std::string session;
   for (const SessionRows& s : r.sessions)
-    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) {
-      const double d = r.t_s[i] - r.t_s[i - 1];
-      intervals.push_back(d);
-      if (d > longest) longest = d, after = r.t_s[i - 1], session = s.name;
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) intervals.push_back(r.t_s[i] - r.t_s[i - 1]);
+  if (intervals.size() < 200) return {};
+  const double limit = std::max(k_gap_s, k_gap_intervals * in_order(intervals, quantile_place(intervals.size(), 0.99)));
+  const Stride usual{median(std::move(intervals)), usual_speed_mm_s(r)};
+  std::size_t jumps = 0;
+  std::string first;
+  for (const SessionRows& s : r.sessions)
+    for (Eigen::Index i = s.begin + 4; i + 3 < s.end; ++i) {
+      if (r.t_s[i] - r.t_s[i - 1] <= limit || !goes_on(r, i, usual)) continue;
+      if (++jumps == 1)
+        first =
+            fmt::format("{} s pass in session {} after {} s", plain_number(r.t_s[i] - r.t_s[i - 1]), one_line(s.name), plain_number(r.t_s[i - 1]));
     }
-  if (longest < k_gap_s || intervals.size() < 200) return {};
-  const double usual = in_order(intervals, quantile_place(intervals.size(), 0.99));
-  const double limit = std::max(k_gap_s, k_gap_intervals * usual);
-  const auto gaps = std::count_if(intervals.begin(), intervals.end(), [&](double d) { return d > limit; });
-  if (gaps == 0) return {};
-  return {fmt::format("gap: {} s without rows in session {} after {} s{}; find the missing rows, or give what follows a session of its own",
-                      plain_number(longest), one_line(session), plain_number(after), gaps > 1 ? fmt::format(", and {} more", gaps - 1) : "")};
+  if (jumps == 0) return {};
+  return {fmt::format(
+      "time stamps: {}, while the motion goes on as if from one row to the next{}; the clock jumped: take that time off, or give what follows "
+      "a session of its own",
+      first, jumps > 1 ? fmt::format(", and {} times more", jumps - 1) : "")};
 }
 
 std::vector<std::string> swap_faults(const Recording& r) {

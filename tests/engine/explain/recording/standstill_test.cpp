@@ -32,7 +32,7 @@ TEST(Standstill, ASoundRecordingHasNone) {
     o.quantum_mm = quantum;
     const Recording r = made::recording(o);
     EXPECT_TRUE(standstill_faults(r).empty());
-    EXPECT_TRUE(gap_faults(r).empty());
+    EXPECT_TRUE(jump_faults(r).empty());
     EXPECT_TRUE(swap_faults(r).empty());
   }
   made::Options silent;  // a force of zero in air is no sensor that stands still
@@ -55,14 +55,24 @@ TEST(Standstill, APositionThatKeepsItsValueWhileTheSpeedGoesOnIsNamed) {
   EXPECT_TRUE(says(data_faults(r), "stuck position"));
 }
 
-TEST(Standstill, MissingRowsAreAGap) {
-  Recording r = made::recording({});
-  const auto& s = r.sessions[1];
-  for (Eigen::Index i = s.begin + 100; i < s.end; ++i) r.t_s[i] += 1.7;
-  EXPECT_TRUE(says(data_faults(r), "gap"));
-  r = made::recording({});
-  for (Eigen::Index i = s.begin + 100; i < s.end; ++i) r.t_s[i] += 0.1;
-  EXPECT_TRUE(gap_faults(r).empty()) << "a few rows that are lost";
+TEST(Standstill, AClockThatJumpsIsNamedAndMissingRowsAreNot) {
+  // at full speed: where the position changes most from row to row
+  const Recording sound = made::recording({});
+  const auto& s = sound.sessions[1];
+  Eigen::Index fast = s.begin + 10;
+  for (Eigen::Index i = s.begin + 10; i + 60 < s.end; ++i)
+    if (std::fabs(sound.x_mm[i + 4] - sound.x_mm[i - 4]) > std::fabs(sound.x_mm[fast + 4] - sound.x_mm[fast - 4])) fast = i;
+  Recording jumped = sound;
+  for (Eigen::Index i = fast; i < s.end; ++i) jumped.t_s[i] += 1.7;
+  EXPECT_TRUE(says(data_faults(jumped), "the clock jumped"));
+  // the same stretch of time without its rows: each row later by as many
+  Recording missing = sound;
+  const Eigen::Index lost = 40;
+  for (Eigen::Index i = fast; i + lost < s.end; ++i)
+    missing.t_s[i] = sound.t_s[i + lost], missing.x_mm[i] = sound.x_mm[i + lost], missing.f_n[i] = sound.f_n[i + lost];
+  for (Eigen::Index i = s.end - lost; i < s.end; ++i) missing.t_s[i] = missing.t_s[i - 1] + 0.02;
+  EXPECT_GT(missing.t_s[fast] - missing.t_s[fast - 1], 0.7);
+  EXPECT_TRUE(jump_faults(missing).empty());
 }
 
 TEST(Standstill, ColumnsInEachOthersPlaceAreNamed) {
