@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
@@ -14,11 +15,13 @@
 #include "engine/explain/recording/session_recording.h"
 #include "engine/explain/report/laws_page.h"
 #include "engine/explain/report/model_file.h"
+#include "engine/explain/report/overview_report.h"
 #include "engine/explain/report/protocol.h"
 #include "scenarios/exam/exam.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/seed_check.h"
+#include "ui/verbs/explain_overview.h"
 #include "ui/verbs/explain_page.h"
 #include "ui/verbs/verbs.h"
 
@@ -27,23 +30,11 @@ namespace {
 
 struct ExplainArgs {
   std::string data, rig, force, model, material, model_out, out, protocol;
-  std::vector<std::string> columns;
+  ReadingArgs reading;
   std::uint64_t seed = 1;
   std::size_t surrogates = explain::ExplainOptions{}.surrogates;
-  bool json = false, laws = false;
+  bool json = false, laws = false, dry_run = false;
 };
-
-/// "x_mm=displacement" → {x_mm, displacement}.
-explain::ColumnNames column_names(const std::vector<std::string>& given) {
-  explain::ColumnNames names;
-  for (const auto& pair : given) {
-    const std::size_t at = pair.find('=');
-    if (at == std::string::npos || at == 0 || at + 1 == pair.size())
-      throw Error("--column " + pair, "is not of the form NAME=COLUMN", "write for example --column x_mm=displacement");
-    names[pair.substr(0, at)] = pair.substr(at + 1);
-  }
-  return names;
-}
 
 /// On terminals only.
 std::function<void(double)> progress_bar() {
@@ -80,15 +71,55 @@ void write_protocol(const std::string& path) {
 explain::Recording read_data(const ExplainArgs& a) {
   const bool session = a.data.ends_with(".cavum");
   if (!session && !a.force.empty()) throw Error("--force", "goes with a session only", "put the force into column f_n of the recording");
-  if (session && (!a.rig.empty() || !a.columns.empty())) throw Error(a.data, "is a session, which needs no --rig and no --column", "leave them out");
-  return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, column_names(a.columns));
+  if (session && (!a.rig.empty() || !a.reading.empty()))
+    throw Error(a.data, "is a session, which needs no --rig, and no option that says how a table is read", "leave them out");
+  return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, reading_options(a.reading));
+}
+
+/// What was understood, and nothing else.
+void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
+  const explain::Overview overview = explain::overview_of(recording);
+  if (!a.out.empty()) write_text_file(a.out, overview_html(recording, overview, a.data));
+  if (a.json)
+    print_json(to_json(overview));
+  else
+    std::cout << to_text(overview) << (a.out.empty() ? "" : fmt::format("written: {}\n", a.out));
+}
+
+/// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
+void require_conventions(const ExplainArgs& a, explain::Recording& recording) {
+  try {
+    for (std::string& doubt : explain::require_conventions(recording, a.data)) recording.notes.push_back(std::move(doubt));
+  } catch (const Error& refused) {
+    explain::Explanation said;
+    said.verdict = "data_fault";
+    said.recording = std::make_shared<const explain::Recording>(recording);
+    said.notes = recording.notes;
+    for (const explain::Doubt& d : explain::judge_conventions(recording).doubts)
+      if (d.clear) said.data_faults.push_back(fmt::format("{}; give {}", d.what, d.options));
+    said.next_experiment = "correct the recording: " + said.data_faults.front();
+    if (!a.out.empty()) write_text_file(a.out, explanation_html(said, a.data));
+    if (a.json) print_json(to_json(said));
+    throw;
+  }
+}
+
+/// What is none may have a header that such a table cannot have.
+bool is_table(const std::string& text, const std::string& path) {
+  try {
+    return explain::is_stiffness_table(text, path);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 /// A table of force over stiffness. False: the data are none.
 bool ran_table(const ExplainArgs& a) {
   if (a.data.ends_with(".cavum")) return false;
   const std::string text = read_text_file(a.data, k_largest_table);
-  if (!explain::is_stiffness_table(text, a.data)) return false;
+  if (!is_table(text, a.data)) return false;
+  if (a.dry_run)
+    throw Error("--dry-run", fmt::format("{} is a table of means, without motion", a.data), "leave it out: a table is taken at its word");
   if (!a.model.empty() || !a.model_out.empty())
     throw Error(a.data, "is a table of means, without motion", "leave out --model and --model-out; no force model follows from it");
   const explain::TableExplanation result = explain::explain_table(explain::parse_stiffness_table(text, a.data));
@@ -117,6 +148,8 @@ void run_explain(const ExplainArgs& a) {
   if (!a.material.empty() && a.model.empty()) throw Error("--material " + a.material, "goes with --model only", "name the force model, too");
   if (ran_table(a)) return;
   explain::Recording recording = read_data(a);
+  if (a.dry_run) return show_overview(a, recording);
+  require_conventions(a, recording);
   explain::ExplainOptions options;
   options.seed = a.seed;
   options.surrogates = a.surrogates;
@@ -158,7 +191,7 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
                    "recording (.csv) with rig.toml beside it, a session (.cavum), or a table of f_n over k_n_per_mm at v_mm_s (.csv)");
   verb->add_option("--force", args->force, "for a session: force measured beside it (.csv: t_s since the start of the exam, f_n)");
   verb->add_option("--rig", args->rig, "another rig.toml");
-  verb->add_option("--column", args->columns, "NAME=COLUMN: the file calls NAME something else; may be repeated");
+  add_reading_options(*verb, args->reading);
   verb->add_option("--model", args->model, "force model to explain on top of: a name of data/materials, or a TOML file");
   verb->add_option("--material", args->material, "its material whose k and c hold for the recording (dentin)");
   verb->add_option("--model-out", args->model_out, "write the extended force model (.toml), for exam, rig and explain");
@@ -179,6 +212,7 @@ void add_explain_verbs(CLI::App& app, int& exit_code) {
                                                                                             : fmt::format("'{}' is neither 0 nor 99 to 1000", text);
           },
           "0, or 99 to 1000"));
+  verb->add_flag("--dry-run", args->dry_run, "say what was understood of the recording, with plots in --out PAGE.html, and explain nothing");
   verb->add_flag("--json", args->json, "one JSON object on standard output");
   verb->callback([args, &exit_code] {
     run_explain(*args);

@@ -3,11 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <iterator>
+#include <utility>
 
 #include "engine/base/text.h"
 #include "engine/explain/recording/motion.h"
+#include "engine/explain/recording/standstill.h"
 
 namespace cavum::explain {
 namespace {
@@ -60,22 +63,35 @@ void speed_against_position(const Recording& r, std::vector<std::string>& faults
         fmt::format("time base: x_mm moves {} times as far as the integral of v_mm_s over t_s says; correct the sampling rate", plain_number(slope)));
 }
 
+/// The unit that would make a force over penetration of `ratio` times the rig's right.
+std::string unit_words(double ratio) {
+  constexpr double k_near = 1.35;  // k of rig.toml is about right
+  constexpr std::array<std::pair<const char*, double>, 4> k_forces{{{"mN", 1000.0}, {"gf", 101.97}, {"kN", 1e-3}, {"kgf", 0.10197}}};
+  constexpr std::array<std::pair<const char*, double>, 3> k_lengths{{{"m", 1000.0}, {"um", 1e-3}, {"in", 25.4}}};
+  std::string out;
+  const auto propose = [&](char column, const auto& units) {
+    for (const auto& [name, factor] : units)
+      if (ratio < k_near * factor && ratio > factor / k_near) out += fmt::format("{}--unit {}={}", out.empty() ? "try " : ", or ", column, name);
+  };
+  propose('f', k_forces);
+  propose('x', k_lengths);
+  return out.empty() ? "is x in metres or micrometres, or f in grams? Say so with --unit" : out;
+}
+
 void units(const Recording& r, std::vector<std::string>& faults) {
   const double pressed = r.f_n.maxCoeff();
   double xf = 0.0, xx = 0.0, ff = 0.0;
   for (Eigen::Index i = 0; i < r.rows(); ++i)
     if (r.x_mm[i] > 0.0) xf += r.x_mm[i] * r.f_n[i], xx += r.x_mm[i] * r.x_mm[i], ff += r.f_n[i] * r.f_n[i];
   if (xx > 0.0 && xf < -k_against * std::sqrt(xx * ff)) {
-    faults.push_back(
-        fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, multiply f_n by -1",
-                    plain_number(xf / xx)));
+    faults.push_back(fmt::format("sign: f_n falls below zero as the tool presses deeper ({} N/mm); a force that resists is positive, give --negate f",
+                                 plain_number(xf / xx)));
     return;
   }
   if (r.rig.k_n_per_mm && xx > 0.0) {
     const double ratio = xf / xx / *r.rig.k_n_per_mm;
     if (ratio > 50.0 || (ratio > 0.0 && ratio < 0.02))
-      faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; is x in metres or micrometres, or f in grams?",
-                                   plain_number(ratio)));
+      faults.push_back(fmt::format("units: force over penetration is {} times k_n_per_mm of rig.toml; {}", plain_number(ratio), unit_words(ratio)));
   }
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff();
   if (range < 0.02 && pressed > 0.1 && xx > 0.0)
@@ -118,7 +134,13 @@ std::vector<std::string> data_faults(const Recording& r) {
   std::vector<std::string> faults;
   time_stamps(r, faults);
   if (!faults.empty()) return faults;  // everything else would be measured against wrong times
-  if (!r.exact_motion) speed_against_position(r, faults);
+  const auto also = [&faults](std::vector<std::string> found) { std::move(found.begin(), found.end(), std::back_inserter(faults)); };
+  if (!r.exact_motion) {
+    also(swap_faults(r));
+    also(jump_faults(r));
+    also(standstill_faults(r));
+    speed_against_position(r, faults);
+  }
   units(r, faults);
   clipping(r, faults);
   if (r.rows() < 200) faults.push_back(fmt::format("only {} rows; record for at least a minute", r.rows()));

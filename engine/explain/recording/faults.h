@@ -6,7 +6,8 @@
 namespace cavum::explain {
 
 /// In words, each with what to do; empty when there is none. Looks at the order of time stamps, at the time base (does the
-/// integral of v give x?), at units (metres for millimetres, milliseconds for seconds), and at clipped force.
+/// integral of v give x?), at units (metres for millimetres, milliseconds for seconds), at clipped force, and at instruments that did not
+/// record (standstill.h).
 [[nodiscard]] std::vector<std::string> data_faults(const Recording& recording);
 
 }  // namespace cavum::explain

@@ -4,42 +4,33 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 
-#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/base/toml_reader.h"
+#include "engine/explain/recording/date_time.h"
 #include "engine/explain/recording/layers.h"
+#include "engine/explain/recording/table_rows.h"
 
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_max_sessions = 1000;
-constexpr CsvForm k_recording{.most_fields = 200,
-                              .most_rows = 5'000'000,  // 7 hours at 200 Hz; beyond that memory, not time, is the limit
-                              .field_word = "cells",
-                              .plain_text = false};
-constexpr std::array k_required{"t_s", "x_mm", "f_n"};
-
-/// One column while it is read: numbers, or words numbered in order of appearance.
-struct Reading {
-  std::string name;
-  bool all_numbers = false;  // whatever else a row holds, it must be a finite number
+/// One column beside the motion while it is read: numbers, or words numbered in order of appearance.
+struct ColumnValues {
   std::vector<double> values{};
   std::map<std::string, double, std::less<>> words{};
   std::size_t missing = 0;
 
-  void add(std::string_view cell, const CsvReader& in) {
-    const std::optional<double> number = number_in_field(cell);
-    if (!number && all_numbers) in.fail(fmt::format("'{}' in column {} is no finite number", one_line(cell), name), "correct or remove the row");
+  void add(std::string_view cell, Decimal decimal) {
+    const std::optional<double> number = number_in(cell, decimal);
     values.push_back(number ? *number : is_missing(cell) ? last_after_missing() : word(cell));
   }
 
  private:
-  static bool is_missing(std::string_view cell) { return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NA"; }
   double last_after_missing() {
     ++missing;
     return values.empty() ? 0.0 : values.back();
@@ -47,60 +38,76 @@ struct Reading {
   double word(std::string_view cell) { return words.emplace(std::string(cell), static_cast<double>(words.size())).first->second; }
 };
 
-/// A column for each field of the heading, under the name that we give it.
-std::vector<Reading> columns_of(const CsvReader& heading, const ColumnNames& names) {
-  std::vector<Reading> out;
-  for (const std::string_view theirs : heading.fields()) {
-    const auto mapped = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == theirs; });
-    const std::string name = mapped != names.end() ? mapped->first : std::string(theirs);
-    if (std::any_of(out.begin(), out.end(), [&](const Reading& c) { return c.name == name; }))
-      heading.fail(fmt::format("there are two columns '{}'", one_line(name)), "rename one");
-    out.push_back({.name = name, .all_numbers = std::find(k_required.begin(), k_required.end(), name) != k_required.end()});
-  }
-  return out;
-}
-
-/// Throws Error unless the columns that --column names and those that every recording has are there.
-void require_columns(const CsvReader& heading, const std::vector<Reading>& columns, const ColumnNames& names, bool with_position) {
-  const auto there = [&](const std::string& name) {
-    return std::any_of(columns.begin(), columns.end(), [&](const Reading& c) { return c.name == name; });
-  };
-  for (const auto& [contract, theirs] : names)
-    if (!there(contract)) heading.fail(fmt::format("there is no column '{}'", one_line(theirs)), "name a column of the header with --column");
-  for (const std::string required : k_required)
-    if (!there(required) && (with_position || required != "x_mm"))
-      heading.fail(fmt::format("there is no column '{}'", required), fmt::format("rename it in the file, or use --column {}=NAME", required));
-}
+Series as_series(const std::vector<double>& values) { return Eigen::Map<const Series>(values.data(), static_cast<Eigen::Index>(values.size())); }
 
 /// The row of `in` belongs to the session of that name, which begins with it where the one before had another name.
-void add_row(std::vector<SessionRows>& sessions, std::string_view name, const CsvReader& in) {
+void add_row(std::vector<SessionRows>& sessions, std::string_view name, const RowReader& in) {
   const Eigen::Index row = sessions.empty() ? 0 : sessions.back().end;
   if (sessions.empty() || sessions.back().name != name) {
     if (std::any_of(sessions.begin(), sessions.end(), [&](const SessionRows& s) { return s.name == name; }))
       in.fail(fmt::format("session '{}' is in two places", one_line(name)), "sort the rows by session, then by time");
-    if (sessions.size() == k_max_sessions)
-      in.fail(fmt::format("has more than {} sessions", k_max_sessions), "give column 'session' a name for each run, not for each row");
+    if (sessions.size() == k_most_sessions)
+      in.fail(fmt::format("has more than {} sessions", k_most_sessions), "give column 'session' a name for each run, not for each row");
     sessions.push_back({std::string(name), row, row});
   }
   sessions.back().end = row + 1;
 }
 
-/// Puts a column that was read where it belongs.
-void keep(const Reading& column, Recording& out) {
-  const std::string shown = fmt::format("column '{}'", one_line(column.name));
+/// Puts a column beside the motion where it belongs.
+void keep(const std::string& name, const ColumnValues& column, Recording& out) {
+  const std::string shown = fmt::format("column '{}'", one_line(name));
   if (column.missing == column.values.size()) {
     out.notes.push_back(shown + " is empty and left out");
     return;
   }
   if (column.missing > 0) out.notes.push_back(fmt::format("{}: {} missing values repeat the last one", shown, column.missing));
-  Series values = Eigen::Map<const Series>(column.values.data(), static_cast<Eigen::Index>(column.values.size()));
-  const std::array<std::pair<const char*, Series*>, 4> places{{{"t_s", &out.t_s}, {"x_mm", &out.x_mm}, {"f_n", &out.f_n}, {"v_mm_s", &out.v_mm_s}}};
-  for (const auto& [name, place] : places)
-    if (column.name == name) {
-      *place = std::move(values);
-      return;
+  out.columns.emplace_back(one_line(name), as_series(column.values));
+}
+
+Series* place_of(Role role, Recording& r) {
+  const std::array places{&r.t_s, &r.x_mm, &r.v_mm_s, &r.f_n};
+  return places[static_cast<std::size_t>(role)];
+}
+
+/// The number of one cell of the motion, in our unit, with the sign and the origin that were asked for.
+double motion_value(std::string_view cell, const ColumnReading& column, const Reading& reading, const RowReader& in) {
+  const std::optional<double> number = number_in(cell, reading.form.decimal);
+  const double sign = column.negated ? -1.0 : 1.0;
+  const double value = number ? *number * column.unit.factor : 0.0;
+  if (!number || !std::isfinite(value))
+    in.fail(fmt::format("'{}' in column {} is no finite number", one_line(cell), contract_name(column.role)), "correct or remove the row");
+  return sign * (column.role == Role::position ? value - reading.surface_mm.value_or(0.0) : value);
+}
+
+/// Reads stamps, with the day before them where the day has a column of its own.
+double stamp_s(const RowReader& in, const ColumnReading& column, const ColumnPlan& plan, StampReader& stamps) {
+  const std::string_view cell = in.cells()[column.at];
+  const bool joined = plan.date && !cell.empty() && cell.find(':') != std::string_view::npos && cell.find_first_of("-/T") == std::string_view::npos;
+  const auto seconds = joined ? stamps.seconds(fmt::format("{} {}", in.cells()[*plan.date], cell)) : stamps.seconds(cell);
+  if (seconds && std::isfinite(*seconds)) return *seconds;
+  if (!stamps.reason().empty())
+    throw Error(in.at(), fmt::format("'{}' in column {} {}", one_line(cell), column.header.whole, without_advice(stamps.reason())),
+                stamps.reason().substr(stamps.reason().rfind("; ") + 2));
+  in.fail(fmt::format("'{}' in column t_s is no finite number and no time stamp", one_line(cell)), "correct or remove the row");
+}
+
+/// What was taken for granted, in words.
+void note_reading(const Reading& reading, const StampReader& stamps, Recording& out) {
+  for (const ColumnReading& c : reading.columns.motion) {
+    if (c.role == Role::time) {
+      if (stamps.kind() != StampReader::Kind::seconds) out.notes.push_back(fmt::format("time: column '{}' holds {}", c.header.whole, stamps.words()));
+      if (stamps.kind() != StampReader::Kind::seconds || c.unit.factor == 1.0) continue;
     }
-  out.columns.emplace_back(one_line(column.name), std::move(values));
+    if (c.unit.mass_word)
+      out.notes.push_back(fmt::format("UNIT: column '{}' is in {}, a mass: taken as the force that it weighs ({} N for 1)", c.header.whole,
+                                      c.header.unit, plain_number(c.unit.factor)));
+    else if (c.unit.factor != 1.0)
+      out.notes.push_back(fmt::format("unit: column '{}' is in {}: times {} for {}", c.header.whole, c.unit.shown, plain_number(c.unit.factor),
+                                      contract_name(c.role)));
+    else if (!c.declared)
+      out.notes.push_back(fmt::format("unit: column '{}' does not say its unit: taken as {}", c.header.whole, c.unit.shown));
+    if (c.negated) out.notes.push_back(fmt::format("sign: column '{}' was counted the other way (--negate)", c.header.whole));
+  }
 }
 
 }  // namespace
@@ -111,26 +118,53 @@ const Series* Recording::column(const std::string& name) const {
   return nullptr;
 }
 
-Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names, bool with_position) {
-  CsvReader in(csv, where, k_recording);
-  if (!in.next_row()) throw Error(where, "is empty", "give a CSV with a header such as session,t_s,x_mm,f_n");
-  std::vector<Reading> columns = columns_of(in, names);
-  require_columns(in, columns, names, with_position);
-  const auto session =
-      static_cast<std::size_t>(std::find_if(columns.begin(), columns.end(), [](const Reading& c) { return c.name == "session"; }) - columns.begin());
-  const bool one_session = session == columns.size();
+Recording parse_recording_as(const std::string& csv, const std::string& where, const ReadingOptions& options) {
+  auto reading = std::make_shared<Reading>();
+  reading->form = find_table_form(csv, where);
+  reading->surface_mm = options.surface_mm;
+  reading->lever_mm = options.lever_mm;
+  RowReader in(csv, where, reading->form);
+  std::vector<HeaderName> header;
+  for (std::size_t i = 0; i < in.header().size(); ++i) header.push_back(read_header_name(in.header()[i], in.units()[i]));
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (header[i].whole.empty()) header[i].whole = fmt::format("column {}", i + 1);
+  reading->columns = plan_columns(header, options, in.at());
+  const ColumnPlan& plan = reading->columns;
 
   Recording out;
-  while (in.next_row()) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (i != session) columns[i].add(in.fields()[i], in);
-    add_row(out.sessions, one_session ? "1" : in.fields()[session], in);
+  const ColumnReading& time = *plan.of(Role::time);
+  StampReader stamps(reading->form.decimal, time.unit.factor, time.declared);
+  std::vector<std::vector<double>> motion(plan.motion.size());
+  std::vector<ColumnValues> beside(header.size());
+  std::vector<bool> is_beside(header.size(), true);
+  for (const ColumnReading& c : plan.motion) is_beside[c.at] = false;
+  for (const auto& other : {plan.session, plan.date})
+    if (other) is_beside[*other] = false;
+  while (in.next()) {
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      const ColumnReading& c = plan.motion[i];
+      motion[i].push_back(c.role == Role::time ? stamp_s(in, c, plan, stamps) : motion_value(in.cells()[c.at], c, *reading, in));
+    }
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (is_beside[i]) beside[i].add(in.cells()[i], reading->form.decimal);
+    add_row(out.sessions, plan.session ? in.cells()[*plan.session] : "1", in);
   }
   if (out.sessions.empty()) throw Error(where, "has a header and no rows", "give a recording");
-  if (one_session) out.notes.push_back("no column 'session': everything is taken for one session");
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (i != session) keep(columns[i], out);
+  if (!plan.session) out.notes.push_back("no column 'session': everything is taken for one session");
+  note_reading(*reading, stamps, out);
+  for (std::size_t i = 0; i < motion.size(); ++i) *place_of(plan.motion[i].role, out) = as_series(motion[i]);
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (is_beside[i]) keep(plan.names[i], beside[i], out);
+  reading->time_words = stamps.words();
+  out.reading = std::move(reading);
   return out;
+}
+
+Recording parse_recording(const std::string& csv, const std::string& where, const ColumnNames& names, bool with_position) {
+  ReadingOptions options;
+  options.names = names;
+  options.with_position = with_position;
+  return parse_recording_as(csv, where, options);
 }
 
 Rig parse_rig(const std::string& toml_text, const std::string& where) {
@@ -153,9 +187,9 @@ Rig parse_rig(const std::string& toml_text, const std::string& where) {
   return rig;
 }
 
-Recording read_recording(const std::string& path, const std::string& rig_path, const ColumnNames& names) {
+Recording read_recording(const std::string& path, const std::string& rig_path, const ReadingOptions& options) {
   namespace fs = std::filesystem;
-  Recording out = parse_recording(read_text_file(path, k_largest_table), path, names);
+  Recording out = parse_recording_as(read_text_file(path, k_largest_table), path, options);
   const std::string beside = rig_path.empty() ? (fs::path(path).parent_path() / "rig.toml").string() : rig_path;
   std::error_code ignored;
   if (!rig_path.empty() || fs::exists(beside, ignored))

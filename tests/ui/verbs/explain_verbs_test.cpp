@@ -1,4 +1,7 @@
 // `cavum explain` as a user runs it, on the data that ship.
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -73,7 +76,7 @@ TEST_F(ExplainVerbs, WrongOptionsAreRefused) {
     expect_refused(hunt + wrong, {"cavum"});
 }
 
-TEST_F(ExplainVerbs, ForceOfTheWrongSignIsAFaultAndSaysSoInJsonWhateverElseIsAsked) {
+TEST_F(ExplainVerbs, ForceOfTheWrongSignIsRefusedAndSaysSoInJsonWhateverElseIsAsked) {
   const std::string data = read_text_file(k_data + "/measured/hunt/recording.csv");
   std::istringstream in(data);
   std::string line, turned;
@@ -93,8 +96,28 @@ TEST_F(ExplainVerbs, ForceOfTheWrongSignIsAFaultAndSaysSoInJsonWhateverElseIsAsk
   EXPECT_EQ(ran.exit_code, 2);
   const auto j = nlohmann::json::parse(ran.out);
   EXPECT_EQ(j["verdict"], "data_fault");
-  EXPECT_NE(j["data_faults"].dump().find("multiply f_n by -1"), std::string::npos);
+  EXPECT_NE(j["data_faults"].dump().find("give --negate f"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(path("m.toml")));
+  expect_refused("explain " + path("turned.csv"), {"compression is counted negative", "--negate f", "--dry-run"});
+}
+
+TEST_F(ExplainVerbs, ADryRunSaysWhatWasUnderstoodAndExplainsNothing) {
+  std::string table = "Press 7;24.11.2026\nZeit [ms];Weg [mm];Kraft [mN]\n";
+  for (int i = 0; i < 400; ++i) table += fmt::format("{};{},5;{}\n", 5 * i, 37 + (i % 200) / 50, -20 * std::max(0, i % 200 - 100) - i % 3);
+  write_text_file(path("press.csv"), table);
+  const auto j = run_json("explain " + path("press.csv") + " --dry-run --out " + path("press.html"));
+  EXPECT_EQ(j["rows"], 400);
+  EXPECT_EQ(j["table"]["decimal"], "comma");
+  EXPECT_EQ(j["columns"][2]["factor"], 1e-3);
+  EXPECT_FALSE(j.contains("verdict"));
+  const std::string page = read_text_file(path("press.html"));
+  for (const char* part : {"force over position", "force over time", "position over time", "Kraft [mN]"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  const auto said = run("explain " + path("press.csv") + " --dry-run");
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_NE(said.out.find("Kraft [mN]"), std::string::npos);
+  expect_refused("explain " + path("press.csv") + " --dry-run --unit f=stone", {"'stone'", "lbf"});
+  expect_refused("explain " + path("press.csv") + " --dry-run --column f=Kraf", {"did you mean 'Kraft [mN]'?"});
 }
 
 TEST_F(ExplainVerbs, ARecordingIsMadeAlongTheProtocolsMotion) {

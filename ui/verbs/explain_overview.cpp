@@ -1,0 +1,117 @@
+#include "ui/verbs/explain_overview.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/explain/report/overview_report.h"
+#include "ui/parts/chart_svg.h"
+
+namespace cavum::ui {
+namespace {
+
+using explain::Recording;
+using explain::Series;
+
+constexpr Eigen::Index k_most_points = 4000;  // of a chart: more cannot be told apart, and make the page slow
+
+/// "x=um" → {x, um}.
+std::pair<std::string, std::string> name_and_value(const std::string& option, const std::string& given, const std::string& example) {
+  const std::size_t at = given.find('=');
+  if (at == std::string::npos || at == 0 || at + 1 == given.size())
+    throw Error(fmt::format("{} {}", option, one_line(given)), "is not of the form NAME=" + example,
+                fmt::format("write for example {}", option == "--unit" ? "--unit f=gf" : "--column f=Fz"));
+  return {given.substr(0, at), given.substr(at + 1)};
+}
+
+std::vector<ChartPoint> thinned(const Series& x, const Series& y) {
+  std::vector<ChartPoint> out;
+  const Eigen::Index stride = std::max<Eigen::Index>(1, x.size() / k_most_points);
+  for (Eigen::Index i = 0; i < x.size(); i += stride) out.push_back({x[i], y[i]});
+  return out;
+}
+
+std::string chart_over(const std::string& title, const std::string& x_label, const std::string& y_label, std::vector<ChartPoint> points,
+                       ChartSeries::Style style, const std::optional<ChartMark>& mark) {
+  Chart c;
+  c.title = title;
+  c.x_label = x_label;
+  c.y_label = y_label;
+  c.width_px = 700;
+  c.series.push_back({"", "#0072b2", style, std::move(points), 1.0});
+  if (mark) c.marks.push_back(*mark);
+  return svg_page(c.width_px, c.height_px, chart_group(c, 0, 0));
+}
+
+/// Time of a recording whose sessions each begin anew, one behind the other.
+Series running_time_s(const Recording& r) {
+  Series out = r.t_s;
+  double end = r.t_s[0];
+  for (const auto& s : r.sessions) {
+    const double shift = r.t_s[s.begin] < end ? end - r.t_s[s.begin] : 0.0;
+    for (Eigen::Index i = s.begin; i < s.end; ++i) out[i] += shift;
+    end = out[s.end - 1];
+  }
+  return out;
+}
+
+}  // namespace
+
+bool ReadingArgs::empty() const { return columns.empty() && units.empty() && negate.empty() && surface->count() == 0 && lever->count() == 0; }
+
+void add_reading_options(CLI::App& verb, ReadingArgs& args) {
+  verb.add_option("--column", args.columns, "NAME=COLUMN: the file calls NAME (t, x, v, f, session, ...) something else; may be repeated");
+  verb.add_option("--unit", args.units,
+                  "NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated");
+  verb.add_option("--negate", args.negate, "x, v or f: the file counts it the other way; may be repeated");
+  args.surface = verb.add_option("--surface-mm", args.surface_mm, "where the surface is in the file's positions")->check(CLI::Range(-1e6, 1e6));
+  args.lever =
+      verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(CLI::Range(1e-3, 1e5));
+}
+
+explain::ReadingOptions reading_options(const ReadingArgs& args) {
+  explain::ReadingOptions out;
+  for (const std::string& given : args.columns) {
+    const auto [name, column] = name_and_value("--column", given, "COLUMN");
+    out.names[name] = column;
+  }
+  for (const std::string& given : args.units) {
+    const auto [name, unit] = name_and_value("--unit", given, "UNIT");
+    out.units[name] = unit;
+  }
+  out.negate = args.negate;
+  if (args.surface->count() > 0) out.surface_mm = args.surface_mm;
+  if (args.lever->count() > 0) out.lever_mm = args.lever_mm;
+  return out;
+}
+
+std::string overview_html(const Recording& r, const explain::Overview& overview, const std::string& title) {
+  std::optional<ChartMark> surface, surface_beside;
+  if (const auto& contact = overview.conventions.contact) {
+    surface = ChartMark{contact->at_mm, true, "contact begins"};
+    surface_beside = ChartMark{contact->at_mm, false, "contact begins"};
+  }
+  const Series time = running_time_s(r);
+  std::string out = fmt::format(
+      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>{0}</title><style>"
+      "body{{font:16px/1.5 sans-serif;color:#222;max-width:68em;margin:2em auto;padding:0 1em}}h1{{font-size:1.5em;word-break:break-all}}"
+      "svg{{max-width:100%;height:auto}}pre{{white-space:pre-wrap;background:#f2f2f2;padding:1em}}</style></head><body>\n<h1>{0}</h1>\n"
+      "<p>What was understood, before anything is explained.</p>\n",
+      xml_text(title));
+  if (r.x_mm.size() > 0) {
+    out += chart_over("force over position", "penetration x, mm", "force f, N", thinned(r.x_mm, r.f_n), ChartSeries::Style::dots, surface);
+    out += chart_over("position over time", "time t, s; sessions one behind the other", "penetration x, mm", thinned(time, r.x_mm),
+                      ChartSeries::Style::line, surface_beside);
+  }
+  out += chart_over("force over time", "time t, s; sessions one behind the other", "force f, N", thinned(time, r.f_n), ChartSeries::Style::line, {});
+  // words may hold the control characters of a file's names: xml_text keeps line ends as references, which pre shows
+  out += fmt::format("<pre>{}</pre>\n</body></html>\n", xml_text(explain::to_text(overview)));
+  return out;
+}
+
+}  // namespace cavum::ui
