@@ -10,6 +10,7 @@
 
 #include "engine/base/print.h"
 #include "engine/base/text.h"
+#include "engine/explain/inference/probability.h"
 #include "ui/parts/chart_svg.h"
 
 namespace cavum::ui {
@@ -43,6 +44,8 @@ std::string axis_label(const std::string& column) {
   if (column == "v_mm_s") return "speed v, mm/s";
   if (column == "t_s") return "time t, s";
   if (column == "spindle_rpm") return "spindle, 1000/min";
+  if (column == "a_mm_s2") return "acceleration a, mm/s²";
+  if (column == "simulated_n") return "simulated force, N";
   auto [name, unit] = name_and_unit(column);
   std::replace(name.begin(), name.end(), '_', ' ');
   return unit.empty() ? name : fmt::format("{}, {}", name, unit);
@@ -200,14 +203,69 @@ std::string verdict_box(const explain::Explanation& e, const std::string& words)
 
 std::string next_box(const std::string& words) { return fmt::format("<h2>The next experiment</h2>\n<p class=\"next\">{}</p>\n", xml_text(words)); }
 
+/// What a mechanism's picture shows it over, and its name; its own force where the recording has no such thing.
+std::pair<std::string, Series> seen_over(const explain::Cause& c, const View& after) {
+  const char* over = explain::mechanism_at(c.term.mechanism).seen_over;
+  const std::string name = over != nullptr ? over : "";
+  const auto& motion = after.scene.motion;
+  if (name == "x_mm") return {name, motion.x_mm};
+  if (name == "v_mm_s") return {name, motion.v_mm_s};
+  if (name == "a_mm_s2") return {name, motion.a_mm_s2};
+  if (name == "t_s") return {name, after.scene.recording->t_s};
+  if (name == "simulated_n") return {name, after.scene.force_n};
+  if (const Series* column = name.empty() ? nullptr : after.scene.recording->column(name)) return {name, *column};
+  return {"force of the cause, N", c.force_n};
+}
+
+/// All that the simulation and the other causes leave, and the cause's own force, over what shows it best.
+std::string cause_chart(const explain::Cause& c, const View& after) {
+  const auto [name, u] = seen_over(c, after);
+  Chart chart;
+  chart.title = "what it alone explains, over " + axis_label(name);
+  chart.x_label = axis_label(name);
+  chart.y_label = "force, N";
+  chart.height_px = 330;
+  const Series left = after.residual_n + c.force_n, shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
+  const auto data = binned(shown, left), law = binned(shown, c.force_n);
+  double low = 0.0, high = 1e-9;
+  for (const auto* points : {&data, &law})
+    for (const auto& p : *points) low = std::min(low, p.y - p.error), high = std::max(high, p.y + p.error);
+  chart.y_range = {low - 0.05 * (high - low), high + 0.35 * (high - low)};
+  chart.series = {{"measured, less all else", k_before, Style::dots, data, 1.8}, {"this cause", k_after, Style::rings, law, 1.8}};
+  return svg(chart);
+}
+
+/// What the cause gains on each session that the fit had not seen.
+std::string sessions_table(const explain::Explanation& e, const explain::Cause& c) {
+  const std::vector<std::string> names = fold_names(e);
+  double most = 1e-9;
+  for (const double g : c.by_fold_percent) most = std::max(most, std::fabs(g));
+  std::string out = "<table class=\"bars\"><caption>by session not seen</caption>";
+  for (std::size_t f = 0; f < names.size() && f < c.by_fold_percent.size(); ++f) {
+    const double g = c.by_fold_percent[f];
+    out += fmt::format("<tr><th scope=\"row\">{}</th>{}", xml_text(names[f]),
+                       printed("<td><span class=\"bar\" style=\"width:%.0f%%;background:%s\"></span></td><td class=\"n\">%.1f %%</td></tr>\n",
+                               1.0 + 99.0 * std::fabs(g) / most, g < 0.0 ? k_before : k_after, g));
+  }
+  return out + "</table>\n";
+}
+
+std::string how_likely(const explain::Cause& c) {
+  std::string out = printed("<p><b>%.0f %%: %s.</b> ", 100.0 * c.probability, explain::probability_words(c.probability));
+  if (!c.aliases.empty()) out += printed("That it is this or one that fits as well: %.0f %%. ", 100.0 * c.set_probability);
+  return out + printed("By it alone the error on sessions not seen falls by %.1f %% (95 %%: %.1f to %.1f); chance of a false alarm %s.</p>\n",
+                       c.gain_percent.value, c.gain_percent.low, c.gain_percent.high,
+                       c.p_value < 0.0051 ? "below 1 in 199" : printed("%.2g", c.p_value).c_str());
+}
+
 std::string causes_html(const explain::Explanation& e) {
   std::string out;
   for (const auto& c : e.causes) {
     const auto& m = explain::mechanism_at(c.term.mechanism);
-    out += fmt::format("<h3>{} <small><code>{}</code></small></h3>\n<p>It adds <code>{}{}{}", xml_text(m.words), m.name, xml_text(m.equation),
-                       printed("</code>: %.4f N root mean square over the recording; chance of a false alarm %s. ", c.effect_n,
-                               c.p_value < 1e-4 ? "below 0.0001" : printed("%.2g", c.p_value).c_str()),
+    out += fmt::format("<h3>{} <small><code>{}</code></small></h3>\n{}<p>It adds <code>{}{}{}", xml_text(m.words), m.name, how_likely(c),
+                       xml_text(m.equation), printed("</code>: %.4f N root mean square over the recording. ", c.effect_n),
                        m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
+    if (e.after) out += fmt::format("<div class=\"pair\"><div>{}</div><div>{}</div></div>\n", cause_chart(c, *e.after), sessions_table(e, c));
     out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
     for (const auto& [parameter, i] : c.parameters) {
       const auto [name, unit] = name_and_unit(parameter);
@@ -224,6 +282,7 @@ std::string causes_html(const explain::Explanation& e) {
       }
       out += ". The data cannot tell which it is.</p>\n";
     }
+    if (m.separate != nullptr) out += fmt::format("<p class=\"next\"><b>To be surer:</b> {}</p>\n", xml_text(m.separate));
   }
   if (e.unexplained)
     out += fmt::format("<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>{}</b> ({}{}",

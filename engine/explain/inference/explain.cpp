@@ -10,6 +10,7 @@
 #include "engine/explain/inference/causes.h"
 #include "engine/explain/inference/heldout.h"
 #include "engine/explain/inference/intervals.h"
+#include "engine/explain/inference/probability.h"
 #include "engine/explain/recording/faults.h"
 #include "engine/explain/recording/specimens.h"
 #include "engine/explain/recording/stamps.h"
@@ -299,11 +300,12 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
     std::size_t worst = causes.size();
     std::optional<Plainer> plainer;
     for (std::size_t i = 0; i < causes.size(); ++i) {
-      now.causes[i].gain_percent = gains[i];
-      if (is_signed(now.causes[i]) && gains[i].low > k_least_low_percent && gains[i].value > k_least_gain_percent) continue;
+      now.causes[i].gain_percent = gains[i].percent;
+      now.causes[i].by_fold_percent = gains[i].by_fold_percent;
+      if (is_signed(now.causes[i]) && gains[i].percent.low > k_least_low_percent && gains[i].percent.value > k_least_gain_percent) continue;
       if (auto in_place = plainer ? std::nullopt : plainer_of(search, i))
         worst = i, plainer = in_place;  // what stands in its place may need the others
-      if (!plainer && (worst == causes.size() || gains[i].value < gains[worst].value)) worst = i;
+      if (!plainer && (worst == causes.size() || gains[i].percent.value < gains[worst].percent.value)) worst = i;
     }
     causes = now.causes;
     if (worst == causes.size()) break;
@@ -437,6 +439,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
   conclude(e, one_way);
+  set_probabilities(e);
   compare_with_rig(e, e.recording->rig, e.recording->v_mm_s.size() > 0);
   if (options.progress) options.progress(1.0);
   return e;

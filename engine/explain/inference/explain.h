@@ -29,8 +29,12 @@ struct Cause {
   std::vector<RivalFit> rivals;      ///< best first; those that were worth a refit
   std::vector<std::pair<std::string, Interval>> parameters;
   double p_value = 1;
-  double effect_n = 0;    ///< root mean square of its force
-  Interval gain_percent;  ///< of the error on sessions not seen, by it alone beside the others
+  double effect_n = 0;                   ///< root mean square of its force
+  Series force_n;                        ///< what it adds, [rows]
+  Interval gain_percent;                 ///< of the error on sessions not seen, by it alone beside the others
+  std::vector<double> by_fold_percent;   ///< the same of each session (or stretch) left out
+  double probability = 0;                ///< that it is a true cause, 0 to 1
+  double set_probability = 0;            ///< that it or one of its aliases is
 };
 
 struct Unexplained {
@@ -47,7 +51,7 @@ struct Gain {
   double noise_floor_n = 0;
   Interval percent;          ///< 100 (1 − extended/base)
   double share_percent = 0;  ///< of what lies between base and noise floor
-  std::vector<double> by_fold_percent;
+  std::vector<double> by_fold_percent;  ///< of each session (or stretch) left out
 };
 
 struct Explanation {
@@ -81,6 +85,8 @@ struct ExplainOptions {
 /// The names of docs/contracts.md (JSON).
 [[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
 [[nodiscard]] std::string to_text(const Explanation& explanation);
+/// What is left out together, one after the other: the name of a session, of the first and the last of several, or "part 1".
+[[nodiscard]] std::vector<std::string> fold_names(const Explanation& explanation);
 /// A sentence about what is left when nothing was named and the simulation still misses by half as much again as the noise; else empty.
 [[nodiscard]] std::string left_over_words(const Explanation& explanation);
 

@@ -128,6 +128,12 @@ Interval percent_of(const std::vector<double>& without, const std::vector<double
   return out;
 }
 
+std::vector<double> by_fold(const std::vector<double>& without, const std::vector<double>& with) {
+  std::vector<double> out;
+  for (std::size_t f = 0; f < without.size(); ++f) out.push_back(100.0 * (1.0 - std::sqrt(with[f] / std::max(1e-300, without[f]))));
+  return out;
+}
+
 std::vector<double> rows_of(const View& v) {
   std::vector<double> out;
   for (const auto& [begin, end] : v.folds) out.push_back(static_cast<double>(end - begin));
@@ -154,13 +160,13 @@ Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& opt
   g.extended_rmse_n = rmse(extended, rows, all);
   g.noise_floor_n = noise_floor_n;
   g.percent = percent_of(base, extended, rows);
-  for (std::size_t f = 0; f < folds; ++f) g.by_fold_percent.push_back(100.0 * (1.0 - std::sqrt(extended[f] / std::max(1e-300, base[f]))));
+  g.by_fold_percent = by_fold(base, extended);
   const double could = g.base_rmse_n - noise_floor_n;
   g.share_percent = could > 0.0 ? std::clamp(100.0 * (g.base_rmse_n - g.extended_rmse_n) / could, 0.0, 100.0) : 0.0;
   return g;
 }
 
-std::vector<Interval> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread) {
+std::vector<OwnGain> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread) {
   const std::size_t folds = first.folds.size();
   const Folds left_out(first, spread);
   std::vector<std::vector<double>> without(causes.size(), std::vector<double>(folds, 0.0));
@@ -174,8 +180,8 @@ std::vector<Interval> gain_of_each(const View& first, const std::vector<Term>& c
       without[c][f] = left_out.error2(masked, f, others);
     }
   });
-  std::vector<Interval> out;
-  for (std::size_t c = 0; c < causes.size(); ++c) out.push_back(percent_of(without[c], with, rows_of(first)));
+  std::vector<OwnGain> out;
+  for (std::size_t c = 0; c < causes.size(); ++c) out.push_back({percent_of(without[c], with, rows_of(first)), by_fold(without[c], with)});
   return out;
 }
 

@@ -11,7 +11,13 @@ namespace cavum::explain {
 [[nodiscard]] Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& options, const SessionSpread& spread,
                                 double noise_floor_n);
 
+/// What one cause gains.
+struct OwnGain {
+  Interval percent;
+  std::vector<double> by_fold_percent;
+};
+
 /// What each of `causes` gains on sessions that the others and it were fitted without, in percent of the error without it; in their order.
-[[nodiscard]] std::vector<Interval> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread);
+[[nodiscard]] std::vector<OwnGain> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread);
 
 }  // namespace cavum::explain

@@ -136,8 +136,8 @@ double half_width(double variance, const Findings& found, std::size_t c, std::si
   return left.size() > 2 ? std::max(half, student(static_cast<double>(left.size()) - 1.0) * jackknife_sd(left)) : half;
 }
 
-/// Root mean square of the force of cause `c`.
-double effect_of(const View& v, std::size_t c) {
+/// Force of cause `c`, [rows].
+Series force_of_cause(const View& v, std::size_t c) {
   auto others = v.causes;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(c));
   Eigen::VectorXd rest(v.base_fit.value.size() - v.known[c].coefficients());
@@ -148,7 +148,7 @@ double effect_of(const View& v, std::size_t c) {
     for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
       if (k != c) rest[to++] = v.base_fit.value[from];
   }
-  return std::sqrt((v.model_n - force_of(v.scene, others, rest)).square().mean());
+  return v.model_n - force_of(v.scene, others, rest);
 }
 
 }  // namespace
@@ -175,7 +175,8 @@ void set_parameters(Explanation& e, const View& v, const Null& null, double infl
   for (std::size_t c = 0; c < e.causes.size(); ++c) {
     e.causes[c].parameters.clear();
     for (std::size_t p = 0; p < found.middle[c].size(); ++p) e.causes[c].parameters.emplace_back(found.middle[c][p].name, interval[c][p]);
-    e.causes[c].effect_n = effect_of(v, c);
+    e.causes[c].force_n = force_of_cause(v, c);
+    e.causes[c].effect_n = std::sqrt(e.causes[c].force_n.square().mean());
   }
   e.k = interval.back()[0];
   e.c = interval.back()[1];

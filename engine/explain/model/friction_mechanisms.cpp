@@ -48,6 +48,7 @@ Mechanism coulomb_friction() {
       .equation = "Fc tanh(V/v0), in air too",
       .words = "dry friction of joints or guides",
       .separate = "stroke to and fro in air: it flips with the direction",
+      .seen_over = "v_mm_s",
       .term = &k_coulomb_friction,
       .shape = {{"v0_mm_s", 1e-5, 100, true, true}},
       .grid =
@@ -76,6 +77,7 @@ Mechanism stribeck_friction() {
       .equation = "[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too",
       .words = "friction that falls as the motion becomes faster",
       .separate = "stroke to and fro in air at five speeds, the slowest near 0.01 mm/s",
+      .seen_over = "v_mm_s",
       .term = &k_stribeck_friction,
       .shape = {{"vs_mm_s", 1e-5, 100, true, true}, {"v0_mm_s", 1e-5, 100, true, true}},
       .grid =
@@ -113,6 +115,7 @@ Mechanism viscous_friction() {
       .equation = "b V, in air too",
       .words = "friction in proportion to speed",
       .separate = "stroke in air at three speeds",
+      .seen_over = "v_mm_s",
       .term = &k_viscous_friction,
       .grid = [](const Scene&) { return Grid{{}}; },
       .columns =

@@ -68,6 +68,8 @@ struct Mechanism {
   const char* equation = nullptr;  ///< of the force it adds
   const char* words = nullptr;     ///< what it means, for a person: completes "the simulation lacks ..."
   const char* separate = nullptr;  ///< the experiment that shows it best
+  /// What its picture shows it over: a column of the recording, x_mm, v_mm_s, t_s, a_mm_s2 or simulated_n (the base force); null: its own force.
+  const char* seen_over = nullptr;
   const TermKind* term = nullptr;  ///< acts in a live exam too, as this force term of the same name; null: only in the measurement
 
   // What it takes to show it

@@ -91,6 +91,7 @@ Mechanism bias() {
       .equation = "B, in air too",
       .words = "a constant offset of the load cell",
       .separate = "read the unloaded load cell before and after each session",
+      .seen_over = "t_s",
       .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
@@ -110,6 +111,7 @@ Mechanism drift() {
       .equation = "R t, or A (1 - e^(-t/tau)), in air too",
       .words = "a load cell whose zero wanders with time",
       .separate = "hold the tool in air for ten minutes after switching on",
+      .seen_over = "t_s",
       .shape = {{"whole", 0, 1, false, false}, {"exponential", 0, 1, false, false}, {"tau_s", 0.5, 1e4, true, true}},
       .grid = drift_grid,
       .columns = drift_columns,
@@ -128,6 +130,7 @@ Mechanism contact_offset() {
       .words = "the place of the surface, which lies nearer or further than the recording has it",
       .separate =
           "come to the surface from air several times, on tissues of several stiffnesses: k delta grows with k, an offset of the force does not",
+      .seen_over = "x_mm",
       .shape = contact_shape(),
       .grid = contact_grid,
       .columns = contact_columns,

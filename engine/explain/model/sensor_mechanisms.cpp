@@ -60,6 +60,7 @@ Mechanism gravity_posture() {
       .equation = "w (sin theta - sin theta0), in air too",
       .words = "the weight of the handpiece, which changes with posture",
       .separate = "hold the tool in air in three postures",
+      .seen_over = "posture_deg",
       .needs = {"posture_deg"},
       .grid = no_shape,
       .columns =
@@ -81,6 +82,7 @@ Mechanism inertia() {
       .equation = "m a, in air too",
       .words = "the mass that is accelerated with the load cell",
       .separate = "shake the tool in air at two rates",
+      .seen_over = "a_mm_s2",
       .grid = no_shape,
       .columns =
           [](const Scene& s, const Shape&) {
@@ -100,6 +102,7 @@ Mechanism gain_error() {
       .equation = "g F_sim",
       .words = "a load cell whose gain is off",
       .separate = "hang known weights on the load cell: no recording of k and c can show its gain",
+      .seen_over = "simulated_n",
       .grid = no_shape,
       .columns =
           [](const Scene& s, const Shape&) {
@@ -119,6 +122,7 @@ Mechanism cross_talk() {
       .equation = "a Fy + b Fz",
       .words = "lateral force that leaks into the feed's channel",
       .separate = "press sideways in air",
+      .seen_over = "fy_n",
       .needs = {"fy_n", "fz_n"},
       .grid = no_shape,
       .columns =
@@ -143,6 +147,7 @@ Mechanism delay() {
       .equation = "F_sim(t - tau) - F_sim(t)",
       .words = "a force channel that comes later than the position",
       .separate = "press in fast ramps at two speeds, with sharp reversals",
+      .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
       .columns = [](const Scene& s, const Shape& p) { return delayed(s, p[0]); },
@@ -161,6 +166,7 @@ Mechanism low_pass() {
       .equation = "lag(F_sim, tau) - F_sim",
       .words = "a force channel that is smoothed by a filter",
       .separate = "press in fast ramps at two speeds, with sharp reversals",
+      .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = lag_grid,
       .columns = [](const Scene& s, const Shape& p) { return lagged(s, p[0]); },
@@ -180,6 +186,7 @@ Mechanism position_late() {
       .equation = "F_sim(t + tau) - F_sim(t)",
       .words = "a position channel that comes later than the force",
       .separate = "press in fast ramps at two speeds with sharp reversals, and shake the tool in air: a mass shows there, a late position does not",
+      .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
       .columns = [](const Scene& s, const Shape& p) { return delayed(s, -p[0]); },
@@ -228,6 +235,7 @@ Mechanism saturation() {
       .equation = "min(F_sim, Fmax) - F_sim",
       .words = "a force channel that saturates",
       .separate = "press harder, with a load cell of a larger range",
+      .seen_over = "simulated_n",
       .shape = {{"f_max_n", 1e-4, 1e4, true, true}},
       .grid = saturation_grid,
       .columns = saturation_columns,

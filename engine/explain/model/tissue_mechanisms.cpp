@@ -80,6 +80,7 @@ Mechanism series_compliance() {
       .equation = "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
       .words = "something elastic between the tool and the tooth",
       .separate = "press a block of steel in the same holder",
+      .seen_over = "simulated_n",
       .term = &k_series_compliance,
       .shape = {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
       .grid =
@@ -119,6 +120,7 @@ Mechanism nonlinear_stiffness() {
       .equation = "k (X^m - X), X in mm",
       .words = "a stiffness that grows or falls as a power of the depth",
       .separate = "press slowly to twice the depth",
+      .seen_over = "x_mm",
       .term = &k_nonlinear_stiffness,
       .shape = {{"m", 0.1, 5.0, false, true}},
       .grid =
@@ -146,6 +148,7 @@ Mechanism hidden_layer() {
       .equation = "dk (X - d0)+",
       .words = "a layer below the surface with another stiffness",
       .separate = "press slowly through the depth of the kink, at two sites",
+      .seen_over = "x_mm",
       .term = &k_hidden_layer,
       .shape = {{"d0_mm", 1e-4, 100, false, true}},
       .grid =
@@ -176,6 +179,7 @@ Mechanism graded_stiffness() {
       .equation = "-k alpha X^2",
       .words = "a stiffness that changes evenly with depth",
       .separate = "press slowly to twice the depth",
+      .seen_over = "x_mm",
       .term = &k_graded_stiffness,
       .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
@@ -200,6 +204,7 @@ Mechanism anisotropy() {
       .equation = "F_sim e cos 2(phi - phi0)",
       .words = "a stiffness that depends on the angle of approach",
       .separate = "approach one site at 0, 45, 90 and 135 degrees",
+      .seen_over = "approach_deg",
       .term = &k_anisotropy,
       .needs = {"approach_deg"},
       .shape = {{"variant", 0, 1, false, false}},
@@ -228,6 +233,7 @@ Mechanism relaxation() {
       .equation = "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
       .words = "a force that decays while the tool is held still",
       .separate = "hold for ten seconds at constant depth, three depths",
+      .seen_over = "t_s",
       .term = &k_relaxation,
       .shape = {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
       .grid = relaxation_grid,
@@ -267,6 +273,7 @@ Mechanism feed_power_law() {
       .equation = "c (|V|^n sign V - V), V in mm/s",
       .words = "a force that grows with another power of the speed",
       .separate = "press at five speeds over two decades",
+      .seen_over = "v_mm_s",
       .term = &k_feed_power_law,
       .shape = {{"n", 0.05, 4.0, false, true}},
       .grid =

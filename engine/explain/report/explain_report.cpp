@@ -1,10 +1,12 @@
 // The explanation as JSON and as words.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/print.h"
 #include "engine/explain/inference/explain.h"
+#include "engine/explain/inference/probability.h"
 
 namespace cavum::explain {
 namespace {
@@ -14,6 +16,15 @@ using nlohmann::json;
 const Mechanism& mechanism_of(const Cause& c) { return mechanism_at(c.term.mechanism); }
 
 json to_json(const Interval& i) { return {{"value", i.value}, {"low", i.low}, {"high", i.high}}; }
+
+json own_gain(const Explanation& e, const Cause& c) {
+  json out = to_json(c.gain_percent);
+  out["by_session"] = json::array();
+  const std::vector<std::string> names = fold_names(e);
+  for (std::size_t f = 0; f < names.size() && f < c.by_fold_percent.size(); ++f)
+    out["by_session"].push_back({{"session", names[f]}, {"percent", c.by_fold_percent[f]}});
+  return out;
+}
 
 std::string in_words(const Explanation& e) {
   if (e.verdict == "clean") return "nothing that these data can show is missing from the simulation";
@@ -41,7 +52,9 @@ json to_json(const Explanation& e) {
                            {"parameters", parameters},
                            {"p_value", c.p_value},
                            {"effect_n", c.effect_n},
-                           {"gain", to_json(c.gain_percent)},
+                           {"probability", c.probability},
+                           {"set_probability", c.set_probability},
+                           {"gain", own_gain(e, c)},
                            {"rivals", rivals}});
   }
   j["unexplained"] = nullptr;
@@ -61,6 +74,22 @@ json to_json(const Explanation& e) {
   return j;
 }
 
+std::vector<std::string> fold_names(const Explanation& e) {
+  std::vector<std::string> out;
+  if (!e.before) return out;
+  const auto& sessions = e.recording->sessions;
+  for (const auto& [begin, end] : e.before->folds) {
+    if (sessions.size() == 1) {
+      out.push_back(fmt::format("part {}", out.size() + 1));
+      continue;
+    }
+    const auto at = [&](Eigen::Index row) { return std::find_if(sessions.begin(), sessions.end(), [&](const auto& s) { return row < s.end; })->name; };
+    const std::string first = at(begin), last = at(end - 1);
+    out.push_back(first == last ? first : fmt::format("{} to {}", first, last));
+  }
+  return out;
+}
+
 std::string left_over_words(const Explanation& e) {
   constexpr double k_more_than_noise = 1.5;
   if (!e.causes.empty() || e.unexplained || e.verdict == "data_fault" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return "";
@@ -76,6 +105,9 @@ std::string to_text(const Explanation& e) {
     const Mechanism& m = mechanism_of(c);
     out += printed("\ncause: %s (%s), %.4f N rms, p = %.2g\n", m.name, m.words, c.effect_n, c.p_value);
     out += printed("  force %s\n", m.equation);
+    out += printed("  %s: %.0f %%", probability_words(c.probability), 100.0 * c.probability);
+    if (!c.aliases.empty()) out += printed("; that it is this or one that fits as well: %.0f %%", 100.0 * c.set_probability);
+    out += "\n";
     out += printed("  alone it lowers the error on sessions not seen by %.1f %% (%.1f to %.1f)\n", c.gain_percent.value, c.gain_percent.low,
                    c.gain_percent.high);
     for (const auto& [name, i] : c.parameters) out += printed("  %-20s %12.5g   95 %%: %.5g to %.5g\n", name.c_str(), i.value, i.low, i.high);

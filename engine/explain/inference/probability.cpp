@@ -1,0 +1,50 @@
+#include "engine/explain/inference/probability.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cavum::explain {
+namespace {
+
+constexpr double k_temper = 2.5;                                                            // s: laws fit a little worse than they are
+constexpr double k_base = 3.6, k_something_left = -1.6, k_little_gain = -0.8, k_more = -0.4;  // log odds
+constexpr double k_little_percent = 5.0;                                                    // of the error on sessions left out
+constexpr double k_most = 0.99;                                                             // no calibration says more
+
+double set_probability(const Explanation& e, const Cause& c) {
+  double odds = k_base + k_more * static_cast<double>(e.causes.size() - 1);
+  if (e.unexplained) odds += k_something_left;
+  if (c.gain_percent.value < k_little_percent) odds += k_little_gain;
+  return std::min(k_most, 1.0 / (1.0 + std::exp(-odds)));
+}
+
+/// Of the set's, the cause's own share.
+double own_share(const Cause& c) {
+  double all = 1.0;
+  for (const auto& name : c.aliases) {
+    double behind = 0.0;  // what the data cannot tell for another reason than fit shares alike
+    for (const auto& r : c.rivals)
+      if (r.mechanism == name) behind = std::max(0.0, r.behind_chi2);
+    all += std::exp(-0.5 * behind / k_temper);
+  }
+  return 1.0 / all;
+}
+
+}  // namespace
+
+void set_probabilities(Explanation& e) {
+  for (auto& c : e.causes) {
+    c.set_probability = set_probability(e, c);
+    c.probability = c.set_probability * own_share(c);
+  }
+}
+
+const char* probability_words(double p) noexcept {
+  if (p >= 0.95) return "extremely likely";
+  if (p >= 0.9) return "very likely";
+  if (p >= 0.66) return "likely";
+  if (p >= 0.33) return "about as likely as not";
+  return "unlikely";
+}
+
+}  // namespace cavum::explain
