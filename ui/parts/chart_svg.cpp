@@ -133,7 +133,8 @@ std::string chart_group(const Chart& chart, double x_px, double y_px) {
   x.to_px = chart.width_px - k_right;
   y.from_px = chart.height_px - k_bottom;
   y.to_px = k_top;
-  const std::string clip = fmt::format("plot{}-{}", num(x_px), num(y_px));
+  // charts of one page may lie at one place of their own drawings: what differs in size must differ in name
+  const std::string clip = fmt::format("plot{}-{}-{}x{}", num(x_px), num(y_px), num(x.to_px), num(y.from_px));
   std::string out = fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>",
                                 num(x_px), num(y_px), clip, num(k_left), num(k_top), num(x.to_px - k_left), num(y.from_px - k_top));
   out += svg_text(k_left, 20, chart.title, 13, "start", "font-weight='bold'");

@@ -164,7 +164,7 @@ std::string force_charts(const View& before, const View& after) {
   c.series = {measured, last, first};
   c.y_range = {lowest - 0.04 * (highest - lowest), lowest + 1.45 * (highest - lowest)};  // room for the legend
   d.series = {left, rest};
-  return svg(c) + svg(d);
+  return "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"measured against simulated, over time\">" + svg(c) + svg(d) + "</div>\n";
 }
 
 std::string gain_chart(const explain::Gain& g) {
@@ -173,8 +173,9 @@ std::string gain_chart(const explain::Gain& g) {
   for (const auto& [name, value, colour] : {std::tuple{"simulation as it is", g.base_rmse_n, k_before},
                                             {"with the causes", g.extended_rmse_n, k_after},
                                             {"noise of the measurement", g.noise_floor_n, k_measured}})
-    out += printed("<tr><td>%s</td><td><span class=\"bar\" style=\"width:%.0fpx;background:%s\"></span></td><td>%.4f N</td></tr>\n", name,
-                   1.0 + 360.0 * value / most, colour, value);
+    out += printed(
+        "<tr><td>%s</td><td class=\"wide\"><span class=\"bar\" style=\"width:%.0f%%;background:%s\"></span></td><td class=\"n\">%.4f N</td></tr>\n",
+        name, 1.0 + 99.0 * value / most, colour, value);
   return out + "</table>\n";
 }
 
@@ -184,9 +185,12 @@ std::string head(const std::string& title) {
          "</title><style>body{font:16px/1.5 sans-serif;color:#222;max-width:68em;margin:2em auto;padding:0 "
          "1em}h1{font-size:1.5em;word-break:break-all}"
          "h2{font-size:1.2em;margin-top:2em}.verdict{border-left:.5em solid #0072b2;background:#eef4f9;padding:.6em 1em}"
-         ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(26em,1fr));gap:.5em}td,th{text-align:left;vertical-align:top;padding:.2em "
+         ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(26em,100%),1fr));gap:.5em}td,th{text-align:left;vertical-align:top;"
+         "padding:.2em "
          "1em .2em 0;border-bottom:1px solid #ddd}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}table{border-collapse:collapse}"
-         ".bars td{border:0}.bar{display:inline-block;height:1em}svg{max-width:100%;height:auto}code{background:#f2f2f2}"
+         ".bars{width:100%;max-width:42em}.bars td,.bars th{border:0}.bars .wide{width:60%}.bars "
+         "td.n{white-space:nowrap}.bar{display:inline-block;height:1em}caption{text-align:left}svg{max-width:100%;height:auto}.scroll{overflow-x:"
+         "auto}.scroll svg{min-width:44em}code{background:#f2f2f2}"
          ".next{border-left:.5em solid #009e73;background:#edf7f3;padding:.6em 1em}</style></head><body>\n<h1>" +
          xml_text(title) + "</h1>\n";
 }
@@ -243,9 +247,10 @@ std::string sessions_table(const explain::Explanation& e, const explain::Cause& 
   std::string out = "<table class=\"bars\"><caption>by session not seen</caption>";
   for (std::size_t f = 0; f < names.size() && f < c.by_fold_percent.size(); ++f) {
     const double g = c.by_fold_percent[f];
-    out += fmt::format("<tr><th scope=\"row\">{}</th>{}", xml_text(names[f]),
-                       printed("<td><span class=\"bar\" style=\"width:%.0f%%;background:%s\"></span></td><td class=\"n\">%.1f %%</td></tr>\n",
-                               1.0 + 99.0 * std::fabs(g) / most, g < 0.0 ? k_before : k_after, g));
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th>{}", xml_text(names[f]),
+        printed("<td class=\"wide\"><span class=\"bar\" style=\"width:%.0f%%;background:%s\"></span></td><td class=\"n\">%.1f %%</td></tr>\n",
+                1.0 + 99.0 * std::fabs(g) / most, g < 0.0 ? k_before : k_after, g));
   }
   return out + "</table>\n";
 }

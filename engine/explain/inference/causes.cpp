@@ -5,8 +5,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_alias_chi2 = 10.0;   // a rival this close fits as well
-constexpr double k_worth_saying = 0.1;  // of the noise: a dependence below it is the motion's own error as likely as not
+constexpr double k_alias_chi2 = 10.0;    // a rival this close fits as well
+constexpr double k_worth_saying = 0.14;  // of the noise: less would lower the error by under 1 %, and is the motion's own error as likely as not
 constexpr double k_worth_refining = 0.4;
 constexpr std::size_t k_refined = 5;
 constexpr double k_gone = 0.1;  // of a structure's gain: the rest, when the causes found explain it
@@ -90,11 +90,18 @@ View without(const View& v, std::size_t i) {
   return out;
 }
 
+bool is_barred(const CauseSearch& search, int mechanism) {
+  return std::find(search.barred.begin(), search.barred.end(), mechanism) != search.barred.end();
+}
+
 /// Candidates of the last look that are improbable in noise.
-std::vector<const Candidate*> improbable(const Step& step) {
+std::vector<const Candidate*> improbable(const CauseSearch& search) {
+  const Step& step = search.step;
   std::vector<const Candidate*> found;
   for (std::size_t m = 0; m < step.scores.candidates.size(); ++m)
-    if (step.scores.candidates[m].testable && step.judgement.p_value[m] < k_alpha) found.push_back(&step.scores.candidates[m]);
+    if (!is_barred(search, static_cast<int>(m)) && step.scores.candidates[m].testable && step.scores.candidates[m].fits() &&
+        step.judgement.p_value[m] < k_alpha)
+      found.push_back(&step.scores.candidates[m]);
   return found;
 }
 
@@ -143,7 +150,7 @@ std::vector<Rival> rivals_in_place(const CauseSearch& search, std::size_t i, con
   const auto candidates = candidates_of(rest);
   std::vector<const Candidate*> worth;
   for (const auto& c : candidates)
-    if (c.testable && c.gain > 0.0) worth.push_back(&c);
+    if (c.testable && c.gain > 0.0 && !is_barred(search, c.hypothesis.term.mechanism)) worth.push_back(&c);
   return worth.empty() ? std::vector<Rival>{} : rivals_of(rest, others, worth);
 }
 
@@ -157,7 +164,7 @@ const Rival* better_one(const CauseSearch& search, std::size_t i, const std::vec
 }  // namespace
 
 CauseSearch begin_search(const Recording& recording, const ExplainOptions& options, std::function<void()> done) {
-  CauseSearch search{recording, options, std::move(done), estimate_motion(recording), {}, {}, {}};
+  CauseSearch search{recording, options, std::move(done), estimate_motion(recording), {}, {}, {}, 0.0, {}};
   look_again(search);
   return search;
 }
@@ -171,15 +178,15 @@ std::optional<Unexplained> add_causes(CauseSearch& search) {
   std::optional<Doubt> doubt;  // of all that follows
   while (true) {
     const Step& step = search.step;
-    const std::vector<const Candidate*> found = improbable(step);
+    const std::vector<const Candidate*> found = improbable(search);
     const Structure* structure = improbable_structure(step);
     const bool full = static_cast<int>(search.causes.size()) >= search.options.max_causes;
     if (found.empty() || full) return ended(search, std::move(doubt));
     const auto rivals = rivals_of(step.view, search.causes, found);
-    if (rivals.empty()) return ended(search, std::move(doubt));
+    if (rivals.empty()) return doubt ? ended(search, std::move(doubt)) : std::nullopt;
     const double before = penalised_chi2(step.view, search.causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
     const double gain = before - rivals.front().chi2;
-    if (gain < k_alias_chi2) return ended(search, std::move(doubt));
+    if (gain < k_alias_chi2) return doubt ? ended(search, std::move(doubt)) : std::nullopt;
     if (!doubt && structure != nullptr && beats_mechanisms(*structure, gain, step)) doubt = Doubt{search.causes, search.p_values, step, *structure};
     const auto at = static_cast<std::size_t>(rivals.front().mechanism);
     search.causes = refine(step.view, rivals.front().causes, 1);

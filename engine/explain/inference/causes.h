@@ -29,6 +29,8 @@ struct CauseSearch {
   Motion motion;
   std::vector<Term> causes;
   std::vector<double> p_values;  ///< of causes
+  std::vector<int> barred;       ///< mechanisms that said no more than a plainer one
+  double doubted_percent = 0;    ///< the largest gain of a cause that was taken back
   Step step;                     ///< the last look
 };
 

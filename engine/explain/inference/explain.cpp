@@ -184,8 +184,9 @@ void drop_named_aliases(std::vector<Cause>& causes) {
   for (auto& cause : causes)
     std::erase_if(cause.aliases, [&](const std::string& a) {
       const int law = law_of(known_mechanism(a));
-      return std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return law_of(c.term.mechanism) == law; }) &&
-             law != law_of(cause.term.mechanism);
+      return a == mechanism_of(cause.term).name ||
+             (law != law_of(cause.term.mechanism) &&
+              std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return law_of(c.term.mechanism) == law; }));
     });
 }
 
@@ -271,6 +272,12 @@ std::optional<Plainer> plainer_of(const CauseSearch& search, std::size_t i) {
   return Plainer{causes[i], penalised_chi2(v, causes)};
 }
 
+/// Puts it in the place of cause `i`, for good.
+void put_plainer(CauseSearch& search, std::size_t i, const Plainer& plainer) {
+  if (search.causes[i].mechanism != plainer.term.mechanism) search.barred.push_back(search.causes[i].mechanism);
+  search.causes[i] = plainer.term;
+}
+
 /// Causes that say no more than a plainer law does become it. True: some did.
 bool prefer_plainer(CauseSearch& search) {
   bool changed = false;
@@ -282,15 +289,15 @@ bool prefer_plainer(CauseSearch& search) {
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const double own = penalised_chi2(search.step.view, search.causes), earned = penalised_chi2(search.step.view, others) - own;
     if (plainer->chi2 - own > within_alias(earned, search.step.judgement.inflation)) continue;
-    search.causes[i] = plainer->term;
+    put_plainer(search, i, *plainer);
     changed = true;
   }
   return changed;
 }
 
 /// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back, or said by a plainer law: the strongest doubt
-/// first. True: a plainer law took a place.
-bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first) {
+/// first. True: a plainer law took a place (only where `by_plainer`).
+bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first, bool by_plainer) {
   bool changed = false;
   while (!causes.empty()) {
     Explanation now;
@@ -303,20 +310,21 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
       now.causes[i].gain_percent = gains[i].percent;
       now.causes[i].by_fold_percent = gains[i].by_fold_percent;
       if (is_signed(now.causes[i]) && gains[i].percent.low > k_least_low_percent && gains[i].percent.value > k_least_gain_percent) continue;
-      if (auto in_place = plainer ? std::nullopt : plainer_of(search, i))
+      if (auto in_place = plainer || !by_plainer ? std::nullopt : plainer_of(search, i))
         worst = i, plainer = in_place;  // what stands in its place may need the others
       if (!plainer && (worst == causes.size() || gains[i].percent.value < gains[worst].percent.value)) worst = i;
     }
     causes = now.causes;
     if (worst == causes.size()) break;
     if (plainer) {
-      search.causes[worst] = plainer->term;
+      put_plainer(search, worst, *plainer);
       look_again(search);
       for (std::size_t i = 0; i < causes.size(); ++i) causes[i].term = search.causes[i];
       causes[worst].aliases.clear();
       changed = true;
       continue;
     }
+    search.doubted_percent = std::max(search.doubted_percent, causes[worst].gain_percent.value);
     causes.erase(causes.begin() + static_cast<std::ptrdiff_t>(worst));
     search.causes.erase(search.causes.begin() + static_cast<std::ptrdiff_t>(worst));
     search.p_values.erase(search.p_values.begin() + static_cast<std::ptrdiff_t>(worst));
@@ -423,17 +431,18 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     }
   };
   find();
-  bool named = !e.causes.empty();
-  for (int again = 0; again < k_rounds && take_back(search, e.causes, first); ++again) {  // beside a plainer law others may show
+  for (int again = 0; take_back(search, e.causes, first, again < k_rounds); ++again) {  // beside a plainer law others may show
     find();
-    named = named || !e.causes.empty();
   }
   alias_by_shape(e.causes, search);
   drop_named_aliases(e.causes);
   if (one_way) alias_offsets(e.causes);
   put_figures(e, options, first, search.step);
-  if (!e.causes.empty() && e.gain.percent.low <= 0.0) e.causes.clear();
-  if (named && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
+  if (!e.causes.empty() && e.gain.percent.low <= k_least_low_percent) {
+    search.doubted_percent = std::max(search.doubted_percent, e.gain.percent.value);
+    e.causes.clear();
+  }
+  if (search.doubted_percent > k_least_gain_percent && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
   say_what_differs(e, search.motion);
   if (e.causes.empty() && !e.unexplained) e.unexplained = sessions_apart(e);
   drop_lesser_causes(e, search.step);

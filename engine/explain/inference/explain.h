@@ -29,12 +29,12 @@ struct Cause {
   std::vector<RivalFit> rivals;      ///< best first; those that were worth a refit
   std::vector<std::pair<std::string, Interval>> parameters;
   double p_value = 1;
-  double effect_n = 0;                   ///< root mean square of its force
-  Series force_n;                        ///< what it adds, [rows]
-  Interval gain_percent;                 ///< of the error on sessions not seen, by it alone beside the others
-  std::vector<double> by_fold_percent;   ///< the same of each session (or stretch) left out
-  double probability = 0;                ///< that it is a true cause, 0 to 1
-  double set_probability = 0;            ///< that it or one of its aliases is
+  double effect_n = 0;                  ///< root mean square of its force
+  Series force_n;                       ///< what it adds, [rows]
+  Interval gain_percent;                ///< of the error on sessions not seen, by it alone beside the others
+  std::vector<double> by_fold_percent;  ///< the same of each session (or stretch) left out
+  double probability = 0;               ///< that it is a true cause, 0 to 1
+  double set_probability = 0;           ///< that it or one of its aliases is
 };
 
 struct Unexplained {
@@ -49,8 +49,8 @@ struct NotTestable {
 struct Gain {
   double base_rmse_n = 0, extended_rmse_n = 0;  ///< on sessions that the fit had not seen
   double noise_floor_n = 0;
-  Interval percent;          ///< 100 (1 − extended/base)
-  double share_percent = 0;  ///< of what lies between base and noise floor
+  Interval percent;                     ///< 100 (1 − extended/base)
+  double share_percent = 0;             ///< of what lies between base and noise floor
   std::vector<double> by_fold_percent;  ///< of each session (or stretch) left out
 };
 
@@ -75,7 +75,7 @@ struct Explanation {
 struct ExplainOptions {
   std::uint64_t seed = 1;
   std::size_t surrogates = 199;  ///< for each step of the search; 0 = a plain rule instead of the null, for comparison
-  int max_causes = 3;
+  int max_causes = 5;
   const Series* fixed_n = nullptr;       ///< forces of a loaded model, [rows]
   std::function<void(double)> progress;  ///< 0..1
 };

@@ -6,10 +6,10 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_temper = 2.5;                                                            // s: laws fit a little worse than they are
+constexpr double k_temper = 2.5;                                                              // s: laws fit a little worse than they are
 constexpr double k_base = 3.6, k_something_left = -1.6, k_little_gain = -0.8, k_more = -0.4;  // log odds
-constexpr double k_little_percent = 5.0;                                                    // of the error on sessions left out
-constexpr double k_most = 0.99;                                                             // no calibration says more
+constexpr double k_little_percent = 5.0;                                                      // of the error on sessions left out
+constexpr double k_most = 0.99;                                                               // no calibration says more
 
 double set_probability(const Explanation& e, const Cause& c) {
   double odds = k_base + k_more * static_cast<double>(e.causes.size() - 1);

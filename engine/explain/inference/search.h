@@ -16,8 +16,9 @@ inline constexpr double k_alpha = 0.01;
 struct Candidate {
   Hypothesis hypothesis;
   double gain = -1e300;
-  double raw_gain = 0;   ///< without the penalty
-  bool testable = true;  ///< keeps at least 5 % of its norm beside k and c at some point of its grid
+  double raw_gain = 0;                                       ///< without the penalty
+  bool testable = true;                                      ///< keeps at least 5 % of its norm beside k and c at some point of its grid
+  [[nodiscard]] bool fits() const { return gain > -1e299; }  ///< somewhere, with coefficients that make sense
 };
 
 /// What one look finds: a candidate for each of mechanisms(), and the structures.

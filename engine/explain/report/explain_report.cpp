@@ -83,7 +83,9 @@ std::vector<std::string> fold_names(const Explanation& e) {
       out.push_back(fmt::format("part {}", out.size() + 1));
       continue;
     }
-    const auto at = [&](Eigen::Index row) { return std::find_if(sessions.begin(), sessions.end(), [&](const auto& s) { return row < s.end; })->name; };
+    const auto at = [&](Eigen::Index row) {
+      return std::find_if(sessions.begin(), sessions.end(), [&](const auto& s) { return row < s.end; })->name;
+    };
     const std::string first = at(begin), last = at(end - 1);
     out.push_back(first == last ? first : fmt::format("{} to {}", first, last));
   }
