@@ -203,6 +203,7 @@ void alias_offsets(std::vector<Cause>& causes) {
 
 constexpr double k_zero_differs = 0.5;  // of the noise
 constexpr int k_rounds = 2;
+constexpr double k_even_odds = 0.5;
 constexpr double k_least_gain_percent = 1.0, k_least_low_percent = 0.5;  // of the error on sessions left out: less is of no use to anybody
 
 /// Friction that falls with speed is more than friction only where Fs lies above Fc for sure.
@@ -337,6 +338,7 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
 /// Parameters, gain, noise and what is left. `first`: the look without causes.
 void put_figures(Explanation& e, const ExplainOptions& options, const Step& first, const Step& last) {
   set_parameters(e, last.view, last.null, last.judgement.inflation);
+  e.not_testable.clear();
   list_not_testable(e, first.scores.candidates, first.view.scene);
   e.base = {last.view.base_fit.value[0], last.view.base_fit.value[1]};
   e.noise = last.view.noise;
@@ -346,6 +348,22 @@ void put_figures(Explanation& e, const ExplainOptions& options, const Step& firs
   e.candidates = first.scores.candidates;
   e.before = first.view;
   e.after = last.view;
+}
+
+/// Whoever names a cause must think it likelier than not: takes the least likely back where it is not. True: it did.
+bool drop_unlikely(CauseSearch& search, Explanation& e) {
+  set_probabilities(e);
+  const auto least =
+      std::min_element(e.causes.begin(), e.causes.end(), [](const Cause& a, const Cause& b) { return a.set_probability < b.set_probability; });
+  if (least == e.causes.end() || least->set_probability > k_even_odds) return false;
+  const auto at = least - e.causes.begin();
+  search.doubted_percent = std::max(search.doubted_percent, least->gain_percent.value);
+  e.causes.erase(least);
+  search.causes.erase(search.causes.begin() + at);
+  search.p_values.erase(search.p_values.begin() + at);
+  look_again(search);
+  for (std::size_t i = 0; i < e.causes.size(); ++i) e.causes[i].term = search.causes[i];
+  return true;
 }
 
 /// What the first look saw, and the sessions left out did not confirm.
@@ -438,6 +456,10 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   drop_named_aliases(e.causes);
   if (one_way) alias_offsets(e.causes);
   put_figures(e, options, first, search.step);
+  while (drop_unlikely(search, e)) {
+    take_back(search, e.causes, first, false);
+    put_figures(e, options, first, search.step);
+  }
   if (!e.causes.empty() && e.gain.percent.low <= k_least_low_percent) {
     search.doubted_percent = std::max(search.doubted_percent, e.gain.percent.value);
     e.causes.clear();
@@ -448,7 +470,6 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
   conclude(e, one_way);
-  set_probabilities(e);
   compare_with_rig(e, e.recording->rig, e.recording->v_mm_s.size() > 0);
   if (options.progress) options.progress(1.0);
   return e;
