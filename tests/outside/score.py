@@ -53,12 +53,16 @@ def marks(case):
         return m
     a, truth = case["answer"], case["truth"]
     accept = [set(h.get("accept", [])) | ({h["mechanism"]} if h["mechanism"] else set()) for h in truth["hidden"]]
-    always = {"noise_hum": "interference", "noise_ring": "ringing"}  # causes of their own, whatever the generator calls them
+    # causes of their own, whatever the generator calls them: a force ahead of the position is a position that comes late
+    always = {"noise_hum": "interference", "mains": "interference", "noise_ring": "ringing", "force_ahead": "position_late", "position_late": "position_late", "position_filtered": "position_late"}
     allowed = {name for part, name in always.items() if part in case["family"]}.union(*accept, *(set(x if isinstance(x, list) else [x]) for x in truth.get("accept_any", [])))
     causes = a.get("causes", [])
     m["causes"] = len(causes)
+    m["stated"] = sum(c.get("set_probability", 0.0) for c in causes)
     m["true"] = sum(1 for c in causes if names(c) & allowed)
-    hidden = [s for s in accept if s]
+    accept = [s | {name for part, name in always.items() if part in case["family"]} for s in accept if s]
+    sizes = [h.get("size", case["size"]) for h in truth["hidden"] if h.get("accept") or h["mechanism"]]
+    hidden = [s for s, size in zip(accept, sizes) if size >= 0.3 * case["size"]]  # of two that were hidden the lesser may be far below the size asked for
     m["hidden"] = len(hidden)
     m["found"] = sum(1 for s in hidden if any(names(c) & s for c in causes))
     m["exact"] = sum(1 for h in truth["hidden"] if any(c["mechanism"] == h["mechanism"] and not c["aliases"] for c in causes))

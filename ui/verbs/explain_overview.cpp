@@ -61,13 +61,16 @@ Series running_time_s(const Recording& r) {
 
 }  // namespace
 
-bool ReadingArgs::empty() const { return columns.empty() && units.empty() && negate.empty() && surface->count() == 0 && lever->count() == 0; }
+bool ReadingArgs::empty() const {
+  return columns.empty() && units.empty() && negate.empty() && !as_it_is && surface->count() == 0 && lever->count() == 0;
+}
 
 void add_reading_options(CLI::App& verb, ReadingArgs& args) {
   verb.add_option("--column", args.columns, "NAME=COLUMN: the file calls NAME (t, x, v, f, session, ...) something else; may be repeated");
   verb.add_option("--unit", args.units,
                   "NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated");
   verb.add_option("--negate", args.negate, "x, v or f: the file counts it the other way; may be repeated");
+  verb.add_flag("--as-it-is", args.as_it_is, "signs and origin are as the contract has them, whatever they look like");
   args.surface = verb.add_option("--surface-mm", args.surface_mm, "where the surface is in the file's positions")->check(CLI::Range(-1e6, 1e6));
   args.lever =
       verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(CLI::Range(1e-3, 1e5));

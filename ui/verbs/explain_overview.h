@@ -14,6 +14,7 @@ namespace cavum::ui {
 struct ReadingArgs {
   std::vector<std::string> columns, units, negate;
   double surface_mm = 0.0, lever_mm = 0.0;
+  bool as_it_is = false;
   CLI::Option *surface = nullptr, *lever = nullptr;
   /// None of them is given.
   [[nodiscard]] bool empty() const;

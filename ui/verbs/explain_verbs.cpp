@@ -89,7 +89,7 @@ void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
 /// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
 void require_conventions(const ExplainArgs& a, explain::Recording& recording) {
   try {
-    for (std::string& doubt : explain::require_conventions(recording, a.data)) recording.notes.push_back(std::move(doubt));
+    for (std::string& doubt : explain::require_conventions(recording, a.data, a.reading.as_it_is)) recording.notes.push_back(std::move(doubt));
   } catch (const Error& refused) {
     explain::Explanation said;
     said.verdict = "data_fault";

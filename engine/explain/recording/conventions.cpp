@@ -205,19 +205,20 @@ Conventions judge_conventions(const Recording& r) {
   return out;
 }
 
-std::vector<std::string> require_conventions(const Recording& r, const std::string& where) {
+std::vector<std::string> require_conventions(const Recording& r, const std::string& where, bool as_it_is) {
   const Conventions found = judge_conventions(r);
   std::vector<std::string> notes;
   for (const Doubt& d : found.doubts)
-    if (!d.clear) notes.push_back(fmt::format("doubt: {}; give {}", d.what, d.options));
-  if (found.first_clear() == nullptr) return notes;
+    if (!d.clear || as_it_is) notes.push_back(fmt::format("doubt: {}; give {}", d.what, d.options));
+  if (as_it_is || found.first_clear() == nullptr) return notes;
   std::string what, options;
   for (const Doubt& d : found.doubts)
     if (d.clear) {
       what += fmt::format("{}{}", what.empty() ? "" : "; ", d.what);
       options += fmt::format("{}{}", options.empty() ? "" : " ", d.options);
     }
-  throw Error(where, what, fmt::format("give {}, or look first with --dry-run", options));
+  throw Error(where, what,
+              fmt::format("give {}, or --as-it-is where nothing is to be turned (a joint in air may look so); look first with --dry-run", options));
 }
 
 }  // namespace cavum::explain

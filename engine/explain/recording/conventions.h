@@ -34,7 +34,7 @@ struct Conventions {
 
 /// Looks at no more than 200,000 rows, evenly spaced. Nothing is judged below 50 rows.
 [[nodiscard]] Conventions judge_conventions(const Recording& recording);
-/// Throws Error(where, what, options) when a doubt is clear; the others in words, as notes.
-[[nodiscard]] std::vector<std::string> require_conventions(const Recording& recording, const std::string& where);
+/// Throws Error(where, what, options) when a doubt is clear and nobody said that all is well (`as_it_is`); the others in words, as notes.
+[[nodiscard]] std::vector<std::string> require_conventions(const Recording& recording, const std::string& where, bool as_it_is = false);
 
 }  // namespace cavum::explain

@@ -41,6 +41,8 @@ TEST(Conventions, CompressionThatIsNegativeIsToldWithItsOption) {
   r.f_n = -r.f_n;
   EXPECT_EQ(proposed(r), "--negate f");
   EXPECT_THROW(static_cast<void>(require_conventions(r, "r.csv")), Error);
+  const std::vector<std::string> as_it_is = require_conventions(r, "r.csv", true);
+  EXPECT_TRUE(as_it_is.size() == 1 && as_it_is[0].starts_with("doubt: ")) << "the user's word goes before ours, and is not forgotten";
 }
 
 TEST(Conventions, APositionThatGrowsOutOfTheMaterialIsToldWithItsSpeed) {
