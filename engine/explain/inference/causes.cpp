@@ -5,7 +5,6 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_alias_chi2 = 10.0;    // a rival this close fits as well
 constexpr double k_worth_saying = 0.14;  // of the noise: less would lower the error by under 1 %, and is the motion's own error as likely as not
 constexpr double k_worth_refining = 0.4;
 constexpr std::size_t k_refined = 5;
@@ -175,7 +174,7 @@ void look_again(CauseSearch& s) {
 }
 
 std::optional<Unexplained> add_causes(CauseSearch& search) {
-  std::optional<Doubt> doubt;  // of all that follows
+  std::optional<Doubt> doubt;
   while (true) {
     const Step& step = search.step;
     const std::vector<const Candidate*> found = improbable(search);

@@ -18,8 +18,10 @@ struct Step {
   Judgement judgement;
 };
 
+inline constexpr double k_alias_chi2 = 10.0;  ///< a rival this close fits as well, in noise that is what it seems
+
 /// How far in chi² one explanation may be behind another that earned `earned`, and count as fitting as well.
-[[nodiscard]] inline double within_alias(double earned, double inflation) { return 10.0 * inflation + 0.003 * earned; }
+[[nodiscard]] inline double within_alias(double earned, double inflation) { return k_alias_chi2 * inflation + 0.003 * earned; }
 
 /// What is known so far. `recording` and `options` must outlive it.
 struct CauseSearch {
