@@ -75,7 +75,7 @@ std::string svg(const Chart& chart) { return svg_page(chart.width_px, chart.heig
 /// How much of the residual goes with `u`: variance of the means over it.
 double strength(const View& before, const Series& u) {
   double sum = 0.0;
-  const auto means = binned(u, before.residual_n);
+  const auto means = binned(u, *before.residual_n);
   for (const auto& p : means) sum += p.y * p.y;
   return means.empty() ? 0.0 : sum / static_cast<double>(means.size());
 }
@@ -84,7 +84,7 @@ double strength(const View& before, const Series& u) {
 double residual_scale(const View& before, const std::vector<std::pair<std::string, const Series*>>& suspects) {
   double most = 1e-6;
   for (const auto& s : suspects)
-    for (const auto& p : binned(*s.second, before.residual_n)) most = std::max(most, std::fabs(p.y) + p.error);
+    for (const auto& p : binned(*s.second, *before.residual_n)) most = std::max(most, std::fabs(p.y) + p.error);
   return 1.15 * most;
 }
 
@@ -96,7 +96,7 @@ std::string residual_chart(const View& before, const View& after, const std::str
   c.y_range = {-scale, scale * 1.35};
   c.height_px = 330;
   const Series shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
-  const auto first = binned(shown, before.residual_n), last = binned(shown, after.residual_n);
+  const auto first = binned(shown, *before.residual_n), last = binned(shown, *after.residual_n);
   c.series.push_back({"before", k_before, Style::dots, first, 1.8});
   c.series.push_back({"after", k_after, Style::rings, last, 1.8});
   if (!first.empty()) c.series.push_back({"", "#333333", Style::line, {{first.front().x, 0, 0}, {first.back().x, 0, 0}}, 0.8});
@@ -107,8 +107,8 @@ constexpr double k_stretch_s = 12.0;
 
 /// Row at which the stretch begins in which the causes change most; where they change nothing, in which the force is largest.
 Eigen::Index telling_stretch(const View& before, const View& after) {
-  const auto& r = *before.scene.recording;
-  const Series change = (after.model_n - before.model_n).square() + 1e-6 * before.force_n.square();
+  const auto& r = *before.scene->recording;
+  const Series change = (*after.model_n - *before.model_n).square() + 1e-6 * before.force_n->square();
   double most = -1.0;
   Eigen::Index best = 0;
   for (const auto& s : r.sessions) {
@@ -125,7 +125,7 @@ Eigen::Index telling_stretch(const View& before, const View& after) {
 
 /// Measured and simulated over the most telling 12 s, and the residual below.
 std::string force_charts(const View& before, const View& after) {
-  const auto& r = *before.scene.recording;
+  const auto& r = *before.scene->recording;
   const Eigen::Index begin = telling_stretch(before, after);
   const auto session = std::find_if(r.sessions.begin(), r.sessions.end(), [&](const auto& s) { return begin >= s.begin && begin < s.end; });
   Chart c, d;
@@ -149,13 +149,13 @@ std::string force_charts(const View& before, const View& after) {
   double highest = 1e-9, lowest = 0.0;
   for (Eigen::Index i = session->begin; i < session->end; i += stride) {
     if (r.t_s[i] < from || r.t_s[i] > to) continue;
-    measured.points.push_back({r.t_s[i], before.force_n[i]});
-    first.points.push_back({r.t_s[i], before.model_n[i]});
-    last.points.push_back({r.t_s[i], after.model_n[i]});
-    left.points.push_back({r.t_s[i], before.residual_n[i]});
-    rest.points.push_back({r.t_s[i], after.residual_n[i]});
-    highest = std::max({highest, before.force_n[i], before.model_n[i], after.model_n[i]});
-    lowest = std::min({lowest, before.force_n[i], before.model_n[i], after.model_n[i]});
+    measured.points.push_back({r.t_s[i], (*before.force_n)[i]});
+    first.points.push_back({r.t_s[i], (*before.model_n)[i]});
+    last.points.push_back({r.t_s[i], (*after.model_n)[i]});
+    left.points.push_back({r.t_s[i], (*before.residual_n)[i]});
+    rest.points.push_back({r.t_s[i], (*after.residual_n)[i]});
+    highest = std::max({highest, (*before.force_n)[i], (*before.model_n)[i], (*after.model_n)[i]});
+    lowest = std::min({lowest, (*before.force_n)[i], (*before.model_n)[i], (*after.model_n)[i]});
   }
   if (after.causes.empty()) {
     first.label = "simulated";
@@ -211,13 +211,13 @@ std::string next_box(const std::string& words) { return fmt::format("<h2>The nex
 std::pair<std::string, Series> seen_over(const explain::Cause& c, const View& after) {
   const char* over = explain::mechanism_at(c.term.mechanism).seen_over;
   const std::string name = over != nullptr ? over : "";
-  const auto& motion = after.scene.motion;
-  if (name == "x_mm") return {name, motion.x_mm};
-  if (name == "v_mm_s") return {name, motion.v_mm_s};
-  if (name == "a_mm_s2") return {name, motion.a_mm_s2};
-  if (name == "t_s") return {name, after.scene.recording->t_s};
-  if (name == "simulated_n") return {name, after.scene.force_n};
-  if (const Series* column = name.empty() ? nullptr : after.scene.recording->column(name)) return {name, *column};
+  const auto& motion = after.scene->motion;
+  if (name == "x_mm") return {name, motion->x_mm};
+  if (name == "v_mm_s") return {name, motion->v_mm_s};
+  if (name == "a_mm_s2") return {name, motion->a_mm_s2};
+  if (name == "t_s") return {name, after.scene->recording->t_s};
+  if (name == "simulated_n") return {name, after.scene->force_n};
+  if (const Series* column = name.empty() ? nullptr : after.scene->recording->column(name)) return {name, *column};
   return {"force of the cause, N", c.force_n};
 }
 
@@ -229,7 +229,7 @@ std::string cause_chart(const explain::Cause& c, const View& after) {
   chart.x_label = axis_label(name);
   chart.y_label = "force, N";
   chart.height_px = 330;
-  const Series left = after.residual_n + c.force_n, shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
+  const Series left = *after.residual_n + c.force_n, shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
   const auto data = binned(shown, left), law = binned(shown, c.force_n);
   double low = 0.0, high = 1e-9;
   for (const auto* points : {&data, &law})
@@ -335,7 +335,7 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
               e.base.c_n_s_per_mm, e.c.low, e.c.high));
   out += next_box(e.next_experiment);
   if (e.before && e.after) {
-    const auto& scene = e.before->scene;
+    const auto& scene = *e.before->scene;
     out += "<h2>Measured against simulated</h2>\n" + force_charts(*e.before, *e.after);
     out +=
         "<h2>The residual against each suspect</h2>\n<p>What moves the residual most comes first. Means over equal shares of the rows with two "
@@ -343,7 +343,7 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
         "scale.</p>\n<div "
         "class=\"pair\">\n";
     std::vector<std::pair<std::string, const Series*>> suspects{
-        {"x_mm", &scene.motion.x_mm}, {"v_mm_s", &scene.motion.v_mm_s}, {"t_s", &scene.recording->t_s}};
+        {"x_mm", &scene.motion->x_mm}, {"v_mm_s", &scene.motion->v_mm_s}, {"t_s", &scene.recording->t_s}};
     for (const auto& [name, u] : scene.recording->columns)
       if (u.maxCoeff() > u.minCoeff()) suspects.emplace_back(name, &u);
     std::stable_sort(suspects.begin(), suspects.end(),

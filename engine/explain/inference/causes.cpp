@@ -1,41 +1,52 @@
 #include "engine/explain/inference/causes.h"
 
+#include <malloc.h>
+
 #include <algorithm>
+#include <cmath>
+
+#include "engine/statistics/independent_runs.h"
 
 namespace cavum::explain {
 namespace {
 
 constexpr double k_worth_saying = 0.14;  // of the noise: less would lower the error by under 1 %, and is the motion's own error as likely as not
+constexpr double k_worth_adding = 0.1;   // of the noise: a force that lowers the error by half a percent
 constexpr double k_worth_refining = 0.4;
 constexpr std::size_t k_refined = 5;
 constexpr double k_gone = 0.1;  // of a structure's gain: the rest, when the causes found explain it
 
-Step look(const Recording& r, const Motion& motion, std::vector<Term>& causes, const ExplainOptions& o) {
-  ViewOptions options;
-  options.fixed_n = o.fixed_n;
+Step look(const Recording& r, const Shared<Motion>& motion, std::vector<Term>& causes, const ExplainOptions& o) {
+  malloc_trim(0);  // the table of columns takes most of the memory, and long
   if (!causes.empty()) {
-    options.products = false;
-    causes = refine(make_view(r, motion, causes, {}, options), causes, 1);
-    options.products = true;
+    const View v = make_view(r, motion, causes, o.fixed_n);
+    TermFits fits(v);
+    causes = refine(fits, causes, 1);
   }
-  Step s{make_view(r, motion, causes, {}, options), {}, {}, {}};
+  Step s{make_view(r, motion, causes, o.fixed_n), {}, {}, {}};
+  find_lines(s.view);
+  std::optional<Surrogates> surrogates;
+  if (o.surrogates > 0) surrogates.emplace(s.view, o.seed * 1000003ULL + causes.size());  // before the table, for they take memory too
+  add_products(s.view);
+  malloc_trim(0);
   s.scores = scores_of(s.view);
-  s.null = null_of(s.view, o.surrogates, o.seed * 1000003ULL + causes.size());
+  if (surrogates) s.null = null_of(s.view, *surrogates, o.surrogates);
   s.judgement = judge(s.view, s.null);
   s.view.white.reset();
+  malloc_trim(0);
   return s;
 }
 
 /// Where a cause has taken the place of one that was not yet known, its shape is somewhere else once that is: each is tried anew over its grid.
-std::vector<Term> restarted(const View& v, std::vector<Term> causes) {
-  double least = fit_terms(v, causes).chi2;
+std::vector<Term> restarted(TermFits& fits, std::vector<Term> causes) {
+  double least = fits.fit(causes).chi2;
   for (std::size_t i = 0; i + 1 < causes.size(); ++i) {
     const Mechanism& m = mechanism_at(causes[i].mechanism);
     if (m.shape.empty() || m.from_residual) continue;
-    for (const auto& shape : starts(m, v.scene)) {
+    for (const auto& shape : starts(m, *fits.view().scene)) {
       auto trial = causes;
       trial[i].shape = shape;
-      if (const double chi2 = fit_terms(v, trial).chi2; chi2 < least) least = chi2, causes = trial;
+      if (const double chi2 = fits.fit(trial).chi2; chi2 < least) least = chi2, causes = trial;
     }
   }
   return causes;
@@ -48,35 +59,40 @@ struct Rival {
   Eigen::Index parameters = 0;
 };
 
-/// Candidates worth it, refined beside the known causes; best first.
+/// `c` refined beside the known causes; without causes when it makes no sense there.
+Rival refined(const View& v, const std::vector<Term>& others, const Candidate& c) {
+  TermFits fits(v);
+  std::vector<Term> begin{start_of(fits, others, c)};
+  const Mechanism& m = mechanism_at(c.hypothesis.term.mechanism);
+  if (m.simpler)
+    if (auto simpler = m.simpler(begin[0].shape); !simpler.empty()) begin.push_back({begin[0].mechanism, std::move(simpler)});
+  Rival best;
+  best.chi2 = 1e300;
+  for (const auto& start : begin) {
+    std::vector<Term> causes = others;
+    causes.push_back(start);
+    causes = refine(fits, causes, start.shape.size() > 1 ? 2 : 1, others.size());
+    if (!others.empty()) causes = refine(fits, restarted(fits, causes), 1);  // all together, or the first takes a part of the second
+    const View own_contact = without_pulling(v, causes);
+    TermFits in_contact(own_contact);
+    causes = refine(in_contact, causes, 1, others.size());
+    const FitResult fitted = in_contact.fit(causes);
+    const auto own = m.columns(*v.scene, causes.back().shape).own.size();
+    if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
+    const double chi2 = penalised_chi2(in_contact, causes);
+    if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), *v.scene)};
+  }
+  return best;
+}
+
+/// Candidates worth it, refined; best first.
 std::vector<Rival> rivals_of(const View& v, const std::vector<Term>& others, std::vector<const Candidate*> candidates) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
-  std::vector<Rival> out;
-  for (const auto* c : candidates) {
-    if (out.size() >= k_refined || (c != candidates.front() && c->gain < k_worth_refining * candidates.front()->gain)) break;
-    View beside = v;
-    beside.causes = others;
-    std::vector<Term> begin{start_of(beside, *c)};
-    const Mechanism& m = mechanism_at(c->hypothesis.term.mechanism);
-    if (m.simpler)
-      if (auto simpler = m.simpler(begin[0].shape); !simpler.empty()) begin.push_back({begin[0].mechanism, std::move(simpler)});
-    Rival best;
-    best.chi2 = 1e300;
-    for (const auto& start : begin) {
-      std::vector<Term> causes = others;
-      causes.push_back(start);
-      causes = refine(v, causes, start.shape.size() > 1 ? 2 : 1, others.size());
-      if (!others.empty()) causes = refine(v, restarted(v, causes), 1);  // all together, or the first takes a part of the second
-      const View own_contact = without_pulling(v, causes);
-      causes = refine(own_contact, causes, 1, others.size());
-      const FitResult fitted = fit_terms(own_contact, causes);
-      const auto own = m.columns(v.scene, causes.back().shape).own.size();
-      if (!makes_sense(m, fitted.value.data() + fitted.value.size() - static_cast<Eigen::Index>(own), own)) continue;
-      const double chi2 = penalised_chi2(own_contact, causes);
-      if (chi2 < best.chi2) best = {causes, start.mechanism, chi2, parameters_of(causes.back(), v.scene)};
-    }
-    if (!best.causes.empty()) out.push_back(best);
-  }
+  std::size_t worth = 0;
+  while (worth < std::min(k_refined, candidates.size()) && (worth == 0 || candidates[worth]->gain >= k_worth_refining * candidates[0]->gain)) ++worth;
+  std::vector<Rival> out(worth);
+  independent_runs(worth, [&](std::size_t i) { out[i] = refined(v, others, *candidates[i]); });
+  std::erase_if(out, [](const Rival& r) { return r.causes.empty(); });
   std::sort(out.begin(), out.end(), [](const Rival& a, const Rival& b) { return a.chi2 < b.chi2; });
   return out;
 }
@@ -153,6 +169,12 @@ std::vector<Rival> rivals_in_place(const CauseSearch& search, std::size_t i, con
   return worth.empty() ? std::vector<Rival>{} : rivals_of(rest, others, worth);
 }
 
+/// Root mean square of what the force of the model changes by from one set of causes to another.
+double effect_n(TermFits& fits, const std::vector<Term>& from, const std::vector<Term>& to) {
+  const Scene& scene = *fits.view().scene;
+  return std::sqrt((force_of(scene, to, fits.fit(to).value) - force_of(scene, from, fits.fit(from).value)).square().mean());
+}
+
 /// The rival that fits better in the place of cause `i`; null: none does.
 const Rival* better_one(const CauseSearch& search, std::size_t i, const std::vector<Rival>& rivals, double with) {
   for (const auto& r : rivals)
@@ -169,6 +191,7 @@ CauseSearch begin_search(const Recording& recording, const ExplainOptions& optio
 }
 
 void look_again(CauseSearch& s) {
+  s.step = {};  // before the next takes as much memory
   s.step = look(s.recording, s.motion, s.causes, s.options);
   if (s.done) s.done();
 }
@@ -181,14 +204,18 @@ std::optional<Unexplained> add_causes(CauseSearch& search) {
     const Structure* structure = improbable_structure(step);
     const bool full = static_cast<int>(search.causes.size()) >= search.options.max_causes;
     if (found.empty() || full) return ended(search, std::move(doubt));
-    const auto rivals = rivals_of(step.view, search.causes, found);
+    std::optional<TermFits> fits(step.view);
+    auto rivals = rivals_of(step.view, search.causes, found);
     if (rivals.empty()) return doubt ? ended(search, std::move(doubt)) : std::nullopt;
-    const double before = penalised_chi2(step.view, search.causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
+    std::erase_if(rivals, [&](const Rival& r) { return effect_n(*fits, search.causes, r.causes) < k_worth_adding * step.view.noise.sd_n; });
+    if (rivals.empty()) return ended(search, std::move(doubt));
+    const double before = penalised_chi2(*fits, search.causes) + k_parameter_penalty;  // the first parameter of a cause is free of penalty
     const double gain = before - rivals.front().chi2;
     if (gain < k_alias_chi2) return doubt ? ended(search, std::move(doubt)) : std::nullopt;
     if (!doubt && structure != nullptr && beats_mechanisms(*structure, gain, step)) doubt = Doubt{search.causes, search.p_values, step, *structure};
     const auto at = static_cast<std::size_t>(rivals.front().mechanism);
-    search.causes = refine(step.view, rivals.front().causes, 1);
+    search.causes = refine(*fits, rivals.front().causes, 1);
+    fits.reset();
     search.p_values.push_back(step.judgement.p_value[at]);
     look_again(search);
   }
@@ -200,13 +227,15 @@ bool weigh_causes(CauseSearch& search, std::vector<Cause>& weighed) {
   for (std::size_t i = 0; i < causes.size();) {
     auto others = causes;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const double with = penalised_chi2(search.step.view, causes);
-    const double earned = penalised_chi2(search.step.view, others) + k_parameter_penalty - with;
+    std::optional<TermFits> fits(search.step.view);
+    const double with = penalised_chi2(*fits, causes);
+    const double earned = penalised_chi2(*fits, others) + k_parameter_penalty - with;
     const double inflation = search.step.judgement.inflation;
     if (causes.size() > 1 && earned < 2.0 * k_alias_chi2 * inflation) {
       causes = others;
       search.p_values.erase(search.p_values.begin() + static_cast<std::ptrdiff_t>(i));
       changed = true;
+      fits.reset();
       look_again(search);
       continue;
     }
@@ -217,12 +246,12 @@ bool weigh_causes(CauseSearch& search, std::vector<Cause>& weighed) {
       causes[i] = better->causes.back();
       changed = true;
     }
-    const double own = penalised_chi2(search.step.view, causes);
+    const double own = penalised_chi2(*fits, causes);
     for (const auto& r : rivals)
       if (law_of(r.mechanism) != law_of(causes[i].mechanism)) cause.rivals.push_back({mechanism_at(r.mechanism).name, r.chi2 - own});
     for (const auto& r : rivals)
       if (r.mechanism != causes[i].mechanism && r.chi2 - own < within_alias(earned, inflation) &&
-          r.parameters <= parameters_of(causes[i], search.step.view.scene))
+          r.parameters <= parameters_of(causes[i], *search.step.view.scene))
         cause.aliases.emplace_back(mechanism_at(r.mechanism).name);
     cause.term = causes[i];
     weighed.push_back(cause);

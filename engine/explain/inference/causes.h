@@ -28,7 +28,7 @@ struct CauseSearch {
   const Recording& recording;
   const ExplainOptions& options;
   std::function<void()> done;  ///< called after each look
-  Motion motion;
+  Shared<Motion> motion;
   std::vector<Term> causes;
   std::vector<double> p_values;  ///< of causes
   std::vector<int> barred;       ///< mechanisms that said no more than a plainer one

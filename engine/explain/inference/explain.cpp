@@ -36,13 +36,14 @@ bool alias_needs_reversal(const std::string& name) { return needs_reversal(mecha
 
 /// What needs a reversal to be known, as the plain offset that fits best in its place.
 Term as_offset(const View& v, std::vector<Term> causes, std::size_t i) {
+  TermFits fits(v);
   Term best = causes[i];
   double least = 1e300;
   for (std::size_t at = 0; at < mechanisms().size(); ++at)
     if (const Mechanism& m = mechanisms()[at]; is_offset(m))
-      for (auto& shape : starts(m, v.scene)) {
+      for (auto& shape : starts(m, *v.scene)) {
         causes[i] = {static_cast<int>(at), shape};
-        if (const double chi2 = penalised_chi2(v, causes); chi2 < least) least = chi2, best = causes[i];
+        if (const double chi2 = penalised_chi2(fits, causes); chi2 < least) least = chi2, best = causes[i];
       }
   return best;
 }
@@ -98,11 +99,11 @@ void conclude(Explanation& e, bool one_way) {
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
 void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   constexpr double k_told = 0.1, k_known = 0.2;  // relative: said, and more than a rig is off by that was calibrated
-  if (e.verdict == "data_fault" || e.after->scene.touching.maxCoeff() < 0.5) return;
+  if (e.verdict == "data_fault" || e.after->scene->touching.maxCoeff() < 0.5) return;
   if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
     e.verdict = "unexplained";
     e.unexplained =
-        Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+        Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
     return;
   }
   if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0 || e.recording->relative_k.size() > 0) return;
@@ -117,7 +118,7 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   if (k_off) {
     e.verdict = "unexplained";
     e.unexplained = Unexplained{"x_mm", "k differs from that of rig.toml",
-                                std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene.spring_mm.square().mean())};
+                                std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
     e.next_experiment = "press a spring of known stiffness, and hang known weights on the load cell";
     return;
   }
@@ -125,7 +126,7 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   if (speed_known || c <= 0.0) {  // no clock does that
     e.verdict = "unexplained";
     e.unexplained = Unexplained{"v_mm_s", "c differs from that of rig.toml",
-                                std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene.damper_mm_s.square().mean())};
+                                std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene->damper_mm_s.square().mean())};
     if (c < 1.0)
       e.notes.push_back(fmt::format("a lag of {} s of the force (delay or low_pass) takes as much from c: k and c alone cannot tell",
                                     plain_number((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm)));
@@ -173,7 +174,7 @@ void alias_by_shape(std::vector<Cause>& causes, const CauseSearch& search) {
           name != nullptr && std::find(cause.aliases.begin(), cause.aliases.end(), name) == cause.aliases.end())
         cause.aliases.emplace_back(name);
     const char* other = mechanism_of(cause.term).like_when_short;
-    if (is_too_short_to_tell(cause.term, search.motion, search.motion.speed_sd_mm_s > 0.0) &&
+    if (is_too_short_to_tell(cause.term, *search.motion, search.motion->speed_sd_mm_s > 0.0) &&
         std::find(cause.aliases.begin(), cause.aliases.end(), other) == cause.aliases.end())
       cause.aliases.emplace_back(other);
   }
@@ -254,23 +255,24 @@ std::optional<Plainer> plainer_of(const CauseSearch& search, std::size_t i) {
     const int at = name != nullptr ? known_mechanism(name) : -1;
     for (std::size_t c = 0; c < search.causes.size(); ++c)
       if (at < 0 || (c != i && law_of(search.causes[c].mechanism) == law_of(at))) return;
-    for (auto& shape : starts(mechanism_at(at), v.scene)) begin.push_back({at, shape});
+    for (auto& shape : starts(mechanism_at(at), *v.scene)) begin.push_back({at, shape});
   };
   add_law(m.plainer);
   add_law(m.same_as ? m.same_as(term.shape) : nullptr);
   if (m.simpler)
     if (auto shape = m.simpler(term.shape); !shape.empty()) begin.push_back({term.mechanism, std::move(shape)});
+  TermFits fits(v);
   std::optional<Plainer> best;
   for (const auto& start : begin) {
     auto causes = search.causes;
     causes[i] = start;
-    if (const double chi2 = penalised_chi2(v, causes); !best || chi2 < best->chi2) best = Plainer{start, chi2};
+    if (const double chi2 = penalised_chi2(fits, causes); !best || chi2 < best->chi2) best = Plainer{start, chi2};
   }
   if (!best) return best;
   auto causes = search.causes;
   causes[i] = best->term;
-  causes = refine(v, causes, 1);
-  return Plainer{causes[i], penalised_chi2(v, causes)};
+  causes = refine(fits, causes, 1);
+  return Plainer{causes[i], penalised_chi2(fits, causes)};
 }
 
 /// Puts it in the place of cause `i`, for good.
@@ -288,7 +290,8 @@ bool prefer_plainer(CauseSearch& search) {
     if (!plainer) continue;
     auto others = search.causes;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const double own = penalised_chi2(search.step.view, search.causes), earned = penalised_chi2(search.step.view, others) - own;
+    TermFits fits(search.step.view);
+    const double own = penalised_chi2(fits, search.causes), earned = penalised_chi2(fits, others) - own;
     if (plainer->chi2 - own > within_alias(earned, search.step.judgement.inflation)) continue;
     put_plainer(search, i, *plainer);
     changed = true;
@@ -339,7 +342,7 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
 void put_figures(Explanation& e, const ExplainOptions& options, const Step& first, const Step& last) {
   set_parameters(e, last.view, last.null, last.judgement.inflation);
   e.not_testable.clear();
-  list_not_testable(e, first.scores.candidates, first.view.scene);
+  list_not_testable(e, first.scores.candidates, *first.view.scene);
   e.base = {last.view.base_fit.value[0], last.view.base_fit.value[1]};
   e.noise = last.view.noise;
   e.spread = last.view.spread;
@@ -396,7 +399,7 @@ std::optional<Unexplained> sessions_apart(const Explanation& e) {
   if (e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
     return Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
   const double late_n =
-      e.spread[k_lateness] * std::sqrt(e.after->effects.col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects.rows()));
+      e.spread[k_lateness] * std::sqrt(e.after->effects->col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects->rows()));
   if (late_n > k_zero_differs * e.noise.sd_n)
     return Unexplained{"session", "a lateness of the force, or c, that differs from session to session", late_n};
   return std::nullopt;
@@ -417,7 +420,7 @@ void drop_lesser_causes(Explanation& e, const Step& last) {
   double left = 0.0;
   for (const auto& s : e.structures)
     if (s.variable == e.unexplained->variable) left = s.gain;
-  const double explained = fit(last.view.products, {}).chi2 - fit(last.view.products, known_of(last.view)).chi2;
+  const double explained = fit(*last.view.products, {}).chi2 - fit(*last.view.products, known_of(last.view)).chi2;
   if (left > explained) e.causes.clear();
 }
 
@@ -434,7 +437,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
 
   CauseSearch search = begin_search(*e.recording, options, done);
   const Step first = search.step;
-  const bool one_way = moves_one_way(search.motion);
+  const bool one_way = moves_one_way(*search.motion);
   const auto find = [&] {
     for (int again = 0; again <= k_rounds; ++again) {
       e.unexplained = add_causes(search);
@@ -465,7 +468,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     e.causes.clear();
   }
   if (search.doubted_percent > k_least_gain_percent && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
-  say_what_differs(e, search.motion);
+  say_what_differs(e, *search.motion);
   if (e.causes.empty() && !e.unexplained) e.unexplained = sessions_apart(e);
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);

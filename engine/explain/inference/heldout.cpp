@@ -25,14 +25,14 @@ std::vector<Term> search_without(const View& view, const Null& null, int fold, i
       if (candidates[m].testable && j.p_value[m] < k_alpha && candidates[m].gain > 0.0) found.emplace_back(-candidates[m].gain, &candidates[m]);
     if (found.empty()) break;
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    double least = penalised_chi2(now, causes) - k_least_earned * (step > 0 ? 2.0 * j.inflation : 1.0);  // as the search with all sessions asks
+    TermFits fits(now);
+    double least = penalised_chi2(fits, causes) - k_least_earned * (step > 0 ? 2.0 * j.inflation : 1.0);  // as the search with all sessions asks
     std::vector<Term> best;
     for (std::size_t i = 0; i < std::min(k_rivals, found.size()); ++i) {
       std::vector<Term> trial = causes;
-      now.causes = causes;
-      trial.push_back(start_of(now, *found[i].second));
-      trial = refine(now, trial, 1);
-      const double chi2 = penalised_chi2(now, trial);
+      trial.push_back(start_of(fits, causes, *found[i].second));
+      trial = refine(fits, trial, 1);
+      const double chi2 = penalised_chi2(fits, trial);
       if (chi2 < least) least = chi2, best = trial;
     }
     if (best.empty()) break;
@@ -55,14 +55,14 @@ void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index
   Eigen::Index at = 2;
   for (const auto& term : causes) {
     const Mechanism& m = mechanism_at(term.mechanism);
-    const Columns c = m.columns(view.scene, term.shape);
+    const Columns c = m.columns(*view.scene, term.shape);
     const auto count = static_cast<Eigen::Index>(c.own.size()), first = at;
     at += count;
     if (!m.by_session || count <= 2) continue;
     double amplitude = 0.0, others = 0.0;
     for (Eigen::Index i = 0; i + 1 < count; i += 2)
       if (const double a = std::hypot(value[first + i], value[first + i + 1]); a > 0.0) amplitude += a, others += 1.0;
-    const Series left = (view.force_n - force_of(view.scene, causes, value)).segment(begin, end - begin);
+    const Series left = (*view.force_n - force_of(*view.scene, causes, value)).segment(begin, end - begin);
     for (Eigen::Index i = 0; i + 1 < count && others > 0.0; i += 2) {
       const Series sine = c.own[static_cast<std::size_t>(i)].segment(begin, end - begin),
                    cosine = c.own[static_cast<std::size_t>(i + 1)].segment(begin, end - begin);
@@ -82,18 +82,18 @@ class Folds {
   [[nodiscard]] View without(std::size_t fold) const {
     View out = first_;
     const auto [begin, end] = first_.folds[fold];
-    out.robust.segment(begin, end - begin) = 0.0;
+    out.robust.change().segment(begin, end - begin) = 0.0;
     return out;
   }
   [[nodiscard]] double error2(const View& masked, std::size_t fold, const std::vector<Term>& terms) const {
     const auto [begin, end] = first_.folds[fold];
     const View seen = terms.empty() ? masked : without_pulling(masked, terms);
-    Eigen::VectorXd value = fit_terms(seen, terms).value;
+    Eigen::VectorXd value = TermFits(seen).fit(terms).value;
     fill_phases(seen, terms, begin, end, value);
-    Series left = first_.force_n - force_of(seen.scene, terms, value);
+    Series left = *first_.force_n - force_of(*seen.scene, terms, value);
     Series z = left;
     white_.apply(z);
-    left -= session_force_n(*first_.scene.recording, first_.effects, first_.white_effects, z, spread_);
+    left -= session_force_n(*first_.scene->recording, *first_.effects, *first_.white_effects, z, spread_);
     return left.segment(begin, end - begin).square().sum();
   }
 

@@ -57,8 +57,9 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
   };
   std::vector<std::vector<double>> tried{variant_of(term.shape)};
   std::vector<Term> causes = v.causes;
-  const double own = fit_terms(v, causes).chi2;
-  const std::vector<std::vector<double>> grid = starts(m, v.scene);
+  TermFits fits(v);
+  const double own = fits.fit(causes).chi2;
+  const std::vector<std::vector<double>> grid = starts(m, *v.scene);
   for (const auto& point : grid) {
     if (std::find(tried.begin(), tried.end(), variant_of(point)) != tried.end()) continue;
     tried.push_back(variant_of(point));
@@ -67,15 +68,15 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
       if (variant_of(start) != variant_of(point)) continue;
       std::vector<Term> trial = v.causes;
       trial[c].shape = start;
-      if (const double chi2 = fit_terms(v, trial).chi2; chi2 < least) least = chi2, causes = trial;
+      if (const double chi2 = fits.fit(trial).chi2; chi2 < least) least = chi2, causes = trial;
     }
-    if (least > own + 0.2 * (v.products.spreads.back().all(0, 0) - own)) continue;
-    causes = refine(v, causes, 1, c);
-    const FitResult f = fit_terms(v, causes);
+    if (least > own + 0.2 * (v.products->spreads.back().all(0, 0) - own)) continue;
+    causes = refine(fits, causes, 1, c);
+    const FitResult f = fits.fit(causes);
     if (f.chi2 > own + k_same_chi2 * inflation) continue;
     Eigen::Index at = 2;
     for (std::size_t i = 0; i < c; ++i) at += v.known[i].coefficients();
-    const auto count = m.columns(v.scene, causes[c].shape).own.size();
+    const auto count = m.columns(*v.scene, causes[c].shape).own.size();
     const std::vector<double> values(f.value.data() + at, f.value.data() + at + static_cast<std::ptrdiff_t>(count));
     if (makes_sense(m, values.data(), count)) out.push_back(m.parameters(causes[c].shape, values, {f.value[0], f.value[1]}));
   }
@@ -96,8 +97,8 @@ Findings findings_of(const View& v, const FitResult& f, const std::vector<const 
   out.truth.head(v.base_fit.value.size()) = v.base_fit.value;
   out.truth.tail(out.truth.size() - v.base_fit.value.size()).setZero();
   out.middle = named_values(v, out.truth);
-  const std::size_t folds = v.products.folds.size();
-  for (std::size_t s = 0; s < folds && folds > 1; ++s) out.without.push_back(named_values(v, fit(v.products, known, static_cast<int>(s)).value));
+  const std::size_t folds = v.products->folds.size();
+  for (std::size_t s = 0; s < folds && folds > 1; ++s) out.without.push_back(named_values(v, fit(*v.products, known, static_cast<int>(s)).value));
   for (Eigen::Index i = 0; i < null.moved.cols(); ++i)
     if (null.moved.rows() == out.truth.size()) out.surrogates.push_back(named_values(v, out.truth + null.moved.col(i)));
   return out;
@@ -113,7 +114,7 @@ double noise_variance(const View& v, const FitResult& f, const Findings& found, 
     moved[i] += step;
     slope[i] = (named_values(v, moved)[c][p].value - value) / step;
   }
-  return std::max(1.0, f.chi2 / std::max(1.0, v.products.rows)) * slope.dot(f.covariance * slope);
+  return std::max(1.0, f.chi2 / std::max(1.0, v.products->rows)) * slope.dot(f.covariance * slope);
 }
 
 /// What surrogates scatter by, with their bias added, where that is more than `variance`.
@@ -148,20 +149,20 @@ Series force_of_cause(const View& v, std::size_t c) {
     for (Eigen::Index i = 0; i < v.known[k].coefficients(); ++i, ++from)
       if (k != c) rest[to++] = v.base_fit.value[from];
   }
-  return v.model_n - force_of(v.scene, others, rest);
+  return *v.model_n - force_of(*v.scene, others, rest);
 }
 
 }  // namespace
 
 void set_parameters(Explanation& e, const View& v, const Null& null, double inflation) {
   const std::vector<const Hypothesis*> known = known_of(v);
-  const FitResult f = fit(v.products, known, -1, true);
+  const FitResult f = fit(*v.products, known, -1, true);
   const Findings found = findings_of(v, f, known, null);
   std::vector<std::vector<Interval>> interval(found.middle.size());
   for (std::size_t c = 0; c < found.middle.size(); ++c) {
     const bool is_cause = c < v.causes.size();
     const auto forms = is_cause ? other_forms(v, c, inflation) : Findings::Values{};
-    const double open = is_cause && mechanism_at(v.causes[c].mechanism).open ? mechanism_at(v.causes[c].mechanism).open(v.scene) : 0.0;
+    const double open = is_cause && mechanism_at(v.causes[c].mechanism).open ? mechanism_at(v.causes[c].mechanism).open(*v.scene) : 0.0;
     for (std::size_t p = 0; p < found.middle[c].size(); ++p) {
       const auto& [name, value] = found.middle[c][p];
       const double half = half_width(with_surrogates(noise_variance(v, f, found, c, p), found, c, p) + open * open, found, c, p);

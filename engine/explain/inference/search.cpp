@@ -18,7 +18,7 @@ constexpr double k_noise_gain = 3.0;      // what the best of a mechanism's grid
 
 /// Share of the norm of `h`'s force that k and c cannot take over.
 double share_left(const View& v, const Hypothesis& h) {
-  const Eigen::MatrixXd& g = v.products.spreads.back().all;  // what sessions differ in takes no one's place
+  const Eigen::MatrixXd& g = v.products->spreads.back().all;  // what sessions differ in takes no one's place
   const auto share = [&](auto product, double norm2) {
     // residual of a column on columns 1 and 2
     const double a = g(1, 1), b = g(1, 2), c = g(2, 2), p = product(1), q = product(2);
@@ -91,10 +91,10 @@ Beside beside_model(const View& v, const Eigen::MatrixXd& model, const SpreadSum
   Eigen::MatrixXd b = model.transpose() * observed;
   Eigen::VectorXd squared = squares;
   for (Eigen::Index i = 0; i < 2; ++i) {
-    own(i, i) += v.products.prior[i];
+    own(i, i) += v.products->prior[i];
     if (!with_prior) continue;  // a surrogate has the base that it was made with
-    b.row(i).array() += v.products.prior[i] * v.products.prior_at[i];
-    squared.array() += v.products.prior[i] * v.products.prior_at[i] * v.products.prior_at[i];
+    b.row(i).array() += v.products->prior[i] * v.products->prior_at[i];
+    squared.array() += v.products->prior[i] * v.products->prior_at[i] * v.products->prior_at[i];
   }
   const Eigen::VectorXd scale = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();
@@ -151,10 +151,10 @@ Eigen::Index parameters_of(const Term& term, const Scene& scene) {
 std::vector<Candidate> candidates_of(const View& v, int left_out) {
   std::vector<Candidate> out(mechanisms().size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i].hypothesis.term.mechanism = static_cast<int>(i), out[i].testable = false;
-  const std::vector<SpreadSums> sums = sums_without(v.products, left_out);
+  const std::vector<SpreadSums> sums = sums_without(*v.products, left_out);
   std::vector<const Hypothesis*> model = known_of(v);
-  const bool one_way = moves_one_way(v.scene.motion);
-  const double before = fit(sums, v.products, model, left_out).chi2;
+  const bool one_way = moves_one_way(*v.scene->motion);
+  const double before = fit(sums, *v.products, model, left_out).chi2;
   Eigen::Index own_at = 2;  // of the candidate, after the causes' own coefficients
   for (const auto* h : model) own_at += h->coefficients();
   model.push_back(nullptr);
@@ -171,7 +171,7 @@ std::vector<Candidate> candidates_of(const View& v, int left_out) {
       Hypothesis trial = h;
       trial.scale = scale;
       model.back() = &trial;
-      const FitResult f = fit(sums, v.products, model, left_out);
+      const FitResult f = fit(sums, *v.products, model, left_out);
       if (!makes_sense(mechanism_at(h.term.mechanism), f.value.data() + own_at, static_cast<std::size_t>(h.coefficients()))) continue;
       const double gain = before - f.chi2 - k_parameter_penalty * static_cast<double>(h.parameters() - 1);
       if (gain > c.gain) {
@@ -188,7 +188,7 @@ Scores scores_of(const View& view) { return {candidates_of(view), structures(vie
 
 double best_pair_gain(const View& v, const std::vector<Candidate>& candidates) {
   std::vector<const Hypothesis*> model = known_of(v);
-  const double before = fit(v.products, model).chi2;
+  const double before = fit(*v.products, model).chi2;
   const std::size_t n = model.size();
   model.resize(n + 2);
   double best = -1e300;
@@ -198,7 +198,7 @@ double best_pair_gain(const View& v, const std::vector<Candidate>& candidates) {
       model[n] = &candidates[i].hypothesis;
       model[n + 1] = &candidates[j].hypothesis;
       const auto extra = static_cast<double>(model[n]->parameters() + model[n + 1]->parameters() - 1);
-      best = std::max(best, before - fit(v.products, model).chi2 - k_parameter_penalty * extra);
+      best = std::max(best, before - fit(*v.products, model).chi2 - k_parameter_penalty * extra);
     }
   return best;
 }
@@ -232,7 +232,7 @@ Eigen::MatrixXd score_gains(const View& v, const std::vector<SpreadSums>& sums, 
       row = row.cwiseMax((alone - u.left + gains_of(u, group, one_sided)).transpose());
     }
   };
-  const bool one_way = moves_one_way(v.scene.motion);
+  const bool one_way = moves_one_way(*v.scene->motion);
   for (const auto& h : v.grid) {
     const Mechanism& m = mechanism_at(h.term.mechanism);
     if (m.by_session) continue;  // lines are judged by their neighbours in frequency
@@ -250,18 +250,17 @@ Eigen::MatrixXd score_gains(const View& v, const std::vector<SpreadSums>& sums, 
   return out;
 }
 
-Null null_of(const View& v, std::size_t surrogates, std::uint64_t seed) {
+Null null_of(const View& v, const Surrogates& surrogates, std::size_t count) {
   Null out;
-  if (surrogates == 0) return out;
-  const Observed observed = observed_surrogates(v, surrogates, seed);
-  const Eigen::MatrixXd gains = score_gains(v, v.products.spreads, observed);
-  const auto n = static_cast<double>(surrogates);
+  const Observed observed = observed_surrogates(v, surrogates, count);
+  const Eigen::MatrixXd gains = score_gains(v, v.products->spreads, observed);
+  const auto n = static_cast<double>(count);
   out.mean = gains.rowwise().mean();
   out.scatter = ((gains.colwise() - out.mean).array().square().rowwise().sum() / std::max(1.0, n - 1.0)).sqrt().matrix();
   for (Eigen::Index i = 0; i < gains.cols(); ++i)
     out.largest_z.push_back(((gains.col(i) - out.mean).array() / (out.scatter.array() + k_noise_gain)).maxCoeff());
   std::sort(out.largest_z.begin(), out.largest_z.end());
-  out.moved = beside_model(v, as_matrix(directions_of_model(v), v.products.spreads.front().all.rows()), v.products.spreads.front(),
+  out.moved = beside_model(v, as_matrix(directions_of_model(v), v.products->spreads.front().all.rows()), v.products->spreads.front(),
                            observed.with_columns.front(), observed.squares.front(), false)
                   .moved;
   return out;
@@ -271,16 +270,16 @@ namespace {
 
 /// Lines are part of the noise's own spectrum, which surrogates have too: they are judged by their neighbours in frequency.
 void judge_lines(const View& v, Judgement& j, double least_p) {
-  Series z = v.residual_n;
+  Series z = *v.residual_n;
   whitening_of(v).apply(z);
   std::vector<std::pair<Series, Series>> seen;
   for (const auto& h : v.grid) {
     const Mechanism& m = mechanism_at(h.term.mechanism);
     if (!m.by_session) continue;
-    const Columns c = m.columns(v.scene, h.term.shape);
+    const Columns c = m.columns(*v.scene, h.term.shape);
     Series sine = Series::Zero(z.size()), cosine = sine;
     for (std::size_t i = 0; i + 1 < c.own.size(); i += 2) sine += c.own[i], cosine += c.own[i + 1];
-    const double p = line_p_value(v.scene, z, sine, cosine, m.from_residual ? line_trials(v.scene) : static_cast<double>(v.grid.size()));
+    const double p = line_p_value(*v.scene, z, sine, cosine, m.from_residual ? line_trials(*v.scene) : static_cast<double>(v.grid.size()));
     double& kept = j.p_value[static_cast<std::size_t>(h.term.mechanism)];
     kept = std::min(kept, std::max(least_p, p));
   }
@@ -294,7 +293,7 @@ void judge_surface(const View& v, Judgement& j, double least_p) {
   const std::vector<SessionSpread> spreads = narrower_spreads(v.spread);
   double with = 1e300, without = 1e300;
   for (std::size_t u = 0; u < spreads.size(); ++u) {
-    const double left = fit({v.products.spreads[u]}, v.products, known_of(v)).chi2;
+    const double left = fit({v.products->spreads[u]}, *v.products, known_of(v)).chi2;
     (spreads[u][k_surface_place] > 0.0 ? with : without) = std::min(spreads[u][k_surface_place] > 0.0 ? with : without, left);
   }
   const double p = 0.5 * std::erfc(std::sqrt(std::max(0.0, without - with) / 2.0));
@@ -305,14 +304,14 @@ void judge_surface(const View& v, Judgement& j, double least_p) {
 }  // namespace
 
 Judgement judge(const View& v, const Null& null, int left_out) {
-  const std::vector<SpreadSums> sums = sums_without(v.products, left_out);
+  const std::vector<SpreadSums> sums = sums_without(*v.products, left_out);
   const Eigen::VectorXd gains = score_gains(v, sums, observed_data(sums)).col(0);
   const auto n = static_cast<double>(null.largest_z.size());
   // what a wrong motion gains grows with the rows: without a fold there is less of it
   double share = 1.0;
   if (left_out >= 0) {
     const auto [begin, end] = v.folds[static_cast<std::size_t>(left_out)];
-    share -= static_cast<double>(end - begin) / static_cast<double>(v.force_n.size());
+    share -= static_cast<double>(end - begin) / static_cast<double>(v.force_n->size());
   }
   Judgement j;
   for (Eigen::Index e = 0; e < gains.size(); ++e) {
@@ -331,7 +330,7 @@ Judgement judge(const View& v, const Null& null, int left_out) {
   return j;
 }
 
-Term start_of(const View& v, const Candidate& c) {
+Term start_of(TermFits& fits, const std::vector<Term>& others, const Candidate& c) {
   Term term = c.hypothesis.term;
   if (c.hypothesis.scale >= 0.999 || (c.hypothesis.spring < 0 && c.hypothesis.damper < 0)) return term;
   // the scale stands for a shape between this point and none: try some, keep the best
@@ -345,22 +344,22 @@ Term start_of(const View& v, const Candidate& c) {
       const bool power = std::string(m.shape[i].name) == "m" || std::string(m.shape[i].name) == "n";
       trial.shape[i] = std::clamp(power ? 1.0 + (term.shape[i] - 1.0) * part : term.shape[i] * part, m.shape[i].low, m.shape[i].high);
     }
-    std::vector<Term> causes = v.causes;
+    std::vector<Term> causes = others;
     causes.push_back(trial);
-    const double chi2 = fit_terms(v, causes).chi2;
+    const double chi2 = fits.fit(causes).chi2;
     if (chi2 < least) least = chi2, best = trial;
   }
   return best;
 }
 
-double penalised_chi2(const View& v, const std::vector<Term>& causes) {
+double penalised_chi2(TermFits& fits, const std::vector<Term>& causes) {
   double penalty = 0.0;
-  for (const auto& t : causes) penalty += k_parameter_penalty * static_cast<double>(parameters_of(t, v.scene));
-  return fit_terms(v, causes).chi2 + penalty;
+  for (const auto& t : causes) penalty += k_parameter_penalty * static_cast<double>(parameters_of(t, *fits.view().scene));
+  return fits.fit(causes).chi2 + penalty;
 }
 
-std::vector<Term> refine(const View& v, std::vector<Term> causes, int cycles, std::size_t first) {
-  double best = fit_terms(v, causes).chi2;
+std::vector<Term> refine(TermFits& fits, std::vector<Term> causes, int cycles, std::size_t first) {
+  double best = fits.fit(causes).chi2;
   std::vector<std::vector<double>> width(causes.size());
   for (std::size_t i = 0; i < causes.size(); ++i)
     for (const auto& s : mechanism_at(causes[i].mechanism).shape)
@@ -380,11 +379,11 @@ std::vector<Term> refine(const View& v, std::vector<Term> causes, int cycles, st
         double& w = width[i][s];
         for (int step = 0; step < 5; ++step) {
           const auto up = moved(w), down = moved(-w);
-          const double a = fit_terms(v, up).chi2, b = fit_terms(v, down).chi2;
+          const double a = fits.fit(up).chi2, b = fits.fit(down).chi2;
           const double curve = a + b - 2 * best;
           double by = curve > 0.0 ? std::clamp(0.5 * w * (b - a) / curve, -2.0 * w, 2.0 * w) : a < b ? 2.0 * w : -2.0 * w;
           const auto trial = moved(by);
-          const double c = fit_terms(v, trial).chi2;
+          const double c = fits.fit(trial).chi2;
           double least = best;
           std::vector<Term> next = causes;
           if (a < least) least = a, next = up;

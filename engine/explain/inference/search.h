@@ -6,6 +6,7 @@
 
 #include "engine/explain/inference/structure.h"
 #include "engine/explain/inference/surrogates.h"
+#include "engine/explain/model/term_fits.h"
 
 namespace cavum::explain {
 
@@ -50,7 +51,7 @@ struct Null {
   std::vector<double> largest_z;  ///< of each surrogate, ascending
   Eigen::MatrixXd moved;          ///< of k, c and the causes' parameters (as FitResult has them), by the surrogates' noise; [parameters, surrogates]
 };
-[[nodiscard]] Null null_of(const View& view, std::size_t surrogates, std::uint64_t seed);
+[[nodiscard]] Null null_of(const View& view, const Surrogates& surrogates, std::size_t count);
 
 /// The data against their surrogates.
 struct Judgement {
@@ -62,11 +63,11 @@ struct Judgement {
 [[nodiscard]] Judgement judge(const View& view, const Null& null, int left_out = -1);
 
 /// Shapes of `causes` that fit best, starting where they are; coordinate search on each fitted shape within its range.
-[[nodiscard]] std::vector<Term> refine(const View& view, std::vector<Term> causes, int cycles, std::size_t first = 0);
-/// A candidate of the grid as a term to start refining from (its scale turned into a shape).
-[[nodiscard]] Term start_of(const View& view, const Candidate& candidate);
+[[nodiscard]] std::vector<Term> refine(TermFits& fits, std::vector<Term> causes, int cycles, std::size_t first = 0);
+/// A candidate of the grid, beside `others`, as a term to start refining from (its scale turned into a shape).
+[[nodiscard]] Term start_of(TermFits& fits, const std::vector<Term>& others, const Candidate& candidate);
 /// chi² with `causes`, plus the penalty of all their parameters.
-[[nodiscard]] double penalised_chi2(const View& view, const std::vector<Term>& causes);
+[[nodiscard]] double penalised_chi2(TermFits& fits, const std::vector<Term>& causes);
 [[nodiscard]] Eigen::Index parameters_of(const Term& term, const Scene& scene);
 
 }  // namespace cavum::explain

@@ -18,9 +18,9 @@ Fitted fit_beside(const View& v, const std::vector<const Hypothesis*>& known, co
   h.first = c.first;
   h.own = c.count;
   std::vector<const Hypothesis*> model = known;
-  const double before = fit(v.products, model).chi2;
+  const double before = fit(*v.products, model).chi2;
   model.push_back(&h);
-  const FitResult f = fit(v.products, model);
+  const FitResult f = fit(*v.products, model);
   Eigen::Index at = 2;
   for (const auto* k : known) at += k->coefficients();
   return {before - f.chi2, f.value.segment(at, c.count)};

@@ -78,9 +78,9 @@ Series terms_force_n(const ForceTerms& terms, Viscoelastic tissue, const Scene& 
     std::fill(memory.begin(), memory.end(), TermMemory{});
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       TermInput in;
-      in.touching = scene.motion.x_mm[i] > 0.0;
-      in.penetration_mm = std::max(0.0, scene.motion.x_mm[i]);
-      in.approach_mm_s = scene.motion.v_mm_s[i];
+      in.touching = scene.motion->x_mm[i] > 0.0;
+      in.penetration_mm = std::max(0.0, scene.motion->x_mm[i]);
+      in.approach_mm_s = scene.motion->v_mm_s[i];
       const Viscoelastic touched{tissue.stiffness_n_per_mm * (r.relative_k.size() > 0 ? r.relative_k[i] : 1.0),
                                  tissue.damping_n_s_per_mm * (r.relative_c.size() > 0 ? r.relative_c[i] : 1.0)};
       in.stiffness_n_per_mm = touched.stiffness_n_per_mm;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_knots = 6;  // of a curve
 constexpr double k_lags_s[] = {0.1, 0.3, 1.0, 3.0};
-constexpr Eigen::Index k_steps_most = 48;  // instants at which a step is tried, in all
+constexpr Eigen::Index k_steps_most = 36;  // instants at which a step is tried, in all
 
 /// Piecewise linear curves over quantiles of u, the mean over `where` taken out, times `where`. Empty when u is constant.
 std::vector<Series> over_quantiles(const Series& u, const Series& where) {
@@ -58,7 +58,7 @@ Series lagged_by(const Recording& r, const Series& u, double lag_s) {
 
 class Curves {
  public:
-  explicit Curves(const Scene& scene) : scene_(scene) {}
+  Curves(const Scene& scene, const std::function<void(Curve)>& take) : scene_(scene), take_(take) {}
 
   void over(const std::string& variable, const Series& u, bool with_force) {
     add(variable, "a curve, in air too", over_quantiles(u, Series::Ones(u.size())));
@@ -88,31 +88,29 @@ class Curves {
         }
       }
   }
-  [[nodiscard]] std::vector<Curve> all() { return std::move(all_); }
 
  private:
   void add(const std::string& variable, std::string form, std::vector<Series> columns) {
-    if (!columns.empty()) all_.push_back({variable, std::move(form), std::move(columns)});
+    if (!columns.empty()) take_({variable, std::move(form), std::move(columns)});
   }
   const Scene& scene_;
-  std::vector<Curve> all_;
+  const std::function<void(Curve)>& take_;
 };
 
 }  // namespace
 
-std::vector<Curve> curves_of(const Scene& s) {
+void each_curve(const Scene& s, const std::function<void(Curve)>& take) {
   const Recording& r = *s.recording;
-  Curves curves(s);
+  Curves curves(s, take);
   curves.over("t_s", r.t_s, false);
   curves.steps();
-  curves.over("x_mm", s.motion.x_mm, false);
-  curves.over("v_mm_s", s.motion.v_mm_s, false);
+  curves.over("x_mm", s.motion->x_mm, false);
+  curves.over("v_mm_s", s.motion->v_mm_s, false);
   for (const auto& [name, u] : r.columns) {
     if (!(u.maxCoeff() > u.minCoeff())) continue;
     curves.over(name, u, true);
     if (std::set<double> few(u.data(), u.data() + std::min<Eigen::Index>(u.size(), 2000)); few.size() > 20) curves.later(name, u);
   }
-  return curves.all();
 }
 
 }  // namespace cavum::explain

@@ -2,6 +2,7 @@
 // force), the same some time later, and steps in time. They say where to look when nothing that has a name fits.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct Curve {
   std::vector<Series> columns;
 };
 
-/// In the order of the columns, those of one variable together.
-[[nodiscard]] std::vector<Curve> curves_of(const Scene& scene);
+/// Gives them to `take` one after the other, in the order of the columns, those of one variable together: all at once would be large.
+void each_curve(const Scene& scene, const std::function<void(Curve)>& take);
 
 }  // namespace cavum::explain

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double k_ridge = 1e-10;  // of a column's own norm: dependent columns share their coefficient instead of failing
 constexpr Eigen::Index k_max_columns = 80;
+constexpr double k_rig_doubt = 0.1;  // relative: rig.toml's k and c count as known to 10 %, which only matters where the data are silent
 
 /// Which columns of the products a parameter sums up.
 struct Parameter {
@@ -44,27 +45,29 @@ Eigen::Index lay_out(const std::vector<const Hypothesis*>& model, Parameter* p) 
   return n;
 }
 
+/// Product of columns i and j over one fold, under spread `u`.
+double product_in(const Products& products, std::size_t u, Eigen::Index fold, Eigen::Index i, Eigen::Index j) {
+  double out = products.folds[static_cast<std::size_t>(fold)](i, j);
+  for (const auto& s : products.sessions)
+    if (static_cast<Eigen::Index>(s.fold) == fold) out -= s.with_effects.row(i).dot(s.inverse[u] * s.with_effects.row(j).transpose());
+  return out;
+}
+
 /// Left and right side of the normal equations under spread `u`, from the sums of products.
 void equations(const Eigen::MatrixXd& sums, const Products& products, std::size_t u, int left_out, const Parameter* p, Small& a, Vector& b) {
-  const Eigen::MatrixXd nothing;
-  const auto sums_of = [&](Eigen::Index fold) -> const Eigen::MatrixXd& {
-    if (fold < 0) return sums;
-    return fold == left_out ? nothing : products.folds[static_cast<std::size_t>(fold)][u].all;
+  const auto product = [&](Eigen::Index fold, Eigen::Index i, Eigen::Index j) {
+    if (fold < 0) return sums(i, j);
+    return fold == left_out ? 0.0 : product_in(products, u, fold, i, j);
   };
   for (Eigen::Index i = 0; i < b.size(); ++i) {
-    const Eigen::MatrixXd& own = sums_of(p[i].session);
     b[i] = 0.0;
-    for (int at = 0; at < p[i].count && own.size() > 0; ++at) b[i] += p[i].factor[at] * own(0, p[i].column[at]);
+    for (int at = 0; at < p[i].count; ++at) b[i] += p[i].factor[at] * product(p[i].session, 0, p[i].column[at]);
     for (Eigen::Index j = 0; j <= i; ++j) {
       const bool apart = p[i].session >= 0 && p[j].session >= 0 && p[i].session != p[j].session;
-      const Eigen::MatrixXd& g = p[i].session >= 0 ? own : sums_of(p[j].session);
+      const Eigen::Index fold = std::max(p[i].session, p[j].session);
       double sum = 0.0;
-      if (apart || g.size() == 0) {
-        a(i, j) = a(j, i) = 0.0;
-        continue;
-      }
-      for (int at = 0; at < p[i].count; ++at)
-        for (int v = 0; v < p[j].count; ++v) sum += p[i].factor[at] * p[j].factor[v] * g(p[i].column[at], p[j].column[v]);
+      for (int at = 0; at < p[i].count && !apart; ++at)
+        for (int v = 0; v < p[j].count; ++v) sum += p[i].factor[at] * p[j].factor[v] * product(fold, p[i].column[at], p[j].column[v]);
       a(i, j) = a(j, i) = sum;
     }
   }
@@ -106,11 +109,54 @@ Eigen::Index Hypothesis::parameters() const {
   return own + repeats - 1 + fitted;
 }
 
+namespace {
+
+/// Sums under spread `u` over one fold, or over all of them (fold = -1).
+SpreadSums integrated(const Products& products, std::size_t u, int fold) {
+  const auto counts = [&](std::size_t f) { return fold < 0 || static_cast<int>(f) == fold; };
+  SpreadSums out{Eigen::MatrixXd::Zero(products.folds.front().rows(), products.folds.front().cols()), 0.0};
+  for (std::size_t f = 0; f < products.folds.size(); ++f)
+    if (counts(f)) out.all += products.folds[f];
+  const auto sessions = std::count_if(products.sessions.begin(), products.sessions.end(), [&](const auto& s) { return counts(s.fold); });
+  Eigen::MatrixXd with(out.all.rows(), sessions * static_cast<Eigen::Index>(k_session_effects)), shrunk = with;  // side by side
+  Eigen::Index at = 0;
+  for (const auto& s : products.sessions) {
+    if (!counts(s.fold)) continue;
+    out.log_det += s.log_det[u];
+    if (s.inverse[u].squaredNorm() == 0.0) continue;
+    with.middleCols(at, k_session_effects) = s.with_effects;
+    shrunk.middleCols(at, k_session_effects).noalias() = s.with_effects * s.inverse[u];
+    at += static_cast<Eigen::Index>(k_session_effects);
+  }
+  if (at > 0) out.all.noalias() -= shrunk.leftCols(at) * with.leftCols(at).transpose();
+  return out;
+}
+
+}  // namespace
+
+void set_prior(Products& p, const Rig& rig) {
+  const std::optional<double> given[2] = {rig.k_n_per_mm, rig.c_n_s_per_mm};
+  for (int i = 0; i < 2; ++i)
+    if (given[i]) {
+      p.prior_at[i] = *given[i];
+      p.prior[i] = 1.0 / std::pow(std::max(1e-6, k_rig_doubt * *given[i]), 2);
+    }
+}
+
+void integrate(Products& products) {
+  for (auto& s : products.sessions) {
+    s.log_det.assign(products.tried.size(), 0.0);
+    s.inverse.clear();
+    for (std::size_t u = 0; u < products.tried.size(); ++u) s.inverse.push_back(shrunk_inverse(s.effects, products.tried[u], s.log_det[u]));
+  }
+  products.spreads.clear();
+  for (std::size_t u = 0; u < products.tried.size(); ++u) products.spreads.push_back(integrated(products, u, -1));
+}
+
 std::vector<SpreadSums> sums_without(const Products& products, int left_out) {
   std::vector<SpreadSums> out = products.spreads;
-  if (left_out < 0) return out;
-  for (std::size_t u = 0; u < out.size(); ++u) {
-    const SpreadSums& fold = products.folds[static_cast<std::size_t>(left_out)][u];
+  for (std::size_t u = 0; u < out.size() && left_out >= 0; ++u) {
+    const SpreadSums fold = integrated(products, u, left_out);
     out[u].all -= fold.all;
     out[u].log_det -= fold.log_det;
   }

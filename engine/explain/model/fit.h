@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/explain/model/mechanism.h"
-#include "engine/explain/recording/noise.h"
+#include "engine/explain/model/session_effects.h"
 
 namespace cavum::explain {
 
@@ -32,21 +32,39 @@ struct Hypothesis {
   [[nodiscard]] Eigen::Index parameters() const;  ///< linear ones and fitted shapes; a phase for each session beside one amplitude
 };
 
-/// Sums of products of whitened columns under one spread: 0 the force, 1 the column of k, 2 that of c, then the hypotheses'.
+/// A session's products with its effects.
+struct SessionProducts {
+  Eigen::Index begin = 0, end = 0;       ///< rows
+  std::size_t fold = 0;                  ///< that they belong to
+  Eigen::MatrixXd with_effects;          ///< [columns, effects]
+  Eigen::MatrixXd effects;               ///< [effects, effects]
+  std::vector<Eigen::MatrixXd> inverse;  ///< shrunk_inverse under each spread, [effects, effects]
+  std::vector<double> log_det;           ///< what each spread costs
+};
+
+/// Sums of products of whitened columns with the effects integrated out under one spread.
 struct SpreadSums {
   Eigen::MatrixXd all;
   double log_det = 0;  ///< what the spread costs
 };
 
+/// Products of whitened columns: 0 the force, 1 the column of k, 2 that of c, then the hypotheses'. Give folds, sessions (rows, fold and products)
+/// and `tried`; `integrate` makes the rest.
 struct Products {
-  std::vector<SpreadSums> spreads;             ///< as narrower_spreads has them: the first as found, the last without any
-  std::vector<std::vector<SpreadSums>> folds;  ///< [fold][spread], View::folds
-  double rows = 0;                             ///< sum of weights, so that chi² of a good model is about this
+  std::vector<Eigen::MatrixXd> folds;  ///< of the columns with one another, by fold, [columns, columns]
+  std::vector<SessionProducts> sessions;
+  std::vector<SessionSpread> tried;  ///< as narrower_spreads has them: the first as found, the last without any
+  std::vector<SpreadSums> spreads;   ///< of all folds, under each
+  double rows = 0;                   ///< sum of weights, so that chi² of a good model is about this
   /// Information that rig.toml gives: 1/sd² and the value, of k and c.
   double prior[2] = {0, 0}, prior_at[2] = {0, 0};
 };
 
-/// Sums of all folds but `left_out` (-1 = all).
+/// Information that rig.toml gives on k and c.
+void set_prior(Products& products, const Rig& rig);
+/// Makes the inverses of sessions and the sums under each spread.
+void integrate(Products& products);
+/// Sums of all folds but `left_out` (-1 = all), under each spread.
 [[nodiscard]] std::vector<SpreadSums> sums_without(const Products& products, int left_out);
 
 struct FitResult {

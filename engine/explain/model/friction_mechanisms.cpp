@@ -17,10 +17,10 @@ using Grid = std::vector<Shape>;
 /// Fc tanh(V/v0) at Fc = 1 by the engine's own law. Where the speed is uncertain by sd the mean over that uncertainty is
 /// close to tanh(V/sqrt(v0² + sd²·pi/2)): equal slope at 0, equal ends.
 Series sign_of_motion(const Scene& s, double v0_mm_s) {
-  Series out(s.motion.v_mm_s.size());
+  Series out(s.motion->v_mm_s.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const double width = std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion.sd_v_mm_s[i] * s.motion.sd_v_mm_s[i]);
-    out[i] = sliding_share(s.motion.v_mm_s[i], width);
+    const double width = std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion->sd_v_mm_s[i] * s.motion->sd_v_mm_s[i]);
+    out[i] = sliding_share(s.motion->v_mm_s[i], width);
   }
   return out;
 }
@@ -28,7 +28,7 @@ Series sign_of_motion(const Scene& s, double v0_mm_s) {
 /// These parts of the speed that the fastest tenth of the motion exceeds.
 std::vector<double> speeds(const Scene& s, std::initializer_list<double> parts) {
   std::vector<double> v;
-  for (Eigen::Index i = 0; i < s.motion.v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion.v_mm_s[i]));
+  for (Eigen::Index i = 0; i < s.motion->v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion->v_mm_s[i]));
   const std::size_t fast = v.size() * 9 / 10;
   const double fast_mm_s = in_order(std::move(v), fast);
   std::vector<double> out;
@@ -90,9 +90,9 @@ Mechanism stribeck_friction() {
       .columns =
           [](const Scene& s, const Shape& p) {
             const Series sign = sign_of_motion(s, p[1]);
-            const Series spread = 1.0 + 2.0 * (s.motion.sd_v_mm_s / p[0]).square();  // mean over the uncertainty of V
+            const Series spread = 1.0 + 2.0 * (s.motion->sd_v_mm_s / p[0]).square();  // mean over the uncertainty of V
             Series still(sign.size());
-            for (Eigen::Index i = 0; i < still.size(); ++i) still[i] = static_share(s.motion.v_mm_s[i], p[0] * std::sqrt(spread[i]));
+            for (Eigen::Index i = 0; i < still.size(); ++i) still[i] = static_share(s.motion->v_mm_s[i], p[0] * std::sqrt(spread[i]));
             return Columns{{sign, sign * still / spread.sqrt()}, {}, {}};
           },
       .parameters =
@@ -120,7 +120,7 @@ Mechanism viscous_friction() {
       .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
-            return Columns{{s.motion.v_mm_s}, {}, {}};
+            return Columns{{s.motion->v_mm_s}, {}, {}};
           },
       .parameters =
           [](const Shape&, const Shape& own, Base) {

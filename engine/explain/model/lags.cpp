@@ -17,15 +17,15 @@ struct Way {
 
 Way way_to(const Scene& s, Eigen::Index i) {
   const Series &rk = s.recording->relative_k, &rc = s.recording->relative_c;
-  Way w{s.motion.x_mm[i - 1] * relative_at(rk, i - 1),
-        s.motion.v_mm_s[i - 1] * relative_at(rc, i - 1),
-        s.motion.x_mm[i] * relative_at(rk, i),
-        s.motion.v_mm_s[i] * relative_at(rc, i),
+  Way w{s.motion->x_mm[i - 1] * relative_at(rk, i - 1),
+        s.motion->v_mm_s[i - 1] * relative_at(rc, i - 1),
+        s.motion->x_mm[i] * relative_at(rk, i),
+        s.motion->v_mm_s[i] * relative_at(rc, i),
         std::max(1e-12, s.dt_s[i - 1]),
         s.active[i - 1],
         s.active[i]};
   // a position that leaves the instant of contact open has no jump: what is expected then changes evenly
-  if (std::fabs(w.on1 - w.on0) < 0.5 || s.motion.sd_x_mm[i] > k_open_instant * std::fabs(w.x1 - w.x0)) return w;
+  if (std::fabs(w.on1 - w.on0) < 0.5 || s.motion->sd_x_mm[i] > k_open_instant * std::fabs(w.x1 - w.x0)) return w;
   const double f0 = s.base.k_n_per_mm * w.x0 + s.base.c_n_s_per_mm * w.v0, f1 = s.base.k_n_per_mm * w.x1 + s.base.c_n_s_per_mm * w.v1;
   const auto crossing = [](double a, double b) { return a * b < 0.0 ? a / (a - b) : 0.5; };
   w.jump = w.x0 * w.x1 < 0.0 ? crossing(w.x0, w.x1) : crossing(f0, f1);
@@ -129,8 +129,8 @@ Columns in_series(const Scene& s, double mm_per_n) {
   for (const auto& rows : s.recording->sessions) {
     double x = 0.0, v = 0.0;
     for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) {
-      double x0 = s.motion.x_mm[i - 1], v0 = s.motion.v_mm_s[i - 1], dt_s = s.dt_s[i - 1];
-      const double x1 = s.motion.x_mm[i], v1 = s.motion.v_mm_s[i];
+      double x0 = s.motion->x_mm[i - 1], v0 = s.motion->v_mm_s[i - 1], dt_s = s.dt_s[i - 1];
+      const double x1 = s.motion->x_mm[i], v1 = s.motion->v_mm_s[i];
       if (x1 <= 0.0) {
         x = v = 0.0;
         continue;

@@ -75,7 +75,7 @@ double between_rows_mm(const Scene& s) {
   double way = 0.0, times = 0.0;
   for (const auto& rows : s.recording->sessions)
     for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i)
-      if ((s.motion.x_mm[i] > 0.0) != (s.motion.x_mm[i - 1] > 0.0)) way += std::fabs(s.motion.x_mm[i] - s.motion.x_mm[i - 1]), times += 1.0;
+      if ((s.motion->x_mm[i] > 0.0) != (s.motion->x_mm[i - 1] > 0.0)) way += std::fabs(s.motion->x_mm[i] - s.motion->x_mm[i - 1]), times += 1.0;
   return times > 0.0 ? way / times / std::sqrt(12.0 * times / static_cast<double>(s.recording->sessions.size())) : 0.0;
 }
 

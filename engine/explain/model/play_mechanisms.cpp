@@ -17,7 +17,7 @@ using Grid = std::vector<Shape>;
 Series played(const Scene& s, int variant, double b) {
   Series out(s.force_n.size());
   for (const auto& rows : s.recording->sessions) {
-    const auto input = [&](Eigen::Index i) { return variant == 1 || variant >= 3 ? s.motion.x_mm[i] : std::max(0.0, s.motion.x_mm[i]); };
+    const auto input = [&](Eigen::Index i) { return variant == 1 || variant >= 3 ? s.motion->x_mm[i] : std::max(0.0, s.motion->x_mm[i]); };
     double y = input(rows.begin);
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double x = input(i);
@@ -43,7 +43,7 @@ Series loop_mm(const Scene& s, int variant, double d) {
   for (const auto& rows : s.recording->sessions) {
     double z = 0.0;
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      const double x = s.motion.x_mm[i], before = i > rows.begin ? s.motion.x_mm[i - 1] : x;
+      const double x = s.motion->x_mm[i], before = i > rows.begin ? s.motion->x_mm[i - 1] : x;
       z = variant < 2 && x <= 0.0 ? 0.0 : cavum::loop_mm(z, x - (variant < 2 ? std::max(0.0, before) : before), d, gamma);
       out[i] = z;
     }
@@ -69,7 +69,7 @@ Mechanism backlash() {
       .grid = play_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
-            return Columns{{}, (played(s, static_cast<int>(p[0]), p[1]) - s.motion.x_mm.max(0.0)) * s.active, {}};
+            return Columns{{}, (played(s, static_cast<int>(p[0]), p[1]) - s.motion->x_mm.max(0.0)) * s.active, {}};
           },
       .parameters =
           [](const Shape& p, const Shape&, Base) {

@@ -17,13 +17,13 @@ double touching_probability(double x_mm, double sd_mm) noexcept { return normal_
 
 void never_pull(Scene& s, const Series* pressed_n) {
   s.active = pressed_n == nullptr ? s.touching : Series(s.touching * (*pressed_n > 0.0).cast<double>());
-  s.spring_mm = s.motion.x_mm * s.active;
-  s.damper_mm_s = s.motion.v_mm_s * s.active;
+  s.spring_mm = s.motion->x_mm * s.active;
+  s.damper_mm_s = s.motion->v_mm_s * s.active;
   if (s.recording->relative_k.size() > 0) s.spring_mm *= s.recording->relative_k;
   if (s.recording->relative_c.size() > 0) s.damper_mm_s *= s.recording->relative_c;
 }
 
-Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho, const Series* pressed_n) {
+Scene make_scene(const Recording& recording, const Shared<Motion>& motion, Base base, double noise_sd_n, double rho, const Series* pressed_n) {
   Scene s;
   s.recording = &recording;
   s.motion = motion;
@@ -34,11 +34,11 @@ Scene make_scene(const Recording& recording, const Motion& motion, Base base, do
   // noise of correlation rho, summed over many rows, is that of independent rows times (1 + rho)/(1 - rho)
   const double summed = std::clamp((1.0 + rho) / std::max(1e-3, 1.0 - rho), 1.0, k_summed_most);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double lasting = motion.lasting_rows.size() > 0 ? motion.lasting_rows[i] : 1.0;
+    const double lasting = motion->lasting_rows.size() > 0 ? motion->lasting_rows[i] : 1.0;
     const double noise2 = noise_sd_n * noise_sd_n * std::min(summed, lasting) / lasting;
     const double rk = relative_at(recording.relative_k, i), rc = relative_at(recording.relative_c, i);
     const double k = rk * base.k_n_per_mm, c = rc * base.c_n_s_per_mm;
-    const double x = motion.x_mm[i], v = motion.v_mm_s[i], sx = motion.sd_x_mm[i], sv = motion.sd_v_mm_s[i];
+    const double x = motion->x_mm[i], v = motion->v_mm_s[i], sx = motion->sd_x_mm[i], sv = motion->sd_v_mm_s[i];
     const double p = touching_probability(x, sx);
     s.touching[i] = p;
     const double pressed = pressed_n != nullptr ? (*pressed_n)[i] : k * x + c * v;

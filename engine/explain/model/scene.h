@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/shared_value.h"
 #include "engine/explain/recording/motion.h"
 #include "engine/explain/recording/recording.h"
 
@@ -17,7 +18,7 @@ struct Base {
 /// All series of shape [rows].
 struct Scene {
   const Recording* recording = nullptr;  ///< sessions, times and columns; not null
-  Motion motion;
+  Shared<Motion> motion;
   Base base;
   Series dt_s;
   Series touching;                      ///< 0..1: probability that X > 0, given the uncertainty of X
@@ -39,7 +40,7 @@ struct Scene {
 /// that the weights are measured against: an error of position lasts as long as the encoder stands still, so it counts as
 /// much as many rows of independent noise.
 /// `pressed_n`: force of all that acts inside the contact, before max(0, ...), shape [rows]; nullptr = the base alone.
-[[nodiscard]] Scene make_scene(const Recording& recording, const Motion& motion, Base base, double noise_sd_n, double rho,
+[[nodiscard]] Scene make_scene(const Recording& recording, const Shared<Motion>& motion, Base base, double noise_sd_n, double rho,
                                const Series* pressed_n = nullptr);
 /// Contact is lost where `pressed_n` would pull: sets `active` and the columns of k and c, and nothing else. nullptr = nowhere.
 void never_pull(Scene& scene, const Series* pressed_n);

@@ -86,7 +86,7 @@ Mechanism inertia() {
       .grid = no_shape,
       .columns =
           [](const Scene& s, const Shape&) {
-            return Columns{{s.motion.a_mm_s2}, {}, {}};
+            return Columns{{s.motion->a_mm_s2}, {}, {}};
           },
       .parameters =
           [](const Shape&, const Shape& own, Base) {
@@ -219,7 +219,7 @@ Mechanism ringing() {
       .grid = ringing_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
-            return Columns{{resonance(s, s.force_n, p[0], p[1]) - s.force_n, resonance(s, s.motion.a_mm_s2, p[0], p[1])}, {}, {}};
+            return Columns{{resonance(s, s.force_n, p[0], p[1]) - s.force_n, resonance(s, s.motion->a_mm_s2, p[0], p[1])}, {}, {}};
           },
       .parameters =
           [](const Shape& p, const Shape& own, Base) {

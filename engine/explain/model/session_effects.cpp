@@ -17,10 +17,10 @@ struct SessionSums {
   Eigen::VectorXd residual;
 };
 
-std::vector<SessionSums> sums_of(const Recording& r, const Eigen::MatrixXd& white, const Series& residual) {
+std::vector<SessionSums> sums_of(const Recording& r, const EffectColumns& white, const Series& residual) {
   std::vector<SessionSums> out;
   for (const auto& s : r.sessions) {
-    const auto block = white.middleRows(s.begin, s.end - s.begin);
+    const Eigen::MatrixXd block = white.middleRows(s.begin, s.end - s.begin).cast<double>();
     SessionSums one{block.transpose() * block, block.transpose() * residual.segment(s.begin, s.end - s.begin).matrix()};
     if (one.effects.trace() > 0.0) out.push_back(std::move(one));
   }
@@ -58,16 +58,19 @@ SessionSpread maximised(const std::vector<SessionSums>& sessions, SessionSpread 
 
 }  // namespace
 
-Eigen::MatrixXd session_columns(const Scene& s, const Series& causes_n) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(s.force_n.size(), k_session_effects);
+EffectColumns session_columns(const Scene& s, const Series& causes_n) {
+  EffectColumns out = EffectColumns::Zero(s.force_n.size(), k_session_effects);
   out.col(k_force_zero).setOnes();
-  out.col(k_surface_place) = (s.base.k_n_per_mm * s.active).matrix();
-  out.col(k_stiffness) = (s.base.k_n_per_mm * s.spring_mm + s.base.c_n_s_per_mm * s.damper_mm_s).matrix();
-  if (causes_n.size() > 0) out.col(k_strength) = causes_n.matrix();
+  out.col(k_surface_place) = (s.base.k_n_per_mm * s.active).cast<float>().matrix();
+  out.col(k_stiffness) = (s.base.k_n_per_mm * s.spring_mm).cast<float>().matrix();  // c apart, or a c that the rig knows would hold k by it
+  // k V on every row that c V has, or c would be whatever the first rows of contact ask for
+  Series late = -s.base.k_n_per_mm * s.damper_mm_s;
   for (const auto& rows : s.recording->sessions)
-    for (Eigen::Index i = rows.begin + 1; i + 1 < rows.end; ++i)  // where contact lasts: its beginning is a step and no slope
+    for (Eigen::Index i = rows.begin + 1; i + 1 < rows.end; ++i)  // c dV/dt where contact lasts: its beginning is a step and no slope
       if (s.active[i - 1] > 0.5 && s.active[i] > 0.5 && s.active[i + 1] > 0.5)
-        out(i, k_lateness) = -(out(i + 1, k_stiffness) - out(i - 1, k_stiffness)) / std::max(1e-12, s.dt_s[i - 1] + s.dt_s[i]);
+        late[i] -= s.base.c_n_s_per_mm * (s.damper_mm_s[i + 1] - s.damper_mm_s[i - 1]) / std::max(1e-12, s.dt_s[i - 1] + s.dt_s[i]);
+  out.col(k_lateness) = late.cast<float>().matrix();
+  if (causes_n.size() > 0) out.col(k_strength) = causes_n.cast<float>().matrix();
   return out;
 }
 
@@ -80,16 +83,7 @@ Eigen::MatrixXd shrunk_inverse(const Eigen::MatrixXd& effects, const SessionSpre
   return d.asDiagonal() * solver.solve(Eigen::MatrixXd::Identity(k_session_effects, k_session_effects)) * d.asDiagonal();
 }
 
-Integrated integrate_out(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& with_effects, const Eigen::MatrixXd& effects,
-                         const SessionSpread& spread) {
-  Integrated out;
-  const Eigen::MatrixXd inverse = shrunk_inverse(effects, spread, out.log_det);
-  out.sums = sums;
-  if (inverse.squaredNorm() > 0.0) out.sums.noalias() -= (with_effects * inverse) * with_effects.transpose();
-  return out;
-}
-
-SessionSpread estimate_spread(const Recording& r, const Eigen::MatrixXd& white, const Series& residual) {
+SessionSpread estimate_spread(const Recording& r, const EffectColumns& white, const Series& residual) {
   const std::vector<SessionSums> sessions = sums_of(r, white, residual);
   if (r.sessions.size() < 3 || sessions.size() < 3) return {};
   SessionSpread spread = maximised(sessions, k_first_guess);
@@ -101,16 +95,16 @@ SessionSpread estimate_spread(const Recording& r, const Eigen::MatrixXd& white, 
   return spread;
 }
 
-Series session_force_n(const Recording& r, const Eigen::MatrixXd& raw, const Eigen::MatrixXd& white, const Series& residual,
+Series session_force_n(const Recording& r, const EffectColumns& raw, const EffectColumns& white, const Series& residual,
                        const SessionSpread& spread) {
   Series out = Series::Zero(residual.size());
   for (const auto& s : r.sessions) {
     const Eigen::Index n = s.end - s.begin;
-    const auto block = white.middleRows(s.begin, n);
+    const Eigen::MatrixXd block = white.middleRows(s.begin, n).cast<double>();
     double log_det = 0.0;
     const Eigen::MatrixXd inverse = shrunk_inverse(block.transpose() * block, spread, log_det);
     const Eigen::VectorXd effect = inverse * (block.transpose() * residual.segment(s.begin, n).matrix());
-    out.segment(s.begin, n) = (raw.middleRows(s.begin, n) * effect).array();
+    out.segment(s.begin, n) = (raw.middleRows(s.begin, n).cast<double>() * effect).array();
   }
   return out;
 }

@@ -25,25 +25,20 @@ enum SessionEffect : std::size_t {
 /// Standard deviation of each effect between sessions; 0 = they are alike.
 using SessionSpread = std::array<double, k_session_effects>;
 
-/// Columns of the effects, raw, shape [rows, k_session_effects]; a session's rows are its own. `causes_n`: force of the causes, [rows], or empty.
-[[nodiscard]] Eigen::MatrixXd session_columns(const Scene& scene, const Series& causes_n);
+/// In single precision, for they are many and only spreads hang on them.
+using EffectColumns = Eigen::MatrixXf;
 
-/// A session's products with its effects integrated out.
-struct Integrated {
-  Eigen::MatrixXd sums;
-  double log_det = 0;  ///< what the spread costs in -2 log likelihood
-};
-/// `sums`: products of whitened columns; `with_effects`: of those columns and the whitened effects; `effects`: of the effects.
-[[nodiscard]] Integrated integrate_out(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& with_effects, const Eigen::MatrixXd& effects,
-                                       const SessionSpread& spread);
-/// (effects + spread^-2)^-1, zero where the spread is; and log det(1 + spread effects spread).
+/// Columns of the effects, raw, shape [rows, k_session_effects]; a session's rows are its own. `causes_n`: force of the causes, [rows], or empty.
+[[nodiscard]] EffectColumns session_columns(const Scene& scene, const Series& causes_n);
+
+/// (effects + spread^-2)^-1, zero where the spread is; and log det(1 + spread effects spread). `effects`: products of a session's whitened effects.
 [[nodiscard]] Eigen::MatrixXd shrunk_inverse(const Eigen::MatrixXd& effects, const SessionSpread& spread, double& log_det);
 
 /// Spread that makes the whitened residual [rows] likeliest, from the whitened effects [rows, effects]. All 0 with fewer than three sessions.
-[[nodiscard]] SessionSpread estimate_spread(const Recording& recording, const Eigen::MatrixXd& white_effects, const Series& white_residual);
+[[nodiscard]] SessionSpread estimate_spread(const Recording& recording, const EffectColumns& white_effects, const Series& white_residual);
 
 /// The effects of each session as the residual shows them, times `raw`: their force, [rows].
-[[nodiscard]] Series session_force_n(const Recording& recording, const Eigen::MatrixXd& raw, const Eigen::MatrixXd& white_effects,
+[[nodiscard]] Series session_force_n(const Recording& recording, const EffectColumns& raw, const EffectColumns& white_effects,
                                      const Series& white_residual, const SessionSpread& spread);
 
 /// `spread` itself, each of its effects smaller and away, and all away (last): a cause may explain what the sessions differ in.

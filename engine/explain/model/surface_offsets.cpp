@@ -17,7 +17,7 @@ constexpr Eigen::Index k_looked_at = 2000;  // rows of a session that an estimat
 constexpr std::array k_steps_mm{0.005, 0.0005, 0.0005, 0.0005}, k_reach_mm{k_farthest_surface_mm, 0.015, 0.01, 0.005};
 
 bool crosses_the_surface(const Scene& s, const SessionRows& rows) {
-  const auto x = s.motion.x_mm.segment(rows.begin, rows.end - rows.begin);
+  const auto x = s.motion->x_mm.segment(rows.begin, rows.end - rows.begin);
   return (x < 0.0).count() >= k_least_rows && (s.active.segment(rows.begin, rows.end - rows.begin) > 0.5).count() >= k_least_rows;
 }
 
@@ -90,10 +90,10 @@ struct Estimate {
 }  // namespace
 
 PressedRow pressed_at(const Scene& s, Eigen::Index i, double delta_mm, Base base) {
-  const double rk = relative_at(s.recording->relative_k, i), x = s.motion.x_mm[i] + delta_mm;
-  const double spring = rk * x, damper = s.motion.v_mm_s[i] * relative_at(s.recording->relative_c, i);
+  const double rk = relative_at(s.recording->relative_k, i), x = s.motion->x_mm[i] + delta_mm;
+  const double spring = rk * x, damper = s.motion->v_mm_s[i] * relative_at(s.recording->relative_c, i);
   if (base.k_n_per_mm > 0.0 && base.k_n_per_mm * spring + base.c_n_s_per_mm * damper <= 0.0) return {};
-  const double touching = touching_probability(x, s.motion.sd_x_mm[i]);
+  const double touching = touching_probability(x, s.motion->sd_x_mm[i]);
   return {touching * spring, touching * damper, touching * rk};
 }
 

@@ -36,11 +36,11 @@ Series relaxing_mm(const Scene& s, double tau_s, double m) {
   for (const auto& rows : s.recording->sessions) {
     double z = 0.0;
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
-      const double x = s.motion.x_mm[i];
+      const double x = s.motion->x_mm[i];
       if (x <= 0.0) {
         z = 0.0;
       } else if (i > rows.begin) {
-        z = relaxed_mm(z, stretch(x) - stretch(std::max(0.0, s.motion.x_mm[i - 1])), s.dt_s[i - 1] / tau_s);
+        z = relaxed_mm(z, stretch(x) - stretch(std::max(0.0, s.motion->x_mm[i - 1])), s.dt_s[i - 1] / tau_s);
       }
       out[i] = z;
     }
@@ -160,7 +160,7 @@ Mechanism hidden_layer() {
           },
       .columns =
           [](const Scene& s, const Shape& p) {
-            return Columns{{each(s.motion.x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
+            return Columns{{each(s.motion->x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
           },
       .parameters =
           [](const Shape& p, const Shape& own, Base) {
@@ -282,7 +282,7 @@ Mechanism feed_power_law() {
           },
       .columns =
           [](const Scene& s, const Shape& p) {
-            return Columns{{}, {}, each(s.motion.v_mm_s, [&](double v) {
+            return Columns{{}, {}, each(s.motion->v_mm_s, [&](double v) {
                                      const double size = std::hypot(v, k_rest_mm_s);
                                      return v / size * feed_beyond_mm_s(size, p[0]);
                                    }) * s.active};

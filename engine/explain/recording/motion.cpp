@@ -468,14 +468,15 @@ Motion estimate_motion(const Recording& r) {
   return out;
 }
 
-std::vector<Motion> draw_motions(const Recording& r, const Motion& m, std::size_t count, std::uint64_t seed) {
+std::vector<Motion> draw_motions(const Recording& r, const Motion& m, std::pair<std::size_t, std::size_t> which, std::uint64_t seed) {
+  const std::size_t count = which.second - which.first;
   std::vector<Motion> out(count, m);
   const double q = m.quantum_mm > 1e-5 && m.noise_mm == 0.0 ? m.quantum_mm : 0.0;
   const Holds holds = q > 0.0 ? find_holds(r, q) : Holds{};
   for (auto& one : out) one.sd_x_mm.setZero(), one.sd_v_mm_s.setZero();
   if (holds.repeat()) {
     for (std::size_t i = 0; i < count; ++i) {
-      Random random(seed + 0x9e3779b97f4a7c15ULL * (i + 1));
+      Random random(seed + 0x9e3779b97f4a7c15ULL * (which.first + i + 1));
       out[i].x_mm = replaced_holds(r, m.x_mm, holds, q, random);
       const Series off = out[i].x_mm - m.x_mm;
       for (const auto& rows : r.sessions)
@@ -494,7 +495,7 @@ std::vector<Motion> draw_motions(const Recording& r, const Motion& m, std::size_
     if (s.n < 2 || r.exact_motion) continue;
     estimate(s, scratch, rows.begin);
     independent_runs(count, [&](std::size_t i) {
-      Random random(seed + 0x9e3779b97f4a7c15ULL * (i + 1) + 0x632be59bd9b4e019ULL * (at + 1));
+      Random random(seed + 0x9e3779b97f4a7c15ULL * (which.first + i + 1) + 0x632be59bd9b4e019ULL * (at + 1));
       Series v = Series::Zero(s.n);
       draw_backwards(s, random, out[i].x_mm.data() + rows.begin, v.data());
       if (!recedes) out[i].v_mm_s.segment(rows.begin, s.n) = v;

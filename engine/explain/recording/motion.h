@@ -60,6 +60,8 @@ struct SpeedCheck {
 [[nodiscard]] Motion estimate_motion(const Recording& recording);
 /// Motions that the recording leaves possible, drawn from what the smoother knows (forward filter, backward sampling: Carter and Kohn 1994). Where a
 /// rig came back to the same places under a coarse encoder, the places lie elsewhere within its cells, the same in all sessions.
-[[nodiscard]] std::vector<Motion> draw_motions(const Recording& recording, const Motion& estimate, std::size_t count, std::uint64_t seed);
+/// Numbers [which.first, which.second) of those that a seed gives.
+[[nodiscard]] std::vector<Motion> draw_motions(const Recording& recording, const Motion& estimate, std::pair<std::size_t, std::size_t> which,
+                                               std::uint64_t seed);
 
 }  // namespace cavum::explain

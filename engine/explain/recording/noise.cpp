@@ -125,12 +125,17 @@ Whitening::Whitening(const Recording& recording, const Noise& noise, const Serie
 
 void Whitening::apply(const double* in, double* out, const SessionRows& rows) const {
   const auto n = static_cast<std::size_t>(rows.end - rows.begin), most = predictors_.size() - 1;
-  for (std::size_t i = n; i-- > 0;) {  // backwards, so that it can be done in place
-    const std::vector<double>& phi = predictors_[std::min(most, i)];
-    double u = in[i];
-    for (std::size_t j = 0; j < phi.size(); ++j) u -= phi[j] * in[i - 1 - j];
-    out[i] = u * root_weight_[rows.begin + static_cast<Eigen::Index>(i)];
+  const Series z = Eigen::Map<const Series>(in, static_cast<Eigen::Index>(n));  // a copy, so that it can be done in place
+  Eigen::Map<Series> u(out, static_cast<Eigen::Index>(n));
+  u = z;
+  for (std::size_t i = 0; i < std::min(most, n); ++i)
+    for (std::size_t j = 0; j < i; ++j) u[static_cast<Eigen::Index>(i)] -= predictors_[i][j] * z[static_cast<Eigen::Index>(i - 1 - j)];
+  constexpr Eigen::Index k_rows = 2048;  // at a time, so that they stay in the cache
+  for (auto from = static_cast<Eigen::Index>(most); from < u.size(); from += k_rows) {
+    const Eigen::Index count = std::min(k_rows, u.size() - from);
+    for (std::size_t j = 0; j < most; ++j) u.segment(from, count) -= predictors_[most][j] * z.segment(from - 1 - static_cast<Eigen::Index>(j), count);
   }
+  u *= root_weight_.segment(rows.begin, u.size());
 }
 
 void Whitening::apply(Series& z) const {

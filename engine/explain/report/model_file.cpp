@@ -91,7 +91,7 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
   for (const auto& cause : e.causes) {
     const Mechanism& m = mechanism_at(cause.term.mechanism);
     std::vector<double> own;
-    const auto count = static_cast<Eigen::Index>(m.columns(e.after->scene, cause.term.shape).own.size());
+    const auto count = static_cast<Eigen::Index>(m.columns(*e.after->scene, cause.term.shape).own.size());
     for (Eigen::Index i = 0; i < count; ++i) own.push_back(e.after->base_fit.value[at++]);
     const auto [name, parameters] = live_term(cause);
     if (!name.empty()) out << "\n# " << m.equation << ": felt in an exam too\n" << force_term_toml(name, parameters);

@@ -115,7 +115,7 @@ TEST(Mechanisms, AnOffsetOfTheSurfaceNeedsFreeMotionBeforeContact) {
     PathScene s([=](double t) { return from_mm + 0.1 * t; });
     s.scene.left_n = Series::Constant(s.recording.rows(), 0.0);
     for (Eigen::Index i = 0; i < s.recording.rows(); ++i)
-      s.scene.left_n[i] = 0.8 * (std::max(0.0, s.scene.motion.x_mm[i] + 0.07) - std::max(0.0, s.scene.motion.x_mm[i]));
+      s.scene.left_n[i] = 0.8 * (std::max(0.0, s.scene.motion->x_mm[i] + 0.07) - std::max(0.0, s.scene.motion->x_mm[i]));
     return starts(mechanism_at(find_mechanism("contact_offset")), s.scene);
   };
   EXPECT_TRUE(starts_on(0.01).empty());  // in contact from first to last: an offset of the load cell would look the same
