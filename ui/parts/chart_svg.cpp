@@ -11,7 +11,7 @@
 namespace cavum::ui {
 namespace {
 
-constexpr double k_left = 58, k_right = 14, k_top = 34, k_bottom = 46;
+constexpr double k_left = 58, k_right = 14, k_top = 34, k_bottom = 46, k_text_px = 11;
 
 /// A round step that divides `span` into about `wanted` parts.
 double round_step(double span, int wanted) {
@@ -30,6 +30,12 @@ struct Axis {
   }
 };
 
+/// Room around the plot, and how many parts the axes have at most.
+struct Frame {
+  double left = k_left, right = k_right, top = k_top, bottom = k_bottom;
+  int across = 8, up = 7;
+};
+
 Axis make_axis(std::optional<std::pair<double, double>> range, double low, double high, int wanted) {
   Axis a;
   if (!(high > low)) {
@@ -44,6 +50,22 @@ Axis make_axis(std::optional<std::pair<double, double>> range, double low, doubl
   a.low = range ? low : std::floor(low / a.step + 1e-9) * a.step;
   a.high = range ? high : std::ceil(high / a.step - 1e-9) * a.step;
   return a;
+}
+
+/// Leaves room for the numbers beside the axis of y.
+Frame frame_of(const Chart& chart, double y_low, double y_high) {
+  Frame f;
+  if (chart.text_px <= k_text_px) return f;
+  const double digit_px = 0.57 * chart.text_px;
+  f.top = chart.title.empty() ? 0.6 * chart.text_px : 2.4 * chart.text_px;
+  f.bottom = 3.5 * chart.text_px;
+  f.right = 1.2 * chart.text_px;
+  f.up = std::clamp(static_cast<int>((chart.height_px - f.top - f.bottom) / (2.2 * chart.text_px)), 2, 7);
+  const Axis y = make_axis(chart.y_range, y_low, y_high, f.up);
+  const std::size_t longest = std::max(y.label(y.low).size(), y.label(y.high).size());
+  f.left = 1.9 * chart.text_px + digit_px * static_cast<double>(longest);
+  f.across = std::clamp(static_cast<int>((chart.width_px - f.left - f.right) / (3.6 * chart.text_px)), 2, 8);
+  return f;
 }
 
 std::string num(double v) { return fixed(v, 1); }
@@ -90,6 +112,7 @@ std::string legend_sign(const ChartSeries& s, double x, double y) {
 }
 
 std::string legend(const Chart& chart) {
+  if (chart.text_px > k_text_px) return "";
   std::size_t longest = 0, n = 0;
   for (const auto& s : chart.series)
     if (!s.label.empty()) {
@@ -128,54 +151,62 @@ std::string chart_group(const Chart& chart, double x_px, double y_px) {
       y_high = std::max(y_high, p.y + p.error);
     }
   if (x_low > x_high) x_low = y_low = 0, x_high = y_high = 1;
-  Axis x = make_axis(chart.x_range, x_low, x_high, 8), y = make_axis(chart.y_range, y_low, y_high, 7);
-  x.from_px = k_left;
-  x.to_px = chart.width_px - k_right;
-  y.from_px = chart.height_px - k_bottom;
-  y.to_px = k_top;
+  const Frame f = frame_of(chart, y_low, y_high);
+  const double text = chart.text_px, larger = text / k_text_px;
+  Axis x = make_axis(chart.x_range, x_low, x_high, f.across), y = make_axis(chart.y_range, y_low, y_high, f.up);
+  x.from_px = f.left;
+  x.to_px = chart.width_px - f.right;
+  y.from_px = chart.height_px - f.bottom;
+  y.to_px = f.top;
   // charts of one page may lie at one place of their own drawings: what differs in size must differ in name
   const std::string clip = fmt::format("plot{}-{}-{}x{}", num(x_px), num(y_px), num(x.to_px), num(y.from_px));
   std::string out = fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>",
-                                num(x_px), num(y_px), clip, num(k_left), num(k_top), num(x.to_px - k_left), num(y.from_px - k_top));
-  out += svg_text(k_left, 20, chart.title, 13, "start", "font-weight='bold'");
+                                num(x_px), num(y_px), clip, num(f.left), num(f.top), num(x.to_px - f.left), num(y.from_px - f.top));
+  out += svg_text(f.left, 20 * larger, chart.title, 13 * larger, "start", "font-weight='bold'");
   std::string names;
   for (const auto& s : chart.spans) {
-    const double from = std::max(k_left, x.px(s.from)), to = std::min(x.to_px, x.px(s.to));
+    const double from = std::max(f.left, x.px(s.from)), to = std::min(x.to_px, x.px(s.to));
     if (to <= from) continue;
-    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>", num(from), num(k_top), num(to - from), num(y.from_px - k_top),
+    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>", num(from), num(f.top), num(to - from), num(y.from_px - f.top),
                        s.colour);
-    names += svg_text((from + to) / 2, k_top + 14, s.label, 11, "middle",
+    names += svg_text((from + to) / 2, f.top + 14, s.label, text, "middle",
                       fmt::format("fill='#555555' paint-order='stroke' stroke-width='4' stroke='{}'", s.colour));
   }
   for (double v = std::ceil(x.low / x.step - 1e-9) * x.step; v <= x.high + 1e-9 * x.step; v += x.step)
-    out += line(x.px(v), k_top, x.px(v), y.from_px, "#e4e4e4", 1) + svg_text(x.px(v), y.from_px + 16, x.label(v), 11, "middle");
+    out += line(x.px(v), f.top, x.px(v), y.from_px, "#e4e4e4", 1) + svg_text(x.px(v), y.from_px + 16 * larger, x.label(v), text, "middle");
   for (double v = std::ceil(y.low / y.step - 1e-9) * y.step; v <= y.high + 1e-9 * y.step; v += y.step)
-    out += line(k_left, y.px(v), x.to_px, y.px(v), "#e4e4e4", 1) + svg_text(k_left - 6, y.px(v) + 4, y.label(v), 11, "end");
+    out += line(f.left, y.px(v), x.to_px, y.px(v), "#e4e4e4", 1) + svg_text(f.left - 6, y.px(v) + 4 * larger, y.label(v), text, "end");
   out += fmt::format("{}<g clip-path='url(#{})'>", names, clip);
   for (const auto& s : chart.series) out += drawn(s, x, y);
   out += "</g>";
   for (const auto& m : chart.marks) {
     if (m.vertical)
-      out += line(x.px(m.at), k_top, x.px(m.at), y.from_px, "#333333", 1, "stroke-dasharray='3 3'") +
-             svg_text(x.px(m.at) + 5, y.from_px - 8, m.label, 11, "start", "fill='#333333'");
+      out += line(x.px(m.at), f.top, x.px(m.at), y.from_px, "#333333", 1, "stroke-dasharray='3 3'") +
+             svg_text(x.px(m.at) + 5, y.from_px - 8, m.label, text, "start", "fill='#333333'");
     else
-      out += line(k_left, y.px(m.at), x.to_px, y.px(m.at), "#333333", 1, "stroke-dasharray='3 3'") +
-             svg_text(x.to_px - 4, y.px(m.at) - 5, m.label, 11, "end", "fill='#333333'");
+      out += line(f.left, y.px(m.at), x.to_px, y.px(m.at), "#333333", 1, "stroke-dasharray='3 3'") +
+             svg_text(x.to_px - 4, y.px(m.at) - 5, m.label, text, "end", "fill='#333333'");
   }
-  out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>", num(k_left), num(k_top), num(x.to_px - k_left),
-                     num(y.from_px - k_top));
-  const double middle = (k_top + y.from_px) / 2;
-  out += svg_text((k_left + x.to_px) / 2, chart.height_px - 10, chart.x_label, 12, "middle") +
-         svg_text(16, middle, chart.y_label, 12, "middle", fmt::format("transform='rotate(-90 16 {})'", num(middle)));
+  out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>", num(f.left), num(f.top), num(x.to_px - f.left),
+                     num(y.from_px - f.top));
+  const double names_px = std::max(12.0, text), middle = (f.top + y.from_px) / 2;
+  out +=
+      svg_text((f.left + x.to_px) / 2, chart.height_px - 10, chart.x_label, names_px, "middle") +
+      svg_text(names_px + 4, middle, chart.y_label, names_px, "middle", fmt::format("transform='rotate(-90 {} {})'", num(names_px + 4), num(middle)));
   return fmt::format("{}{}</g>\n", out, legend(chart));
 }
 
-std::string svg_page(double width_px, double height_px, const std::string& content) {
-  const std::string w = fixed(width_px, 0), h = fixed(height_px, 0);
+std::string legend_sign_svg(const ChartSeries& series) {
+  return fmt::format("<svg width='26' height='14' viewBox='0 0 26 14' aria-hidden='true'>{}</svg>", legend_sign(series, 2, 7));
+}
+
+std::string svg_page(double width_px, double height_px, const std::string& content, const std::string& name) {
+  const std::string w = fixed(width_px, 0), h = fixed(height_px, 0),
+                    role = name.empty() ? "" : fmt::format(" role='img' aria-label='{}'", xml_text(name));
   return fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='Helvetica, Arial, sans-serif' "
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}'{} font-family='Helvetica, Arial, sans-serif' "
       "fill='#222222'>\n<rect width='100%' height='100%' fill='white'/>\n{}</svg>\n",
-      w, h, w, h, content);
+      w, h, w, h, role, content);
 }
 
 std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print) {

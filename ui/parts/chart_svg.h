@@ -43,6 +43,7 @@ struct Chart {
   std::optional<std::pair<double, double>> x_range, y_range;  ///< else what the series need
   bool legend_at_right = false;                               ///< inside, upper right; else upper left
   double width_px = 520, height_px = 400;
+  double text_px = 11;  ///< of the numbers; larger ones have margins of their own, fewer ticks, and the legend beside the chart
 };
 
 /// A group of `chart.width_px` × `chart.height_px` with its corner at x, y.
@@ -50,8 +51,10 @@ struct Chart {
 /// Words at a place; `anchor` start, middle or end. Text is made safe for XML.
 [[nodiscard]] std::string svg_text(double x_px, double y_px, const std::string& text, double size_px, const std::string& anchor = "start",
                                    const std::string& more = "");
-/// A whole file around groups.
-[[nodiscard]] std::string svg_page(double width_px, double height_px, const std::string& content);
+/// A drawing of 26 × 14 with the sign of a series alone, for a legend beside a chart.
+[[nodiscard]] std::string legend_sign_svg(const ChartSeries& series);
+/// A whole file around groups. `name`: what is read aloud in its place, in a page.
+[[nodiscard]] std::string svg_page(double width_px, double height_px, const std::string& content, const std::string& name = "");
 /// Charts in a row under a title, with lines of small print below.
 [[nodiscard]] std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print);
 

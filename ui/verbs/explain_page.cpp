@@ -21,6 +21,7 @@ using explain::View;
 using Style = ChartSeries::Style;
 
 constexpr int k_bins = 24;
+constexpr double k_text_px = 16, k_narrow_px = 340, k_wide_px = 1050;  // read on a telephone: a narrow chart fits, a wide one scrolls in its box
 // Okabe and Ito's colours: told apart with any colour vision; shapes and dashes say the same again
 constexpr const char *k_measured = "#7f7f7f", *k_before = "#d55e00", *k_after = "#0072b2", *k_third = "#009e73";
 
@@ -70,7 +71,23 @@ std::vector<ChartPoint> binned(const Series& u, const Series& y) {
   return out;
 }
 
-std::string svg(const Chart& chart) { return svg_page(chart.width_px, chart.height_px, chart_group(chart, 0, 0)); }
+/// What scrolls sideways by itself where it is too wide, by keyboard too.
+std::string scrolling(const std::string& content, const std::string& name) {
+  return fmt::format("<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-label=\"{}\">{}</div>\n", xml_text(name), content);
+}
+
+/// A chart with its title and legend above it as text of the page, which breaks where a telephone ends.
+std::string figure(Chart chart) {
+  chart.text_px = k_text_px;
+  std::string keys;
+  for (const auto& s : chart.series)
+    if (!s.label.empty()) keys += fmt::format("<span class=\"key\">{} {}</span> ", legend_sign_svg(s), xml_text(s.label));
+  const std::string title = std::exchange(chart.title, "");
+  const std::string name = fmt::format("chart: {}; {} over {}", title, chart.y_label, chart.x_label);
+  const std::string drawn = svg_page(chart.width_px, chart.height_px, chart_group(chart, 0, 0), name);
+  return fmt::format("<figure><figcaption><b>{}</b><br>{}</figcaption>{}</figure>\n", xml_text(title), keys,
+                     chart.width_px > k_narrow_px ? scrolling(drawn, title) : drawn);
+}
 
 /// How much of the residual goes with `u`: variance of the means over it.
 double strength(const View& before, const Series& u) {
@@ -93,14 +110,15 @@ std::string residual_chart(const View& before, const View& after, const std::str
   c.title = "over " + axis_label(name);
   c.x_label = axis_label(name);
   c.y_label = "measured - simulated, N";
-  c.y_range = {-scale, scale * 1.35};
-  c.height_px = 330;
+  c.y_range = {-scale, scale};
+  c.width_px = k_narrow_px;
+  c.height_px = 300;
   const Series shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
   const auto first = binned(shown, *before.residual_n), last = binned(shown, *after.residual_n);
   c.series.push_back({"before", k_before, Style::dots, first, 1.8});
   c.series.push_back({"after", k_after, Style::rings, last, 1.8});
   if (!first.empty()) c.series.push_back({"", "#333333", Style::line, {{first.front().x, 0, 0}, {first.back().x, 0, 0}}, 0.8});
-  return svg(c);
+  return figure(c);
 }
 
 constexpr double k_stretch_s = 12.0;
@@ -135,9 +153,9 @@ std::string force_charts(const View& before, const View& after) {
   d.title = "what is left: measured - simulated";
   c.x_label = d.x_label = "time t, s";
   c.y_label = d.y_label = "force, N";
-  c.width_px = d.width_px = 1050;
+  c.width_px = d.width_px = k_wide_px;
   c.height_px = 340;
-  d.height_px = 230;
+  d.height_px = 240;
   ChartSeries measured{"measured", k_measured, Style::line, {}, 2.6}, first{"simulated, before", k_before, Style::dashed, {}, 1.6},
       last{"simulated, with the causes", k_after, Style::line, {}, 1.4}, left{"before", k_before, Style::dashed, {}, 1.2},
       rest{"with the causes", k_after, Style::line, {}, 1.2};
@@ -162,9 +180,9 @@ std::string force_charts(const View& before, const View& after) {
     last = rest = {};
   }
   c.series = {measured, last, first};
-  c.y_range = {lowest - 0.04 * (highest - lowest), lowest + 1.45 * (highest - lowest)};  // room for the legend
+  c.y_range = {lowest - 0.04 * (highest - lowest), highest + 0.04 * (highest - lowest)};
   d.series = {left, rest};
-  return "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"measured against simulated, over time\">" + svg(c) + svg(d) + "</div>\n";
+  return figure(c) + figure(d);
 }
 
 std::string gain_chart(const explain::Gain& g) {
@@ -174,26 +192,40 @@ std::string gain_chart(const explain::Gain& g) {
                                             {"with the causes", g.extended_rmse_n, k_after},
                                             {"noise of the measurement", g.noise_floor_n, k_measured}})
     out += printed(
-        "<tr><td>%s</td><td class=\"wide\"><span class=\"bar\" style=\"width:%.0f%%;background:%s\"></span></td><td class=\"n\">%.4f N</td></tr>\n",
+        "<tr><th scope=\"row\">%s</th><td class=\"wide\"><span class=\"bar\" style=\"width:%.0f%%;background:%s\"></span></td><td class=\"n\">%.4f "
+        "N</td></tr>\n",
         name, 1.0 + 99.0 * value / most, colour, value);
   return out + "</table>\n";
 }
 
-std::string head(const std::string& title) {
-  return "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
-         xml_text(title) +
-         "</title><style>body{font:16px/1.5 sans-serif;color:#222;max-width:68em;margin:2em auto;padding:0 "
-         "1em}h1{font-size:1.5em;word-break:break-all}"
-         "h2{font-size:1.2em;margin-top:2em}.verdict{border-left:.5em solid #0072b2;background:#eef4f9;padding:.6em 1em}"
-         ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(26em,100%),1fr));gap:.5em}td,th{text-align:left;vertical-align:top;"
-         "padding:.2em "
-         "1em .2em 0;border-bottom:1px solid #ddd}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}table{border-collapse:collapse}"
-         ".bars{width:100%;max-width:42em}.bars td,.bars th{border:0}.bars .wide{width:60%}.bars "
-         "td.n{white-space:nowrap}.bar{display:inline-block;height:1em}caption{text-align:left}svg{max-width:100%;height:auto}.scroll{overflow-x:"
-         "auto}.scroll svg{min-width:44em}code{background:#f2f2f2}"
-         ".next{border-left:.5em solid #009e73;background:#edf7f3;padding:.6em 1em}</style></head><body>\n<h1>" +
-         xml_text(title) + "</h1>\n";
+/// A file's name, which may break behind its slashes.
+std::string breakable(const std::string& name) {
+  std::string out;
+  for (const char c : xml_text(name)) out += c == '/' ? std::string("/<wbr>") : std::string(1, c);
+  return out;
 }
+
+std::string head(const std::string& title) {
+  return fmt::format(
+             "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+             "content=\"width=device-width, initial-scale=1\"><title>{}</title>",
+             xml_text(title)) +
+         "<style>:root{color-scheme:light}body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:68em;margin:2em auto;padding:0 "
+         "1em;overflow-wrap:anywhere}h1{font-size:1.5em}h2{font-size:1.25em;margin-top:2em}h3{font-size:1.1em;margin-top:2em}small{font-size:1rem;"
+         "font-weight:normal}code{background:#f2f2f2;font-size:1em}figure{margin:0 0 1em}.key{white-space:nowrap;margin-right:.8em}"
+         ".key svg{vertical-align:-.1em}svg{max-width:100%;height:auto}.verdict{border-left:.5em solid #0072b2;background:#eef4f9;padding:.6em "
+         "1em}.verdict ul{margin:.3em 0;padding-left:1.2em}.next{border-left:.5em solid #009e73;background:#edf7f3;padding:.6em 1em}"
+         ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(21em,100%),1fr));gap:.5em}.pair p{margin-top:0}"
+         ".alone>figure>svg{width:100%;max-width:30em}.alone .key{white-space:normal}.scroll{overflow-x:auto}.scroll "
+         "svg{max-width:none;display:block}table{border-collapse:collapse}.scroll td,.scroll th{overflow-wrap:normal}"
+         "td,th{text-align:left;vertical-align:top;padding:.2em 1em .2em 0;border-bottom:1px solid #ddd}td.n,th.n{text-align:right;"
+         "font-variant-numeric:tabular-nums}td.n{white-space:nowrap}caption{text-align:left}.bars{width:100%;max-width:42em}.bars td,.bars "
+         "th{border:0}.bars th{font-weight:normal}.bars .wide{width:50%}.bar{display:inline-block;height:1em}li{margin:.3em 0}summary{cursor:"
+         "pointer}</style></head><body><main>\n<h1>" +
+         breakable(title) + "</h1>\n";
+}
+
+constexpr const char* k_end = "</main></body></html>\n";
 
 std::string list(const std::vector<std::string>& items) {
   std::string out = "<ul>\n";
@@ -202,7 +234,15 @@ std::string list(const std::vector<std::string>& items) {
 }
 
 std::string verdict_box(const explain::Explanation& e, const std::string& words) {
-  return fmt::format("<p class=\"verdict\"><b>{}</b><br>{}</p>\n", xml_text(e.verdict), xml_text(words));
+  std::string causes;
+  for (const auto& c : e.causes) {
+    const auto& m = explain::mechanism_at(c.term.mechanism);
+    causes += fmt::format("<li>{}{}: {}</li>\n", xml_text(m.words), c.aliases.empty() ? "" : ", or one that fits as well",
+                          printed("%.0f %%", 100.0 * (c.aliases.empty() ? c.probability : c.set_probability)));
+  }
+  if (e.unexplained) causes += "<li>something that no mechanism here describes</li>\n";
+  return fmt::format("<div class=\"verdict\"><b>{}</b><br>{}{}</div>\n", xml_text(e.verdict), xml_text(words),
+                     causes.empty() ? "" : fmt::format("<ul>\n{}</ul>\n", causes));
 }
 
 std::string next_box(const std::string& words) { return fmt::format("<h2>The next experiment</h2>\n<p class=\"next\">{}</p>\n", xml_text(words)); }
@@ -226,17 +266,18 @@ std::string cause_chart(const explain::Cause& c, const View& after) {
   const auto [name, u] = seen_over(c, after);
   Chart chart;
   chart.title = "what it alone explains, over " + axis_label(name);
+  chart.width_px = k_narrow_px;
   chart.x_label = axis_label(name);
   chart.y_label = "force, N";
-  chart.height_px = 330;
+  chart.height_px = 300;
   const Series left = *after.residual_n + c.force_n, shown = name == "spindle_rpm" ? Series(u / 1000.0) : u;
   const auto data = binned(shown, left), law = binned(shown, c.force_n);
   double low = 0.0, high = 1e-9;
   for (const auto* points : {&data, &law})
     for (const auto& p : *points) low = std::min(low, p.y - p.error), high = std::max(high, p.y + p.error);
-  chart.y_range = {low - 0.05 * (high - low), high + 0.35 * (high - low)};
+  chart.y_range = {low - 0.05 * (high - low), high + 0.05 * (high - low)};
   chart.series = {{"measured, less all else", k_before, Style::dots, data, 1.8}, {"this cause", k_after, Style::rings, law, 1.8}};
-  return svg(chart);
+  return figure(chart);
 }
 
 /// What the cause gains on each session that the fit had not seen.
@@ -244,7 +285,7 @@ std::string sessions_table(const explain::Explanation& e, const explain::Cause& 
   const std::vector<std::string> names = fold_names(e);
   double most = 1e-9;
   for (const double g : c.by_fold_percent) most = std::max(most, std::fabs(g));
-  std::string out = "<table class=\"bars\"><caption>by session not seen</caption>";
+  std::string out = "<table class=\"bars\"><caption>Error that it takes away from each session not seen</caption>";
   for (std::size_t f = 0; f < names.size() && f < c.by_fold_percent.size(); ++f) {
     const double g = c.by_fold_percent[f];
     out += fmt::format(
@@ -263,30 +304,37 @@ std::string how_likely(const explain::Cause& c) {
                        c.p_value < 0.0051 ? "below 1 in 199" : printed("%.2g", c.p_value).c_str());
 }
 
+std::string fit_as_well(const explain::Cause& c) {
+  if (c.aliases.empty()) return "";
+  std::string out = "<p><b>These fit as well:</b> ";
+  for (std::size_t i = 0; i < c.aliases.size(); ++i) {
+    const auto& other = explain::mechanism_at(explain::find_mechanism(c.aliases[i]));
+    out += fmt::format("{}{} (<code>{}</code>)", i > 0 ? "; " : "", xml_text(other.words), other.name);
+  }
+  return out + ". The data cannot tell which it is.</p>\n";
+}
+
+std::string values_table(const explain::Cause& c) {
+  std::string out = "<table><thead><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %</th></tr></thead>\n";
+  for (const auto& [parameter, i] : c.parameters) {
+    const auto [name, unit] = name_and_unit(parameter);
+    out += fmt::format("<tr><th scope=\"row\">{}{}{}</th>{}</tr>\n", xml_text(name), unit.empty() ? "" : ", ", xml_text(unit),
+                       printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g to %.4g</td>", i.value, i.low, i.high));
+  }
+  return scrolling(out + "</table>", fmt::format("values of {}", explain::mechanism_at(c.term.mechanism).name));
+}
+
 std::string causes_html(const explain::Explanation& e) {
   std::string out;
   for (const auto& c : e.causes) {
     const auto& m = explain::mechanism_at(c.term.mechanism);
-    out += fmt::format("<h3>{} <small><code>{}</code></small></h3>\n{}<p>It adds <code>{}{}{}", xml_text(m.words), m.name, how_likely(c),
-                       xml_text(m.equation), printed("</code>: %.4f N root mean square over the recording. ", c.effect_n),
-                       m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n");
-    if (e.after) out += fmt::format("<div class=\"pair\"><div>{}</div><div>{}</div></div>\n", cause_chart(c, *e.after), sessions_table(e, c));
-    out += "<table><tr><th>value</th><th class=\"n\">found</th><th class=\"n\">95 %, from</th><th class=\"n\">to</th><th></th></tr>\n";
-    for (const auto& [parameter, i] : c.parameters) {
-      const auto [name, unit] = name_and_unit(parameter);
-      out +=
-          fmt::format("<tr><td>{}</td>{}<td>{}</td></tr>\n", xml_text(name),
-                      printed("<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>", i.value, i.low, i.high), xml_text(unit));
-    }
-    out += "</table>\n";
-    if (!c.aliases.empty()) {
-      out += "<p><b>These fit as well:</b> ";
-      for (std::size_t i = 0; i < c.aliases.size(); ++i) {
-        const auto& other = explain::mechanism_at(explain::find_mechanism(c.aliases[i]));
-        out += fmt::format("{}{} (<code>{}</code>)", i > 0 ? "; " : "", xml_text(other.words), other.name);
-      }
-      out += ". The data cannot tell which it is.</p>\n";
-    }
+    out += fmt::format("<h3>{} <small><code>{}</code></small></h3>\n", xml_text(m.words), m.name);
+    const std::string said = how_likely(c) + fit_as_well(c);
+    out += e.after ? fmt::format("<div class=\"pair\"><div>{}</div><div>{}{}</div></div>\n", cause_chart(c, *e.after), said, sessions_table(e, c))
+                   : said;
+    out +=
+        fmt::format("<p>It adds <code>{}{}{}{}", xml_text(m.equation), printed("</code>: %.4f N root mean square over the recording. ", c.effect_n),
+                    m.term != nullptr ? "An exam can feel it.</p>\n" : "It belongs to this measurement, not to the tooth.</p>\n", values_table(c));
     if (m.separate != nullptr) out += fmt::format("<p class=\"next\"><b>To be surer:</b> {}</p>\n", xml_text(m.separate));
   }
   if (e.unexplained)
@@ -303,12 +351,32 @@ std::string cannot_tell(const explain::Explanation& e) {
   std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
   for (const auto& n : e.not_testable) by_reason[n.reason].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
   for (const auto& [reason, group] : by_reason) {
-    out += fmt::format("<p><b>{}:</b></p>\n<details{}{}", xml_text(reason), group.size() > 8 ? "" : " open",
-                       printed("><summary>%zu mechanisms, and what would show them</summary>\n<table>\n", group.size()));
-    for (const auto* m : group)
-      out += fmt::format("<tr><td>{} (<code>{}</code>)</td><td>{}</td></tr>\n", xml_text(m->words), m->name, xml_text(m->separate));
-    out += "</table></details>\n";
+    out +=
+        fmt::format("<p><b>{}:</b></p>\n<details{}{}{}", xml_text(reason), group.size() > 8 ? "" : " open",
+                    printed("><summary>%zu mechanism%s", group.size(), group.size() == 1 ? "" : "s"), ", and what would show it</summary>\n<ul>\n");
+    for (const auto* m : group) out += fmt::format("<li>{} (<code>{}</code>): {}</li>\n", xml_text(m->words), m->name, xml_text(m->separate));
+    out += "</ul></details>\n";
   }
+  return out;
+}
+
+/// The table is long: what gains most stands in sight.
+std::string candidates_html(const explain::Explanation& e) {
+  constexpr std::size_t k_shown = 8;
+  auto candidates = e.candidates;
+  std::sort(candidates.begin(), candidates.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain); });
+  const std::string begin = "<table><thead><tr><th>mechanism</th><th class=\"n\">fall of chi²</th></tr></thead>\n";
+  std::string shown = begin, rest = begin;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto& m = explain::mechanism_at(candidates[i].hypothesis.term.mechanism);
+    (i < k_shown ? shown : rest) +=
+        fmt::format("<tr><td>{} (<code>{}</code>)</td><td class=\"n\">{}</td></tr>\n", xml_text(m.words), m.name,
+                    candidates[i].testable ? printed("%.0f", std::max(0.0, candidates[i].gain)) : std::string("not testable"));
+  }
+  std::string out = "<h2>What each mechanism would gain alone</h2>\n" + shown + "</table>\n";
+  if (candidates.size() > k_shown)
+    out += fmt::format("<details><summary>the other {}</summary>\n{}</table></details>\n", candidates.size() - k_shown, rest);
   return out;
 }
 
@@ -321,11 +389,29 @@ std::string verdict_words(const explain::Explanation& e) {
   return "The simulation lacks what is named below.";
 }
 
+/// Laws side by side: three columns fit a telephone, six do not.
+std::string laws_table(const explain::TableExplanation& e) {
+  std::string out =
+      "<table><thead><tr><th>law</th><th class=\"n\">Voigt law alone</th><th class=\"n\">k X and an intercept</th><th class=\"n\">all "
+      "three</th></tr></thead>\n";
+  const auto row = [&](const char* name, int digits, double explain::TableFit::*value) {
+    out += fmt::format("<tr><th scope=\"row\">{}</th>", name);
+    for (const auto* f : {&e.voigt, &e.line, &e.all}) out += "<td class=\"n\">" + fixed(f->*value, digits) + "</td>";
+    out += "</tr>\n";
+  };
+  row("slope: F = … k", 3, &explain::TableFit::slope_mm);
+  row("root: … √k", 3, &explain::TableFit::root);
+  row("intercept: … at k = 0, N", 3, &explain::TableFit::intercept_n);
+  row("rms, N", 4, &explain::TableFit::rms_n);
+  row("row left out, N", 4, &explain::TableFit::left_out_rms_n);
+  return out + "</table>\n";
+}
+
 }  // namespace
 
 std::string explanation_html(const explain::Explanation& e, const std::string& title) {
   std::string out = head(title) + verdict_box(e, verdict_words(e));
-  if (e.verdict == "data_fault") return fmt::format("{}{}{}</body></html>\n", out, list(e.data_faults), next_box(e.next_experiment));
+  if (e.verdict == "data_fault") return fmt::format("{}{}{}{}", out, list(e.data_faults), next_box(e.next_experiment), k_end);
   out += "<h2>What the simulation gets wrong</h2>\n" + causes_html(e);
   out += fmt::format(
       "<h2>What fixing it gains</h2>\n<p>Root mean square error on sessions that the fit had not seen.</p>\n{}{}", gain_chart(e.gain),
@@ -350,27 +436,17 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
                      [&](const auto& a, const auto& b) { return strength(*e.before, *a.second) > strength(*e.before, *b.second); });
     const double scale = residual_scale(*e.before, suspects);
     for (const auto& [name, u] : suspects) out += residual_chart(*e.before, *e.after, name, *u, scale);
-    out += "</div>\n" + cannot_tell(e);
-    out += "<h2>What each mechanism would gain alone</h2>\n<table><tr><th>mechanism</th><th class=\"n\">fall of chi²</th><th></th></tr>\n";
-    auto candidates = e.candidates;
-    std::sort(candidates.begin(), candidates.end(),
-              [](const auto& a, const auto& b) { return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain); });
-    for (const auto& c : candidates) {
-      const auto& m = explain::mechanism_at(c.hypothesis.term.mechanism);
-      out += printed("<tr><td><code>%s</code></td><td class=\"n\">%s</td><td>%s</td></tr>\n", m.name,
-                     c.testable ? printed("%.0f", std::max(0.0, c.gain)).c_str() : "not testable here", m.words);
-    }
-    out += "</table>\n";
+    out += "</div>\n" + cannot_tell(e) + candidates_html(e);
   }
   if (!e.notes.empty()) out += "<h2>Notes</h2>\n" + list(e.notes);
-  return out + "</body></html>\n";
+  return out + k_end;
 }
 
 std::string table_html(const explain::TableExplanation& e, const std::string& title) {
   std::string out = head(title);
   if (e.said.verdict == "data_fault")
-    return fmt::format("{}{}{}{}</body></html>\n", out, verdict_box(e.said, verdict_words(e.said)), list(e.said.data_faults),
-                       next_box(e.said.next_experiment));
+    return fmt::format("{}{}{}{}{}", out, verdict_box(e.said, verdict_words(e.said)), list(e.said.data_faults), next_box(e.said.next_experiment),
+                       k_end);
   out += verdict_box(
       e.said, e.said.verdict == "alias"
                   ? printed("A force of %.3f N is missing that does not depend on k. Friction, a bias of the load cell, an edge force: the table "
@@ -382,8 +458,8 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   c.title = "force over stiffness";
   c.x_label = "stiffness k, N/mm";
   c.y_label = "force, N";
-  c.height_px = 440;
-  c.width_px = 700;
+  c.height_px = 360;
+  c.width_px = k_narrow_px;
   ChartSeries points{"the table", "#222222", Style::dots, {}, 1.8}, line{"k X and an intercept", k_after, Style::line, {}, 1.8},
       voigt{"Voigt law alone, best fit: k X + c V, c ~ √k", k_before, Style::dashed, {}, 1.8},
       published{"published: k X at the line's slope, + c V with c = 2 √k", k_third, Style::dashed, {}, 1.2};
@@ -398,20 +474,12 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
     top = std::max(top, published.points.back().y);
   }
   c.series = {line, voigt, published, points};
-  c.y_range = {0.0, 1.35 * top};
+  c.y_range = {0.0, 1.05 * top};
   c.x_range = {-0.03 * most, 1.03 * most};
-  out += "<h2>Measured against simulated</h2>\n" + svg(c);
-  out +=
-      "<table><tr><th>law</th><th class=\"n\">F = … k</th><th class=\"n\">… √k</th><th class=\"n\">… at k = 0, N</th><th class=\"n\">rms, N</th><th "
-      "class=\"n\">row left out, N</th></tr>\n";
-  for (const auto& [name, f] : {std::pair{"Voigt law alone", &e.voigt}, {"k X and an intercept", &e.line}, {"all three", &e.all}})
-    out += printed(
-        "<tr><td>%s</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.3f</td><td class=\"n\">%.4f</td><td "
-        "class=\"n\">%.4f</td></tr>\n",
-        name, f->slope_mm, f->root, f->intercept_n, f->rms_n, f->left_out_rms_n);
-  out += fmt::format("</table>\n<h2>What it says, and what it cannot say</h2>\n{}{}{}", list(e.said.notes), next_box(e.said.next_experiment),
-                     cannot_tell(e.said));
-  return out + "</body></html>\n";
+  out += "<h2>Measured against simulated</h2>\n" + fmt::format("<div class=\"alone\">{}</div>\n", figure(c));
+  out += laws_table(e) + fmt::format("<h2>What it says, and what it cannot say</h2>\n{}{}{}", list(e.said.notes), next_box(e.said.next_experiment),
+                                     cannot_tell(e.said));
+  return out + k_end;
 }
 
 }  // namespace cavum::ui

@@ -17,10 +17,13 @@ using Grid = std::vector<Shape>;
 /// Fc tanh(V/v0) at Fc = 1 by the engine's own law. Where the speed is uncertain by sd the mean over that uncertainty is
 /// close to tanh(V/sqrt(v0² + sd²·pi/2)): equal slope at 0, equal ends.
 Series sign_of_motion(const Scene& s, double v0_mm_s) {
-  Series out(s.motion->v_mm_s.size());
+  const Series& v = s.motion->v_mm_s;
+  const Series* slide = s.recording->column("slide_mm_s");
+  Series out(v.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double width = std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion->sd_v_mm_s[i] * s.motion->sd_v_mm_s[i]);
-    out[i] = sliding_share(s.motion->v_mm_s[i], width);
+    const double whole = slide != nullptr ? std::hypot(v[i], (*slide)[i]) : 0.0;  // friction is against the tip's motion, whichever way that goes
+    out[i] = whole > 0.0 ? sliding_share(whole, width) * v[i] / whole : sliding_share(v[i], width);
   }
   return out;
 }

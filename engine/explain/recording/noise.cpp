@@ -75,7 +75,8 @@ Noise estimate_noise(const Recording& recording, const Series& residual, const S
   const Series counts = (weight > enough).cast<double>();
   const Series e = centred(recording, residual, counts);
   const std::vector<double> c = covariances(recording, e, counts);
-  Noise best{0.0, std::max(1e-9, std::sqrt(c[0])), 0.0, {0.0}};
+  const double rounding_n = recording.rig.force_quantum_n / std::sqrt(12.0);
+  Noise best{0.0, std::max({1e-9, std::sqrt(c[0]), c[0] > 1e-18 ? 0.0 : rounding_n}), 0.0, {0.0}};
   best.step_sd_n = best.sd_n;
   if (!(c[0] > 1e-18)) return best;
   const double rows = std::max(2.0, counts.sum());
@@ -94,6 +95,8 @@ Noise estimate_noise(const Recording& recording, const Series& residual, const S
     }
   }
   best.rho = c[1] / c[0];
+  best.sd_n = std::max(best.sd_n, rounding_n);
+  best.step_sd_n = std::max(best.step_sd_n, rounding_n);
   return best;
 }
 

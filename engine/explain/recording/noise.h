@@ -16,7 +16,8 @@ struct Noise {
 };
 
 /// From the residual's correlations over up to k_noise_orders rows, each session about its own mean. Values beyond 6 scatters count as 6, and rows
-/// with weight under 0.5 are left out. An effect that is still in the residual is taken for noise: it makes the noise larger, never smaller.
+/// with weight under 0.5 are left out. No less than rounding to the force quantum makes. An effect that is still in the residual is
+/// taken for noise: it makes the noise larger, never smaller.
 [[nodiscard]] Noise estimate_noise(const Recording& recording, const Series& residual_n, const Series& weight);
 
 inline constexpr int k_noise_orders = 24;

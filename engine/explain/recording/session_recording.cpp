@@ -17,6 +17,7 @@ namespace {
 
 constexpr double k_row_s = 0.005;
 constexpr double k_least_contact_s = 0.5;
+constexpr double k_felt_n = 1e-3;  // of a law without noise: no hand and no load cell of an exam tells less
 
 /// A force over time, linear between its samples.
 struct Force {
@@ -78,9 +79,16 @@ Viscoelastic stiffest(const ForceModel& model) {
   return out;
 }
 
-/// Stretches of contact in which the force is known, replayed tick by tick. `measured` without rows: the rendered force.
+/// How far two forces are apart.
+struct Apart {
+  double square_sum = 0, rows = 0;
+  [[nodiscard]] double rms_n() const { return rows > 0 ? std::sqrt(square_sum / rows) : 0.0; }
+};
+
+/// Stretches of contact in which the force is known, replayed tick by tick. `measured` without rows: the force of the session's own law.
+/// `rendering`: the rendered force against it, along the normal.
 std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulation& simulation, const Force& measured, std::int64_t every,
-                                          const std::string& path) {
+                                          const std::string& path, Apart& rendering) {
   const double tick_s = simulation.model.config.tick_s;
   std::vector<std::vector<Row>> contacts(1);
   const auto ends = [&contacts] {
@@ -88,7 +96,7 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
   };
   std::map<int, double> removed;
   std::int64_t tick = 0;
-  Vec3 last_tip = simulation.state.estimate.tip_mm;
+  Vec3 last_tip = simulation.state.estimate.tip_mm, velocity_mm_s;
   for (std::size_t chunk = 0; chunk < session.chunks().size(); ++chunk) {
     const ChunkMotion motion = session.motion(chunk);
     for (std::size_t i = 0; i < motion.inputs.size(); ++i, ++tick) {
@@ -100,22 +108,26 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
       worn += out.removed_count * simulation.state.tooth.leaf_volume_mm3();
       const Vec3 moved = simulation.state.estimate.tip_mm - last_tip;
       last_tip = simulation.state.estimate.tip_mm;
+      velocity_mm_s += (moved / tick_s - velocity_mm_s) * (tick_s / (simulation.model.force.rendering.speed_filter_s + tick_s));  // as V is seen
       if (!out.contact) {
         ends();
         continue;
       }
       if (tick % every != 0) continue;
       const double t = static_cast<double>(tick) * tick_s;
-      const std::optional<double> force = measured.t_s.empty() ? std::optional(dot(out.rendered_force_n, out.normal)) : measured.at(t);
+      const std::optional<double> force = measured.t_s.empty() ? std::optional(out.model_force_n) : measured.at(t);
       if (!force) {
         ends();
         continue;
       }
+      const double apart_n = dot(out.rendered_force_n, out.normal) - out.model_force_n;
+      rendering.square_sum += apart_n * apart_n;
+      rendering.rows += 1.0;
       const auto& touched = simulation.state.contact.touched.means.of;
       const Vec3 axis = simulation.state.contact.rotation * Vec3{0, 0, 1};
       contacts.back().push_back({t, out.penetration_mm, out.approach_mm_s, *force, touched.stiffness_n_per_mm, touched.damping_n_s_per_mm, out.rpm,
                                  worn, static_cast<double>(input.point), degrees(std::atan2(out.normal.x, out.normal.z)),
-                                 length(moved - out.normal * dot(moved, out.normal)) / tick_s,
+                                 length(velocity_mm_s - out.normal * dot(velocity_mm_s, out.normal)),
                                  degrees(std::acos(std::clamp(dot(axis, out.normal), -1.0, 1.0)))});
     }
   }
@@ -162,21 +174,22 @@ Recording read_session_recording(const std::string& path, const std::string& for
   Simulation simulation = make_simulation(session.setup(), path);
   const double tick_s = simulation.model.config.tick_s;
   const Force measured = force_csv.empty() ? force_of_events(session, tick_s) : force_of_csv(force_csv);
-  const bool rendered = measured.t_s.empty();
+  const bool own_law = measured.t_s.empty();
   const Viscoelastic reference = stiffest(simulation.model.force);
   if (!(reference.stiffness_n_per_mm > 0.0)) throw Error(path, "no material of its force model resists", "explain a session in which something does");
 
   const auto every = std::max<std::int64_t>(1, std::llround(k_row_s / tick_s));
   const auto least = static_cast<std::size_t>(k_least_contact_s / (tick_s * static_cast<double>(every)));
-  Recording r = joined(contacts_of(session, simulation, measured, every, path), least, reference);
+  Apart rendering;
+  Recording r = joined(contacts_of(session, simulation, measured, every, path, rendering), least, reference);
   if (r.sessions.empty())
-    throw Error(path, rendered ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
+    throw Error(path, own_law ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
                 "explain a session in which the tooth was touched for longer");
-  r.rig.force_quantum_n = rendered ? 1e-6 : 0.0;
-  if (rendered) r.rig.force_limit_n = simulation.model.config.limits.peak_n;
-  r.notes.push_back(rendered
-                        ? "force: as rendered by the simulation, for the session holds no measured one. What is found is what rendering, safety and "
-                          "the session's own force terms make of k X + c V; it says nothing about real tissue"
+  r.rig.force_quantum_n = own_law ? k_felt_n : 0.0;
+  r.notes.push_back(own_law
+                        ? fmt::format("force: the session's own law, for it holds no measured one. What is found is what its force terms add to "
+                                      "k X + c V; it says nothing about real tissue. Rendering and safety made {:.2g} N rms of difference to it",
+                                      rendering.rms_n())
                         : fmt::format("force: {}. X and V are the simulation's", measured.source));
   r.notes.push_back(fmt::format("{} contacts of half a second or more count as sessions; time in air is left out", r.sessions.size()));
   return r;
