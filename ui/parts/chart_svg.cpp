@@ -33,6 +33,7 @@ struct Axis {
 /// Room around the plot, and how many parts the axes have at most.
 struct Frame {
   double left = k_left, right = k_right, top = k_top, bottom = k_bottom;
+  double spill = 0;  ///< how far a dot at an end of x is seen beyond it
   int across = 8, up = 7;
 };
 
@@ -60,10 +61,11 @@ Frame frame_of(const Chart& chart, double y_low, double y_high) {
   f.top = chart.title.empty() ? 0.6 * chart.text_px : 2.4 * chart.text_px;
   f.bottom = 3.5 * chart.text_px;
   f.right = 1.2 * chart.text_px;
+  f.spill = 5.0;
   f.up = std::clamp(static_cast<int>((chart.height_px - f.top - f.bottom) / (2.2 * chart.text_px)), 2, 7);
   const Axis y = make_axis(chart.y_range, y_low, y_high, f.up);
   const std::size_t longest = std::max(y.label(y.low).size(), y.label(y.high).size());
-  f.left = 1.9 * chart.text_px + digit_px * static_cast<double>(longest);
+  f.left = 2.4 * chart.text_px + digit_px * static_cast<double>(longest);
   f.across = std::clamp(static_cast<int>((chart.width_px - f.left - f.right) / (3.6 * chart.text_px)), 2, 8);
   return f;
 }
@@ -160,8 +162,9 @@ std::string chart_group(const Chart& chart, double x_px, double y_px) {
   y.to_px = f.top;
   // charts of one page may lie at one place of their own drawings: what differs in size must differ in name
   const std::string clip = fmt::format("plot{}-{}-{}x{}", num(x_px), num(y_px), num(x.to_px), num(y.from_px));
-  std::string out = fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>",
-                                num(x_px), num(y_px), clip, num(f.left), num(f.top), num(x.to_px - f.left), num(y.from_px - f.top));
+  std::string out =
+      fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>", num(x_px), num(y_px),
+                  clip, num(f.left - f.spill), num(f.top), num(x.to_px - f.left + 2 * f.spill), num(y.from_px - f.top));
   out += svg_text(f.left, 20 * larger, chart.title, 13 * larger, "start", "font-weight='bold'");
   std::string names;
   for (const auto& s : chart.spans) {

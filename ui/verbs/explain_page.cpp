@@ -216,11 +216,13 @@ std::string head(const std::string& title) {
          ".key svg{vertical-align:-.1em}svg{max-width:100%;height:auto}.verdict{border-left:.5em solid #0072b2;background:#eef4f9;padding:.6em "
          "1em}.verdict ul{margin:.3em 0;padding-left:1.2em}.next{border-left:.5em solid #009e73;background:#edf7f3;padding:.6em 1em}"
          ".pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(21em,100%),1fr));gap:.5em}.pair p{margin-top:0}"
-         ".alone>figure>svg{width:100%;max-width:30em}.alone .key{white-space:normal}.scroll{overflow-x:auto}.scroll "
-         "svg{max-width:none;display:block}table{border-collapse:collapse}.scroll td,.scroll th{overflow-wrap:normal}"
-         "td,th{text-align:left;vertical-align:top;padding:.2em 1em .2em 0;border-bottom:1px solid #ddd}td.n,th.n{text-align:right;"
+         ".alone>figure>svg{width:100%;max-width:24em}.alone .key{display:block;white-space:normal}.scroll{overflow-x:auto}.scroll "
+         "svg{max-width:none;display:block}table{border-collapse:collapse}"
+         "td,th{overflow-wrap:break-word;text-align:left;vertical-align:top;padding:.2em 1em .2em 0;border-bottom:1px solid "
+         "#ddd}td.n,th.n{text-align:right;"
          "font-variant-numeric:tabular-nums}td.n{white-space:nowrap}caption{text-align:left}.bars{width:100%;max-width:42em}.bars td,.bars "
-         "th{border:0}.bars th{font-weight:normal}.bars .wide{width:50%}.bar{display:inline-block;height:1em}li{margin:.3em 0}summary{cursor:"
+         "th{border:0}.bars th{font-weight:normal}.bars .wide{width:45%}.sessions "
+         "th{overflow-wrap:anywhere;min-width:3em}.bar{display:inline-block;height:1em}li{margin:.3em 0}summary{cursor:"
          "pointer}</style></head><body><main>\n<h1>" +
          breakable(title) + "</h1>\n";
 }
@@ -236,11 +238,12 @@ std::string list(const std::vector<std::string>& items) {
 std::string verdict_box(const explain::Explanation& e, const std::string& words) {
   std::string causes;
   for (const auto& c : e.causes) {
+    if (c.probability <= 0.0) continue;  // a table of means gives none
     const auto& m = explain::mechanism_at(c.term.mechanism);
     causes += fmt::format("<li>{}{}: {}</li>\n", xml_text(m.words), c.aliases.empty() ? "" : ", or one that fits as well",
                           printed("%.0f %%", 100.0 * (c.aliases.empty() ? c.probability : c.set_probability)));
   }
-  if (e.unexplained) causes += "<li>something that no mechanism here describes</li>\n";
+  if (e.unexplained && !causes.empty()) causes += "<li>something that no mechanism here describes</li>\n";
   return fmt::format("<div class=\"verdict\"><b>{}</b><br>{}{}</div>\n", xml_text(e.verdict), xml_text(words),
                      causes.empty() ? "" : fmt::format("<ul>\n{}</ul>\n", causes));
 }
@@ -285,7 +288,7 @@ std::string sessions_table(const explain::Explanation& e, const explain::Cause& 
   const std::vector<std::string> names = fold_names(e);
   double most = 1e-9;
   for (const double g : c.by_fold_percent) most = std::max(most, std::fabs(g));
-  std::string out = "<table class=\"bars\"><caption>Error that it takes away from each session not seen</caption>";
+  std::string out = "<table class=\"bars sessions\"><caption>Error that it takes away from each session not seen</caption>";
   for (std::size_t f = 0; f < names.size() && f < c.by_fold_percent.size(); ++f) {
     const double g = c.by_fold_percent[f];
     out += fmt::format(
@@ -351,9 +354,9 @@ std::string cannot_tell(const explain::Explanation& e) {
   std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
   for (const auto& n : e.not_testable) by_reason[n.reason].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
   for (const auto& [reason, group] : by_reason) {
-    out +=
-        fmt::format("<p><b>{}:</b></p>\n<details{}{}{}", xml_text(reason), group.size() > 8 ? "" : " open",
-                    printed("><summary>%zu mechanism%s", group.size(), group.size() == 1 ? "" : "s"), ", and what would show it</summary>\n<ul>\n");
+    out += fmt::format("<p><b>{}:</b></p>\n<details{}{}{}", xml_text(reason), group.size() > 8 ? "" : " open",
+                       printed("><summary>%zu mechanism%s", group.size(), group.size() == 1 ? "" : "s"),
+                       group.size() == 1 ? ", and what would show it</summary>\n<ul>\n" : ", and what would show them</summary>\n<ul>\n");
     for (const auto* m : group) out += fmt::format("<li>{} (<code>{}</code>): {}</li>\n", xml_text(m->words), m->name, xml_text(m->separate));
     out += "</ul></details>\n";
   }

@@ -65,16 +65,16 @@ TEST(SessionRecording, AMeasuredForceIsReadFromTheSessionAndItsFrictionIsNamed) 
   EXPECT_NEAR(e.base.k_n_per_mm, 0.8, 0.06);
 }
 
-TEST(SessionRecording, AForceBesideTheSessionCountsInsteadOfTheRenderedOne) {
+TEST(SessionRecording, AForceBesideTheSessionCountsInsteadOfItsLaw) {
   const test::Folder folder;
   const std::string path = folder.file("plain.cavum"), force = folder.file("force.csv");
   write_text_file(force, make_session(path, false));
-  const Recording rendered = read_session_recording(path), measured = read_session_recording(path, force);
-  EXPECT_NE(first_note(rendered).find("as rendered"), std::string::npos);
+  const Recording own = read_session_recording(path), measured = read_session_recording(path, force);
+  EXPECT_NE(first_note(own).find("own law"), std::string::npos);
   EXPECT_NE(first_note(measured).find(force), std::string::npos);
-  ASSERT_EQ(rendered.rows(), measured.rows());
-  EXPECT_EQ((rendered.x_mm - measured.x_mm).abs().maxCoeff(), 0.0);
-  EXPECT_GT((rendered.f_n - measured.f_n).abs().maxCoeff(), 0.05);
+  ASSERT_EQ(own.rows(), measured.rows());
+  EXPECT_EQ((own.x_mm - measured.x_mm).abs().maxCoeff(), 0.0);
+  EXPECT_GT((own.f_n - measured.f_n).abs().maxCoeff(), 0.05);
 }
 
 TEST(SessionRecording, XAndVAreThoseOfTheReplay) {
@@ -89,7 +89,7 @@ TEST(SessionRecording, XAndVAreThoseOfTheReplay) {
     if (std::fabs(r.t_s[row] - 0.001 * static_cast<double>(tick)) > 1e-9) continue;
     ASSERT_EQ(r.x_mm[row], out.penetration_mm);
     ASSERT_EQ(r.v_mm_s[row], out.approach_mm_s);
-    ASSERT_EQ(r.f_n[row], dot(out.rendered_force_n, out.normal));
+    ASSERT_EQ(r.f_n[row], out.model_force_n);
     ++row;
   }
   EXPECT_EQ(row, r.rows());
