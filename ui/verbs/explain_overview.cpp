@@ -42,9 +42,11 @@ std::string chart_over(const std::string& title, const std::string& x_label, con
   c.x_label = x_label;
   c.y_label = y_label;
   c.width_px = 700;
+  c.text_px = 16;  // a telephone shows it as it is, and scrolls
   c.series.push_back({"", "#0072b2", style, std::move(points), 1.0});
   if (mark) c.marks.push_back(*mark);
-  return svg_page(c.width_px, c.height_px, chart_group(c, 0, 0));
+  return fmt::format("<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-label=\"{}\">{}</div>\n", xml_text(title),
+                     svg_page(c.width_px, c.height_px, chart_group(c, 0, 0), "chart: " + title));
 }
 
 /// Time of a recording whose sessions each begin anew, one behind the other.
@@ -101,9 +103,10 @@ std::string overview_html(const Recording& r, const explain::Overview& overview,
   const Series time = running_time_s(r);
   std::string out = fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><title>{0}</title><style>"
-      "body{{font:16px/1.5 sans-serif;color:#222;max-width:68em;margin:2em auto;padding:0 1em}}h1{{font-size:1.5em;word-break:break-all}}"
-      "svg{{max-width:100%;height:auto}}pre{{white-space:pre-wrap;background:#f2f2f2;padding:1em}}</style></head><body>\n<h1>{0}</h1>\n"
+      "content=\"width=device-width, initial-scale=1\"><title>{0}</title><style>"
+      ":root{{color-scheme:light}}body{{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:68em;margin:2em auto;padding:0 1em}}"
+      "h1{{font-size:1.5em;overflow-wrap:anywhere}}.scroll{{overflow-x:auto}}svg{{display:block}}"
+      "pre{{white-space:pre-wrap;overflow-wrap:anywhere;font-size:1em;background:#f2f2f2;padding:1em}}</style></head><body><main>\n<h1>{0}</h1>\n"
       "<p>What was understood, before anything is explained.</p>\n",
       xml_text(title));
   if (r.x_mm.size() > 0) {
@@ -113,7 +116,7 @@ std::string overview_html(const Recording& r, const explain::Overview& overview,
   }
   out += chart_over("force over time", "time t, s; sessions one behind the other", "force f, N", thinned(time, r.f_n), ChartSeries::Style::line, {});
   // words may hold the control characters of a file's names: xml_text keeps line ends as references, which pre shows
-  out += fmt::format("<pre>{}</pre>\n</body></html>\n", xml_text(explain::to_text(overview)));
+  out += fmt::format("<pre>{}</pre>\n</main></body></html>\n", xml_text(explain::to_text(overview)));
   return out;
 }
 

@@ -18,7 +18,7 @@ using Grid = std::vector<Shape>;
 /// close to tanh(V/sqrt(v0² + sd²·pi/2)): equal slope at 0, equal ends.
 Series sign_of_motion(const Scene& s, double v0_mm_s) {
   const Series& v = s.motion->v_mm_s;
-  const Series* slide = s.recording->column("slide_mm_s");
+  const Series* slide = s.recording->friction_by_path ? s.recording->column("slide_mm_s") : nullptr;
   Series out(v.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double width = std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion->sd_v_mm_s[i] * s.motion->sd_v_mm_s[i]);

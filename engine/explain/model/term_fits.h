@@ -22,9 +22,9 @@ class TermFits {
   struct Block {
     Term term;  ///< of mechanism -1: force, k and c
     Eigen::Index own = 0, repeats = 1;
-    Eigen::Index spring = -1, damper = -1;  ///< among its columns
-    Eigen::MatrixXd white;                  ///< [rows, columns]
-    std::vector<Eigen::MatrixXd> with_effects;                       ///< by session, [columns, effects]
+    Eigen::Index spring = -1, damper = -1;                            ///< among its columns
+    Eigen::MatrixXd white;                                            ///< [rows, columns]
+    std::vector<Eigen::MatrixXd> with_effects;                        ///< by session, [columns, effects]
     std::map<const Block*, std::vector<Eigen::MatrixXd>> with_block;  ///< by session, [columns, the other's columns]
   };
 

@@ -47,9 +47,10 @@ struct Recording {
   Series v_mm_s;                                        ///< measured speed; empty when there is none
   std::vector<std::pair<std::string, Series>> columns;  ///< all others in the order of the file; words are numbered in order of appearance
   Rig rig;
-  Series relative_k, relative_c;           ///< k and c of the tissue touched over those of the reference, row by row, > 0 or 0; empty = 1 everywhere
-  bool exact_motion = false;               ///< x and v come from the engine itself: nothing to estimate or to check
-  bool specimens = false;                  ///< sessions are different specimens, brought to a common scale (specimens.h)
+  Series relative_k, relative_c;  ///< k and c of the tissue touched over those of the reference, row by row, > 0 or 0; empty = 1 everywhere
+  bool friction_by_path = false;  ///< friction is against the tip's whole motion (slide_mm_s across the feed), as the engine's; false: along the feed
+  bool exact_motion = false;      ///< x and v come from the engine itself: nothing to estimate or to check
+  bool specimens = false;         ///< sessions are different specimens, brought to a common scale (specimens.h)
   std::vector<std::string> notes;          ///< what was assumed while reading, in words
   std::shared_ptr<const Reading> reading;  ///< how the table was read; null for a session and for what was made
 

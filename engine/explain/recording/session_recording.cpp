@@ -185,12 +185,12 @@ Recording read_session_recording(const std::string& path, const std::string& for
   if (r.sessions.empty())
     throw Error(path, own_law ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
                 "explain a session in which the tooth was touched for longer");
+  r.friction_by_path = own_law;
   r.rig.force_quantum_n = own_law ? k_felt_n : 0.0;
-  r.notes.push_back(own_law
-                        ? fmt::format("force: the session's own law, for it holds no measured one. What is found is what its force terms add to "
-                                      "k X + c V; it says nothing about real tissue. Rendering and safety made {:.2g} N rms of difference to it",
-                                      rendering.rms_n())
-                        : fmt::format("force: {}. X and V are the simulation's", measured.source));
+  r.notes.push_back(own_law ? fmt::format("force: the session's own law, for it holds no measured one. What is found is what its force terms add to "
+                                          "k X + c V; it says nothing about real tissue. Rendering and safety made {:.2g} N rms of difference to it",
+                                          rendering.rms_n())
+                            : fmt::format("force: {}. X and V are the simulation's", measured.source));
   r.notes.push_back(fmt::format("{} contacts of half a second or more count as sessions; time in air is left out", r.sessions.size()));
   return r;
 }

@@ -78,9 +78,9 @@ std::string protocol_motion_csv() {
 
 std::string protocol_page() {
   std::string rows;
-  for (const auto& m : mechanisms()) rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", m.name, m.words, m.separate);
-  return R"(<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Recording protocol for cavum explain</title>
-<style>body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}td,th{text-align:left;vertical-align:top;padding:.2em .8em .2em 0;border-bottom:1px solid #ccc}table{border-collapse:collapse}</style></head><body>
+  for (const auto& m : mechanisms()) rows += fmt::format("<li><b>{}</b> (<code>{}</code>): {}</li>\n", m.words, m.name, m.separate);
+  return R"(<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>Recording protocol for cavum explain</title>
+<style>:root{color-scheme:light}body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:60em;margin:2em auto;padding:0 1em;overflow-wrap:anywhere}code{font-size:1em}li{margin:.3em 0}</style></head><body><main>
 <h1>A recording from which causes can be told apart</h1>
 <p>Six sessions of about a minute, each with the motion in the CSV file beside this page (height z above the surface; the first touch is z = 0). Sample force and
 position together, 200 times a second or faster; write the measured speed down too when the machine knows it: with a coarse encoder it is worth most.</p>
@@ -97,9 +97,10 @@ last: a coarse encoder rounds a hold at one depth by the same error every time, 
 </ol>
 <p>CSV columns: <code>session,t_s,x_mm,f_n</code> and any of <code>v_mm_s, spindle_rpm, wet, posture_deg, approach_deg, fy_n, fz_n, removed_mm3, bur_id, site, layer, temperature_c</code>;
 any other numeric column is tried as an explanation too. Then: <code>cavum explain recording.csv --out report.html</code></p>
-<h2>What shows what</h2><table><tr><th>mechanism</th><th>what it is</th><th>what shows it best</th></tr>
+<h2>What shows what</h2>
+<ul>
 )" + rows +
-         "</table></body></html>\n";
+         "</ul>\n</main></body></html>\n";
 }
 
 }  // namespace cavum::explain

@@ -77,6 +77,25 @@ TEST(SessionRecording, AForceBesideTheSessionCountsInsteadOfItsLaw) {
   EXPECT_GT((own.f_n - measured.f_n).abs().maxCoeff(), 0.05);
 }
 
+TEST(SessionRecording, TheFrictionOfTheSessionsOwnLawIsNamed) {
+  const test::Folder folder;
+  const std::string path = folder.file("friction.cavum");
+  SessionSetup setup = test::block_setup();
+  setup.force_model_toml += "\n[[terms]]\nkind = \"coulomb_friction\"\nfc_n = 0.03\nv0_mm_s = 0.5\n";
+  Simulation simulation = make_simulation(setup, "test");
+  Recorder recorder = Recorder::create(path, setup);
+  for (std::int64_t tick = 0; tick < k_ticks; ++tick) {
+    const TickInput input = test::motion_at(tick);
+    const TickOutput out = step(simulation.model, simulation.state, input);
+    recorder.append(input, make_tick_record(out), simulation.state.removed, state_hash(simulation.state));
+  }
+  recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
+  const Explanation e = explain(read_session_recording(path));
+  ASSERT_FALSE(e.causes.empty()) << to_text(e);
+  EXPECT_EQ(std::string(mechanism_at(e.causes.front().term.mechanism).name), "coulomb_friction") << to_text(e);
+  EXPECT_NEAR(e.causes.front().parameters.at(0).second.value, 0.03, 0.003);
+}
+
 TEST(SessionRecording, XAndVAreThoseOfTheReplay) {
   const test::Folder folder;
   const std::string path = folder.file("x.cavum");
