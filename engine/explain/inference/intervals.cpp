@@ -70,7 +70,7 @@ std::vector<std::vector<NamedValue>> other_forms(const View& v, std::size_t c, d
       trial[c].shape = start;
       if (const double chi2 = fits.fit(trial).chi2; chi2 < least) least = chi2, causes = trial;
     }
-    if (least > own + 0.2 * (v.products->spreads.back().all(0, 0) - own)) continue;
+    if (least > own + 0.2 * (v.products->force_squares - own)) continue;
     causes = refine(fits, causes, 1, c);
     const FitResult f = fits.fit(causes);
     if (f.chi2 > own + k_same_chi2 * inflation) continue;

@@ -93,8 +93,9 @@ Beside beside_model(const View& v, const Eigen::MatrixXd& model, const SpreadSum
   for (Eigen::Index i = 0; i < 2; ++i) {
     own(i, i) += v.products->prior[i];
     if (!with_prior) continue;  // a surrogate has the base that it was made with
-    b.row(i).array() += v.products->prior[i] * v.products->prior_at[i];
-    squared.array() += v.products->prior[i] * v.products->prior_at[i] * v.products->prior_at[i];
+    const double at = v.products->prior_at[i] - (i == 0 ? v.products->taken.k_n_per_mm : v.products->taken.c_n_s_per_mm);
+    b.row(i).array() += v.products->prior[i] * at;
+    squared.array() += v.products->prior[i] * at * at;
   }
   const Eigen::VectorXd scale = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();

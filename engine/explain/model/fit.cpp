@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <map>
 
 namespace cavum::explain {
 namespace {
@@ -53,15 +54,44 @@ double product_in(const Products& products, std::size_t u, Eigen::Index fold, Ei
   return out;
 }
 
-/// Left and right side of the normal equations under spread `u`, from the sums of products.
-void equations(const Eigen::MatrixXd& sums, const Products& products, std::size_t u, int left_out, const Parameter* p, Small& a, Vector& b) {
+using Weighted = std::vector<std::pair<Eigen::Index, double>>;
+
+/// The parameter that is the coefficient of one column; -1 = none is.
+Eigen::Index parameter_of(Eigen::Index column, const Parameter* p, Eigen::Index n) {
+  for (Eigen::Index i = 2; i < n; ++i)
+    if (p[i].session < 0 && p[i].count == 1 && p[i].column[0] == column) return i;
+  return -1;
+}
+
+/// Column 0, less what of the model's changes of k and c (at those that were taken) is not taken yet, and with what was taken of causes that the
+/// model does not have.
+Weighted what_is_left(const Taken& taken, const Parameter* p, Eigen::Index n) {
+  Weighted out{{0, 1.0}};
+  for (const auto& [column, value] : taken.own)
+    if (parameter_of(column, p, n) < 0) out.emplace_back(column, value);
+  const auto add = [&](const Parameter& of, double value, const std::vector<Eigen::Index>& already) {
+    std::map<Eigen::Index, double> factor;
+    for (int at = 1; at < of.count; ++at) factor[of.column[at]] += of.factor[at];
+    for (const Eigen::Index c : already) factor[c] -= 1.0;
+    for (const auto& [column, f] : factor)
+      if (f != 0.0 && value != 0.0) out.emplace_back(column, -f * value);
+  };
+  add(p[0], taken.k_n_per_mm, taken.spring);
+  add(p[1], taken.c_n_s_per_mm, taken.damper);
+  return out;
+}
+
+/// Left and right side of the normal equations under spread `u`, from the sums of products. The squares of the force.
+double equations(const Eigen::MatrixXd& sums, const Products& products, std::size_t u, int left_out, const Parameter* p, Small& a, Vector& b) {
   const auto product = [&](Eigen::Index fold, Eigen::Index i, Eigen::Index j) {
     if (fold < 0) return sums(i, j);
     return fold == left_out ? 0.0 : product_in(products, u, fold, i, j);
   };
+  const Weighted force = what_is_left(products.taken, p, b.size());
   for (Eigen::Index i = 0; i < b.size(); ++i) {
     b[i] = 0.0;
-    for (int at = 0; at < p[i].count; ++at) b[i] += p[i].factor[at] * product(p[i].session, 0, p[i].column[at]);
+    for (int at = 0; at < p[i].count; ++at)
+      for (const auto& [column, factor] : force) b[i] += p[i].factor[at] * factor * product(p[i].session, column, p[i].column[at]);
     for (Eigen::Index j = 0; j <= i; ++j) {
       const bool apart = p[i].session >= 0 && p[j].session >= 0 && p[i].session != p[j].session;
       const Eigen::Index fold = std::max(p[i].session, p[j].session);
@@ -71,18 +101,23 @@ void equations(const Eigen::MatrixXd& sums, const Products& products, std::size_
       a(i, j) = a(j, i) = sum;
     }
   }
+  double squares = 0.0;
+  for (const auto& [i, f] : force)
+    for (const auto& [j, g] : force) squares += f * g * sums(i, j);
+  return squares;
 }
 
 FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_t u, const Parameter* p, Eigen::Index n, int left_out,
                     bool covariance) {
   Small a(n, n);
   Vector b(n);
-  equations(sums.all, products, u, left_out, p, a, b);
-  double yy = sums.all(0, 0);
+  double yy = equations(sums.all, products, u, left_out, p, a, b);
+  const double taken[2] = {products.taken.k_n_per_mm, products.taken.c_n_s_per_mm};
   for (Eigen::Index i = 0; i < 2; ++i) {
+    const double at = products.prior_at[i] - taken[i];
     a(i, i) += products.prior[i];
-    b[i] += products.prior[i] * products.prior_at[i];
-    yy += products.prior[i] * products.prior_at[i] * products.prior_at[i];
+    b[i] += products.prior[i] * at;
+    yy += products.prior[i] * at * at;
   }
   // scaled to ones on the diagonal: columns differ by many orders of magnitude
   Vector scale(n);
@@ -95,6 +130,9 @@ FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_
   const Vector xs = solver.solve(bs);
   out.solved = solver.info() == Eigen::Success && xs.allFinite();
   out.value = xs.cwiseProduct(scale);
+  for (Eigen::Index i = 0; i < 2; ++i) out.value[i] += taken[i];
+  for (const auto& [column, value] : products.taken.own)
+    if (const Eigen::Index i = parameter_of(column, p, n); i >= 0) out.value[i] += value;
   out.chi2 = (out.solved ? yy - bs.dot(xs) : yy) + sums.log_det;
   if (covariance) out.covariance = scale.asDiagonal() * solver.solve(Small::Identity(n, n)) * scale.asDiagonal();
   return out;

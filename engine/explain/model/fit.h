@@ -48,14 +48,24 @@ struct SpreadSums {
   double log_det = 0;  ///< what the spread costs
 };
 
-/// Products of whitened columns: 0 the force, 1 the column of k, 2 that of c, then the hypotheses'. Give folds, sessions (rows, fold and products)
-/// and `tried`; `integrate` makes the rest.
+/// What column 0 lacks of the force: k and c times their columns, `spring` and `damper` among them, and the causes' own. A force is far above its
+/// noise, and single precision would lose the noise in it.
+struct Taken {
+  double k_n_per_mm = 0, c_n_s_per_mm = 0;
+  std::vector<Eigen::Index> spring, damper;          ///< changes of the columns of k and c
+  std::vector<std::pair<Eigen::Index, double>> own;  ///< columns with their coefficients
+};
+
+/// Products of whitened columns: 0 the force (less what is taken), 1 the column of k, 2 that of c, then the hypotheses'. Give folds, sessions (rows,
+/// fold and products) and `tried`; `integrate` makes the rest.
 struct Products {
   std::vector<Eigen::MatrixXd> folds;  ///< of the columns with one another, by fold, [columns, columns]
   std::vector<SessionProducts> sessions;
   std::vector<SessionSpread> tried;  ///< as narrower_spreads has them: the first as found, the last without any
   std::vector<SpreadSums> spreads;   ///< of all folds, under each
-  double rows = 0;                   ///< sum of weights, so that chi² of a good model is about this
+  Taken taken;
+  double force_squares = 0;  ///< of the whole whitened force
+  double rows = 0;           ///< sum of weights, so that chi² of a good model is about this
   /// Information that rig.toml gives: 1/sd² and the value, of k and c.
   double prior[2] = {0, 0}, prior_at[2] = {0, 0};
 };

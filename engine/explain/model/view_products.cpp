@@ -42,13 +42,14 @@ Hypothesis put_into(WhiteTable& table, WhiteTerm term, bool exact) {
   return h;
 }
 
-/// The force, k, c, and the causes with tangents at the coefficients that the base was fitted with.
-void add_known(View& v, const Whitening& white, WhiteTable& table) {
+/// What is left of the force, k, c, and the causes with tangents at the coefficients that the base was fitted with. What was taken.
+Taken add_known(View& v, const Whitening& white, WhiteTable& table) {
+  Taken taken{v.base_fit.value[0], v.base_fit.value[1], {}, {}, {}};
   const auto add = [&](Series column) {
     white.apply(column);
     table.add_exact(column);
   };
-  add(*v.force_n);
+  add(*v.force_n - *v.model_n);
   add(v.scene->spring_mm);
   add(v.scene->damper_mm_s);
   const Base base = base_of(v);
@@ -56,14 +57,20 @@ void add_known(View& v, const Whitening& white, WhiteTable& table) {
   for (const auto& term : v.causes) {
     Hypothesis h = put_into(table, white_term(v, white, term, true), true);
     std::vector<double> own;
-    for (Eigen::Index i = 0; i < h.coefficients(); ++i) own.push_back(v.base_fit.value[own_at++]);
+    for (Eigen::Index i = 0; i < h.coefficients(); ++i) {
+      own.push_back(v.base_fit.value[own_at++]);
+      taken.own.emplace_back(h.first + i, own.back());
+    }
     h.tangents = table.columns();
     for (auto& t : tangents_of(*v.scene, term, own, base)) {
       add(std::move(t));
       ++h.tangent_count;
     }
+    if (h.spring >= 0) taken.spring.push_back(h.spring);
+    if (h.damper >= 0) taken.damper.push_back(h.damper);
     v.known.push_back(h);
   }
+  return taken;
 }
 
 /// All mechanisms at all points of their grids; a few at a time, for their columns are large.
@@ -95,7 +102,7 @@ void add_curves(View& v, const Whitening& white, WhiteTable& table) {
 }
 
 /// Sums of products, by fold, and with the effects of each session within it.
-void sum_products(View& v) {
+void sum_products(View& v, const Whitening& whitening, Taken taken) {
   const WhiteTable& white = *v.white;
   const Eigen::Index count = white.columns();
   Products p;
@@ -126,7 +133,11 @@ void sum_products(View& v) {
     for (auto& s : of_fold) p.sessions.push_back(std::move(s));
   integrate(p);
   set_prior(p, v.scene->recording->rig);
-  p.rows = (whitening_of(v).root_weight() * v.noise.step_sd_n).square().sum();
+  p.rows = (whitening.root_weight() * v.noise.step_sd_n).square().sum();
+  p.taken = std::move(taken);
+  Series force = *v.force_n;
+  whitening.apply(force);
+  p.force_squares = force.square().sum();
   v.products = std::move(p);
 }
 
@@ -160,12 +171,12 @@ void find_lines(View& v) {
 void add_products(View& v) {
   auto table = std::make_shared<WhiteTable>();
   const Whitening white = whitening_of(v);
-  add_known(v, white, *table);
+  Taken taken = add_known(v, white, *table);
   add_grid(v, white, *table);
   add_curves(v, white, *table);
   v.white = std::move(table);
   v.folds = folds_of(*v.scene->recording);
-  sum_products(v);
+  sum_products(v, white, std::move(taken));
 }
 
 }  // namespace cavum::explain
