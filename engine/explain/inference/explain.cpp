@@ -202,7 +202,8 @@ void alias_offsets(std::vector<Cause>& causes) {
   }
 }
 
-constexpr double k_zero_differs = 0.5;  // of the noise
+constexpr double k_zero_differs = 0.5;        // of the noise
+constexpr double k_stiffness_differs = 0.15;  // of k: sites of one tissue differ by a tenth
 constexpr int k_rounds = 2;
 constexpr double k_even_odds = 0.5;
 constexpr double k_least_gain_percent = 1.0, k_least_low_percent = 0.5;  // of the error on sessions left out: less is of no use to anybody
@@ -394,10 +395,14 @@ void say_what_differs(Explanation& e, const Motion& motion) {
   if (!list.empty()) e.notes.push_back(fmt::format("sessions differ (standard deviation): {}", list));
 }
 
-/// A zero of the force, or a lateness, that differs between sessions by what no simulation should miss; none where they are alike.
+/// A zero of the force, a stiffness, or a lateness, that differs between sessions by what no simulation should miss; none where they are alike.
 std::optional<Unexplained> sessions_apart(const Explanation& e) {
   if (e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
     return Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
+  if (e.spread[k_stiffness] > k_stiffness_differs)
+    return Unexplained{"session", "a stiffness that differs from session to session",
+                       e.spread[k_stiffness] * std::sqrt(static_cast<double>(e.after->effects->col(k_stiffness).squaredNorm()) /
+                                                         static_cast<double>(e.after->effects->rows()))};
   const double late_n =
       e.spread[k_lateness] * std::sqrt(e.after->effects->col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects->rows()));
   if (late_n > k_zero_differs * e.noise.sd_n)

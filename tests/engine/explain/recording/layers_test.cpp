@@ -36,7 +36,7 @@ TEST(Layers, EachHasItsOwnStiffness) {
 
 TEST(Layers, WithoutThemTheSameRecordingIsNotClean) {
   const Explanation e = explain(two_layers());
-  EXPECT_NE(e.verdict, "clean");
+  EXPECT_NE(e.verdict, "clean") << to_text(e);
 }
 
 TEST(Layers, AlikeLayersAndNoLayersChangeNothing) {
