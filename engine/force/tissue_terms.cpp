@@ -20,7 +20,9 @@ TermForce FeedPowerLaw::evaluate(const TermInput& in, TermMemory&) const noexcep
 
 TermForce Relaxation::evaluate(const TermInput& in, TermMemory& memory) const noexcept {
   if (!in.touching) {
+    const TermMemory before = memory;
     memory = {};
+    for (std::size_t i = 0; i < 2 && carried_; ++i) memory[i] = relaxed_mm(before[i], 0.0, in.dt_s / tau_s_[i]);
     return {};
   }
   const double stretch = exponent_ == 1.0 ? in.penetration_mm : det_pow(in.penetration_mm, exponent_);
@@ -53,13 +55,15 @@ const TermKind k_nonlinear_stiffness{"nonlinear_stiffness", {{"m", 0.1, 5, {}}},
                                      }};
 const TermKind k_feed_power_law{
     "feed_power_law", {{"n", 0.05, 4, {}}}, [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<FeedPowerLaw>(p[0]); }};
-const TermKind k_relaxation{"relaxation",
-                            {{"k1_n_per_mm", -100, 100, {}},
-                             {"tau1_s", 1e-3, 1e4, {}},
-                             {"k2_n_per_mm", -100, 100, 0.0},
-                             {"tau2_s", 1e-3, 1e4, 1.0},
-                             {"exponent", 0.2, 5, 1.0}},
-                            [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<Relaxation>(p[0], p[1], p[2], p[3], p[4]); }};
+const TermKind k_relaxation{
+    "relaxation",
+    {{"k1_n_per_mm", -100, 100, {}},
+     {"tau1_s", 1e-3, 1e4, {}},
+     {"k2_n_per_mm", -100, 100, 0.0},
+     {"tau2_s", 1e-3, 1e4, 1.0},
+     {"exponent", 0.2, 5, 1.0},
+     {"carried", 0, 1, 0.0}},
+    [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<Relaxation>(p[0], p[1], p[2], p[3], p[4], p[5] >= 0.5); }};
 const TermKind k_edge_force{
     "edge_force", {{"edge_n", -100, 100, {}}}, [](const std::vector<double>& p) -> ForceTermPtr { return std::make_shared<EdgeForce>(p[0]); }};
 const TermKind k_anisotropy{"anisotropy",

@@ -48,16 +48,18 @@ class FeedPowerLaw final : public ForceTerm {
 };
 
 /// One or two Maxwell branches beside the Voigt law: Σ k_i ∫ e^(−(t−s)/τ_i) d(X^m) since contact began. k_i in N/mm, τ_i in s; m = 1, or
-/// the power of X by which the elastic force of a soft specimen grows (X in mm).
+/// the power of X by which the elastic force of a soft specimen grows (X in mm). `carried`: in air the stretch goes on fading at the same rate, for
+/// one site that is pressed again before it is at rest; else each contact begins at rest.
 class Relaxation final : public ForceTerm {
  public:
-  Relaxation(double k1_n_per_mm, double tau1_s, double k2_n_per_mm, double tau2_s, double exponent = 1.0)
-      : k_n_per_mm_{k1_n_per_mm, k2_n_per_mm}, tau_s_{tau1_s, tau2_s}, exponent_(exponent) {}
+  Relaxation(double k1_n_per_mm, double tau1_s, double k2_n_per_mm, double tau2_s, double exponent = 1.0, bool carried = false)
+      : k_n_per_mm_{k1_n_per_mm, k2_n_per_mm}, tau_s_{tau1_s, tau2_s}, exponent_(exponent), carried_(carried) {}
   /// memory[0], [1]: stretch of the branches, mm; memory[2]: X^m of the tick before.
   [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override;
 
  private:
   double k_n_per_mm_[2], tau_s_[2], exponent_;
+  bool carried_;
 };
 
 /// A constant force of the cutting edges while in contact and spinning, N.

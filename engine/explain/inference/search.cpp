@@ -336,6 +336,7 @@ Term start_of(TermFits& fits, const std::vector<Term>& others, const Candidate& 
   if (c.hypothesis.scale >= 0.999 || (c.hypothesis.spring < 0 && c.hypothesis.damper < 0)) return term;
   // the scale stands for a shape between this point and none: try some, keep the best
   const Mechanism& m = mechanism_at(term.mechanism);
+  const std::vector<ShapeRange> ranges = ranges_of(m, *fits.view().scene);
   Term best = term;
   double least = 1e300;
   for (const double part : {1.0, 0.5, 0.25, 0.12, 0.06, 0.03, 2.0, 4.0, 8.0}) {
@@ -343,7 +344,7 @@ Term start_of(TermFits& fits, const std::vector<Term>& others, const Candidate& 
     for (std::size_t i = 0; i < m.shape.size(); ++i) {
       if (!m.shape[i].fitted || term.shape[i] == 0.0) continue;
       const bool power = std::string(m.shape[i].name) == "m" || std::string(m.shape[i].name) == "n";
-      trial.shape[i] = std::clamp(power ? 1.0 + (term.shape[i] - 1.0) * part : term.shape[i] * part, m.shape[i].low, m.shape[i].high);
+      trial.shape[i] = std::clamp(power ? 1.0 + (term.shape[i] - 1.0) * part : term.shape[i] * part, ranges[i].low, ranges[i].high);
     }
     std::vector<Term> causes = others;
     causes.push_back(trial);
@@ -367,7 +368,7 @@ std::vector<Term> refine(TermFits& fits, std::vector<Term> causes, int cycles, s
       width[i].push_back(std::string(s.name) == "frequency_hz" ? 4e-3 : std::string(s.name) == "rate_ratio" ? 1e-5 : s.logarithmic ? 0.35 : 0.1);
   for (int cycle = 0; cycle < cycles; ++cycle)
     for (std::size_t i = first; i < causes.size(); ++i) {
-      const auto& ranges = mechanism_at(causes[i].mechanism).shape;
+      const std::vector<ShapeRange> ranges = ranges_of(mechanism_at(causes[i].mechanism), *fits.view().scene);
       for (std::size_t s = 0; s < ranges.size(); ++s) {
         if (!ranges[s].fitted || causes[i].shape[s] == 0.0) continue;
         const auto moved = [&](double by) {

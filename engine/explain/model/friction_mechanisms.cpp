@@ -32,12 +32,13 @@ Series sign_of_motion(const Scene& s, double v0_mm_s) {
 std::vector<double> speeds(const Scene& s, std::initializer_list<double> parts) {
   std::vector<double> v;
   for (Eigen::Index i = 0; i < s.motion->v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion->v_mm_s[i]));
-  const std::size_t fast = v.size() * 9 / 10;
-  const double fast_mm_s = in_order(std::move(v), fast);
+  const double fast_mm_s = quantile(std::move(v), 0.9);
   std::vector<double> out;
   for (const double p : parts) out.push_back(std::max(1e-5, p * fast_mm_s));
   return out;
 }
+
+double fastest_mm_s(const Scene& s) { return std::max(1e-5, s.motion->v_mm_s.abs().maxCoeff()); }
 
 Grid as_grid(const std::vector<double>& values) {
   Grid g;
@@ -53,7 +54,8 @@ Mechanism coulomb_friction() {
       .separate = "stroke to and fro in air: it flips with the direction",
       .seen_over = "v_mm_s",
       .term = &k_coulomb_friction,
-      .shape = {{"v0_mm_s", 1e-5, 100, true, true}},
+      .shape = {{"v0_mm_s", 1e-5, 1000, true, true}},
+      .highest = [](const Scene& s) { return fastest_mm_s(s); },  // a tanh wider than the motion is quick is friction in proportion to speed
       .grid =
           [](const Scene& s) {
             return as_grid(speeds(s, {0.001, 0.01, 0.03, 0.1, 0.3, 0.8}));
@@ -108,6 +110,7 @@ Mechanism stribeck_friction() {
       .own = k_positive,
       .variant_of = "coulomb_friction",
       .plainer = "coulomb_friction",
+      .must_exceed = {"fs_n", "fc_n"},
       .one_way = OneWay::needs_reversal,
   };
 }

@@ -20,6 +20,9 @@ void check(const std::vector<Mechanism>& all) {
     const std::string name = m.name;
     if (!names.insert(name).second) wrong("two are called " + name);
     if (!m.grid || !m.columns || !m.parameters) wrong(name + " lacks a function");
+    if (m.simpler)
+      if (const auto fewer = m.simpler(std::vector<double>(m.shape.size(), 1.0)); !fewer.empty() && fewer.size() != m.shape.size())
+        wrong(name + " says its law with fewer numbers in another number of shapes");
     if (m.term == nullptr) {
       if (m.from_term || m.shape_in_term) wrong(name + " has no force term, and speaks of one");
       continue;
@@ -52,6 +55,12 @@ std::vector<std::vector<double>> starts(const Mechanism& m, const Scene& scene) 
   const auto there = [&](const char* column) { return scene.recording->column(column) != nullptr; };
   if (!m.needs.empty() && std::none_of(m.needs.begin(), m.needs.end(), there)) return {};
   return m.grid(scene);
+}
+
+std::vector<ShapeRange> ranges_of(const Mechanism& m, const Scene& scene) {
+  std::vector<ShapeRange> out = m.shape;
+  if (m.highest && !out.empty()) out[0].high = std::clamp(m.highest(scene), out[0].low, out[0].high);
+  return out;
 }
 
 bool makes_sense(const Mechanism& m, const double* own, std::size_t count) {

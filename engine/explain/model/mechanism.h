@@ -75,6 +75,8 @@ struct Mechanism {
   // What it takes to show it
   std::vector<const char*> needs{};  ///< columns of the recording of which one must be there
   std::vector<ShapeRange> shape{};
+  /// End of the first shape's range that these data set; none: the range's own.
+  std::function<double(const Scene&)> highest{};
   /// Points of the shape to start from, each of the size of `shape`; called when `needs` are there. Empty: these data cannot show it.
   std::function<std::vector<std::vector<double>>(const Scene&)> grid{};
   std::function<Columns(const Scene&, const std::vector<double>& shape)> columns{};
@@ -95,6 +97,10 @@ struct Mechanism {
   const char* variant_of = nullptr;  ///< the law whose variant it is: a model holds one of them at most
   /// A law with fewer numbers that it becomes at an end of its range: the one to name when the data do not tell more.
   const char* plainer = nullptr;
+  /// Two parameters of which the first must lie above the second for sure, or nothing is there beyond the plainer law.
+  std::pair<const char*, const char*> must_exceed{};
+  /// Its own coefficients are several of one kind (channels, sessions): one that is there is enough.
+  bool several = false;
   OneWay one_way = OneWay::told;
   const char* like_when_short = nullptr;  ///< a lag in tau_s: the one that cannot be told from it when both are shorter than the data resolve
   /// A shape that goes by another law's name as well; nullptr: it does not.
@@ -121,6 +127,8 @@ struct Mechanism {
 
 /// Points of the shape to start from; empty: these data lack what it needs.
 [[nodiscard]] std::vector<std::vector<double>> starts(const Mechanism& mechanism, const Scene& scene);
+/// Ranges of the shape in which these data are searched.
+[[nodiscard]] std::vector<ShapeRange> ranges_of(const Mechanism& mechanism, const Scene& scene);
 /// Sessions that have coefficients of their own in a mechanism with `by_session`: all, when there are 2 to 12 of them; else 1, for all rows together.
 [[nodiscard]] std::size_t session_groups(const Recording& recording);
 /// True when own coefficients are within the mechanism's range.

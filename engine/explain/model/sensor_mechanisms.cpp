@@ -138,6 +138,7 @@ Mechanism cross_talk() {
             if (own.size() > 1) p.push_back({"b", own[1]});
             return p;
           },
+      .several = true,
   };
 }
 

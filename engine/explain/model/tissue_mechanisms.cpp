@@ -29,8 +29,9 @@ Series each(const Series& values, const Law& law) {
   return values.unaryExpr([&](double v) { return law(v); });
 }
 
-/// z' = d(X^m)/dt − z/tau while in contact, 0 in air; exact for a constant rate within a row. m = 1: z' = V − z/tau.
-Series relaxing_mm(const Scene& s, double tau_s, double m) {
+/// z' = d(X^m)/dt − z/tau while in contact, felt in contact only; exact for a constant rate within a row. m = 1: z' = V − z/tau.
+/// `carried`: in air z goes on fading, so that a place pressed again too soon still remembers; else each contact begins anew.
+Series relaxing_mm(const Scene& s, double tau_s, double m, bool carried) {
   const auto stretch = [m](double x_mm) { return m == 1.0 ? x_mm : det_pow(x_mm, m); };
   Series out(s.force_n.size());
   for (const auto& rows : s.recording->sessions) {
@@ -38,7 +39,7 @@ Series relaxing_mm(const Scene& s, double tau_s, double m) {
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double x = s.motion->x_mm[i];
       if (x <= 0.0) {
-        z = 0.0;
+        z = carried && i > rows.begin ? relaxed_mm(z, 0.0, s.dt_s[i - 1] / tau_s) : 0.0;
       } else if (i > rows.begin) {
         z = relaxed_mm(z, stretch(x) - stretch(std::max(0.0, s.motion->x_mm[i - 1])), s.dt_s[i - 1] / tau_s);
       }
@@ -48,7 +49,16 @@ Series relaxing_mm(const Scene& s, double tau_s, double m) {
   return out * s.active;
 }
 
-/// Shape {tau1, tau2, m}; tau2 = 0 for one exponential. Soft specimens, whose elastic force is a power of the depth, relax in
+/// True when some session leaves the tissue and comes back to it.
+bool comes_back(const Scene& s) {
+  return std::any_of(s.recording->sessions.begin(), s.recording->sessions.end(), [&](const SessionRows& rows) {
+    int begun = 0;
+    for (Eigen::Index i = rows.begin; i < rows.end; ++i) begun += s.motion->x_mm[i] > 0.0 && (i == rows.begin || s.motion->x_mm[i - 1] <= 0.0);
+    return begun > 1;
+  });
+}
+
+/// Shape {tau1, tau2, m, carried}; tau2 = 0 for one exponential. Soft specimens, whose elastic force is a power of the depth, relax in
 /// proportion to that (quasi-linear viscoelasticity, Fung 1981): m > 1 is tried for them only.
 Grid relaxation_grid(const Scene& s) {
   double longest = 0.0;
@@ -57,11 +67,13 @@ Grid relaxation_grid(const Scene& s) {
   std::vector<double> taus;
   for (const double tau : {0.05, 0.13, 0.33, 0.85, 2.2, 5.5, 14.0})
     if (tau < longest && tau > s.dt_s.minCoeff()) taus.push_back(tau);
-  for (const double tau : taus) g.push_back({tau, 0.0, 1.0});
-  for (std::size_t i = 0; i < taus.size(); ++i)
-    for (std::size_t j = i + 2; j < taus.size(); j += 2)
-      for (const double m : s.recording->specimens ? std::vector<double>{1.0, 1.5, 2.0, 3.0} : std::vector<double>{1.0})
-        g.push_back({taus[i], taus[j], m});
+  for (const double carried : comes_back(s) ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0}) {
+    for (const double tau : taus) g.push_back({tau, 0.0, 1.0, carried});
+    for (std::size_t i = 0; i < taus.size(); ++i)
+      for (std::size_t j = i + 2; j < taus.size(); j += 2)
+        for (const double m : s.recording->specimens ? std::vector<double>{1.0, 1.5, 2.0, 3.0} : std::vector<double>{1.0})
+          g.push_back({taus[i], taus[j], m, carried});
+  }
   return g;
 }
 
@@ -235,12 +247,16 @@ Mechanism relaxation() {
       .separate = "hold for ten seconds at constant depth, three depths",
       .seen_over = "t_s",
       .term = &k_relaxation,
-      .shape = {{"tau1_s", 5e-3, 1e3, true, true}, {"tau2_s", 5e-3, 1e3, true, true}, {"exponent", 0.2, 5, false, false}},
+      .shape = {{"tau1_s", 5e-3, 1e3, true, true},
+                {"tau2_s", 5e-3, 1e3, true, true},
+                {"exponent", 0.2, 5, false, false},
+                {"carried", 0, 1, false, false}},
       .grid = relaxation_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
-            Columns c{{relaxing_mm(s, p[0], p[2])}, {}, {}};
-            if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2]));
+            const bool carried = p[3] > 0.5;
+            Columns c{{relaxing_mm(s, p[0], p[2], carried)}, {}, {}};
+            if (p[1] > 0.0) c.own.push_back(relaxing_mm(s, p[1], p[2], carried));
             return c;
           },
       .parameters =
@@ -250,18 +266,19 @@ Mechanism relaxation() {
             return std::vector<NamedValue>{{"k1_n_per_mm", own[a]}, {"tau1_s", p[a]}, {"k2_n_per_mm", own[b]}, {"tau2_s", p[b]}};
           },
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{value("tau1_s"), value("k2_n_per_mm") != 0.0 ? value("tau2_s") : 0.0, value("exponent")},
+        return Numbers{{value("tau1_s"), value("k2_n_per_mm") != 0.0 ? value("tau2_s") : 0.0, value("exponent"), value("carried") < 0.5 ? 0.0 : 1.0},
                        {value("k1_n_per_mm"), value("k2_n_per_mm")}};
       },
       .shape_in_term =
           [](const Shape& shape, TermParameters& out) {
             out.emplace_back("exponent", shape[2]);
+            out.emplace_back("carried", shape[3]);
             return true;
           },
       .own = k_positive,
       .simpler =
           [](const Shape& p) {
-            return p[1] > 0.0 ? Shape{std::sqrt(p[0] * p[1]), 0.0, p[2]} : Shape{};
+            return p[1] > 0.0 ? Shape{std::sqrt(p[0] * p[1]), 0.0, p[2], p[3]} : Shape{};
           },
       .inside = true,
   };

@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/explain/recording/motion.h"
 #include "engine/explain/recording/standstill.h"
+#include "engine/statistics/order.h"
 
 namespace cavum::explain {
 namespace {
@@ -100,9 +101,10 @@ void units(const Recording& r, std::vector<std::string>& faults) {
   // in air a joint at a lever, or a drive, may go far
   if (const double deepest = std::min(range, r.x_mm.maxCoeff()); deepest > 1000.0)
     faults.push_back(fmt::format("units: x_mm goes {} mm deep; is it in micrometres?", plain_number(deepest)));
-  double length = 0.0, rows = 0.0;
-  for (const auto& s : r.sessions) length += r.t_s[s.end - 1] - r.t_s[s.begin], rows += static_cast<double>(s.end - s.begin - 1);
-  const double dt = rows > 0.0 ? length / rows : 0.0;
+  std::vector<double> steps;  // a hold may be written in wide steps: it is the closest rows that tell the unit
+  for (const auto& s : r.sessions)
+    for (Eigen::Index i = s.begin + 1; i < s.end; ++i) steps.push_back(r.t_s[i] - r.t_s[i - 1]);
+  const double dt = steps.empty() ? 0.0 : quantile(std::move(steps), 0.1);
   if (dt > 0.7) faults.push_back(fmt::format("time base: a row every {} s; is t_s in milliseconds?", plain_number(dt)));
   if (dt > 0.0 && dt < 1e-5) faults.push_back(fmt::format("time base: a row every {} s; is t_s in hours or minutes?", plain_number(dt)));
 }

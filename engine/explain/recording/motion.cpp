@@ -8,6 +8,7 @@
 
 #include "engine/base/random.h"
 #include "engine/explain/recording/holds.h"
+#include "engine/explain/recording/slopes.h"
 #include "engine/statistics/independent_runs.h"
 #include "engine/statistics/order.h"
 #include "engine/statistics/statistics.h"
@@ -198,6 +199,16 @@ void estimate(Session& s, Motion& out, Eigen::Index begin) {
     for (std::size_t j = before; j <= after; ++j) mean += s.t[j] / static_cast<double>(after - before + 1);
     for (std::size_t j = before; j <= after; ++j) moment += (s.t[j] - mean) * s.smoothed[j].v, square += (s.t[j] - mean) * (s.t[j] - mean);
     out.a_mm_s2[row] = square > 0.0 ? moment / square : 0.0;
+  }
+  if (s.q > 0.0 || s.noise > 0.0 || s.v != nullptr) return;
+  // fine positions of a smooth motion give its speed better than a speed that walks at random would let them
+  const auto rows = static_cast<std::size_t>(s.n);
+  const std::vector<Slope> slope = slopes({s.t, rows}, {s.x, rows});
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Index row = begin + static_cast<Eigen::Index>(i);
+    if (slope[i].error_mm_s >= out.sd_v_mm_s[row]) continue;
+    out.v_mm_s[row] = slope[i].mm_s;
+    out.sd_v_mm_s[row] = std::min(out.sd_v_mm_s[row], slope[i].error_mm_s + k_exact_mm / row_s);
   }
 }
 
@@ -498,7 +509,10 @@ std::vector<Motion> draw_motions(const Recording& r, const Motion& m, std::pair<
       Random random(seed + 0x9e3779b97f4a7c15ULL * (which.first + i + 1) + 0x632be59bd9b4e019ULL * (at + 1));
       Series v = Series::Zero(s.n);
       draw_backwards(s, random, out[i].x_mm.data() + rows.begin, v.data());
-      if (!recedes) out[i].v_mm_s.segment(rows.begin, s.n) = v;
+      for (Eigen::Index row = 0; row < s.n && !recedes; ++row) {  // no further off than the estimate is said to be
+        const double said = scratch.sd_v_mm_s[rows.begin + row], walked = std::sqrt(std::max(1e-30, s.smoothed[static_cast<std::size_t>(row)].vv));
+        out[i].v_mm_s[rows.begin + row] += std::min(1.0, said / walked) * (v[row] - m.v_mm_s[rows.begin + row]);
+      }
     });
   }
   return out;

@@ -85,8 +85,9 @@ TEST(LiveTerms, ColumnsOfExplainAreTheForcesOfTheEngine) {
       {"graded_stiffness", {}, {-0.4}, {{"alpha_per_mm", 0.5}}},
       {"anisotropy", {0}, {0.2 * std::cos(turn), 0.2 * std::sin(turn)}, {{"epsilon", 0.2}, {"phi0_deg", 27.0}}},
       {"anisotropy", {1}, {0.2 * std::cos(turn), 0.2 * std::sin(turn)}, {{"amplitude_n", 0.2}, {"phi0_deg", 27.0}}},
-      {"relaxation", {0.5, 4.0, 1.0}, {0.3, 0.2}, {{"k1_n_per_mm", 0.3}, {"tau1_s", 0.5}, {"k2_n_per_mm", 0.2}, {"tau2_s", 4.0}}},
-      {"relaxation", {0.5, 0.0, 2.0}, {0.3}, {{"k1_n_per_mm", 0.3}, {"tau1_s", 0.5}, {"exponent", 2.0}}},
+      {"relaxation", {0.5, 4.0, 1.0, 0.0}, {0.3, 0.2}, {{"k1_n_per_mm", 0.3}, {"tau1_s", 0.5}, {"k2_n_per_mm", 0.2}, {"tau2_s", 4.0}}},
+      {"relaxation", {0.5, 0.0, 2.0, 0.0}, {0.3}, {{"k1_n_per_mm", 0.3}, {"tau1_s", 0.5}, {"exponent", 2.0}}},
+      {"relaxation", {0.5, 0.0, 1.0, 1.0}, {0.3}, {{"k1_n_per_mm", 0.3}, {"tau1_s", 0.5}, {"carried", 1.0}}},
       {"feed_power_law", {0.8}, {}, {{"n", 0.8}}, 5e-5},  // explain takes speeds below 1e-4 mm/s for rest
       {"edge_force", {}, {0.12}, {{"edge_n", 0.12}}},
       {"wear", {0}, {0.05}, {{"per_mm3", 0.05}}},

@@ -40,11 +40,22 @@ TEST(Mechanisms, EachHasItsTexts) {
 
 TEST(Mechanisms, RelaxationDecaysInAHoldAsOneExponential) {
   const PathScene s([](double t) { return t < 1 ? 0.5 * t : 0.5; });
-  const Series z = s.columns("relaxation", {2.0, 0.0, 1.0}).own[0];
+  const Series z = s.columns("relaxation", {2.0, 0.0, 1.0, 0.0}).own[0];
   // loading at 0.5 mm/s for 1 s gives 0.5·2·(1 − e^(−1/2)), then it decays with 2 s
   const double at_one = 0.5 * 2.0 * (1 - std::exp(-0.5));
   EXPECT_NEAR(z[200], at_one, 2e-3);
   EXPECT_NEAR(z[1000], at_one * std::exp(-4.0 / 2.0), 2e-3);
+}
+
+TEST(Mechanisms, CarriedRelaxationRemembersThePressBeforeAsMuchAsItFadedInAir) {
+  // in at 1 mm/s for a second and out at once, a second of air, in again
+  const auto x = [](double t) { return t < 1 ? t : t < 2 ? 1e-9 - (t - 1) : t - 2; };
+  const PathScene s(x);
+  const double tau = 2.0, at_one = tau * (1 - std::exp(-1.0 / tau)), left = (at_one - 1.0) * std::exp(-1.0 / tau);
+  const Series fresh = s.columns("relaxation", {tau, 0.0, 1.0, 0.0}).own[0], carried = s.columns("relaxation", {tau, 0.0, 1.0, 1.0}).own[0];
+  const Eigen::Index again = 500;  // half a second into the second press
+  EXPECT_NEAR(fresh[again], tau * (1 - std::exp(-0.5 / tau)), 3e-3);
+  EXPECT_NEAR(carried[again] - fresh[again], left * std::exp(-0.5 / tau), 3e-3);
 }
 
 TEST(Mechanisms, LowPassAnswersAStepWithAnExponential) {

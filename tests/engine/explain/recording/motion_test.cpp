@@ -51,6 +51,26 @@ TEST(Motion, StatedScatterIsLikeTheErrorForStopsInACoarseEncoder) {
   EXPECT_LT(stated, 2.0 * rms);
 }
 
+TEST(Motion, FinePositionsLeaveLittleDoubtOfTheSpeedEvenWhereItTurns) {
+  // 30 mm/s to and fro, 3 mm/s more in every row where it turns: friction's sign needs the speed to a tenth of a millimetre per second there
+  const double w = 20.0;
+  const Recording r = path(0.005, 20, 0, [&](double t) { return 30.0 / w * std::sin(w * t); });
+  const Motion m = estimate_motion(r);
+  const Eigen::Index inner = r.rows() - 200;
+  const double error = std::sqrt((m.v_mm_s - 30.0 * (w * r.t_s).cos()).segment(100, inner).square().mean());
+  const double said = std::sqrt(m.sd_v_mm_s.segment(100, inner).square().mean());
+  EXPECT_GT(said, error);
+  EXPECT_LT(said, 10.0 * error);
+  EXPECT_LT(said, 0.01);
+}
+
+TEST(Motion, WhereTheSpeedJumpsItIsDoubted) {
+  const Recording r = path(0.005, 20, 0, [](double t) { return 3.0 * std::fabs(std::fmod(t, 1.0) - 0.5); });
+  const Motion m = estimate_motion(r);
+  EXPECT_GT(m.sd_v_mm_s[300], 0.3) << "the turn at 1.5 s";
+  EXPECT_LT(m.sd_v_mm_s[350], 0.01) << "half a stroke later";
+}
+
 TEST(Motion, AQuantumNobodyStatedIsSeen) {
   Recording r = path(0.005, 20, 0.01, [](double t) { return 0.3 * std::sin(t) + 0.1 * std::sin(0.37 * t); });
   r.rig.position_quantum_mm = 0.0;
