@@ -6,7 +6,7 @@ A generator is a program with --list, and --family F --seed N --size S --out DIR
 Marks: found: a true mechanism is a cause or one of its aliases. Precision: causes whose set holds a truth, over all causes. False: a clean recording
 with a named cause. Abstaining (`unexplained`, `not_testable`, `data_fault`) counts as neither. Gain: no named cause with an interval that holds 0.
 """
-import argparse, collections, concurrent.futures, json, os, re, shutil, subprocess, sys, tempfile, time
+import argparse, collections, concurrent.futures, json, os, re, shlex, shutil, subprocess, sys, tempfile, time
 
 
 def options_of(truth, header):
@@ -30,7 +30,7 @@ def ask(task):
             return dict(family=family, kind=kind, seed=seed, size=size, error="generator: " + made.stderr[-300:])
         truth = json.load(open(folder + "/truth.json"))
         began = time.time()
-        run = subprocess.run([cavum, "explain", folder + "/recording.csv", "--json", "--seed", str(seed)] + options_of(truth, open(folder + "/recording.csv").readline()), capture_output=True, text=True)
+        run = subprocess.run(shlex.split(cavum) + ["explain", folder + "/recording.csv", "--json", "--seed", str(seed)] + options_of(truth, open(folder + "/recording.csv").readline()), capture_output=True, text=True)
         seconds = time.time() - began
         try:
             answer = json.loads(run.stdout)
