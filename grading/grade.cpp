@@ -28,9 +28,12 @@ bool is_kind(const SessionEvent& e, scenarios::ExamEventKind kind) { return e.ki
 
 ProgressMeasures measure_progress(const GradeInput& input) {
   ProgressMeasures p;
+  const std::string last = input.scenario.steps.empty() ? std::string() : input.scenario.steps.back().id;
+  bool last_done = last.empty();
   p.steps = static_cast<int>(input.scenario.steps.size());
   for (const auto& e : input.events) {
     p.steps_completed += is_kind(e, scenarios::ExamEventKind::step_completed) ? 1 : 0;
+    last_done = last_done || (is_kind(e, scenarios::ExamEventKind::step_completed) && text_in(parse_json_or_null(e.detail_json), "step") == last);
     p.steps_failed += is_kind(e, scenarios::ExamEventKind::step_failed) || is_kind(e, scenarios::ExamEventKind::step_time_limit) ? 1 : 0;
     if (is_kind(e, scenarios::ExamEventKind::point_not_allowed) || is_kind(e, scenarios::ExamEventKind::over_speed)) {
       if (p.violations++ == 0) p.first_violation.tick = e.tick;
@@ -39,6 +42,7 @@ ProgressMeasures measure_progress(const GradeInput& input) {
     for (const scenarios::Finish f : {scenarios::Finish::completed, scenarios::Finish::failed, scenarios::Finish::time, scenarios::Finish::ended})
       if (e.detail_json.find(fmt::format("\"{}\"", scenarios::finish_name(f))) != std::string::npos) p.finish = scenarios::finish_name(f);
   }
+  if (!last_done && p.finish != "running") p.open_last_step = last;
   return p;
 }
 
@@ -170,15 +174,14 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
   r.motion = measure_motion(input, ticks, r.pauses);
   r.motion.lost_s = lost_s(input.events);
   for (const auto& leaf : input.removed) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
-  r.perforation = measure_perforation(input, input.inputs.empty() ? last_tick : ticks);
+  r.perforation = measure_perforation(input, removed, last_tick);
   const scenarios::PerforationSpec& spec = input.scenario.perforation;
   for (const auto& [names, truth] : {std::pair(&spec.aims, &r.perforation.aim), std::pair(&spec.faults, &r.perforation.fault)})
     for (const auto& t : r.tissues)
       if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
   r.progress = measure_progress(input);
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
-    r.notes.push_back(fmt::format("{} of {} steps were not completed; the verdict comes from the rubric alone",
-                                  r.progress.steps - r.progress.steps_completed, r.progress.steps));
+    r.notes.push_back(fmt::format("{} of {} steps were not completed", r.progress.steps - r.progress.steps_completed, r.progress.steps));
   note_steps(input, r);
   note_time(input, r);
   compare_with_final_tooth(input, removed, r);

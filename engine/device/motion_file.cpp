@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include "engine/base/csv.h"
@@ -79,12 +81,22 @@ MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& colum
   return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
 }
 
-/// The diamond point, where the comment is `# point = NAME`.
-void take_point(const CsvReader& in, std::string& point) {
+constexpr double k_coarsest_mm = 1.0;
+
+/// What a comment `# NAME = VALUE` says: the diamond point, or the encoder's step.
+void take_setting(const CsvReader& in, Motion& motion) {
   const auto equals = in.comment().find('=');
-  if (equals == std::string_view::npos || without_blanks(in.comment().substr(0, equals)) != "point") return;
-  point = without_blanks(in.comment().substr(equals + 1));
-  if (point.empty()) in.fail("'# point =' names no diamond point", "write its name, such as round-1.0, or leave the line out");
+  if (equals == std::string_view::npos) return;
+  const auto name = without_blanks(in.comment().substr(0, equals)), value = without_blanks(in.comment().substr(equals + 1));
+  if (name == "point") {
+    motion.point = value;
+    if (motion.point.empty()) in.fail("'# point =' names no diamond point", "write its name, such as round-1.0, or leave the line out");
+  } else if (name == "position_quantum_mm") {
+    double& q = motion.position_quantum_mm;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), q);
+    if (error != std::errc{} || end != value.data() + value.size() || !(q >= 0 && q <= k_coarsest_mm))
+      in.fail(fmt::format("'# position_quantum_mm = {}' is no step of an encoder", one_line(value)), "write millimetres from 0 to 1, such as 0.055");
+  }
 }
 
 /// Throws Error unless the sample is later than those before it, and within a day of the first.
@@ -117,7 +129,7 @@ Motion parse_motion(const std::string& text, const std::string& where) {
   std::vector<std::size_t> column_of;
   for (CsvReader::Line line; (line = in.next()) != CsvReader::Line::end;) {
     if (line == CsvReader::Line::comment)
-      take_point(in, motion.point);
+      take_setting(in, motion);
     else if (column_of.empty())
       column_of = read_header(in);
     else
@@ -128,6 +140,51 @@ Motion parse_motion(const std::string& text, const std::string& where) {
   return motion;
 }
 
+double motion_quantum_mm(const std::string& text, const std::string& where) {
+  CsvReader in(text, where, k_motion);
+  Motion motion;
+  for (CsvReader::Line line; (line = in.next()) == CsvReader::Line::comment;) take_setting(in, motion);
+  return motion.position_quantum_mm;
+}
+
+namespace {
+
+constexpr double k_turn_one = 1 << 30;
+
+/// A rotation that is read back as these whole numbers. They are rounded, so that their length is not 1 to the last digit; normalising moves them a
+/// little.
+std::optional<Quat> read_back_as(const TickInput& want) {
+  const auto& r = want.rotation_q30;
+  const auto gives = [&](const Quat& q) {
+    const Quat once = normalized(q);  // as read_row does, and Motion::at
+    return make_tick_input({want.tip_mm(), normalized(once)}, 0.0, k_stylus_fresh, 0, {}).rotation_q30 == r;
+  };
+  for (int step = 0; step < 81; ++step) {
+    const auto off = [&](int power) { return 0.3 * (((step / power) + 1) % 3 - 1); };  // none of any first
+    const Quat q{(r[0] + off(1)) / k_turn_one, (r[1] + off(3)) / k_turn_one, (r[2] + off(9)) / k_turn_one, (r[3] + off(27)) / k_turn_one};
+    if (gives(q)) return q;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string motion_text(std::span<const TickInput> inputs, double position_quantum_mm, const std::string& where) {
+  std::string out = fmt::format("# position_quantum_mm = {}\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n", position_quantum_mm);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const TickInput& in = inputs[i];
+    const auto at = fmt::format("tick {}: ", i);
+    if ((in.flags & (k_stylus_fresh | k_pedal_fresh)) != (k_stylus_fresh | k_pedal_fresh) || (in.flags & k_stylus_fault) != 0)
+      throw Error(where, at + "stylus or pedal gave nothing, which no motion file can say", "replay the session itself: `cavum replay`");
+    const std::optional<Quat> q = read_back_as(in);
+    if (!q) throw Error(where, at + "its rotation is none of unit length", "replay the session itself: `cavum replay`");
+    const auto mm = [](std::int32_t nm) { return fmt::format("{}{}.{:06}", nm < 0 ? "-" : "", std::abs(nm) / 1'000'000, std::abs(nm) % 1'000'000); };
+    out += fmt::format("{}.{:03},{},{},{},{},{},{},{},{},{},{},{}\n", i / 1000, i % 1000, mm(in.tip_nm[0]), mm(in.tip_nm[1]), mm(in.tip_nm[2]), q->w,
+                       q->x, q->y, q->z, in.pedal(), (in.flags & k_button_1) != 0 ? 1 : 0, (in.flags & k_button_2) != 0 ? 1 : 0, in.point);
+  }
+  return out;
+}
+
 int line_of_sample(const std::string& text, std::size_t sample) {
   CsvReader in(text, "", k_motion);
   for (std::size_t row = 0; row <= sample + 1; ++row) in.next_row();  // the heading is row 0
@@ -135,12 +192,13 @@ int line_of_sample(const std::string& text, std::size_t sample) {
 }
 
 MotionSample Motion::at(double t_s) const noexcept {
+  constexpr double k_same_s = 1e-9;  // a sum of times may fall short of a sample's own by its last digit
   const double t = samples.front().t_s + t_s;
-  const auto after = std::upper_bound(samples.begin(), samples.end(), t, [](double time, const MotionSample& s) { return time < s.t_s; });
+  const auto after = std::upper_bound(samples.begin(), samples.end(), t + k_same_s, [](double time, const MotionSample& s) { return time < s.t_s; });
   if (after == samples.begin()) return samples.front();
   if (after == samples.end()) return samples.back();
   const MotionSample &a = *(after - 1), &b = *after;
-  const double f = (t - a.t_s) / (b.t_s - a.t_s);
+  const double past = t - a.t_s, f = past > k_same_s ? past / (b.t_s - a.t_s) : 0.0;
   MotionSample s = a;  // pedal is linear, buttons and point hold
   s.t_s = t;
   s.pose.tip_mm = a.pose.tip_mm + (b.pose.tip_mm - a.pose.tip_mm) * f;

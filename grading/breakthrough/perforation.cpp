@@ -4,6 +4,7 @@
 #include <array>
 
 #include "grading/breakthrough/breakthrough.h"
+#include "grading/breakthrough/exposure.h"
 
 namespace cavum::grading {
 namespace {
@@ -16,29 +17,37 @@ Vec3 place_of(const TickRecord& r) { return {r.proxy_nm[0] * 1e-6, r.proxy_nm[1]
 
 }  // namespace
 
-PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ticks) {
+PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   PerforationMeasures p;
   const scenarios::PerforationSpec& spec = input.scenario.perforation;
   p.has_aims = !spec.aims.empty();
-  std::array<int, 256> role{};  // 1 aim, 2 fault
+  const auto ids_of = [&](const std::vector<std::string>& names) {
+    std::array<bool, 256> ids{};
+    for (const auto& t : input.before.tissues) ids[t.id] = std::find(names.begin(), names.end(), t.name) != names.end();
+    return ids;
+  };
+  const std::array<bool, 256> aims = ids_of(spec.aims), faults = ids_of(spec.faults);
+  std::array<bool, 256> either = aims;
+  for (std::size_t i = 0; i < either.size(); ++i) either[i] = either[i] || faults[i];
+  const std::array<ExposedTissue, 256> exposed = measure_exposure(input, removed, last_tick, either);
+  std::array<std::vector<std::int64_t>, 2> opened;  // ticks, of aims and of faults
   for (const auto& t : input.before.tissues) {
-    const auto among = [&](const std::vector<std::string>& list) { return std::find(list.begin(), list.end(), t.name) != list.end(); };
-    role[t.id] = among(spec.aims) ? 1 : among(spec.faults) ? 2 : 0;
+    if (!either[t.id]) continue;
+    const ExposedTissue& e = exposed[t.id];
+    PerforationTruth& truth = faults[t.id] ? p.fault : p.aim;
+    const auto earlier = [](const Trace& a, const Trace& b) { return a.tick >= 0 && (b.tick < 0 || a.tick < b.tick); };
+    if (earlier(e.first, truth.first)) truth.first = e.first, truth.tissue = t.name;
+    if (earlier(e.first_outside, truth.first_outside)) truth.first_outside = e.first_outside;
+    truth.perforated = truth.perforated || e.opened();
+    truth.area_mm2 += e.area_mm2;
+    truth.area_bound_mm2 += e.area_bound_mm2;
+    truth.volume_mm3 += e.inside_mm3;
+    truth.outside_mm3 += e.outside_mm3;
+    auto& list = opened[faults[t.id] ? 1 : 0];
+    list.insert(list.end(), e.ticks.begin(), e.ticks.end());
   }
-  const double leaf_mm3 = input.zones.leaf_volume_mm3();
-  std::array<std::vector<std::int64_t>, 3> touched;  // ticks, by role, in order
-  for (const auto& r : input.removed) {
-    if (r.tick >= ticks || role[r.leaf.tissue] == 0) continue;
-    PerforationTruth& truth = role[r.leaf.tissue] == 1 ? p.aim : p.fault;
-    if (!truth.perforated) {
-      truth.perforated = true;
-      truth.first = {r.tick, input.zones.centre_mm(r.leaf.leaf())};
-      truth.tissue = input.before.tissue_name(r.leaf.tissue);
-    }
-    truth.volume_mm3 += leaf_mm3;
-    touched[static_cast<std::size_t>(role[r.leaf.tissue])].push_back(r.tick);
-  }
-  const auto counted = std::min<std::size_t>(input.inputs.size(), static_cast<std::size_t>(ticks));
+  for (auto& list : opened) std::sort(list.begin(), list.end());
+  const auto counted = std::min<std::size_t>(input.inputs.size(), static_cast<std::size_t>(last_tick) + 1);
   for (const Breakthrough& b : find_breakthroughs(input.inputs.first(counted), input.records.first(counted))) {
     PerforationEvent e;
     e.tick = b.tick;
@@ -54,7 +63,7 @@ PerforationMeasures measure_perforation(const GradeInput& input, std::int64_t ti
     const double beyond = input.zones.distance_mm(e.site_mm);
     const double leeway = std::max(input.scenario.zones.leeway.sides_mm, input.scenario.zones.leeway.bottom_mm);
     e.fault = spec.aims.empty() || beyond > leeway;
-    const auto& list = touched[e.fault ? 2 : 1];
+    const auto& list = opened[e.fault ? 1 : 0];
     const auto near = std::lower_bound(list.begin(), list.end(), e.tick - k_confirm_before_ticks);
     e.confirmed = near != list.end() && *near <= e.seen_tick + k_confirm_after_ticks;
   }

@@ -83,6 +83,8 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
     if (from != to) c.rules.push_back(fmt::format("{} {} -> {}", what, from, to));
   };
   rule("pass mark, %", plain_number(old_rubric.pass_percent), plain_number(new_rubric.pass_percent));
+  rule("an exam whose last step is open", old_rubric.open_step_passes ? "may pass" : "is reviewed",
+       new_rubric.open_step_passes ? "may pass" : "is reviewed");
   rule("borderline band, %", plain_number(old_rubric.borderline_percent), plain_number(new_rubric.borderline_percent));
   rule("rule", old_rubric.compensatory ? "compensatory" : "non-compensatory", new_rubric.compensatory ? "compensatory" : "non-compensatory");
   const bool same_version = sealed.grading_version == k_grading_version;

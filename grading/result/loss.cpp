@@ -177,13 +177,22 @@ Loss force_over_limit(const Result& r, const Asked&) {
 Loss fault_opened(const Result& r, const Asked&) {
   const PerforationTruth& t = r.perforation.fault;
   if (!t.perforated) return {"no faulty breakthrough", {}};
-  return {fmt::format("{} touched at {} at {}, {} mm3 in all", t.tissue, when(t.first), place(t.first.site_mm), fixed(t.volume_mm3, 3)), t.first};
+  return {fmt::format("{} opened at {} at {}, {} mm2 of its wall and {} mm3 in all", t.tissue, when(t.first), place(t.first.site_mm),
+                      fixed(t.area_mm2, 3), fixed(t.volume_mm3, 3)),
+          t.first};
+}
+
+Loss swept_outside(const Result& r, const Asked&) {
+  const Trace& first = r.perforation.fault.first_outside;
+  if (first.tick < 0) return {"none", {}};
+  return {fmt::format("from outside the tooth, first at {} at {}", when(first), place(first.site_mm)), first};
 }
 
 Loss fault_felt(const Result& r, const Asked&) {
   for (const auto& e : r.perforation.events)
-    if (e.fault) return {fmt::format("a drop in force from {} N at {}", fixed(e.force_before_n, 2), when({e.tick, e.site_mm})), {e.tick, e.site_mm}};
-  return {"no faulty breakthrough seen in the force", {}};
+    if (e.fault && e.confirmed)
+      return {fmt::format("a drop in force from {} N at {}", fixed(e.force_before_n, 2), when({e.tick, e.site_mm})), {e.tick, e.site_mm}};
+  return {"no faulty breakthrough that force and tissue show", {}};
 }
 
 Loss tissue_touched(const Result& r, const Asked& a) {

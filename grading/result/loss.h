@@ -33,7 +33,8 @@ namespace reason {
 [[nodiscard]] Loss force_peak(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss force_over_limit(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss fault_opened(const Result& measured, const Asked& asked);  ///< by the tissue
-[[nodiscard]] Loss fault_felt(const Result& measured, const Asked& asked);    ///< by the force
+[[nodiscard]] Loss swept_outside(const Result& measured, const Asked& asked);
+[[nodiscard]] Loss fault_felt(const Result& measured, const Asked& asked);  ///< by the force, and confirmed
 [[nodiscard]] Loss tissue_touched(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss first_violation(const Result& measured, const Asked& asked);
 }  // namespace reason

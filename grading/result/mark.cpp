@@ -50,7 +50,7 @@ int digits_for(double value, double other) {
   return digits;
 }
 
-/// The question whether something was broken into that must not be: what force and tissue may disagree on.
+/// The question whether something was broken into that must not be.
 bool asks_for_perforation(const Result& r, const scenarios::Measure& measure) {
   if (measure.tissue.empty()) return measure.counts_faults;
   return r.perforation.fault.perforated && measure.tissue == r.perforation.fault.tissue;
@@ -64,7 +64,6 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   out.metric = c.metric;
   out.unit = a.measure.unit;
   out.max = c.points;
-  out.doubtful = !r.perforation.agree() && asks_for_perforation(r, a.measure);
   const MetricValue v = a.marking->value(r, a);
   out.value = v.value;
   out.bound = v.bound;
@@ -101,7 +100,7 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
     const auto& limit = above ? c.critical_above : c.critical_below;
     out.reason += fmt::format("; critical {}{}", above ? "above " : "below ", fixed(*limit, 2));
     if (near(limit)) out.reason += ", which lies within the bound of the figure";
-    out.reason += out.doubtful ? "; this alone would fail the exam, but force and tissue disagree on it" : "; this alone fails the exam";
+    out.reason += "; this alone fails the exam";
   } else if (near(c.critical_above) || near(c.critical_below)) {
     out.reason += fmt::format("; the critical limit of {} lies within the bound of the figure",
                               fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2));
@@ -122,19 +121,17 @@ struct Standing {
   double bound_percent = 0.0;
 };
 
-/// `in_favour`: as if what force and tissue disagree on were decided for the candidate.
-Standing standing_of(const Result& r, bool in_favour) {
-  const auto points = [&](const CriterionResult& c) { return in_favour && c.doubtful ? c.max : c.points; };
+Standing standing_of(const Result& r) {
   Standing s;
   if (r.compensatory) {
     double sum = 0;
-    for (const auto& c : r.criteria) sum += points(c);
+    for (const auto& c : r.criteria) sum += c.points;
     if (!(r.max_points > 0)) return {0, "the sum"};
     return {100 * sum / r.max_points, "the sum", 100 * r.points_bound / r.max_points};
   }
   for (const auto& c : r.criteria) {
     if (!(c.max > 0)) continue;
-    const double percent = 100 * points(c) / c.max;
+    const double percent = 100 * c.points / c.max;
     if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id, 100 * c.points_bound / c.max};
   }
   return s;
@@ -155,15 +152,15 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     r.points_bound += r.criteria.back().points_bound;
     r.max_points += r.criteria.back().max;
   }
-  bool critical = false;  // and beyond doubt
+  bool critical = false;
   for (const auto& c : r.criteria) {
     if (!c.critical_failed) continue;
-    critical = critical || !c.doubtful;
+    critical = true;
     r.verdict_reasons.push_back(fmt::format("critical criterion {}: {}", c.id, c.reason));
   }
-  const Standing standing = standing_of(r, false);
+  const Standing standing = standing_of(r);
   const double beyond = standing.percent - rubric.pass_percent;
-  const bool doubt = !r.perforation.agree(), band = std::fabs(beyond) < rubric.borderline_percent;
+  const bool band = std::fabs(beyond) < rubric.borderline_percent;
   r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
   if (!critical && band) r.verdict = Verdict::review;
   std::string text = fmt::format("{} reaches {} %, {}the pass mark is {} %", standing.which, fixed(standing.percent, 1),
@@ -177,13 +174,14 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     for (const auto& c : r.criteria)
       if (const double percent = c.max > 0 ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.which != "criterion " + c.id)
         r.verdict_reasons.push_back(fmt::format("criterion {} reaches {} %, below the pass mark, too", c.id, fixed(percent, 1)));
-  if (doubt) {
-    const std::string what = r.perforation.detected() ? "the force shows a faulty breakthrough, the tissue does not"
-                                                      : "the tissue shows a faulty breakthrough, the force does not";
-    // a person is asked only where the answer matters
-    const bool open = !critical && standing_of(r, true).percent > rubric.pass_percent - rubric.borderline_percent;
-    if (open) r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(what + (open ? ": a person decides" : "; the exam is failed either way"));
+  if (!r.perforation.agree())
+    r.verdict_reasons.emplace_back(r.perforation.detected()
+                                       ? "the force shows a faulty breakthrough and the tissue none, which costs nothing: the tissue decides"
+                                       : "the force does not show the faulty breakthrough that the tissue shows: the tissue decides");
+  if (r.verdict == Verdict::pass && !r.progress.open_last_step.empty() && !rubric.open_step_passes) {
+    r.verdict = Verdict::review;
+    r.verdict_reasons.push_back(
+        fmt::format("the last step, '{}', is open, and work that is not finished is no pass: a person decides", r.progress.open_last_step));
   }
   if (r.perforation.fault.perforated &&
       std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, scenarios::known_measure(c.metric)); }))

@@ -53,7 +53,8 @@ MetricValue taper_error(const Result& r, const Asked&) {
 }
 
 MetricValue fault_events(const Result& r, const Asked&) {
-  return exactly(static_cast<double>(std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault; })));
+  return exactly(static_cast<double>(
+      std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault && e.confirmed; })));
 }
 
 /// Every zone; without the target, what lies beyond it.
@@ -261,6 +262,13 @@ std::vector<MeasureMarking> conduct_markings() {
        },
        .reason = reason::fault_opened,
        .json = "/perforation/truth/volume_mm3",
+       .bound_json = "/perforation/truth/bound_mm3"},
+      {.measure = "soft_tissue_outside_mm3",
+       .value = [](R r, A) -> MetricValue {
+         return {r.perforation.fault.outside_mm3, r.perforation.fault.bound_mm3};
+       },
+       .reason = reason::swept_outside,
+       .json = "/perforation/truth/outside_mm3",
        .bound_json = "/perforation/truth/bound_mm3"},
       {.measure = "perforation_events", .value = fault_events, .reason = reason::fault_felt},
       {.measure = scenarios::k_tissue_family, .value = of_tissue, .reason = reason::tissue_touched},

@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 1;
+inline constexpr int k_grading_version = 2;
 
 /// When and where something happened; tick -1 = never.
 struct Trace {
@@ -116,14 +116,18 @@ struct PerforationEvent {
   double force_before_n = 0.0, force_after_n = 0.0;
   double advance_mm = 0.0;  ///< of the tip, against the force, while it dropped
   bool fault = false;       ///< by the place: outside target and leeway, or no aim in this scenario
-  bool confirmed = false;   ///< tissue of that kind was removed then
+  bool confirmed = false;   ///< tissue of that kind was opened then
 };
 
+/// What was laid open from the cavity of all tissues of a kind; see grading/breakthrough/exposure.h.
 struct PerforationTruth {
-  bool perforated = false;
+  bool perforated = false;  ///< some face of such a tissue lies open to the cavity, or some of it was removed from there
   Trace first;
-  std::string tissue;
-  double volume_mm3 = 0.0, bound_mm3 = 0.0;  ///< in whole leaves, of all tissues of the kind
+  std::string tissue;                           ///< opened first
+  double area_mm2 = 0.0, area_bound_mm2 = 0.0;  ///< of their walls that lies open
+  double volume_mm3 = 0.0, bound_mm3 = 0.0;     ///< removed from the cavity, in whole leaves
+  double outside_mm3 = 0.0;                     ///< removed from outside the tooth: no perforation
+  Trace first_outside;
 };
 
 struct PerforationMeasures {
@@ -170,6 +174,7 @@ struct ProgressMeasures {
   int steps = 0, steps_completed = 0, steps_failed = 0, violations = 0;
   Trace first_violation;
   std::string finish = "running";
+  std::string open_last_step;  ///< the last step's id, where the exam ended with it open; empty: it was completed, or there was no exam
 };
 
 struct CriterionResult {
@@ -181,8 +186,7 @@ struct CriterionResult {
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
   std::string work_text;      ///< that in words; empty when all of them count
   bool critical_failed = false;
-  bool doubtful = false;  ///< it asks for a perforation, and force and tissue disagree about that
-  Trace first;            ///< where the loss began
+  Trace first;  ///< where the loss began
 };
 
 enum class Verdict { pass, fail, review };

@@ -31,8 +31,11 @@ Json truth_json(const PerforationTruth& t) {
           {"first_tick", tick_of(t.first)},
           {"site_mm", place_of(t.first)},
           {"tissue", t.perforated ? Json(t.tissue) : Json(nullptr)},
+          {"area_mm2", rounded(t.area_mm2)},
+          {"area_bound_mm2", rounded(t.area_bound_mm2)},
           {"volume_mm3", rounded(t.volume_mm3)},
-          {"bound_mm3", rounded(t.bound_mm3)}};
+          {"bound_mm3", rounded(t.bound_mm3)},
+          {"outside_mm3", rounded(t.outside_mm3)}};
 }
 
 Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
@@ -89,7 +92,6 @@ Json criterion_json(const CriterionResult& c) {
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
   if (c.work_share < 1) j["work_share"] = rounded(c.work_share);
-  if (c.doubtful) j["doubtful"] = true;
   return j;
 }
 
@@ -284,10 +286,14 @@ std::string perforation_text(const Result& r) {
     s += fmt::format("  force: {} at {} s, {} N to {} N, {}\n", e.fault ? "fault" : "aim", fixed(static_cast<double>(e.tick) * k_tick_s, 3),
                      fixed(e.force_before_n, 2), fixed(e.force_after_n, 2), e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue");
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    s += fmt::format("  tissue: {}{}", kind,
-                     t.perforated ? fmt::format(", {} first touched at {} s, {}", t.tissue, fixed(t.first.t_s(), 3),
-                                                amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3\n"))
-                                  : " not touched\n");
+    s += fmt::format("  tissue: {}", kind);
+    if (t.perforated)
+      s += fmt::format(", {} opened first at {} s, {} of its wall lie open, {} removed", t.tissue, fixed(t.first.t_s(), 3),
+                       amount_text(t.area_mm2, t.area_bound_mm2, 3, "mm2"), amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3"));
+    else
+      s += " not opened";
+    if (t.outside_mm3 > 0) s += fmt::format("; {} mm3 removed from outside the tooth, which is no perforation", fixed(t.outside_mm3, 3));
+    s += "\n";
   };
   truth("fault", r.perforation.fault);
   if (r.perforation.has_aims) truth("aim", r.perforation.aim);

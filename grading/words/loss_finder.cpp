@@ -232,8 +232,10 @@ void LossFinder::steps() {
 void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
+    if (t.outside_mm3 > 0) fact("tissue: removed from outside the tooth, which is no perforation", t.outside_mm3, "mm3", t.first_outside);
     if (!t.perforated) return fact(fmt::format("tissue: no {}", kind));
-    fact(fmt::format("tissue: {}, {} first removed here", kind, t.tissue), t.volume_mm3, "mm3 of it in all", t.first, t.bound_mm3);
+    fact(fmt::format("tissue: {}, {} first opened here", kind, t.tissue), t.area_mm2, "mm2 of its wall in all", t.first, t.area_bound_mm2);
+    fact(fmt::format("tissue: {}, removed from the cavity", kind), t.volume_mm3, "mm3", {}, t.bound_mm3);
   };
   truth("fault", p.fault);
   if (p.has_aims) truth("aim", p.aim);

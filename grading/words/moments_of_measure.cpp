@@ -53,6 +53,7 @@ const std::vector<MomentsOfMeasure>& moments_of_measures() {
       {.measure = "force_over_limit_s", .words = "when more was pressed than the limit", .list = &LossFinder::force_over_limit},
       {.measure = "perforated", .words = "by tissue and by force", .list = &LossFinder::perforation},
       {.measure = "perforation_volume_mm3", .words = "by tissue and by force", .list = &LossFinder::perforation},
+      {.measure = "soft_tissue_outside_mm3", .words = "by tissue and by force", .list = &LossFinder::perforation},
       {.measure = "perforation_events", .words = "by tissue and by force", .list = &LossFinder::perforation},
       {.measure = scenarios::k_tissue_family, .words = "what was removed of it", .list = &LossFinder::tissue},
       {.measure = "path_mm", .words = "events", .list = &LossFinder::steps},

@@ -174,16 +174,23 @@ std::vector<Measure> motion_measures() {
 std::vector<Measure> perforation_measures() {
   return {
       {.name = "perforated",
-       .words = "1 when a tissue under perforation.faults was touched",
+       .words = "1 when a tissue under perforation.faults was opened from the cavity",
        .most = &most::fault,
        .needs = Needs::fault,
        .counts_faults = true},
       {.name = "perforation_volume_mm3",
        .unit = "mm3",
-       .words = "removed of the tissues under perforation.faults",
+       .words = "removed from the cavity of the tissues under perforation.faults",
        .needs = Needs::fault,
        .counts_faults = true},
-      {.name = "perforation_events", .words = "faulty breakthroughs seen in the force", .most = &most::no_end, .counts_faults = true},
+      {.name = "soft_tissue_outside_mm3",
+       .unit = "mm3",
+       .words = "removed of the tissues under perforation.faults from outside the tooth",
+       .needs = Needs::fault},
+      {.name = "perforation_events",
+       .words = "faulty breakthroughs seen in the force and confirmed by the tissue",
+       .most = &most::no_end,
+       .counts_faults = true},
   };
 }
 

@@ -69,6 +69,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
   r.compensatory = t.word("rule", {"compensatory", "non-compensatory"}, 0, true) == 0;
   r.pass_percent = t.number("pass_percent", 0, 100, 60, true);
   r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
+  r.open_step_passes = t.truth("open_step_passes", false);
   double sum = 0;
   for (const auto* c : t.tables("criteria", true)) {
     r.criteria.push_back(read_criterion(*c, fmt::format("rubric/criteria/{}", r.criteria.size()), places, problems));

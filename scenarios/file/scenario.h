@@ -116,6 +116,7 @@ struct RubricSpec {
   bool compensatory = true;         ///< points of one criterion may make up for another
   double pass_percent = 60.0;       ///< of all points (non-compensatory: of each criterion's)
   double borderline_percent = 0.0;  ///< this close to the pass mark a person decides
+  bool open_step_passes = false;    ///< an exam whose last step is open may pass by its points; else a person decides
   std::vector<CriterionSpec> criteria;
   std::string path;  ///< file it was read from
 };

@@ -200,42 +200,61 @@ const scenarios::CriterionSpec k_half_time{"t", "t", "time_s", 100, 300, 10, {},
 const scenarios::CriterionSpec k_critical_time{"t", "t", "time_s", 100, 300, 10, 150.0, {}};
 const scenarios::CriterionSpec k_critical_perforation{"p", "p", "perforated", 0, 1, 10, 0.5, {}};
 
-TEST(Verdict, ForceAgainstTissueGoesToReviewWhereItMatters) {
-  scenarios::RubricSpec rubric;
-  rubric.criteria = {k_half_time};
-  rubric.pass_percent = 40;
-  const auto verdict = [&](bool force, bool tissue) {
-    Result r = with_perforation(force, tissue);
-    mark(r, rubric);
-    return r.verdict;
-  };
-  EXPECT_EQ(verdict(false, true), Verdict::review);
-  EXPECT_EQ(verdict(true, false), Verdict::review);
-  EXPECT_EQ(verdict(true, true), Verdict::pass);
-  EXPECT_EQ(verdict(false, false), Verdict::pass);
-  rubric.pass_percent = 60;  // 50 % fails, whoever is right about the perforation
-  EXPECT_EQ(verdict(false, true), Verdict::fail);
-  rubric.criteria.push_back(k_critical_perforation);  // 25 % as it stands; 75 % when decided for the candidate
-  EXPECT_EQ(verdict(false, true), Verdict::review);
-}
-
-TEST(Verdict, ACriticalPerforationIsReviewedInDoubtAndFailsWhenForceAndTissueAgree) {
+TEST(Verdict, TheTissueDecidesAboutAPerforationWhateverTheForceSays) {
   scenarios::RubricSpec rubric;
   rubric.criteria = {k_half_time, k_critical_perforation};
   rubric.pass_percent = 10;
-  Result r = with_perforation(true, true);
+  for (const bool force : {false, true}) {
+    Result opened = with_perforation(force, true);
+    mark(opened, rubric);
+    EXPECT_EQ(opened.verdict, Verdict::fail) << force;
+    EXPECT_NE(opened.criteria[1].reason.find("this alone fails the exam"), std::string::npos);
+    Result whole = with_perforation(force, false);
+    mark(whole, rubric);
+    EXPECT_EQ(whole.verdict, Verdict::pass) << force;
+    // what the force says is told all the same
+    const auto told = [](const Result& r) {
+      return std::any_of(r.verdict_reasons.begin(), r.verdict_reasons.end(), [](const auto& s) { return s.find("the force") != std::string::npos; });
+    };
+    EXPECT_EQ(told(opened), !force);
+    EXPECT_EQ(told(whole), force);
+  }
+  rubric.criteria[1].metric = "perforation_events";  // of those that the tissue confirms
+  Result r = with_perforation(true, false);
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+}
+
+TEST(Verdict, AnOpenLastStepIsNoPassUnlessTheRubricSaysSo) {
+  scenarios::RubricSpec rubric;
+  rubric.criteria = {k_half_time};
+  rubric.pass_percent = 40;
+  Result r = with_perforation(false, false);
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+  r.progress.open_last_step = "floor";
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::review);
+  EXPECT_NE(r.verdict_reasons.back().find("'floor', is open"), std::string::npos);
+  rubric.open_step_passes = true;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+  rubric.open_step_passes = false;
+  rubric.pass_percent = 60;  // what fails by its points is not lifted to a review
   mark(r, rubric);
   EXPECT_EQ(r.verdict, Verdict::fail);
-  EXPECT_NE(r.criteria[1].reason.find("this alone fails the exam"), std::string::npos);
-  r = with_perforation(false, true);
-  mark(r, rubric);
-  EXPECT_EQ(r.verdict, Verdict::review);
-  EXPECT_TRUE(r.criteria[1].doubtful);
-  for (const auto& reason : r.verdict_reasons) EXPECT_EQ(reason.find("this alone fails"), std::string::npos) << reason;
-  rubric.criteria[1].metric = "perforation_events";
-  r = with_perforation(true, false);
-  mark(r, rubric);
-  EXPECT_EQ(r.verdict, Verdict::review);
+}
+
+TEST(Grade, TheLastStepIsOpenWhereItsEventIsMissing) {
+  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);
+  EXPECT_EQ(c.graded().progress.open_last_step, "") << "no exam, no step";
+  c.events.push_back({0, scenarios::event_name(scenarios::ExamEventKind::finished), R"({"how": "ended"})"});
+  EXPECT_EQ(c.graded().progress.open_last_step, "only");
+  EXPECT_EQ(c.graded().verdict, Verdict::review);
+  c.events.insert(c.events.begin(), {0, scenarios::event_name(scenarios::ExamEventKind::step_completed), R"({"step": "only"})"});
+  EXPECT_EQ(c.graded().progress.open_last_step, "");
+  EXPECT_EQ(c.graded().verdict, Verdict::pass);
 }
 
 TEST(Verdict, AnotherCriticalFailureFailsWhateverForceAndTissueSay) {
@@ -421,7 +440,7 @@ TEST(Grade, DisagreementOfListAndFinalToothGoesToReview) {
   EXPECT_FALSE(r.notes.empty());
 }
 
-TEST(Grade, TruthOfAPerforationIsTheFirstLeafOfAFaultTissue) {
+TEST(Grade, TruthOfAPerforationBeginsWithTheFirstFaceOfAFaultTissue) {
   Carved c(scenario_text(k_box_target), chambered_block(0.1));
   c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -2.9), 1);
   EXPECT_FALSE(c.graded().perforation.fault.perforated);

@@ -39,12 +39,12 @@ struct Pose {
   [[nodiscard]] Vec3 world(Vec3 q) const { return at + x * q.x + y * q.y + z * q.z; }
 };
 
-std::string number(double v) {
+std::string plain(double v) {
   char text[40];
   std::snprintf(text, sizeof text, "%.15g", v);
   return text;
 }
-std::string vector(Vec3 v) { return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]"; }
+std::string vector(Vec3 v) { return "[" + plain(v.x) + ", " + plain(v.y) + ", " + plain(v.z) + "]"; }
 
 double meet(double a, double b) { return a > 0 && b > 0 ? std::sqrt(a * a + b * b) : std::max(a, b); }
 
@@ -79,8 +79,8 @@ Known round_body(Random& random, double most_tilt, double slope) {
   const double depth = random.uniform(1.8, 2.8), r = random.uniform(1.1, 1.5), s = random.uniform(0.02, 0.18), f = random.uniform(0.02, 0.18);
   const Pose pose(random, depth, most_tilt);
   k.upright = most_tilt == 0;
-  k.target_toml = "[[zones.target]]\nshape = \"cone\"\nat_mm = " + vector(pose.at) + "\naxis = " + vector(pose.z) + "\nradius_mm = " + number(r) +
-                  "\ntop_radius_mm = " + number(r + slope * k_top) + "\nheight_mm = " + number(k_top) + "\n";
+  k.target_toml = "[[zones.target]]\nshape = \"cone\"\nat_mm = " + vector(pose.at) + "\naxis = " + vector(pose.z) + "\nradius_mm = " + plain(r) +
+                  "\ntop_radius_mm = " + plain(r + slope * k_top) + "\nheight_mm = " + plain(k_top) + "\n";
   const double cosine = 1 / std::sqrt(1 + slope * slope), wider = s / cosine;
   k.cut = [=](Vec3 p) {
     const Vec3 q = pose.local(p);
@@ -132,13 +132,13 @@ Known box_body(Random& random, double most_tilt) {
   std::string points;
   for (const Vec3 p : {Vec3{-a, -b, 0}, {a, -b, 0}, {a, b, 0}, {-a, b, 0}}) {
     const Vec3 q = pose.x * p.x + pose.y * p.y;
-    points += (points.empty() ? "" : ", ") + ("[" + number(q.x) + ", " + number(q.y) + "]");
+    points += (points.empty() ? "" : ", ") + ("[" + plain(q.x) + ", " + plain(q.y) + "]");
   }
   // as the corners are given in the tilted frame by `turn_deg`, the angle of our x from the frame's own
   const Vec3 x0 = std::fabs(pose.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - pose.z * pose.z.x) : Vec3{0, 1, 0}, y0 = cross(pose.z, x0);
   const double turn = std::atan2(dot(pose.x, y0), dot(pose.x, x0)) * 180 / std::numbers::pi;
   k.target_toml = "[[zones.target]]\nshape = \"box\"\nat_mm = " + vector(pose.world({0, 0, k_top / 2})) + "\naxis = " + vector(pose.z) +
-                  "\nturn_deg = " + number(turn) + "\nsize_mm = " + vector({2 * a, 2 * b, k_top}) + "\n";
+                  "\nturn_deg = " + plain(turn) + "\nsize_mm = " + vector({2 * a, 2 * b, k_top}) + "\n";
   k.cut = [=](Vec3 p) {
     const Vec3 q = pose.local(p);
     return meet(meet(std::fabs(q.x) - a - s, std::fabs(q.y) - b - s), -f - q.z);
@@ -164,7 +164,7 @@ Known ball_body(Random& random) {
   Known k;
   const double r = random.uniform(1.4, 1.9), s = random.uniform(0.02, 0.18), deep = random.uniform(0.2, 0.9);  // of the centre, below the top
   const Vec3 at{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), -deep};
-  k.target_toml = "[[zones.target]]\nshape = \"ball\"\nat_mm = " + vector(at) + "\nradius_mm = " + number(r) + "\n";
+  k.target_toml = "[[zones.target]]\nshape = \"ball\"\nat_mm = " + vector(at) + "\nradius_mm = " + plain(r) + "\n";
   k.cut = [=](Vec3 p) { return length(p - at) - r - s; };
   const auto volume = [&](double radius) {  // the ball without its cap above the top
     const double cap = radius - deep;

@@ -108,7 +108,7 @@ std::unique_ptr<scenarios::ExamSetup> make_setup(const ExamArguments& o, const L
   options.device = source_name(o);
   options.source = motion_source(o);
   options.notes = source_notes(o);
-  if (o.motion.empty()) options.position_quantum_mm = OmniModel{}.quantum_mm;
+  options.position_quantum_mm = o.motion.empty() ? OmniModel{}.quantum_mm : motion_quantum_mm(read_text_file(o.motion, k_largest_table), o.motion);
   if (live != nullptr) {
     options.device = live->name();
     options.source = live->source();

@@ -10,6 +10,7 @@ void add_tooth_verbs(CLI::App& app, int& exit_code);
 void add_scenario_verbs(CLI::App& app, int& exit_code);
 void add_exam_verbs(CLI::App& app, int& exit_code);
 void add_replay_verbs(CLI::App& app, int& exit_code);
+void add_session_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
 /// After the ledger's: `ledger report` is one of them.
 void add_report_verbs(CLI::App& app, int& exit_code);

@@ -14,7 +14,7 @@ constexpr std::size_t k_near = 3;  // rows on each side of which the largest dif
 constexpr double k_smooth = 0.18, k_no_jump = 0.3;
 // What five and seven differ by on most rows is what the positions' last digit does, unless all the motion is jerks.
 constexpr double k_times_usual = 4.0, k_usual_most = 0.01, k_least_mm_s = 1e-9;  // the second of the root mean square speed
-constexpr double k_times_high = 1.5, k_times_low = 2.0;  // 1.0 and 1.8 is what the speed was off by, at most
+constexpr double k_times_high = 1.5, k_times_low = 2.0;                          // 1.0 and 1.8 is what the speed was off by, at most
 
 /// Derivative at `at` of the polynomial through points [from, from + count): Lagrange's basis, differentiated at one of its own points.
 double slope_of_polynomial(std::span<const double> t, std::span<const double> x, std::size_t from, std::size_t count, std::size_t at) {
@@ -52,8 +52,8 @@ std::vector<Slope> slopes(std::span<const double> t_s, std::span<const double> x
     const auto from = static_cast<std::ptrdiff_t>(i > k_near ? i - k_near : 0), to = static_cast<std::ptrdiff_t>(std::min(n, i + k_near + 1));
     const double first = *std::max_element(low.begin() + from, low.begin() + to), second = *std::max_element(high.begin() + from, high.begin() + to);
     out[i].error_mm_s = second < std::max(usual, k_smooth * first) ? k_times_high * second
-             : second < k_no_jump * first ? k_times_low * first
-                                          : std::numeric_limits<double>::infinity();
+                        : second < k_no_jump * first               ? k_times_low * first
+                                                                   : std::numeric_limits<double>::infinity();
   }
   return out;
 }

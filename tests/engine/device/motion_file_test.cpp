@@ -147,5 +147,49 @@ TEST(MotionFile, ButtonsAndPointHoldUntilTheNextRow) {
   EXPECT_EQ(parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n", "m.csv").at(0).point, -1);
 }
 
+TEST(MotionFile, SaysTheStepOfTheEncoder) {
+  const std::string rows = k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n";
+  EXPECT_EQ(parse_motion("# position_quantum_mm = 0.055\n" + rows, "m.csv").position_quantum_mm, 0.055);
+  EXPECT_EQ(parse_motion(rows, "m.csv").position_quantum_mm, 0.0);
+  EXPECT_EQ(motion_quantum_mm("# made by hand\n# position_quantum_mm = 0.01\n" + rows, "m.csv"), 0.01);
+  for (const char* wrong : {"-0.01", "2", "nan", "0.055 mm", ""})
+    EXPECT_NE(error_in(std::string("# position_quantum_mm = ") + wrong + "\n" + rows).find("no step of an encoder"), std::string::npos) << wrong;
+}
+
+TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
+  Random random(11);
+  std::vector<TickInput> inputs;
+  TickInput before;
+  for (int i = 0; i < 5000; ++i) {
+    const Quat q = normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
+    const Vec3 tip{3.0 * random.normal(), 0.055 * std::floor(20 * random.normal()), -1e-6 * i};
+    auto flags = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh);
+    if (i % 7 == 3) flags |= k_button_1;
+    if (i % 11 == 5) flags |= k_button_2;
+    before = make_tick_input({tip, q}, random.uniform(), flags, static_cast<std::uint8_t>(i / 1000), before);
+    inputs.push_back(before);
+  }
+  const Motion motion = parse_motion(motion_text(inputs, 0.055, "s.cavum"), "m.csv");
+  EXPECT_EQ(motion.position_quantum_mm, 0.055);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const MotionSample s = motion.at(static_cast<double>(i) * k_tick_s);
+    std::uint16_t flags = k_stylus_fresh | k_pedal_fresh;
+    if (s.button_1) flags |= k_button_1;
+    if (s.button_2) flags |= k_button_2;
+    ASSERT_EQ(make_tick_input(s.pose, s.pedal, flags, static_cast<std::uint8_t>(s.point), {}), inputs[i]) << i;
+  }
+}
+
+TEST(MotionFile, CannotSayThatADeviceGaveNothing) {
+  std::vector<TickInput> inputs(3, make_tick_input({}, 0.5, k_stylus_fresh | k_pedal_fresh, 0, {}));
+  inputs[1].flags = k_pedal_fresh;
+  try {
+    (void)motion_text(inputs, 0.0, "s.cavum");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("tick 1"), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace cavum
