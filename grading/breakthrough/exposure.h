@@ -1,5 +1,6 @@
-// Truth of a perforation: which void tissue (pulp, periodontium) was laid open from the cavity, face by face between leaves. A floor that stops a hair's
-// breadth beyond a pulp's roof takes no leaf of pulp, and is a hole all the same; soft tissue swept from outside, the tooth untouched, is none.
+// Truth of a perforation: which void tissue (pulp, periodontium) was laid open from the cavity, face by face between leaves. A floor that stops a
+// hair's breadth beyond a pulp's roof takes no leaf of pulp, and is a hole all the same; soft tissue swept from outside, the tooth untouched, is
+// none.
 #pragma once
 
 #include <array>
@@ -16,15 +17,15 @@ struct ExposedTissue {
   double outside_mm3 = 0.0;                     ///< removed from outside the tooth
   Trace first;                                  ///< face opened first, or leaf removed from the cavity first
   Trace first_outside;
-  std::vector<std::int64_t> ticks;              ///< in which it was opened further, or some of it removed from the cavity; ascending
+  std::vector<std::int64_t> ticks;  ///< in which it was opened further, or some of it removed from the cavity; ascending
   [[nodiscard]] bool opened() const noexcept { return first.tick >= 0; }
 };
 
 /// By tissue id, of those in `of_interest`, up to and with `last_tick`.
 ///
-/// A face counts between a hard leaf that was removed and a leaf of the tissue. Of a tissue that the tooth encloses (pulp) every one does. Of one that
-/// lies around the tooth (periodontium: a tenth of its wall or more borders air) it counts where the cavity came first, and where the hard leaves removed by
-/// then and joined to it reach a leaf more than 0.3 mm below the tooth's surface: there is a way through the tooth.
+/// A face counts between a hard leaf that was removed and a leaf of the tissue. Of a tissue that the tooth encloses (pulp) every one does. Of one
+/// that lies around the tooth (periodontium: a tenth of its wall or more borders air) it counts where the cavity came first, and where the hard
+/// leaves removed by then and joined to it reach a leaf more than 0.3 mm below the tooth's surface: there is a way through the tooth.
 ///
 /// A face's share of the area is leaf² |n|, n the wall's unit normal about it along the face's axis, so that slanted walls do not count as stairs.
 [[nodiscard]] std::array<ExposedTissue, 256> measure_exposure(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,

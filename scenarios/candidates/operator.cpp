@@ -255,6 +255,7 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
   }
   auto way = plan_cut(chosen.map, tooth, PlanOptions{});
   if (way.empty()) throw Error(where, "the careless candidate finds nothing to cut", "let [careless] leave more of the target");
+  bool finds_a_way = false;
   if (skill.perforates)
     for (const auto& fault : scenario.perforation.faults) {
       bool present = false;
@@ -263,8 +264,12 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       auto deeper = plan_perforation(zones, tooth, chosen.map, tooth.tissue_id(fault));
       if (deeper.empty()) continue;
       way.insert(way.end(), deeper.begin(), deeper.end());
+      finds_a_way = true;
       break;
     }
+  if (skill.perforates && !finds_a_way && (skill.name == "perforator" || skill.name == "careless"))  // a student who would have is lucky
+    throw Error(where, fmt::format("the {} finds no way through to what must not be opened", skill.name),
+                "allow a longer or thinner point, or take another candidate");
   return {Operator(skill, std::move(way), zones.approach(), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 

@@ -136,8 +136,9 @@ std::unique_ptr<scenarios::Exam> begin_exam(const ExamArguments& o, const scenar
   });
 }
 
-/// Grades what was recorded, seals the session with it, prints it.
-void finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& servo = {}) {
+/// Grades what was recorded, seals the session with it, prints it. Returns the exit code: 1 where a simulated candidate did not do what he is named
+/// for.
+int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& servo = {}) {
   grading::ClosedExam closed;
   write_somewhere(exam, o.out_if_full, [&] { closed = grading::grade_and_close(exam); });
   const std::string& session = exam.recorder().path();
@@ -151,7 +152,11 @@ void finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json&
   } else {
     std::cout << grading::to_text(result) << "recorded: " << one_line(session) << std::endl;
   }
-  if (o.report.empty()) return;
+  const bool failed_to = o.operator_name == "perforator" && !result.perforation.fault.perforated;
+  if (failed_to)
+    std::fprintf(stderr, "cavum: the perforator opened nothing that must not be opened: this recording is no example of a perforation\n");
+  const int exit_code = failed_to ? 1 : 0;
+  if (o.report.empty()) return exit_code;
   try {  // the exam is sealed by now, whatever becomes of its report
     report::write_closing_report(o.report, session, result, *closed.graded);
   } catch (const Error& e) {
@@ -159,6 +164,7 @@ void finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json&
                 fmt::format("write it later: `cavum report {} --out FILE`", session));
   }
   if (!o.json) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
+  return exit_code;
 }
 
 /// What would spoil the end of an exam is said before it begins.
@@ -210,8 +216,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
                  static_cast<long long>(report.servo.overruns), report.servo.lateness.worst_us() * 1e-3,
                  report.servo.fifo ? "" : " (without SCHED_FIFO)");
   if (exam.over()) {
-    finish(o, exam, servo);
-    return 0;
+    return finish(o, exam, servo);
   }
   write_somewhere(exam, o.out_if_full, [&exam] { exam.recorder().flush(); });
   const std::string& session = exam.recorder().path();
@@ -253,8 +258,7 @@ int run_new(const ExamArguments& o) {
       recording.look(e.recording_problem(), e.recorder().path());
     });
   }
-  finish(o, *exam);
-  return 0;
+  return finish(o, *exam);
 }
 
 /// What `cavum exam` runs when nothing at all is named: the simulated expert opens the shipped molar, in a session with a report, here.
@@ -334,8 +338,7 @@ int run_resumed(const ExamArguments& o) {
   } else if (!exam->over()) {
     exam->end();
   }
-  finish(o, *exam);
-  return 0;
+  return finish(o, *exam);
 }
 
 }  // namespace

@@ -163,8 +163,8 @@ std::string advice_for_expert(const grading::Result& r) {
     if (c.critical_failed)
       return fmt::format("move the critical limit of '{}' beyond what the expert reaches, or change the zones so that it can be kept", c.id);
   if (r.verdict == grading::Verdict::review)
-    return r.perforation.agree() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
-                                 : "look at the recording (--out): force and tissue disagree about a perforation";
+    return r.progress.open_last_step.empty() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
+                                             : "make the last step's condition one that the expert reaches";
   const grading::CriterionResult* worst = nullptr;
   for (const auto& c : r.criteria)
     if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;

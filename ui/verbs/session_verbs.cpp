@@ -34,7 +34,8 @@ void export_motion(const ExportArguments& o) {
 void add_session_verbs(CLI::App& app, int& exit_code) {
   auto* session = app.add_subcommand("session", "What a recorded exam holds, as files that others can use");
   session->require_subcommand(1);
-  auto* v = session->add_subcommand("export", "Write the motion of a recorded exam: `cavum exam --motion` with it and the same scenario gives the same marks");
+  auto* v = session->add_subcommand("export",
+                                    "Write the motion of a recorded exam: `cavum exam --motion` with it and the same scenario gives the same marks");
   auto o = std::make_shared<ExportArguments>();
   v->add_option("session", o->session, "a recorded exam (.cavum)")->required();
   v->add_option("--motion", o->motion, "CSV to write: a row for each tick, with point and step of the encoder")->required();

@@ -52,8 +52,9 @@ TEST(Exposure, AWallOpenedFromTheSideCountsByItsArea) {
 Tooth with_ball() {
   const auto from_ball = [](Vec3 p) { return length(p - Vec3{0, 0, -3}) - 1.0; };
   return make_tooth(
-      {-3, -3, -6}, {3, 3, 0.5}, k_leaf_mm,
-      [=](Vec3 p) -> std::uint8_t { return p.z > 0 ? k_air : from_ball(p) < 0 ? k_pulp : k_dentin; },
+      {-3, -3, -6}, {3, 3, 0.5}, k_leaf_mm, [=](Vec3 p) -> std::uint8_t { return p.z > 0            ? k_air
+                                                                                 : from_ball(p) < 0 ? k_pulp
+                                                                                                    : k_dentin; },
       [=](Vec3 p) { return std::max(p.z, -from_ball(p)); });
 }
 
@@ -83,7 +84,9 @@ Tooth root() {
   const auto across = [](Vec3 p) { return std::sqrt(p.x * p.x + p.y * p.y); };
   return make_tooth(
       {-4, -4, -6}, {4, 4, 0.5}, k_leaf_mm,
-      [=](Vec3 p) -> std::uint8_t { return p.z < 0 && across(p) < 2 ? k_dentin : p.z < -1 && across(p) < 2.3 ? k_periodontium : k_air; },
+      [=](Vec3 p) -> std::uint8_t { return p.z < 0 && across(p) < 2      ? k_dentin
+                                           : p.z < -1 && across(p) < 2.3 ? k_periodontium
+                                                                         : k_air; },
       [=](Vec3 p) { return std::max(p.z, across(p) - 2.0); });
 }
 
