@@ -47,10 +47,10 @@ def forged_criterion(s):
 
 @attack("insider", ACCEPTED, "a result of another version of grading is filed under the school's mark, the old one beside it")
 def forged_result_of_an_old_grading(s):
-    """The forged result says that grading version 2 gave it: it may be filed, but must not count anywhere."""
+    """The forged result says that grading version 7 gave it: it may be filed, but must not count anywhere."""
     def change(r):
         result = json.loads(r.result)
-        result["verdict"], result["score"]["points"], result["grading_version"] = "pass", 100.0, 2
+        result["verdict"], result["score"]["points"], result["grading_version"] = "pass", 100.0, 7
         r.result = json.dumps(result, ensure_ascii=False, separators=(",", ":"))
     done = insider(s, change)
     if done.rc == 0:

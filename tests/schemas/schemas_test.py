@@ -182,6 +182,7 @@ class Scenarios(unittest.TestCase):
         full["steps"][0].update({"fail_when": "force_n > 50", "time_limit_s": 60, "failure_ends_exam": False})
         full["accommodations"] = {"extra_time_percent": 25, "extra_time_s": 60, "left_handed": True, "high_contrast": False}
         full["rubric"]["criteria"][1]["critical_below"] = -1
+        full["rubric"]["open_step_passes"] = True
         cls.full, cls.errors_of_full = full, set(errors_of(full))
 
     def test_what_ships_is_valid(self):

@@ -23,12 +23,13 @@ const Interval& parameter(const Cause& c, const char* name) {
 
 /// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was
 /// looked at.
-bool is_signed(const Cause& c) {
+bool is_signed(const Cause& c, const Scene& scene) {
   const Mechanism& m = mechanism_of(c.term);
   for (const auto& [name, i] : c.parameters)
     if (!std::isfinite(i.low) || !std::isfinite(i.high)) return false;
-  for (std::size_t i = 0; i < m.shape.size(); ++i) {
-    const ShapeRange& range = m.shape[i];
+  const std::vector<ShapeRange> ranges = ranges_of(m, scene);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const ShapeRange& range = ranges[i];
     if (!range.fitted || c.term.shape[i] == 0.0 || std::string_view(range.name) == "v0_mm_s") continue;  // a sign has no width
     const double edge = range.logarithmic ? 1e-3 * c.term.shape[i] : 1e-6 * (range.high - range.low);
     if (c.term.shape[i] < range.low + edge || c.term.shape[i] > range.high - edge) return false;
@@ -126,7 +127,9 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
     for (std::size_t i = 0; i < causes.size(); ++i) {
       now.causes[i].gain_percent = gains[i].percent;
       now.causes[i].by_fold_percent = gains[i].by_fold_percent;
-      if (is_signed(now.causes[i]) && gains[i].percent.low > k_least_low_percent && gains[i].percent.value > k_least_gain_percent) continue;
+      if (is_signed(now.causes[i], *search.step.view.scene) && gains[i].percent.low > k_least_low_percent &&
+          gains[i].percent.value > k_least_gain_percent)
+        continue;
       if (auto in_place = plainer || !by_plainer ? std::nullopt : plainer_of(search, i))
         worst = i, plainer = in_place;  // what stands in its place may need the others
       if (!plainer && (worst == causes.size() || gains[i].percent.value < gains[worst].percent.value)) worst = i;

@@ -55,7 +55,8 @@ Mechanism coulomb_friction() {
       .seen_over = "v_mm_s",
       .term = &k_coulomb_friction,
       .shape = {{"v0_mm_s", 1e-5, 1000, true, true}},
-      .highest = [](const Scene& s) { return fastest_mm_s(s); },  // a tanh wider than the motion is quick is friction in proportion to speed
+      .ends =
+          [](const Scene& s) { return std::pair(0.0, fastest_mm_s(s)); },  // a tanh wider than the motion is fast is friction in proportion to speed
       .grid =
           [](const Scene& s) {
             return as_grid(speeds(s, {0.001, 0.01, 0.03, 0.1, 0.3, 0.8}));

@@ -59,7 +59,10 @@ std::vector<std::vector<double>> starts(const Mechanism& m, const Scene& scene) 
 
 std::vector<ShapeRange> ranges_of(const Mechanism& m, const Scene& scene) {
   std::vector<ShapeRange> out = m.shape;
-  if (m.highest && !out.empty()) out[0].high = std::clamp(m.highest(scene), out[0].low, out[0].high);
+  if (!m.ends || out.empty()) return out;
+  const auto [low, high] = m.ends(scene);
+  out[0].low = std::clamp(low, out[0].low, out[0].high);
+  out[0].high = std::clamp(high, out[0].low, out[0].high);
   return out;
 }
 

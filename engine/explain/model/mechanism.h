@@ -75,8 +75,8 @@ struct Mechanism {
   // What it takes to show it
   std::vector<const char*> needs{};  ///< columns of the recording of which one must be there
   std::vector<ShapeRange> shape{};
-  /// End of the first shape's range that these data set; none: the range's own.
-  std::function<double(const Scene&)> highest{};
+  /// Ends of the first shape's range that these data set; none: the range's own.
+  std::function<std::pair<double, double>(const Scene&)> ends{};
   /// Points of the shape to start from, each of the size of `shape`; called when `needs` are there. Empty: these data cannot show it.
   std::function<std::vector<std::vector<double>>(const Scene&)> grid{};
   std::function<Columns(const Scene&, const std::vector<double>& shape)> columns{};

@@ -104,8 +104,9 @@ void units(const Recording& r, std::vector<std::string>& faults) {
   std::vector<double> steps;  // a hold may be written in wide steps: it is the closest rows that tell the unit
   for (const auto& s : r.sessions)
     for (Eigen::Index i = s.begin + 1; i < s.end; ++i) steps.push_back(r.t_s[i] - r.t_s[i - 1]);
-  const double dt = steps.empty() ? 0.0 : quantile(std::move(steps), 0.1);
-  if (dt > 0.7) faults.push_back(fmt::format("time base: a row every {} s; is t_s in milliseconds?", plain_number(dt)));
+  if (steps.empty()) return;
+  const double close = quantile(steps, 0.1), dt = quantile(std::move(steps), 0.9);  // and packets that come together say nothing of hours
+  if (close > 0.7) faults.push_back(fmt::format("time base: a row every {} s; is t_s in milliseconds?", plain_number(close)));
   if (dt > 0.0 && dt < 1e-5) faults.push_back(fmt::format("time base: a row every {} s; is t_s in hours or minutes?", plain_number(dt)));
 }
 

@@ -68,6 +68,27 @@ TEST(Faults, ShuffledAndRepeatedTimeStamps) {
   EXPECT_TRUE(has_fault(r, "repeated"));
 }
 
+TEST(Faults, TheUnitOfTimeIsJudgedByTheRowsThatTellIt) {
+  Recording r = made::recording({});
+  r.t_s *= 1e3;
+  EXPECT_TRUE(has_fault(r, "milliseconds"));
+  r.t_s /= 1e9;
+  EXPECT_TRUE(has_fault(r, "hours"));
+  // a hold written in wide steps after a quick ramp, on average more than a second apart
+  Recording uneven;
+  for (const double t : {0.0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0})
+    uneven.t_s.conservativeResize(uneven.t_s.size() + 1), uneven.t_s[uneven.t_s.size() - 1] = t;
+  uneven.x_mm = (1.0 - (-uneven.t_s).exp()).eval();
+  uneven.f_n = uneven.x_mm;
+  uneven.sessions = {{"1", 0, uneven.t_s.size()}};
+  EXPECT_FALSE(has_fault(uneven, "time base"));
+  // packets: of two rows one comes a microsecond after the other
+  Recording packets = made::recording({});
+  for (const auto& s : packets.sessions)
+    for (Eigen::Index i = s.begin; i + 1 < s.end; i += 2) packets.t_s[i + 1] = packets.t_s[i] + 1e-6;
+  EXPECT_FALSE(has_fault(packets, "hours"));
+}
+
 TEST(Faults, SpeedThatDoesNotIntegrateToThePosition) {
   Recording r = made::recording({});
   r.v_mm_s = Series::Zero(r.rows());
