@@ -93,9 +93,9 @@ void add_perforation(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{"Perforation"});
   const grading::PerforationMeasures& p = r.perforation;
   if (!p.agree())
-    d.blocks.push_back(Paragraph{
-        p.detected() ? "the force shows a faulty breakthrough, the tissue does not" : "the tissue shows a faulty breakthrough, the force does not",
-        "Force and tissue disagree", Paragraph::Kind::note});
+    d.blocks.push_back(Paragraph{p.detected() ? "the force shows a faulty breakthrough, the tissue does not: the tissue decides"
+                                              : "the tissue shows a faulty breakthrough, the force does not: the tissue decides",
+                                 "Force and tissue disagree", Paragraph::Kind::note});
   ReportTable t{
       {{"Source", false, 1}, {"Kind", false, 0.9}, {"Time", true, 1.3}, {"Place x, y, z, mm", true, 2}, {"What", false, 5}}, {}, "Perforation"};
   for (const auto& e : p.events)
@@ -109,13 +109,15 @@ void add_perforation(Document& d, const grading::Result& r) {
          e.fault});
   for (const auto& [kind, truth] : {std::pair{"fault", &p.fault}, std::pair{"aim", &p.aim}}) {
     if (truth == &p.aim && !p.has_aims) continue;
-    t.rows.push_back(
-        {{{"tissue"},
-          {kind},
-          time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
-          {truth->perforated ? place_text(truth->first.site_mm) : ""},
-          {truth->perforated ? fmt::format("{} touched, {}", truth->tissue, bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³")) : "not touched"}},
-         truth == &p.fault && truth->perforated});
+    t.rows.push_back({{{"tissue"},
+                       {kind},
+                       time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
+                       {truth->perforated ? place_text(truth->first.site_mm) : ""},
+                       {truth->perforated ? fmt::format("{} opened, {} of its wall lie open, {} removed", truth->tissue,
+                                                        bounded(truth->area_mm2, truth->area_bound_mm2, 3, "mm²"),
+                                                        bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³"))
+                                          : "not opened"}},
+                      truth == &p.fault && truth->perforated});
   }
   d.blocks.push_back(std::move(t));
 }

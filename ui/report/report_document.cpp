@@ -250,9 +250,10 @@ Document report_document(const ReportSource& s) {
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
-    d.blocks.push_back(Paragraph{fmt::format("{} was opened at {} s, which this task asks to spare: {} mm³ of it were removed", p.tissue,
-                                             fixed(p.first.t_s(), 3), fixed(p.volume_mm3, 3)),
-                                 "Perforation", Paragraph::Kind::note});
+    d.blocks.push_back(
+        Paragraph{fmt::format("{} was opened at {} s, which this task asks to spare: {} mm² of its wall lie open, {} mm³ of it were removed",
+                              p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
+                  "Perforation", Paragraph::Kind::note});
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
   add_criteria(d, s);
   add_pictures(d, s);

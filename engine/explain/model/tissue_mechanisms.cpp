@@ -50,7 +50,7 @@ Series relaxing_mm(const Scene& s, double tau_s, double m, bool carried) {
   return out * s.active;
 }
 
-constexpr double k_rows_of_decay = 4.0;  // what decays within fewer rows is damping, or a reading that stands still
+constexpr double k_rows_of_decay = 2.0;  // what decays within fewer rows is damping, or a reading that stands still
 
 /// True when some session leaves the tissue and comes back to it.
 bool comes_back(const Scene& s) {

@@ -306,7 +306,7 @@ TEST_F(GradeVerb, AnAdviceIsGivenOnceAndHoldsWhatIsNeeded) {
   const auto once = bad.err.find("intact copy");
   ASSERT_NE(once, std::string::npos) << bad.err;
   EXPECT_EQ(bad.err.find("intact copy", once + 1), std::string::npos) << bad.err;
-  EXPECT_EQ(run("grade " + session).out.find("aim not touched"), std::string::npos) << "the task has no aim";
+  EXPECT_EQ(run("grade " + session).out.find("aim not opened"), std::string::npos) << "the task has no aim";
 }
 
 TEST_F(GradeVerb, AReportIsWrittenOverAReportAndOverNothingElse) {
