@@ -81,7 +81,7 @@ MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& colum
   return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
 }
 
-constexpr double k_coarsest_mm = 1.0;
+constexpr double k_coarsest_mm = 1.0, k_furthest_mm = 500.0;
 
 /// What a comment `# NAME = VALUE` says: the diamond point, or the encoder's step.
 void take_setting(const CsvReader& in, Motion& motion) {
@@ -96,6 +96,20 @@ void take_setting(const CsvReader& in, Motion& motion) {
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), q);
     if (error != std::errc{} || end != value.data() + value.size() || !(q >= 0 && q <= k_coarsest_mm))
       in.fail(fmt::format("'# position_quantum_mm = {}' is no step of an encoder", one_line(value)), "write millimetres from 0 to 1, such as 0.055");
+  } else if (name == "first_tip_mm") {
+    Vec3 tip;
+    const auto refuse = [&] {
+      in.fail(fmt::format("'# first_tip_mm = {}' is no place", one_line(value)), "write three numbers in mm, such as 1.5 0 2");
+    };
+    const char *at = value.data(), *const end = value.data() + value.size();
+    for (double* axis : {&tip.x, &tip.y, &tip.z}) {
+      while (at < end && *at == ' ') ++at;
+      const auto [next, error] = std::from_chars(at, end, *axis);
+      if (error != std::errc{} || !(std::fabs(*axis) <= k_furthest_mm)) refuse();
+      at = next;
+    }
+    if (at != end) refuse();
+    motion.first_tip_mm = tip;
   }
 }
 
@@ -169,8 +183,9 @@ std::optional<Quat> read_back_as(const TickInput& want) {
 
 }  // namespace
 
-std::string motion_text(std::span<const TickInput> inputs, double position_quantum_mm, const std::string& where) {
-  std::string out = fmt::format("# position_quantum_mm = {}\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n", position_quantum_mm);
+std::string motion_text(std::span<const TickInput> inputs, Vec3 first_tip_mm, double position_quantum_mm, const std::string& where) {
+  std::string out = fmt::format("# position_quantum_mm = {}\n# first_tip_mm = {} {} {}\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n",
+                                position_quantum_mm, first_tip_mm.x, first_tip_mm.y, first_tip_mm.z);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const TickInput& in = inputs[i];
     const auto at = fmt::format("tick {}: ", i);

@@ -3,8 +3,10 @@
 // tray); any order, any rate. Line ends of every kind and the byte order mark of spreadsheets are accepted. `# point = round-1.0` before the header
 // chooses the diamond point, `# position_quantum_mm = 0.055` says by what step the device that it came from reports its position (0, or no such line:
 // exact).
+// `# first_tip_mm = 1.5 0 2` says where the servo starts, if not at the first row.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +28,7 @@ struct Motion {
   std::vector<MotionSample> samples;  ///< t_s grows strictly
   std::string point;                  ///< from the header comment; empty = none named
   double position_quantum_mm = 0;     ///< from the header comment; 0 = exact
+  std::optional<Vec3> first_tip_mm;   ///< where the servo starts, from the header comment; none: at the first sample
 
   [[nodiscard]] double duration_s() const noexcept { return samples.back().t_s - samples.front().t_s; }
   /// Pose and pedal at `t_s` after the first sample: linear between samples (rotations normalised), ends held.
@@ -39,7 +42,7 @@ struct Motion {
 [[nodiscard]] double motion_quantum_mm(const std::string& text, const std::string& where);
 /// The inputs of a recorded exam, one for each tick, as a motion file that gives the same inputs again, bit for bit. Throws Error(where, ...) where a
 /// tick had no fresh pose or pedal, which no motion file can say.
-[[nodiscard]] std::string motion_text(std::span<const TickInput> inputs, double position_quantum_mm, const std::string& where);
+[[nodiscard]] std::string motion_text(std::span<const TickInput> inputs, Vec3 first_tip_mm, double position_quantum_mm, const std::string& where);
 /// Line, from 1, on which sample `sample` stands in a text that parse_motion has accepted.
 [[nodiscard]] int line_of_sample(const std::string& text, std::size_t sample);
 

@@ -10,9 +10,9 @@
 namespace cavum::grading {
 namespace {
 
-constexpr double k_deep_mm = 0.3;                 // a scrape along a root is less
-constexpr double k_lies_around = 0.1;             // of its wall that borders air; of an open apex it is a thousandth
-constexpr int k_normal_leaves = 2;                // on each side, over which a wall's normal is taken
+constexpr double k_deep_mm = 0.3;       // a scrape along a root is less
+constexpr double k_lies_around = 0.45;  // of its wall that borders air: a sheath's outer side; of pulp that reaches the sides of a block a third
+constexpr int k_normal_leaves = 2;      // on each side, over which a wall's normal is taken
 constexpr double k_stairs = 0.78539816339744831;  // pi/4: length of a curve over that of the stairs along it, on average over directions
 
 /// A number for each leaf of a box.

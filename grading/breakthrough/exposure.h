@@ -24,7 +24,7 @@ struct ExposedTissue {
 /// By tissue id, of those in `of_interest`, up to and with `last_tick`.
 ///
 /// A face counts between a hard leaf that was removed and a leaf of the tissue. Of a tissue that the tooth encloses (pulp) every one does. Of one
-/// that lies around the tooth (periodontium: a tenth of its wall or more borders air) it counts where the cavity came first, and where the hard
+/// that lies around the tooth (periodontium: 45 % of its wall or more borders air) it counts where the cavity came first, and where the hard
 /// leaves removed by then and joined to it reach a leaf more than 0.3 mm below the tooth's surface: there is a way through the tooth.
 ///
 /// A face's share of the area is leaf² |n|, n the wall's unit normal about it along the face's axis, so that slanted walls do not count as stairs.

@@ -49,7 +49,7 @@ class PlayedMotion final : public InputSource {
  public:
   /// `point_names` is the tray. Throws Error when the file names a diamond point that is not in it.
   PlayedMotion(Motion motion, const std::vector<std::string>& point_names, const std::string& where);
-  [[nodiscard]] Vec3 start_mm() const noexcept override { return motion_.samples.front().pose.tip_mm; }
+  [[nodiscard]] Vec3 start_mm() const noexcept override { return motion_.first_tip_mm.value_or(motion_.samples.front().pose.tip_mm); }
   [[nodiscard]] bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept override;
   [[nodiscard]] double progress() const noexcept override;
   [[nodiscard]] Rest rest() noexcept override;

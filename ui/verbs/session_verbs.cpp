@@ -25,7 +25,7 @@ void export_motion(const ExportArguments& o) {
   const std::vector<TickInput> inputs = session.inputs();
   if (inputs.empty()) throw Error(o.session, "holds no tick", "give a session with motion");
   const double quantum_mm = parse_servo_config(session.setup().servo_toml, o.session).position_quantum_mm;
-  write_private_text_file(o.motion, motion_text(inputs, quantum_mm, o.session));
+  write_private_text_file(o.motion, motion_text(inputs, session.setup().first_tip_mm(), quantum_mm, o.session));
   std::cout << inputs.size() << " ticks of motion in " << o.motion << "\n";
 }
 

@@ -169,8 +169,9 @@ TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
     before = make_tick_input({tip, q}, random.uniform(), flags, static_cast<std::uint8_t>(i / 1000), before);
     inputs.push_back(before);
   }
-  const Motion motion = parse_motion(motion_text(inputs, 0.055, "s.cavum"), "m.csv");
+  const Motion motion = parse_motion(motion_text(inputs, {-2.35, 0.25, 1.200001}, 0.055, "s.cavum"), "m.csv");
   EXPECT_EQ(motion.position_quantum_mm, 0.055);
+  EXPECT_EQ(motion.first_tip_mm, (Vec3{-2.35, 0.25, 1.200001}));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const MotionSample s = motion.at(static_cast<double>(i) * k_tick_s);
     std::uint16_t flags = k_stylus_fresh | k_pedal_fresh;
@@ -180,11 +181,17 @@ TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
   }
 }
 
+TEST(MotionFile, RefusesAFirstTipThatIsNoPlace) {
+  const std::string rows = k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n";
+  for (const char* wrong : {"1 2", "1 2 3 4", "1 2 nan", "1 2 600", "", "a b c"})
+    EXPECT_NE(error_in(std::string("# first_tip_mm = ") + wrong + "\n" + rows).find("is no place"), std::string::npos) << wrong;
+}
+
 TEST(MotionFile, CannotSayThatADeviceGaveNothing) {
   std::vector<TickInput> inputs(3, make_tick_input({}, 0.5, k_stylus_fresh | k_pedal_fresh, 0, {}));
   inputs[1].flags = k_pedal_fresh;
   try {
-    (void)motion_text(inputs, 0.0, "s.cavum");
+    (void)motion_text(inputs, {}, 0.0, "s.cavum");
     FAIL();
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("tick 1"), std::string::npos) << e.what();

@@ -79,6 +79,21 @@ TEST(Exposure, PulpThatIsTakenIsCountedBesideTheHole) {
   EXPECT_NEAR(t.volume_mm3, std::numbers::pi * 0.25 * 0.4, 0.01);
 }
 
+TEST(Exposure, PulpThatReachesTheSidesOfABlockIsOpenedFromTheTopHoweverThinItsRoof) {
+  const Tooth block = make_tooth(
+      {-3, -3, -4}, {3, 3, 0.5}, k_leaf_mm,
+      [](Vec3 p) -> std::uint8_t {
+        return p.z > 0 ? k_air : p.z > -0.2 ? k_enamel : p.z > -0.5 ? k_dentin : p.z > -2.0 ? k_pulp : k_dentin;
+      },
+      [](Vec3 p) { return std::max(p.z, std::min(-0.5 - p.z, p.z + 2.0)); });
+  Carved c(scenario_text(k_target), block);
+  for (int tick = 0; tick < 15; ++tick) c.carve(round_hole(0, 0, 0.5, -0.05 * tick), tick);  // to 0.7 mm
+  const PerforationTruth t = truth_of(c);
+  EXPECT_TRUE(t.perforated);
+  EXPECT_NEAR(t.area_mm2, std::numbers::pi * 0.25, t.area_bound_mm2);
+  EXPECT_EQ(t.outside_mm3, 0.0);
+}
+
 /// A root: a post of dentin, 2 mm in radius, in a sheath of periodontium 0.3 mm thick below z = -1; air around and above.
 Tooth root() {
   const auto across = [](Vec3 p) { return std::sqrt(p.x * p.x + p.y * p.y); };
