@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "engine/tooth/distance_transform.h"
 #include "engine/tooth/octree_edit.h"
+#include "grading/measures/lattice.h"
 
 namespace cavum::grading {
 namespace {
@@ -14,42 +14,6 @@ constexpr double k_deep_mm = 0.3;       // a scrape along a root is less
 constexpr double k_lies_around = 0.45;  // of its wall that borders air: a sheath's outer side; of pulp that reaches the sides of a block a third
 constexpr int k_normal_leaves = 2;      // on each side, over which a wall's normal is taken
 constexpr double k_stairs = 0.78539816339744831;  // pi/4: length of a curve over that of the stairs along it, on average over directions
-
-/// A number for each leaf of a box.
-template <class T>
-class Lattice {
- public:
-  Lattice(IVec3 low, IVec3 size, T value)
-      : low_(low), size_(size), at_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z), value) {}
-  Lattice(IVec3 low, IVec3 size, std::vector<T> values) : low_(low), size_(size), at_(std::move(values)) {}
-  [[nodiscard]] bool holds(IVec3 leaf) const noexcept {
-    const IVec3 l = leaf - low_;
-    return l.x >= 0 && l.y >= 0 && l.z >= 0 && l.x < size_.x && l.y < size_.y && l.z < size_.z;
-  }
-  [[nodiscard]] T& operator[](IVec3 leaf) noexcept {
-    const IVec3 l = leaf - low_;
-    return at_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
-                   static_cast<std::size_t>(size_.x) +
-               static_cast<std::size_t>(l.x)];
-  }
-  [[nodiscard]] const std::vector<T>& all() const noexcept { return at_; }
-
- private:
-  IVec3 low_, size_;
-  std::vector<T> at_;
-};
-
-/// Lowest leaf and size of a box around all leaves, `margin` leaves wider on each side.
-std::pair<IVec3, IVec3> box_of(const std::vector<RemovedAt>& leaves, int margin) {
-  IVec3 low = leaves.front().leaf.leaf(), high = low;
-  for (const auto& r : leaves) {
-    const IVec3 l = r.leaf.leaf();
-    low = {std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)};
-    high = {std::max(high.x, l.x), std::max(high.y, l.y), std::max(high.z, l.z)};
-  }
-  const IVec3 wide{margin, margin, margin};
-  return {low - wide, high - low + wide + wide + IVec3{1, 1, 1}};
-}
 
 bool lies_around(const Octree& before, std::uint8_t tissue) {
   std::uint64_t air = 0, hard = 0;
@@ -73,18 +37,19 @@ bool lies_around(const Octree& before, std::uint8_t tissue) {
 class Cavity {
  public:
   Cavity(const Octree& before, const std::vector<RemovedAt>& hard, const std::array<bool, 256>& around)
-      : number_(box_of(hard, 1).first, box_of(hard, 1).second, -1), deep_(hard.size(), true) {
+      : number_(box_around(hard, 1), -1), deep_(hard.size(), true) {
     if (std::none_of(around.begin(), around.end(), [](bool a) { return a; })) return;
     const int margin = static_cast<int>(std::ceil(k_deep_mm / before.leaf_mm())) + 1;
-    const auto [low, size] = box_of(hard, margin);
-    Lattice<std::uint8_t> outside(low, size, 0);
-    for (int z = 0; z < size.z; ++z)
-      for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-          const std::uint8_t t = before.tissue(low + IVec3{x, y, z});
-          outside[low + IVec3{x, y, z}] = t == k_air || around[t] ? 1 : 0;
+    const LeafBox box = box_around(hard, margin);
+    Lattice<std::uint8_t> outside(box, 0);
+    for (int z = 0; z < box.size.z; ++z)
+      for (int y = 0; y < box.size.y; ++y)
+        for (int x = 0; x < box.size.x; ++x) {
+          const IVec3 leaf = box.low + IVec3{x, y, z};
+          const std::uint8_t t = before.tissue(leaf);
+          outside[leaf] = t == k_air || around[t] ? 1 : 0;
         }
-    Lattice<std::int32_t> nearest(low, size, nearest_seed(size, outside.all(), k_deep_mm / before.leaf_mm()));
+    const Lattice<std::int32_t> nearest(box, nearest_seed(box.size, outside.all(), k_deep_mm / before.leaf_mm()));
     for (std::size_t i = 0; i < hard.size(); ++i) deep_[i] = nearest[hard[i].leaf.leaf()] < 0;
   }
   /// Leaves in the order of the list that it was made with.
@@ -142,23 +107,22 @@ double slant(const Octree& before, const Face& f, std::uint8_t tissue) {
 
 /// Edges of the faces that belong to one of them only.
 std::size_t rim_edges(const std::vector<Face>& faces) {
-  std::unordered_map<std::uint64_t, int> edges;
+  std::vector<std::array<int, 3>> edges;  // middles, in half leaves
   for (const Face& f : faces) {
-    const IVec3 twice = f.from + f.to + IVec3{1, 1, 1};  // middle of the face, in half leaves
-    const IVec3 axis = f.from - f.to;
-    for (const IVec3 step : scenarios::k_six_neighbours) {
-      if (std::abs(step.x * axis.x + step.y * axis.y + step.z * axis.z) == 1) continue;
-      const IVec3 edge = twice + step;
-      ++edges[static_cast<std::uint64_t>(edge.x) | static_cast<std::uint64_t>(edge.y) << 20 | static_cast<std::uint64_t>(edge.z) << 40];
-    }
+    const IVec3 middle = f.from + f.to + IVec3{1, 1, 1}, axis = f.from - f.to;
+    for (const IVec3 step : scenarios::k_six_neighbours)
+      if (step.x * axis.x + step.y * axis.y + step.z * axis.z == 0) edges.push_back({middle.x + step.x, middle.y + step.y, middle.z + step.z});
   }
-  return static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second == 1; }));
+  std::sort(edges.begin(), edges.end());
+  std::size_t alone = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    alone += (i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]) ? 1 : 0;
+  return alone;
 }
 
 /// Leaves of a tissue around the tooth that were removed through its faces: joined to one of them over other removed ones.
 Lattice<std::uint8_t> through_faces(const std::vector<RemovedAt>& soft, const std::vector<Face>& faces) {
-  const auto [low, size] = box_of(soft, 1);
-  Lattice<std::uint8_t> mark(low, size, 0);  // 1 removed, 2 through a face
+  Lattice<std::uint8_t> mark(box_around(soft, 1), 0);  // 1 removed, 2 through a face
   for (const auto& r : soft) mark[r.leaf.leaf()] = 1;
   std::vector<IVec3> next;
   const auto take = [&](IVec3 leaf) {

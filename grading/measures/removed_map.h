@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/session/session_reader.h"
+#include "grading/measures/lattice.h"
 
 namespace cavum::grading {
 
@@ -16,48 +16,25 @@ class RemovedMap {
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
   /// Tick in which a leaf was removed, -1 when it was not.
-  [[nodiscard]] std::int64_t tick(IVec3 leaf) const noexcept {
-    const IVec3 l = leaf - low_;
-    if (l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return -1;
-    return tick_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
-                     static_cast<std::size_t>(size_.x) +
-                 static_cast<std::size_t>(l.x)];
-  }
+  [[nodiscard]] std::int64_t tick(IVec3 leaf) const noexcept { return tick_.holds(leaf) ? tick_[leaf] : -1; }
   [[nodiscard]] bool has(IVec3 leaf) const noexcept { return tick(leaf) >= 0; }
 
   /// A mark for every leaf of the box and one leaf around it.
   class Marks {
    public:
-    Marks(IVec3 low, IVec3 size)
-        : low_(low), size_(size), seen_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z), 0) {}
+    explicit Marks(const LeafBox& box) : seen_(box, 0) {}
     /// True when asked for the first time about this leaf, which must lie within.
-    [[nodiscard]] bool first_time(IVec3 leaf) noexcept {
-      const IVec3 l = leaf - low_;
-      auto& seen = seen_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
-                             static_cast<std::size_t>(size_.x) +
-                         static_cast<std::size_t>(l.x)];
-      const bool first = seen == 0;
-      seen = 1;
-      return first;
-    }
-
-    [[nodiscard]] bool seen(IVec3 leaf) const noexcept {
-      const IVec3 l = leaf - low_;
-      if (l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return false;
-      return seen_[(static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) *
-                       static_cast<std::size_t>(size_.x) +
-                   static_cast<std::size_t>(l.x)] != 0;
-    }
+    [[nodiscard]] bool first_time(IVec3 leaf) noexcept { return std::exchange(seen_[leaf], std::uint8_t{1}) == 0; }
+    [[nodiscard]] bool seen(IVec3 leaf) const noexcept { return seen_.holds(leaf) && seen_[leaf] != 0; }
 
    private:
-    IVec3 low_, size_;
-    std::vector<std::uint8_t> seen_;
+    Lattice<std::uint8_t> seen_;
   };
-  [[nodiscard]] Marks marks() const { return {low_ - IVec3{1, 1, 1}, size_ + IVec3{2, 2, 2}}; }
+  [[nodiscard]] Marks marks() const { return Marks({box_.low - IVec3{1, 1, 1}, box_.size + IVec3{2, 2, 2}}); }
 
  private:
-  IVec3 low_, size_;
-  std::vector<std::int32_t> tick_;  // 2^31 ms are 24 days
+  LeafBox box_;
+  Lattice<std::int32_t> tick_;  // 2^31 ms are 24 days
   std::size_t count_ = 0;
 };
 

@@ -177,8 +177,9 @@ Loss force_over_limit(const Result& r, const Asked&) {
 Loss fault_opened(const Result& r, const Asked&) {
   const PerforationTruth& t = r.perforation.fault;
   if (!t.perforated) return {"no faulty breakthrough", {}};
-  return {fmt::format("{} opened at {} at {}, {} mm2 of its wall and {} mm3 in all", t.tissue, when(t.first), place(t.first.site_mm),
-                      fixed(t.area_mm2, 3), fixed(t.volume_mm3, 3)),
+  const std::string taken = t.volume_mm3 > 0 ? fmt::format("{} mm3 of it removed", fixed(t.volume_mm3, 3)) : "none of it removed";
+  return {fmt::format("{} opened at {} at {}, {} mm2 of its wall in all, {}", t.tissue, when(t.first), place(t.first.site_mm), fixed(t.area_mm2, 3),
+                      taken),
           t.first};
 }
 

@@ -269,7 +269,7 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
     }
   if (skill.perforates && !finds_a_way && (skill.name == "perforator" || skill.name == "careless"))  // a student who would have is lucky
     throw Error(where, fmt::format("the {} finds no way through to what must not be opened", skill.name),
-                "allow a longer or thinner point, or take another candidate");
+                "see that tooth and perforation.faults have such a tissue, allow a longer or thinner point, or take another candidate");
   return {Operator(skill, std::move(way), zones.approach(), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 

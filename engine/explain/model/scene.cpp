@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/explain/recording/as_recorded.h"
 #include "engine/force/voigt.h"
 #include "engine/statistics/statistics.h"
 

@@ -52,6 +52,8 @@ Series relaxing_mm(const Scene& s, double tau_s, double m, bool carried) {
 
 constexpr double k_rows_of_decay = 2.0;  // what decays within fewer rows is damping, or a reading that stands still
 
+double shortest_decay_s(const Scene& s) { return k_rows_of_decay * median(std::vector<double>(s.dt_s.begin(), s.dt_s.end())); }
+
 /// True when some session leaves the tissue and comes back to it.
 bool comes_back(const Scene& s) {
   return std::any_of(s.recording->sessions.begin(), s.recording->sessions.end(), [&](const SessionRows& rows) {
@@ -69,7 +71,7 @@ Grid relaxation_grid(const Scene& s) {
   Grid g;
   std::vector<double> taus;
   for (const double tau : {0.05, 0.13, 0.33, 0.85, 2.2, 5.5, 14.0})
-    if (tau < longest && tau > k_rows_of_decay * s.dt_s.minCoeff()) taus.push_back(tau);
+    if (tau < longest && tau > shortest_decay_s(s)) taus.push_back(tau);
   for (const double carried : comes_back(s) ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0}) {
     for (const double tau : taus) g.push_back({tau, 0.0, 1.0, carried});
     for (std::size_t i = 0; i < taus.size(); ++i)
@@ -254,7 +256,7 @@ Mechanism relaxation() {
                 {"tau2_s", 5e-3, 1e3, true, true},
                 {"exponent", 0.2, 5, false, false},
                 {"carried", 0, 1, false, false}},
-      .ends = [](const Scene& s) { return std::pair(k_rows_of_decay * median(std::vector<double>(s.dt_s.begin(), s.dt_s.end())), 1e9); },
+      .ends = [](const Scene& s) { return std::pair(shortest_decay_s(s), 1e9); },
       .grid = relaxation_grid,
       .columns =
           [](const Scene& s, const Shape& p) {

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/explain/recording/motion.h"
+#include "engine/explain/recording/as_recorded.h"
 #include "engine/statistics/order.h"
 
 namespace cavum::explain {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/base/text.h"
-#include "engine/explain/recording/motion.h"
+#include "engine/explain/recording/as_recorded.h"
 #include "engine/explain/recording/standstill.h"
 #include "engine/statistics/order.h"
 

@@ -32,30 +32,6 @@ struct Motion {
 
 /// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
 [[nodiscard]] bool moves_one_way(const Motion& motion);
-/// Sampling interval of one row to the next, s; of the session's last row the one before.
-[[nodiscard]] Series intervals_s(const Recording& recording);
-/// Step that all positions are multiples of, mm; 0 when the data show none coarser than 1e-5 of their range.
-[[nodiscard]] double seen_quantum_mm(const Recording& recording);
-/// How far the position moves over the integral of the measured speed: slope and correlation over short spans, those spent
-/// cutting (in contact and spinning) apart from all others. Zero where there is no such motion or no measured speed.
-struct Agreement {
-  double slope = 0, correlation = 0;              ///< not cutting
-  double cutting_slope = 0;                       ///< cutting: below 1 when x_mm counts from a surface that recedes
-  double slope_sd = 0, expected_correlation = 1;  ///< what the steps of the encoder leave of both
-};
-[[nodiscard]] Agreement position_over_speed(const Recording& recording);
-/// True when x_mm counts from a surface that is cut away under the tool: then the measured speed is the tip's, and no derivative of x.
-[[nodiscard]] bool surface_recedes(const Recording& recording);
-/// Scatter of the positions from row to row, mm, from their fourth differences, which a smooth motion hardly has; `quantum_mm` of rounding taken off.
-/// 0 where nothing is seen beside the rounding.
-[[nodiscard]] double position_noise_mm(const Recording& recording, double quantum_mm);
-/// How the recorded speed stands to the position.
-struct SpeedCheck {
-  double late_s = 0, late_sd_s = 0;  ///< the speed behind the position
-  double borrowed = 0;               ///< correlation of its fine structure with the error of the position: 0 when it was measured by itself
-  bool of_use = false;               ///< neither late nor made from the positions
-};
-[[nodiscard]] SpeedCheck check_speed(const Recording& recording);
 /// All sessions.
 [[nodiscard]] Motion estimate_motion(const Recording& recording);
 /// Motions that the recording leaves possible, drawn from what the smoother knows (forward filter, backward sampling: Carter and Kohn 1994). Where a

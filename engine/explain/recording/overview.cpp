@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/explain/recording/as_recorded.h"
 #include "engine/explain/recording/faults.h"
-#include "engine/explain/recording/motion.h"
 #include "engine/statistics/order.h"
 
 namespace cavum::explain {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "engine/explain/recording/as_recorded.h"
 #include "engine/explain/recording/conventions.h"
-#include "engine/explain/recording/motion.h"
 #include "engine/statistics/order.h"
 
 namespace cavum::explain {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/explain/recording/as_recorded.h"
+
 namespace cavum::explain {
 namespace {
 
