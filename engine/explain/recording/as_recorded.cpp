@@ -10,7 +10,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_steps_of_span = 4.0;  // of the encoder, for its position to be held against a measured speed
+constexpr double k_steps_of_span = 4.0;       // of the encoder, for its position to be held against a measured speed
 constexpr double k_least_noise_mm = 2e-4;     // below, positions count as exact
 constexpr double k_flicker = 0.1;             // of an encoder's steps that go back at once: then the position is noisy
 constexpr double k_more_than_rounding = 1.5;  // scatter over that of a fine rounding
