@@ -37,7 +37,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
 
 std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after, ExamGrounds& grounds) {
   const std::string& path = reader.path();
-  const SessionSetup setup = reader.setup();
+  SessionSetup setup = reader.setup();
   auto s = std::make_unique<GradedSession>();
   s->scenario = scenario_in(setup, path);
   s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
@@ -54,6 +54,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->notes = setup.notes;
   s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(*s->before), setup.calibration,
               setup.points_toml, setup.notes};
+  if (reader.number("physics_version", 0) == k_physics_version) s->again = std::move(setup);
   return s;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,10 @@ struct GradedSession {
   std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
   std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
   std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
-  [[nodiscard]] GradeInput input() const { return {scenario, *before, *zones, after.octree, inputs, records, removed, events, sat_under_ticks}; }
+  std::optional<SessionSetup> again;                       ///< none when it was recorded under other physics than this program's
+  [[nodiscard]] GradeInput input() const {
+    return {scenario, *before, *zones, after.octree, inputs, records, removed, events, sat_under_ticks, again ? &*again : nullptr};
+  }
 };
 
 /// Throws Error when the file is damaged, or was never closed (resume it first).

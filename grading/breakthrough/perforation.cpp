@@ -4,6 +4,7 @@
 #include <array>
 
 #include "grading/breakthrough/breakthrough.h"
+#include "grading/breakthrough/drop.h"
 #include "grading/breakthrough/exposure.h"
 
 namespace cavum::grading {
@@ -48,7 +49,18 @@ PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMa
   }
   for (auto& list : opened) std::sort(list.begin(), list.end());
   const auto counted = std::min<std::size_t>(input.inputs.size(), static_cast<std::size_t>(last_tick) + 1);
-  for (const Breakthrough& b : find_breakthroughs(input.inputs.first(counted), input.records.first(counted))) {
+  const auto inputs = input.inputs.first(counted);
+  const auto records = input.records.first(counted);
+  if (input.again != nullptr) {
+    const auto drop = [&](const std::array<bool, 256>& tissues, const std::vector<std::int64_t>& ticks) {
+      ForceDrop d = find_drop(missing_force(*input.again, input.before, tissues, inputs, records), ticks);
+      if (d.from_tick >= 0) d.site_mm = place_of(records[static_cast<std::size_t>(d.from_tick)]);
+      return d;
+    };
+    if (p.aim.perforated) p.aim.drop = drop(aims, opened[0]);
+    if (p.fault.perforated) p.fault.drop = drop(faults, opened[1]);
+  }
+  for (const Breakthrough& b : find_breakthroughs(inputs, records)) {
     PerforationEvent e;
     e.tick = b.tick;
     e.seen_tick = b.seen_tick;

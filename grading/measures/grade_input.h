@@ -22,6 +22,7 @@ struct GradeInput {
   std::span<const RemovedAt> removed;
   std::span<const SessionEvent> events;  ///< kinds as event_name gives them; others are ignored
   std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
+  const SessionSetup* again = nullptr;   ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.

@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 2;
+inline constexpr int k_grading_version = 3;
 
 /// When and where something happened; tick -1 = never.
 struct Trace {
@@ -119,6 +119,27 @@ struct PerforationEvent {
   bool confirmed = false;   ///< tissue of that kind was opened then
 };
 
+/// The force that a cavity took away; see grading/breakthrough/drop.h. Of all stretches of 1.5 s where it was opened the one furthest beyond (or
+/// least below) 0.1 N and 0.3 of the filled tooth's force. Forces are those rendered to the hand, means over 30 ms.
+struct ForceDrop {
+  double missing_n = 0.0;       ///< how much more is missing at its end than at its beginning
+  double share = 0.0;           ///< the same as a share of what the filled tooth would give, 0..1
+  std::int64_t from_tick = -1;  ///< its beginning
+  Vec3 site_mm;                 ///< of the tip then
+  std::int64_t to_tick = -1;    ///< its end
+  std::int64_t felt_tick = -1;  ///< first tick in which both figures were reached; -1 = never
+  double cut_on_s = 0.0;        ///< time for which the cavity was opened further after that
+  [[nodiscard]] bool felt() const noexcept { return felt_tick >= 0; }
+  /// `felt_and_cut_on` (for longer than a reaction takes), `felt`, `faint` (from 0.03 N and 0.1 on), `not_felt`.
+  [[nodiscard]] const char* severity() const noexcept {
+    constexpr double k_reaction_s = 0.5, k_faint_n = 0.03, k_faint_share = 0.1;
+    if (felt()) return cut_on_s > k_reaction_s ? "felt_and_cut_on" : "felt";
+    return missing_n >= k_faint_n && share >= k_faint_share ? "faint" : "not_felt";
+  }
+};
+/// In words: how much, how quick, from when, and how clear.
+[[nodiscard]] std::string drop_text(const ForceDrop& drop);
+
 /// What was laid open from the cavity of all tissues of a kind; see grading/breakthrough/exposure.h.
 struct PerforationTruth {
   bool perforated = false;  ///< some face of such a tissue lies open to the cavity, or some of it was removed from there
@@ -128,6 +149,7 @@ struct PerforationTruth {
   double volume_mm3 = 0.0, bound_mm3 = 0.0;     ///< removed from the cavity, in whole leaves
   double outside_mm3 = 0.0;                     ///< removed from outside the tooth: no perforation
   Trace first_outside;
+  std::optional<ForceDrop> drop;  ///< none where nothing was opened, or where the physics of the recording is not this program's
 };
 
 struct PerforationMeasures {

@@ -15,6 +15,15 @@ namespace cavum::grading {
 
 double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
 
+std::string drop_text(const ForceDrop& d) {
+  if (d.from_tick < 0) return "no force was missing while the hand pressed on";
+  std::string s = fmt::format("{} N, {} % of what the filled tooth would give, went within {} s", fixed(d.missing_n, 2), fixed(100.0 * d.share, 0),
+                              fixed(static_cast<double>(d.to_tick - d.from_tick) * k_tick_s, 2));
+  if (!d.felt()) return s + (std::string_view(d.severity()) == "faint" ? ": faint" : ": not to be felt");
+  s += fmt::format(": felt clearly from {} s on", fixed(static_cast<double>(d.felt_tick) * k_tick_s, 3));
+  return s + (std::string_view(d.severity()) == "felt" ? "" : fmt::format(", and the cavity was opened further for {} s", fixed(d.cut_on_s, 2)));
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -24,6 +33,17 @@ Json point(Vec3 p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z
 Json time_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(rounded(t.t_s())); }
 Json place_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : point(t.site_mm); }
 Json tick_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(t.tick); }
+
+Json drop_json(const std::optional<ForceDrop>& d) {
+  if (!d) return nullptr;
+  return {{"missing_n", rounded(d->missing_n)},
+          {"share_percent", rounded(100.0 * d->share)},
+          {"from_tick", d->from_tick < 0 ? Json(nullptr) : Json(d->from_tick)},
+          {"to_tick", d->to_tick < 0 ? Json(nullptr) : Json(d->to_tick)},
+          {"felt_tick", d->felt() ? Json(d->felt_tick) : Json(nullptr)},
+          {"cut_on_s", rounded(d->cut_on_s)},
+          {"severity", d->severity()}};
+}
 
 Json truth_json(const PerforationTruth& t) {
   return {{"perforated", t.perforated},
@@ -35,7 +55,8 @@ Json truth_json(const PerforationTruth& t) {
           {"area_bound_mm2", rounded(t.area_bound_mm2)},
           {"volume_mm3", rounded(t.volume_mm3)},
           {"bound_mm3", rounded(t.bound_mm3)},
-          {"outside_mm3", rounded(t.outside_mm3)}};
+          {"outside_mm3", rounded(t.outside_mm3)},
+          {"drop", drop_json(t.drop)}};
 }
 
 Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
@@ -294,6 +315,7 @@ std::string perforation_text(const Result& r) {
       s += " not opened";
     if (t.outside_mm3 > 0) s += fmt::format("; {} mm3 removed from outside the tooth, which is no perforation", fixed(t.outside_mm3, 3));
     s += "\n";
+    if (t.drop) s += fmt::format("  drop: {}, {}\n", kind, drop_text(*t.drop));
   };
   truth("fault", r.perforation.fault);
   if (r.perforation.has_aims) truth("aim", r.perforation.aim);

@@ -236,6 +236,7 @@ void LossFinder::perforation() {
     if (!t.perforated) return fact(fmt::format("tissue: no {}", kind));
     fact(fmt::format("tissue: {}, {} first opened here", kind, t.tissue), t.area_mm2, "mm2 of its wall in all", t.first, t.area_bound_mm2);
     fact(fmt::format("tissue: {}, removed from the cavity", kind), t.volume_mm3, "mm3", {}, t.bound_mm3);
+    if (t.drop) fact(fmt::format("drop: {}, {}", kind, drop_text(*t.drop)), t.drop->missing_n, "N", {t.drop->from_tick, t.drop->site_mm});
   };
   truth("fault", p.fault);
   if (p.has_aims) truth("aim", p.aim);

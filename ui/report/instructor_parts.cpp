@@ -118,6 +118,9 @@ void add_perforation(Document& d, const grading::Result& r) {
                                                         bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³"))
                                           : "not opened"}},
                       truth == &p.fault && truth->perforated});
+    if (truth->drop)
+      t.rows.push_back(
+          {{{"drop"}, {kind}, time_cell(truth->drop->from_tick, truth->drop->site_mm), {""}, {drop_text(*truth->drop)}}, truth == &p.fault});
   }
   d.blocks.push_back(std::move(t));
 }

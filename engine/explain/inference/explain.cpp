@@ -279,6 +279,19 @@ void drop_lesser_causes(Explanation& e, const Step& last) {
   if (left > explained) e.causes.clear();
 }
 
+/// What stays unexplained may belong to a cause's own force in part: its numbers are then no better known than that part of them.
+void widen_by_unexplained(Explanation& e) {
+  if (!e.unexplained) return;
+  for (auto& c : e.causes) {
+    const double share = c.effect_n > 0.0 ? std::min(1.0, e.unexplained->effect_n / c.effect_n) : 1.0;
+    for (auto& [name, interval] : c.parameters) {
+      const double more = share * std::fabs(interval.value);
+      interval.low = std::min(interval.low, interval.value - more);
+      interval.high = std::max(interval.high, interval.value + more);
+    }
+  }
+}
+
 }  // namespace
 
 Explanation explain(const Recording& given, const ExplainOptions& options) {
@@ -327,6 +340,7 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
   if (e.causes.empty() && !e.unexplained) e.unexplained = sessions_apart(e);
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);
+  widen_by_unexplained(e);
   conclude(e, one_way);
   compare_with_rig(e, e.recording->rig, e.recording->v_mm_s.size() > 0);
   if (options.progress) options.progress(1.0);

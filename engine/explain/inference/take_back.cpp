@@ -12,7 +12,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_even_odds = 0.5;
+constexpr double k_likely_enough = 0.75;      // less is no claim: of what would be named below it, two in five are false
 constexpr double k_least_gain_percent = 1.0;  // of the error on sessions left out: less is of no use to anybody
 
 const Mechanism& mechanism_of(const Term& term) { return mechanism_at(term.mechanism); }
@@ -153,7 +153,7 @@ bool drop_unlikely(CauseSearch& search, Explanation& e) {
   set_probabilities(e);
   const auto least =
       std::min_element(e.causes.begin(), e.causes.end(), [](const Cause& a, const Cause& b) { return a.set_probability < b.set_probability; });
-  if (least == e.causes.end() || least->set_probability > k_even_odds) return false;
+  if (least == e.causes.end() || least->set_probability >= k_likely_enough) return false;
   take_out(search, e.causes, static_cast<std::size_t>(least - e.causes.begin()));
   return true;
 }

@@ -14,7 +14,7 @@ inline constexpr double k_least_low_percent = 0.5;
 /// Causes that do not help on sessions left out, or whose parameters say nothing, are taken back, or said by a plainer law: the strongest doubt
 /// first. `first`: the look without causes. True: a plainer law took a place (only where `by_plainer`).
 bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& first, bool by_plainer);
-/// Whoever names a cause must think it likelier than not: takes the least likely back where it is not. True: it did.
+/// Takes the least likely cause back where it is less likely than three to one. True: it did.
 [[nodiscard]] bool drop_unlikely(CauseSearch& search, Explanation& e);
 /// Something was taken back that mattered: nothing named is not the same as nothing there.
 [[nodiscard]] bool is_doubted(const CauseSearch& search);

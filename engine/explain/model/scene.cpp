@@ -24,7 +24,8 @@ void never_pull(Scene& s, const Series* pressed_n) {
   if (s.recording->relative_c.size() > 0) s.damper_mm_s *= s.recording->relative_c;
 }
 
-Scene make_scene(const Recording& recording, const Shared<Motion>& motion, Base base, double noise_sd_n, double rho, const Series* pressed_n) {
+Scene make_scene(const Recording& recording, const Shared<Motion>& motion, Base base, double noise_sd_n, double rho, const Series* pressed_n,
+                 const Series* uncertain_n2) {
   Scene s;
   s.recording = &recording;
   s.motion = motion;
@@ -51,7 +52,7 @@ Scene make_scene(const Recording& recording, const Shared<Motion>& motion, Base 
     s.force_n[i] = p * voigt_force_n({k, c}, std::max(x, 1e-300), v);
     // error of the base force: through X and V while in contact, and the step by c V where contact itself is in doubt
     const double jump2 = p * (1.0 - p) * c * c * v * v;
-    const double error2 = s.active[i] * slope * slope + jump2;
+    const double error2 = s.active[i] * slope * slope + jump2 + (uncertain_n2 != nullptr ? (*uncertain_n2)[i] : 0.0);
     s.weight[i] = noise2 > 0.0 ? noise2 / (noise2 + error2) : 1.0;
     // pressed down to zero while still in contact: whether another force would show there depends on what "never pulls" includes
     if (p > 0.5 && on == 0.0) s.weight[i] *= 0.1;

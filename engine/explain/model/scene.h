@@ -40,8 +40,9 @@ struct Scene {
 /// that the weights are measured against: an error of position lasts as long as the encoder stands still, so it counts as
 /// much as many rows of independent noise.
 /// `pressed_n`: force of all that acts inside the contact, before max(0, ...), shape [rows]; nullptr = the base alone.
+/// `uncertain_n2`: variance that the position leaves in the force of the causes, shape [rows]; nullptr = none.
 [[nodiscard]] Scene make_scene(const Recording& recording, const Shared<Motion>& motion, Base base, double noise_sd_n, double rho,
-                               const Series* pressed_n = nullptr);
+                               const Series* pressed_n = nullptr, const Series* uncertain_n2 = nullptr);
 /// Contact is lost where `pressed_n` would pull: sets `active` and the columns of k and c, and nothing else. nullptr = nowhere.
 void never_pull(Scene& scene, const Series* pressed_n);
 

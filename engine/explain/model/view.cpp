@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string_view>
 
 #include "engine/explain/model/lines.h"
 #include "engine/explain/model/term_fits.h"
@@ -85,12 +87,64 @@ Series session_part(const View& v, const Recording& recording, const Series& lef
   return session_force_n(recording, *v.effects, *v.white_effects, z, found != nullptr ? *found : v.spread);
 }
 
+/// Variance of what `causes` add to k and c over the motions that the recording leaves possible, [rows]. Averaged over neighbouring rows, for few
+/// motions are drawn.
+Series variance_n2(const View& v, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
+  constexpr Eigen::Index k_beside = 2;  // rows on each side
+  const Motion& m = *v.scene->motion;
+  const auto causes_n = [&](const Scene& scene) {
+    return Series(force_of(scene, causes, value) - value[0] * scene.spring_mm - value[1] * scene.damper_mm_s);
+  };
+  const Series expected = causes_n(*v.scene);
+  Series sum = Series::Zero(expected.size());
+  for (const auto& [x, speed] : m.possible) {
+    Motion one = m;
+    one.x_mm = x, one.v_mm_s = speed;
+    one.sd_x_mm.setZero(), one.sd_v_mm_s.setZero();
+    Scene scene = *v.scene;
+    scene.motion = std::move(one);
+    sum += (causes_n(scene) - expected).square() / static_cast<double>(m.possible.size());
+  }
+  Series out = sum;
+  for (const auto& s : v.scene->recording->sessions)
+    for (Eigen::Index i = s.begin; i < s.end; ++i) {
+      const Eigen::Index from = std::max(s.begin, i - k_beside), to = std::min(s.end - 1, i + k_beside);
+      out[i] = sum.segment(from, to - from + 1).mean();
+    }
+  return out;
+}
+
+int coulomb_friction() {
+  for (std::size_t m = 0; m < mechanisms().size(); ++m)
+    if (mechanisms()[m].name == std::string_view("coulomb_friction")) return static_cast<int>(m);
+  throw std::logic_error("no coulomb_friction");
+}
+
+/// What the position leaves open in the force, [rows]: of the causes, and of a dry friction that may be there. At a reversal and in a hold its side
+/// is open, whatever has been named; rows judged by what was named first would speak for it. Its size is that of the width that fits best, its width
+/// the least of the grid.
+Series uncertain_n2(const View& v) {
+  const int friction = coulomb_friction();
+  TermFits fits(v);
+  std::vector<Term> sharp;
+  Eigen::VectorXd value;
+  double least = 1e300;
+  for (const auto& shape : mechanism_at(friction).grid(*v.scene)) {
+    const FitResult fit = fits.fit({{friction, shape}});
+    if (sharp.empty()) sharp = {{friction, shape}};
+    if (fit.value[2] > 0.0 && fit.chi2 < least) least = fit.chi2, value = fit.value;
+  }
+  const Series open = value.size() > 0 ? variance_n2(v, sharp, value) : Series(Series::Zero(v.scene->force_n.size()));
+  return v.causes.empty() ? open : Series(open.max(variance_n2(v, v.causes, v.base_fit.value)));
+}
+
 /// Base, noise, sessions and weights in turn, with the causes at their shapes.
 void fit_in_turn(View& v, const Recording& recording, const Shared<Motion>& motion, Base base) {
   double noise_sd = 0.0;
-  Series pressed;
+  Series pressed, uncertain;
   for (int round = 0; round < k_rounds; ++round) {
-    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr);
+    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr,
+                         uncertain.size() > 0 ? &uncertain : nullptr);
     if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0, {}};
     whiten_effects(v);
     v.base_fit = TermFits(v).fit(v.causes);
@@ -100,6 +154,7 @@ void fit_in_turn(View& v, const Recording& recording, const Shared<Motion>& moti
     base = base_of(v);
     v.noise = estimate_noise(recording, beside, v.scene->weight);
     noise_sd = v.noise.sd_n;
+    if (!motion->possible.empty()) uncertain = uncertain_n2(v);
     if (any_inside(v.causes)) pressed = pressed_n(*v.scene, v.causes, v.base_fit.value);
     v.robust = Series();
     Series z = beside;

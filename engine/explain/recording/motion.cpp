@@ -30,6 +30,7 @@ constexpr double k_stale_steps = 4.0, k_says_nothing = 1e6;  // steps or scatter
 constexpr int k_passes_noisy = 20;
 constexpr double k_noisy_lasting_rows = 4.0;  // an error of a smoothed position
 constexpr double k_lasting_s = 0.2;           // at most: a cell of 0.055 mm at 0.25 mm/s
+constexpr std::size_t k_possible = 6;         // motions that are drawn: their scatter is averaged over neighbouring rows
 constexpr double k_noisy_window_s = 0.05;     // on each side, over which the walk's variance is averaged where positions are noisy
 
 struct State {
@@ -252,14 +253,8 @@ void draw_backwards(const Session& s, Random& random, double* x, double* v) {
   }
 }
 
-}  // namespace
-
-bool moves_one_way(const Motion& m) {
-  const double fastest = m.v_mm_s.maxCoeff();
-  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
-}
-
-Motion estimate_motion(const Recording& r) {
+/// Without those that are possible as well.
+Motion best_motion(const Recording& r) {
   Motion out;
   const Eigen::Index n = r.rows();
   for (Series* s : {&out.x_mm, &out.v_mm_s, &out.a_mm_s2, &out.sd_x_mm, &out.sd_v_mm_s}) *s = Series::Zero(n);
@@ -302,6 +297,22 @@ Motion estimate_motion(const Recording& r) {
         out.a_mm_s2[i] = (r.v_mm_s[b] - r.v_mm_s[a]) / (r.t_s[b] - r.t_s[a]);
       }
   }
+  return out;
+}
+
+}  // namespace
+
+bool moves_one_way(const Motion& m) {
+  const double fastest = m.v_mm_s.maxCoeff();
+  return fastest > 0.0 && (m.v_mm_s < -0.1 * fastest).cast<double>().mean() < 0.01;
+}
+
+Motion estimate_motion(const Recording& r) {
+  Motion out = best_motion(r);
+  if (r.exact_motion || (!is_coarse(out) && out.speed_sd_mm_s <= 0.0)) return out;
+  std::vector<std::pair<Series, Series>> possible;
+  for (Motion& m : draw_motions(r, out, {0, k_possible}, 1)) possible.emplace_back(std::move(m.x_mm), std::move(m.v_mm_s));
+  out.possible = std::move(possible);
   return out;
 }
 

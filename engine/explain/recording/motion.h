@@ -15,6 +15,9 @@
 // Source: Rauch, Tung, Striebel 1965; expectation maximisation of the walk's variance after Shumway and Stoffer 1982.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "engine/explain/recording/recording.h"
 
 namespace cavum::explain {
@@ -27,7 +30,9 @@ struct Motion {
   double quantum_mm = 0.0;     ///< of the encoder: given, or seen in the data
   double noise_mm = 0.0;       ///< of the position, from row to row, beside the quantum; 0 = not to be seen
   double speed_sd_mm_s = 0.0;  ///< scatter of the measured speed, where it was used
-  std::string speed_note;      ///< why a measured speed was not used, in words; empty = it was, or there is none
+  std::vector<std::pair<Series, Series>>
+      possible;            ///< x and v of a few motions that the recording leaves possible as well; empty where it leaves none
+  std::string speed_note;  ///< why a measured speed was not used, in words; empty = it was, or there is none
 };
 
 /// Less than 1 % of the rows go back at a tenth of the fastest speed or more.
