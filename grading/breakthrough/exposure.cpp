@@ -141,18 +141,18 @@ Lattice<std::uint8_t> through_faces(const std::vector<RemovedAt>& soft, const st
 
 }  // namespace
 
-std::array<ExposedTissue, 256> measure_exposure(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
-                                                const std::array<bool, 256>& of_interest) {
+std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<const RemovedAt> list, const RemovedMap& removed,
+                                                std::int64_t last_tick, const std::array<bool, 256>& of_interest) {
   std::array<ExposedTissue, 256> out;
-  const Octree& before = input.before.octree;
+  const Octree& before = tooth.octree;
   std::vector<RemovedAt> hard;
   std::array<std::vector<RemovedAt>, 256> soft;
-  for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
+  for_each_removed(list, removed, last_tick, [&](const RemovedAt& r) {
     if (before.is_solid(r.leaf.tissue)) hard.push_back(r);
     if (of_interest[r.leaf.tissue]) soft[r.leaf.tissue].push_back(r);
   });
   std::array<bool, 256> around{};
-  for (const auto& t : input.before.tissues)
+  for (const auto& t : tooth.tissues)
     if (of_interest[t.id]) around[t.id] = lies_around(before, t.id);
 
   std::array<std::vector<Face>, 256> faces;
@@ -173,7 +173,7 @@ std::array<ExposedTissue, 256> measure_exposure(const GradeInput& input, const R
     }
   }
   const double leaf = before.leaf_mm();
-  for (const auto& t : input.before.tissues) {
+  for (const auto& t : tooth.tissues) {
     ExposedTissue& e = out[t.id];
     const auto opened = [&](std::int64_t tick, Vec3 place) {
       if (e.first.tick < 0 || tick < e.first.tick) e.first = {tick, place};
@@ -188,10 +188,10 @@ std::array<ExposedTissue, 256> measure_exposure(const GradeInput& input, const R
     Lattice<std::uint8_t> through = through_faces(soft[t.id], faces[t.id]);
     for (const auto& r : soft[t.id]) {
       if (!around[t.id] || through[r.leaf.leaf()] == 2) {
-        e.inside_mm3 += input.zones.leaf_volume_mm3();
+        e.inside_mm3 += before.leaf_volume_mm3();
         opened(r.tick, before.centre_mm(r.leaf.leaf()));
       } else {
-        e.outside_mm3 += input.zones.leaf_volume_mm3();
+        e.outside_mm3 += before.leaf_volume_mm3();
         if (e.first_outside.tick < 0) e.first_outside = {r.tick, before.centre_mm(r.leaf.leaf())};
       }
     }

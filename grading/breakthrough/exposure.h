@@ -4,9 +4,12 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
-#include "grading/measures/grade_input.h"
+#include "engine/tooth/tooth.h"
 #include "grading/measures/removed_map.h"
+#include "grading/result/result.h"
 
 namespace cavum::grading {
 
@@ -21,14 +24,14 @@ struct ExposedTissue {
   [[nodiscard]] bool opened() const noexcept { return first.tick >= 0; }
 };
 
-/// By tissue id, of those in `of_interest`, up to and with `last_tick`.
+/// By tissue id, of those in `of_interest`, up to and with `last_tick`. `tooth`: before the exam; `list`: what was removed, which `removed` maps.
 ///
 /// A face counts between a hard leaf that was removed and a leaf of the tissue. Of a tissue that the tooth encloses (pulp) every one does. Of one
 /// that lies around the tooth (periodontium: 45 % of its wall or more borders air) it counts where the cavity came first, and where the hard
 /// leaves removed by then and joined to it reach a leaf more than 0.3 mm below the tooth's surface: there is a way through the tooth.
 ///
 /// A face's share of the area is leaf² |n|, n the wall's unit normal about it along the face's axis, so that slanted walls do not count as stairs.
-[[nodiscard]] std::array<ExposedTissue, 256> measure_exposure(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
-                                                              const std::array<bool, 256>& of_interest);
+[[nodiscard]] std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<const RemovedAt> list, const RemovedMap& removed,
+                                                              std::int64_t last_tick, const std::array<bool, 256>& of_interest);
 
 }  // namespace cavum::grading

@@ -153,6 +153,11 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
   dentin.tau_s = enamel.tau_s * r.uniform(0.8, 1.0);
   lesion.tau_s = dentin.tau_s * r.uniform(0.4, 0.8);
 
+  for (const auto& t : known.tooth.tissues)
+    if (t.solid && known.tooth.octree.count_leaves()[t.id] > 0) {
+      const Material& m = force.materials.find(t.name)->second;
+      out.solids.emplace_back(m.voigt.stiffness_n_per_mm, m.tau_s);
+    }
   OmniModel omni;
   static constexpr std::array<double, 4> frictions{0.0, 0.1, 0.26, 0.45}, noises{0.0, 0.01, 0.03, 0.05}, quanta{0.0, 0.01, 0.03, 0.055};
   out.friction_n = omni.coulomb_n = frictions[r.below(4)];
@@ -182,6 +187,7 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
     input = make_tick_input({tip, turn_to(normalized(doing.handle))}, std::clamp(doing.pedal, 0.0, 1.0), k_stylus_fresh | k_pedal_fresh, 0, input);
     last = step(model, state, input);
     TickRecord record = make_tick_record(last);
+    out.true_records.push_back(record);
     for (auto& f : record.rendered_un) f += static_cast<std::int32_t>(out.noise_n * 1e6 * noise.normal());
     out.inputs.push_back(input);
     out.records.push_back(record);

@@ -15,12 +15,14 @@ struct Drilled {
   std::string hand, style, tooth, point;
   bool meant_to_open = false;  ///< the task was to open the chamber
   std::vector<TickInput> inputs;
-  std::vector<TickRecord> records;  ///< with noise on the force
+  std::vector<TickRecord> records;       ///< with noise on the force
+  std::vector<TickRecord> true_records;  ///< without
   std::vector<RemovedAt> removed;
   const Tooth* before = nullptr;
   std::array<bool, 256> voids{};  ///< tissues that may be opened
   ServoModel filled_model;        ///< of the same tooth without its cavities
   Tooth filled;
+  std::vector<std::pair<double, double>> solids;  ///< k, N/mm, and tau, s, of the tissues that the tooth has and the task lists
   Vec3 first_tip_mm;
   double noise_n = 0.0, friction_n = 0.0, quantum_mm = 0.0, tilt_deg = 0.0;
 };

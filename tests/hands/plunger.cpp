@@ -33,9 +33,9 @@ class Plunger final : public Hand {
     gone_s_ = depth > 0.5 && felt_n_ < 0.2 * most_n_ ? gone_s_ + 0.001 : 0.0;
     if (depth > task_.depth_mm || (f.t_s > 1.0 && gone_s_ > reaction_s_) || f.t_s > 50.0) leaving_ = true, left_mm_ = f.hand_mm;
     // down to the surface at 4 mm/s; from the first touch on ahead of the tip by as much as the force needs
-    const double pressing_mm = dot(f.hand_mm - task_.entry_mm, task_.into) + force_n_ / stiffness_;
+    const double lead_mm = wanted_mm_ - dot(f.hand_mm - task_.entry_mm, task_.into);
     if (length(f.force_n) > 0.1) touched_ = true;
-    wanted_mm_ = touched_ ? pressing_mm : wanted_mm_ + 0.004;
+    wanted_mm_ += touched_ ? 0.005 * (force_n_ / stiffness_ - lead_mm) : 0.004;  // the arm follows within a fifth of a second
     d.wanted_mm = task_.entry_mm + task_.into * wanted_mm_;
     return d;
   }

@@ -10,6 +10,7 @@
 #include "engine/base/text.h"
 #include "engine/explain/report/overview_report.h"
 #include "ui/parts/chart_svg.h"
+#include "ui/parts/number_check.h"
 
 namespace cavum::ui {
 namespace {
@@ -73,9 +74,9 @@ void add_reading_options(CLI::App& verb, ReadingArgs& args) {
                   "NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated");
   verb.add_option("--negate", args.negate, "x, v or f: the file counts it the other way; may be repeated");
   verb.add_flag("--as-it-is", args.as_it_is, "signs and origin are as the contract has them, whatever they look like");
-  args.surface = verb.add_option("--surface-mm", args.surface_mm, "where the surface is in the file's positions")->check(CLI::Range(-1e6, 1e6));
+  args.surface = verb.add_option("--surface-mm", args.surface_mm, "where the surface is in the file's positions")->check(between(-1e6, 1e6));
   args.lever =
-      verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(CLI::Range(1e-3, 1e5));
+      verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(between(1e-3, 1e5));
 }
 
 explain::ReadingOptions reading_options(const ReadingArgs& args) {

@@ -98,6 +98,7 @@ void conclude(Explanation& e, bool one_way) {
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
 void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   constexpr double k_told = 0.1, k_known = 0.2;  // relative: said, and more than a rig is off by that was calibrated
+  constexpr double k_absurd = 5.0;
   if (e.verdict == "data_fault" || e.after->scene->touching.maxCoeff() < 0.5) return;
   if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
     e.verdict = "unexplained";
@@ -112,6 +113,12 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   };
   const bool k_off = off(k, e.k, *rig.k_n_per_mm), c_off = off(c, e.c, *rig.c_n_s_per_mm);
   const std::string text = fmt::format("fitted k is {:.3g} times, c is {:.3g} times that of rig.toml", k, c);
+  if (e.verdict != "clean" && (k < 1.0 / k_absurd || k > k_absurd)) {  // causes beside it would only say what it lacks
+    e.causes.clear();
+    e.verdict = "unexplained";
+    e.unexplained = Unexplained{"x_mm", "k is not that of rig.toml by far: does the file count x from the surface, and into the tooth?",
+                                std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
+  }
   if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.push_back(text);
   if (e.verdict != "clean") return;
   if (k_off) {
@@ -201,6 +208,7 @@ void alias_offsets(std::vector<Cause>& causes) {
   }
 }
 
+constexpr double k_more_than_noise = 1.5;     // of the floor
 constexpr double k_zero_differs = 0.5;        // of the noise
 constexpr double k_stiffness_differs = 0.15;  // of k: sites of one tissue differ by a tenth
 constexpr int k_rounds = 2;
@@ -257,6 +265,10 @@ std::optional<Unexplained> sessions_apart(const Explanation& e) {
       e.spread[k_lateness] * std::sqrt(e.after->effects->col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects->rows()));
   if (late_n > k_zero_differs * e.noise.sd_n)
     return Unexplained{"session", "a lateness of the force, or c, that differs from session to session", late_n};
+  // an error of the position looks like that, too
+  if (e.after->scene->motion->possible.empty() && e.gain.base_rmse_n > k_more_than_noise * e.gain.noise_floor_n)
+    return Unexplained{"session", "more than the noise, of no form that is looked for",
+                       std::sqrt(e.gain.base_rmse_n * e.gain.base_rmse_n - e.gain.noise_floor_n * e.gain.noise_floor_n)};
   return std::nullopt;
 }
 

@@ -21,11 +21,11 @@ using testing::scenario_text;
 
 const char k_round_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1.5 }\nbottom = { kind = \"level\", z_mm = -2 }\n";
-const char k_box_target[] =
+const char k_boxed[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
-const WallMeasures& wall(const Result& r, scenarios::Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
+const WallMeasures& wall_measures(const Result& r, scenarios::Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
 
 TEST(Bounds, TrueFiguresLieWithinTheirBoundsAndSoDoPointsAndScore) {
   const std::string more = R"([[rubric.criteria]]
@@ -101,13 +101,13 @@ points = 30
 
 TEST(Bounds, AMeanIsBoundedByWhatCountsToEitherOfTwoWalls) {
   // the mesial wall is overcut by 0.6 mm at its foot only; the corner's places count to the floor or to the wall
-  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
+  Carved c(scenario_text(k_boxed), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);
   c.carve([](Vec3 p) { return std::max({std::fabs(p.x - 1.5) - 0.6, std::fabs(p.y) - 0.9, std::fabs(p.z + 2.0) - 0.3}); }, 1);
   const Result r = c.graded();
-  EXPECT_GT(wall(r, scenarios::Wall::mesial).mean_bound_mm, r.shape.bound_mm + 0.003);
-  EXPECT_GE(wall(r, scenarios::Wall::distal).mean_bound_mm, r.shape.bound_mm);
-  EXPECT_LT(wall(r, scenarios::Wall::distal).mean_bound_mm, r.shape.bound_mm + 0.003);
+  EXPECT_GT(wall_measures(r, scenarios::Wall::mesial).mean_bound_mm, r.shape.bound_mm + 0.003);
+  EXPECT_GE(wall_measures(r, scenarios::Wall::distal).mean_bound_mm, r.shape.bound_mm);
+  EXPECT_LT(wall_measures(r, scenarios::Wall::distal).mean_bound_mm, r.shape.bound_mm + 0.003);
 }
 
 TEST(Bounds, HoldBothEndsOfWhatAFigureIsMadeOf) {
