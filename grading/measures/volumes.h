@@ -21,11 +21,11 @@ struct RemovedShare {
   std::int64_t tick = 0;  ///< of a leaf that is gone in part only: when the last leaf beside it went
   scenarios::Zone zone = scenarios::Zone::none;
   double mm3 = 0.0;
-  bool border = false;  ///< half a leaf of it is uncertain
+  double bound_mm3 = 0.0;  ///< of it is uncertain: it lies at a border
 };
 /// Something else begins beside a removed leaf: tissue that stayed, or another zone.
 [[nodiscard]] bool on_border(const scenarios::ZoneMap& zones, const RemovedMap& removed, IVec3 leaf);
-/// Every share that `measure_volumes` counts: those of a zone add up to its volume there, half a leaf for each at a border to its bound. Not in order
+/// Every share that `measure_volumes` counts: those of a zone and their bounds add up to its volume and bound there. Not in order
 /// of time.
 void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
                             const std::function<void(const RemovedShare&)>& visit);

@@ -24,7 +24,7 @@ struct Trace {
   [[nodiscard]] double t_s() const noexcept { return static_cast<double>(tick) * k_tick_s; }
 };
 
-/// A volume and half a leaf over its border: the true volume lies within ± bound.
+/// A volume and what is not known of it along its border: the true volume lies within ± bound.
 struct BoundedVolume {
   double mm3 = 0.0, bound_mm3 = 0.0;
 };

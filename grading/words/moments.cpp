@@ -50,7 +50,7 @@ std::vector<WhyItem> removal_moments(const scenarios::ZoneMap& zones, std::vecto
     Moment& m = moments.back();
     m.to = s.tick;
     m.sum += s.mm3;
-    m.bound += s.border ? 0.5 * zones.leaf_volume_mm3() : 0.0;
+    m.bound += s.bound_mm3;
     m.by_zone[static_cast<std::size_t>(s.zone)] += s.mm3;
     m.by_wall[static_cast<std::size_t>(zones.wall(s.leaf))] += s.mm3;
     if (const double d = zones.distance_mm(s.leaf); d > m.furthest_mm) {
@@ -78,7 +78,8 @@ std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, 
   const RemovedMap removed(input.removed, end - 1);
   for (const auto& r : input.removed)
     if (const IVec3 leaf = r.leaf.leaf(); r.tick < end && counts(r))
-      shares.push_back({leaf, r.leaf.tissue, r.tick, input.zones.zone(leaf), input.zones.leaf_volume_mm3(), on_border(input.zones, removed, leaf)});
+      shares.push_back({leaf, r.leaf.tissue, r.tick, input.zones.zone(leaf), input.zones.leaf_volume_mm3(),
+                        on_border(input.zones, removed, leaf) ? 0.5 * input.zones.leaf_volume_mm3() : 0.0});
   return removal_moments(input.zones, std::move(shares));
 }
 
