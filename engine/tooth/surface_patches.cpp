@@ -14,7 +14,7 @@ namespace {
 constexpr int k_points = SurfacePatches::k_edge + 1, k_margin = 3, k_window = k_points + 2 * k_margin;
 constexpr std::size_t k_window_leaves = static_cast<std::size_t>(k_window) * k_window * k_window;
 constexpr std::size_t k_point_count = static_cast<std::size_t>(k_points) * k_points * k_points;
-constexpr std::uint16_t k_none = 0xffff;
+constexpr std::uint16_t k_no_corner = 0xffff;
 constexpr std::array<int, 3> k_step{1, k_window, k_window* k_window};
 /// Half of what `blur` counts when all is of the tissue: 27 leaves, 27 times.
 constexpr double k_half = 0.5 * 729;
@@ -79,7 +79,7 @@ struct SurfacePatches::Maker {
   std::uint16_t vertex(const CubeEdge& edge, int x, int y, int z) {
     const int px = x + (edge.low_corner & 1), py = y + (edge.low_corner >> 1 & 1), pz = z + (edge.low_corner >> 2);
     auto& known = vertex_of[edge.axis][static_cast<std::size_t>(px + k_points * (py + k_points * pz))];
-    if (known != k_none) return known;
+    if (known != k_no_corner) return known;
     known = static_cast<std::uint16_t>(made.vertices.size());
 
     const int low = window_place(px, py, pz), high = low + k_step[edge.axis];
@@ -133,7 +133,7 @@ struct SurfacePatches::Maker {
     if (!hard) blur();
     leaf_mm = leaves.leaf_mm();
     origin_mm = leaves.origin_mm();
-    for (auto& axis : vertex_of) axis.fill(k_none);
+    for (auto& axis : vertex_of) axis.fill(k_no_corner);
     for (int z = 0; z < k_edge; ++z)
       for (int y = 0; y < k_edge; ++y) go_along(y, z);
   }
