@@ -72,18 +72,23 @@ double sum_of_both(const Share& a, const Share& b) {
   return s / scenarios::k_parts;
 }
 
-/// Leaves, as a sum of shares, and how many of them lie on a border.
-/// Of each leaf at a border that is not known: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes of
-/// known cavities at 80 poses are true to 0.01 of a leaf at each (tests/grading/known_geometry_test.cpp), and five times that is promised.
-constexpr double k_whole_leaf_share = 0.5, k_parts_share = 0.05;
-constexpr double border_share(bool whole) { return whole ? k_whole_leaf_share : k_parts_share; }
+/// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes
+/// of known cavities at 80 poses are true to 0.01 of a leaf at each (tests/grading/known_geometry_test.cpp), and five times that is promised; but
+/// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a half is promised.
+constexpr double k_whole = 0.5, k_by_parts = 0.05, k_two_borders = 0.5;
 
+/// Leaves, as a sum of shares, and how many of them are not known.
 struct Count {
-  double leaves = 0;
-  std::uint64_t border = 0;
+  double leaves = 0, unsure = 0;
 };
 
-/// Gives each zone what of a leaf was removed in it, in leaves; returns the sum.
+/// Of what a zone has in a leaf: `share` of it, of `total` that is gone.
+double unsure_of(bool whole, double share, double total) {
+  if (whole) return k_whole;
+  return total < 1.0 - k_code && share < total - k_code ? k_two_borders : k_by_parts;
+}
+
+/// Gives each zone what of a leaf was removed in it, and what of that is not known where it lies at a border, in leaves; returns the sum.
 template <class Give>
 double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std::uint8_t held, const Give& give) {
   const scenarios::ZoneMap& zones = input.zones;
@@ -92,7 +97,7 @@ double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std:
   if (!(total > 0)) return 0;
   const scenarios::Zone own = zones.zone(leaf);
   const auto part = [&](scenarios::Zone z, double share) {
-    if (share > 0) give(z, share);
+    if (share > 0) give(z, share, unsure_of(shares.late(), share, total));
   };
   if (shares.late() || !zones.in_box(leaf)) {
     part(own, total);
@@ -176,23 +181,23 @@ RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, s
     const bool edge = beside_what_stayed(removed, leaf, tick);
     if (tick >= 0) {
       count.tissue[held].leaves += 1;
-      count.tissue[held].border += on_border(zones, removed, leaf) ? 1 : 0;
+      count.tissue[held].unsure += on_border(zones, removed, leaf) ? k_whole : 0.0;
       Trace& first = v.tissue_first[held];
       if (first.tick < 0 || tick < first.tick) first = {tick, zones.centre_mm(leaf)};
     }
     const std::int64_t when = tick_of(removed, leaf, tick);
     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
     if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == scenarios::Zone::target) last = {tick, zones.centre_mm(leaf)};
-    const double total = share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share) {
+    const double total = share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure) {
       const auto i = static_cast<std::size_t>(z);
       count.zone[i].leaves += share;
-      count.zone[i].border += edge || share < 1 ? 1 : 0;
+      count.zone[i].unsure += edge || share < 1 ? unsure : 0.0;
       v.zone[i].by_wall_mm3[wall] += share * zones.leaf_volume_mm3();
       Trace& first = v.zone[i].first;
       if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
     });
     count.all.leaves += total;
-    if (total > 0) count.all.border += edge || total < 1 ? 1 : 0;
+    if (total > 0) count.all.unsure += edge || total < 1 ? unsure_of(shares.late(), total, total) : 0.0;
   });
   return count;
 }
@@ -227,24 +232,22 @@ TargetCount count_target(const GradeInput& input, const RemovedMap& removed, con
     bool edge = left < 1;
     for (const IVec3 step : scenarios::k_six_neighbours)
       edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != scenarios::Zone::target;
-    count.missed.border += edge ? 1 : 0;
-    if (edge) v.missed_bound_by_wall_mm3[wall] += border_share(shares.late()) * leaf_mm3;
+    const double unsure = edge ? unsure_of(shares.late(), left, share) : 0.0;
+    count.missed.unsure += unsure;
+    v.missed_bound_by_wall_mm3[wall] += unsure * leaf_mm3;
   });
   return count;
 }
 
-/// With the bound of `border_share` of each leaf at its border.
-BoundedVolume volume_of(const Count& c, double leaf_mm3, double border_share) {
-  return {c.leaves * leaf_mm3, border_share * static_cast<double>(c.border) * leaf_mm3};
-}
+BoundedVolume volume_of(const Count& c, double leaf_mm3) { return {c.leaves * leaf_mm3, c.unsure * leaf_mm3}; }
 
-void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const scenarios::ZoneMap& zones, double border_share) {
+void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const scenarios::ZoneMap& zones, bool whole) {
   const double leaf_mm3 = zones.leaf_volume_mm3();
-  for (std::size_t z = 0; z < scenarios::k_zones; ++z) v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3, border_share);
-  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume_of(removed.tissue[t], leaf_mm3, k_whole_leaf_share);
-  v.target = volume_of({target.leaves, zones.target_border_leaves()}, leaf_mm3, border_share);
-  v.removed = volume_of(removed.all, leaf_mm3, border_share);
-  v.missed = volume_of(target.missed, leaf_mm3, border_share);
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z) v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3);
+  for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume_of(removed.tissue[t], leaf_mm3);
+  v.target = volume_of({target.leaves, (whole ? k_whole : k_by_parts) * static_cast<double>(zones.target_border_leaves())}, leaf_mm3);
+  v.removed = volume_of(removed.all, leaf_mm3);
+  v.missed = volume_of(target.missed, leaf_mm3);
 }
 
 /// The share of the target that was removed, and Dice.
@@ -271,9 +274,9 @@ void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, 
   for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
     const bool edge = beside_what_stayed(removed, leaf, tick);
     const std::int64_t when = tick_of(removed, leaf, tick);
-    share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share) {
-      visit({leaf, held, when, z, share * input.zones.leaf_volume_mm3(),
-             edge || share < 1 ? border_share(shares.late()) * input.zones.leaf_volume_mm3() : 0.0});
+    share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure) {
+      const double leaf_mm3 = input.zones.leaf_volume_mm3();
+      visit({leaf, held, when, z, share * leaf_mm3, edge || share < 1 ? unsure * leaf_mm3 : 0.0});
     });
   });
 }
@@ -284,7 +287,7 @@ VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& remove
   RemovedMap::Marks seen = removed.marks();
   const RemovedCount gone = count_removed(input, removed, last_tick, shares, seen, v);
   const TargetCount target = count_target(input, removed, shares, seen, v);
-  put_volumes(v, gone, target, input.zones, border_share(shares.late()));
+  put_volumes(v, gone, target, input.zones, shares.late());
   put_shares(v, gone, target);
   return v;
 }

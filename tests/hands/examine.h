@@ -18,7 +18,7 @@ struct Examined {
   double area_mm2 = 0.0;
   grading::ForceDrop drop;  ///< where something was opened
   std::vector<grading::Breakthrough> events;
-  bool seen = false;         ///< an event from 0.5 s before the drop began to 1 s after it could be felt (or after its end)
+  bool seen = false;         ///< an event from 0.5 s before to 1 s after the steepest stretch, or the one in which the drop could be felt first
   double delay_ms = 0.0;     ///< of the event, after the drop could be felt
   double sureness = 0.0;     ///< of the surest event that counts: at the drop, or anywhere where nothing was opened
   bool false_alarm = false;  ///< an event further than that from any opening
