@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "engine/explain/inference/heldout.h"
 #include "engine/explain/inference/intervals.h"
@@ -151,8 +152,8 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
 
 bool drop_unlikely(CauseSearch& search, Explanation& e) {
   set_probabilities(e);
-  const auto least =
-      std::min_element(e.causes.begin(), e.causes.end(), [](const Cause& a, const Cause& b) { return a.set_probability < b.set_probability; });
+  const auto rank = [](const Cause& c) { return std::pair(c.set_probability, c.gain_percent.value); };  // of equals, what helps least
+  const auto least = std::min_element(e.causes.begin(), e.causes.end(), [&](const Cause& a, const Cause& b) { return rank(a) < rank(b); });
   if (least == e.causes.end() || least->set_probability >= k_likely_enough) return false;
   take_out(search, e.causes, static_cast<std::size_t>(least - e.causes.begin()));
   return true;

@@ -14,7 +14,7 @@ constexpr double k_most_reflected = 0.9995;
 // What wanders beside the model is a fault of the model as likely as noise: a share of it counts as white, or a fit would believe in nothing but the
 // fastest changes. Of 82 real holds (docs/explain.md) 0, 0.02, 0.1, 0.5 left 58, 65, 66, 66 % gain on sessions not seen.
 constexpr double k_white_share = 0.1;
-constexpr double k_least_left = 0.1;  // of what the recursion expects: less comes of covariances that are no process's
+constexpr double k_least_left = 1e-6;  // of the variance: less comes of covariances that are no process's
 
 /// The residual about each session's mean, 0 where it does not count.
 Series centred(const Recording& recording, const Series& residual, const Series& counts) {
@@ -94,7 +94,7 @@ Noise estimate_noise(const Recording& recording, const Series& residual, const S
       least = cost;
       best.ar = phi;
       const double left = left_by(phi, c), expected = variance / (1.0 + k_white_share);
-      best.step_sd_n = std::max(1e-9, std::sqrt(left > k_least_left * expected ? left : expected));
+      best.step_sd_n = std::max(1e-9, std::sqrt(left > k_least_left * c[0] ? left : expected));
     }
   }
   best.rho = std::clamp(c[1] / c[0], -k_most_reflected, k_most_reflected);
