@@ -163,14 +163,13 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   const bool band = std::fabs(beyond) < rubric.borderline_percent;
   r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
   const bool open = !critical && !band && std::fabs(beyond) < standing.bound_percent;
-  if (!critical && (band || open)) r.verdict = Verdict::review;
+  if (!critical && band) r.verdict = Verdict::review;
   std::string text = fmt::format("{} reaches {} %, {}the pass mark is {} %", standing.which, fixed(standing.percent, 1),
                                  critical && beyond >= 0 ? "which alone would be enough: " : "", fixed(rubric.pass_percent, 1));
   if (!critical && band) text += fmt::format(", which is within the borderline band of {} %", fixed(rubric.borderline_percent, 1));
   if (open)
-    text +=
-        fmt::format("; the score's bound of ± {} % reaches across it (every figure off by all of its bound, each to the same side): a person decides",
-                    fixed(standing.bound_percent, 1));
+    text += fmt::format("; the score's bound of ± {} % reaches across it (every figure off by all of its bound, each to the same side)",
+                        fixed(standing.bound_percent, 1));
   r.verdict_reasons.push_back(text);
   if (!r.compensatory)
     for (const auto& c : r.criteria)
