@@ -1,7 +1,6 @@
 #include "engine/tooth/fill.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -19,13 +18,13 @@ void each_leaf(const TissueGrid& grid, const Visit& visit) {
       for (int x = 0; x < grid.size.x; ++x) visit(IVec3{x, y, z});
 }
 
-/// Visits every leaf of the grid within `k_reach_leaves` of `at` along each axis, until `visit` says false.
+/// Visits every leaf of the grid within `k_reach_leaves` of `at` along each axis.
 template <class Visit>
 void around(const TissueGrid& grid, IVec3 at, const Visit& visit) {
   for (int z = -k_reach_leaves; z <= k_reach_leaves; ++z)
     for (int y = -k_reach_leaves; y <= k_reach_leaves; ++y)
       for (int x = -k_reach_leaves; x <= k_reach_leaves; ++x)
-        if (const IVec3 leaf = at + IVec3{x, y, z}; grid.inside(leaf) && !visit(leaf, IVec3{x, y, z})) return;
+        if (const IVec3 leaf = at + IVec3{x, y, z}; grid.inside(leaf)) visit(leaf, IVec3{x, y, z});
 }
 
 /// To the nearest leaf of the other kind (solid or not), less half a leaf; with the sign of `solid`.
@@ -34,7 +33,6 @@ double leaves_to_surface(const TissueGrid& grid, const std::array<bool, 256>& is
   int nearest = std::numeric_limits<int>::max();
   around(grid, at, [&](IVec3 leaf, IVec3 off) {
     if (is_solid[grid.tissue[grid.index(leaf)]] != solid) nearest = std::min(nearest, off.x * off.x + off.y * off.y + off.z * off.z);
-    return true;
   });
   const double leaves = nearest == std::numeric_limits<int>::max() ? k_reach_leaves : std::sqrt(static_cast<double>(nearest)) - 0.5;
   return solid ? -leaves : leaves;
@@ -78,11 +76,7 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
     bool inner = true;  // all leaves beside it were filled, too, so that those beside them see to the rest
     for (const IVec3 step : k_beside) inner = inner && grid.inside(leaf + step) && filled[grid.index(leaf + step)] != 0;
     near[grid.index(leaf)] = 1;
-    if (!inner)
-      around(grid, leaf, [&](IVec3 other, IVec3) {
-        near[grid.index(other)] = 1;
-        return true;
-      });
+    if (!inner) around(grid, leaf, [&](IVec3 other, IVec3) { near[grid.index(other)] = 1; });
   });
   each_leaf(grid, [&](IVec3 leaf) {
     if (near[grid.index(leaf)] != 0) grid.distance[grid.index(leaf)] = encode_distance(leaves_to_surface(grid, solid, leaf));

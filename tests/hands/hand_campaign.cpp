@@ -1,15 +1,13 @@
 // The detector against hands by others: hand_campaign [--sessions N] [--first SEED] [--hands A,B] [--log FILE.csv] [--jobs N]
 // A table by hand, and one line a session in the log, for whoever wants to look further. See README.md.
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "tests/hands/examine.h"
 #include "tests/hands/table.h"

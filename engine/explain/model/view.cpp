@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string_view>
 
 #include "engine/explain/model/lines.h"
 #include "engine/explain/model/term_fits.h"
@@ -114,17 +112,11 @@ Series variance_n2(const View& v, const std::vector<Term>& causes, const Eigen::
   return out;
 }
 
-int coulomb_friction() {
-  for (std::size_t m = 0; m < mechanisms().size(); ++m)
-    if (mechanisms()[m].name == std::string_view("coulomb_friction")) return static_cast<int>(m);
-  throw std::logic_error("no coulomb_friction");
-}
-
 /// What the position leaves open in the force, [rows]: of the causes, and of a dry friction that may be there. At a reversal and in a hold its side
 /// is open, whatever has been named; rows judged by what was named first would speak for it. Its size is that of the width that fits best, its width
 /// the least of the grid.
 Series uncertain_n2(const View& v) {
-  const int friction = coulomb_friction();
+  const int friction = known_mechanism("coulomb_friction");
   TermFits fits(v);
   std::vector<Term> sharp;
   Eigen::VectorXd value;
