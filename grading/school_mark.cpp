@@ -31,12 +31,16 @@ bool is_runners(const std::string& kind) {
   return k_kinds.contains(kind);
 }
 
-/// Tick at which the candidate, or who took the exam up, ended it by hand; -1 = nobody did.
-std::int64_t ended_by_hand(const std::vector<SessionEvent>& events) {
-  for (const auto& e : events)
-    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::finished) &&
-        text_in(parse_json_or_null(e.detail_json), "how") == scenarios::finish_name(scenarios::Finish::ended))
-      return e.tick;
+/// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did.
+std::int64_t ended_by_hand(const std::vector<SessionEvent>& events, int rules) {
+  bool by_clock = false;
+  for (const auto& e : events) {
+    by_clock = by_clock || e.kind == scenarios::event_name(scenarios::ExamEventKind::time_limit);
+    if (e.kind != scenarios::event_name(scenarios::ExamEventKind::finished)) continue;
+    const std::string how = text_in(parse_json_or_null(e.detail_json), "how");
+    if (how == scenarios::finish_name(scenarios::Finish::ended)) return e.tick;
+    if (rules > 1 && !by_clock && how == scenarios::finish_name(scenarios::Finish::completed)) return e.tick;
+  }
   return -1;
 }
 
@@ -47,9 +51,9 @@ class EventsAgain {
       : setup_(session.setup()),
         scenario_(scenario_in(setup_, session.path())),
         ground_(grounds.of(scenario_, setup_, session.path())),
-        runner_(scenario_, ground_->zones, ground_->tooth, tray(setup_, session.path())),
+        runner_(scenario_, ground_->zones, ground_->tooth, tray(setup_, session.path()), setup_.exam_rules),
         recorded_(session.events()),
-        ended_(ended_by_hand(recorded_)) {}
+        ended_(ended_by_hand(recorded_, setup_.exam_rules)) {}
 
   void see(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
     if (tick == ended_) runner_.end(*state_);

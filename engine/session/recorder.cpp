@@ -33,6 +33,7 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
       {"format", std::to_string(k_session_format)},
       {"engine_version", version()},
       {"physics_version", std::to_string(k_physics_version)},
+      {"exam_rules", std::to_string(setup.exam_rules)},
       {"candidate", setup.candidate},
       {"device", setup.device},
       {"calibration", setup.calibration},

@@ -31,6 +31,7 @@ struct SessionSetup {
   std::string device;       ///< name of the stylus, or of the simulated operator
   std::string calibration;  ///< the device's calibration, as text
   MotionSource source;      ///< what moves the stylus
+  int exam_rules = 1;       ///< by which the exam ends (scenarios/exam/runner.h)
   std::string scenario_toml;
   std::string rubric_toml;  ///< empty when the scenario's own rubric counts
   std::string force_model_toml;

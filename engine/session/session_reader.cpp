@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <set>
@@ -186,6 +187,7 @@ SessionSetup SessionReader::setup() const {
   s.candidate = fact("candidate");
   s.device = fact("device");
   s.calibration = fact("calibration");
+  s.exam_rules = static_cast<int>(std::clamp<std::int64_t>(number("exam_rules", 1), 0, 1'000'000));
   s.source = {fact(k_source_fact), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");
   s.rubric_toml = text("rubric.toml");

@@ -179,7 +179,7 @@ void Operator::tremble(double dt_s) noexcept {
 }
 
 void Operator::move_foot(bool cut, double dt_s) noexcept {
-  const double pedal = cut || skill_.perforates ? 1.0 : 0.0;        // who perforates never lifts the foot, for the exam may end there
+  const double pedal = cut ? 1.0 : 0.0;
   pedal_ += std::clamp(pedal - pedal_, -dt_s / 0.15, dt_s / 0.15);  // a foot takes 150 ms
 }
 

@@ -67,10 +67,7 @@ void run_exam(Exam& exam, InputSource& source, const std::function<void(const Ex
     if (watch && exam.state().tick % k_watch_ticks == 0) watch(exam, source.progress());
   }
   if (!exam.over()) exam.end();
-  if (exam.runner_state().finish == Finish::ended) return;
-  // who has completed the exam may lift off
-  if (const auto rest = source.rest(); rest.pedal_ticks > 0 || (rest.ticks > 0 && exam.runner_state().finish != Finish::completed))
-    exam.note_late(rest.ticks, rest.pedal_ticks);
+  if (const auto rest = source.rest(); rest.ticks > 0) exam.note_late(rest.ticks, rest.pedal_ticks);
 }
 
 }  // namespace cavum::scenarios

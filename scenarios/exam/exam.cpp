@@ -144,6 +144,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   s.candidate = options.candidate;
   s.device = options.device;
   s.source = options.source;
+  s.exam_rules = k_exam_rules;
   require_sound(options.grant, "accommodations");
   s.notes = options.notes;
   for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
@@ -181,7 +182,9 @@ std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
 }
 
 Exam::Exam(const ExamSetup& setup, Simulation simulation)
-    : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names), simulation_(std::move(simulation)) {}
+    : setup_(setup),
+      runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names, setup.session.exam_rules),
+      simulation_(std::move(simulation)) {}
 
 std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm, const ReadClocks& clocks) {
   SessionSetup session = setup.session;

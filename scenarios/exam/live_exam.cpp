@@ -14,6 +14,7 @@ LiveExam::LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevi
     : exam_(std::move(exam)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
   view_.limit_ticks = exam_->limit_ticks();
   view_.session = exam_->recorder().path();
+  view_.instruction = exam_->instruction();
   servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
   writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
                                             [this](const ServoTick& tick, std::span<const RemovedLeaf>) {
@@ -50,6 +51,7 @@ void LiveExam::take(const ServoTick& tick) {
   view_.ticks = runner.ticks;
   view_.paused_ticks = runner.paused_ticks;
   view_.step = runner.step;
+  view_.instruction = exam_->instruction();
   view_.pauses = runner.pauses;
   view_.depth_mm = runner.depth_mm;
   view_.target_removed_percent = 100.0 * static_cast<double>(runner.target_shares) / target_shares_;

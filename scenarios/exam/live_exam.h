@@ -20,7 +20,8 @@ struct LiveView {
   std::int64_t ticks = 0;         ///< recorded
   std::int64_t paused_ticks = 0;  ///< of them; the exam's clock shows the others
   std::int64_t limit_ticks = 0;   ///< of the exam's clock; 0 = none
-  int step = 0;                   ///< 0-based
+  int step = 0;                   ///< 0-based; their number when all are done
+  std::string instruction;        ///< what the candidate is asked to do now
   int pauses = 0;                 ///< begun so far
   double depth_mm = 0.0;          ///< deepest so far below the opening
   double target_removed_percent = 0.0;

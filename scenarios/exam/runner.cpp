@@ -41,11 +41,15 @@ std::int64_t step_limit_ticks(const Scenario& s, const StepSpec& step) noexcept 
   return time_in_ticks(*step.time_limit_s, s.accommodations.extra_time_percent, *step.time_limit_s * extra_s);
 }
 
-Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray)
+Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray, int rules)
     : scenario_(scenario),
       zones_(zones),
+      rules_(rules),
       limit_ticks_(exam_limit_ticks(scenario)),
       longest_pause_ticks_(time_in_ticks(scenario.pauses.longest_s, 0)) {
+  if (rules < 1 || rules > k_exam_rules)
+    throw Error(scenario.path, fmt::format("the exam ran by rules {}, and this program knows 1 to {}", rules, k_exam_rules),
+                "use the program that ran it");
   for (const auto& q : k_live_quantities) names_.emplace_back(q.name);
   for (const auto& t : tooth.tissues) {
     names_.push_back("touched_" + t.name);
@@ -196,42 +200,42 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
   state.over_speed = too_fast;
 
   fill_values(state, input, output);
-  const auto at = static_cast<std::size_t>(state.step);
-  const CompiledStep& step = steps_[at];
-  bool end = false;
-  Finish how = Finish::completed;  // of the last step
-  if (step.complete.is_true()) {
-    emit(state, ExamEventKind::step_completed, state.step);
-    next_step(state);
-  } else {
-    const bool failed = !step.fail.empty() && step.fail[0].is_true();
-    const bool late = clock(state) + 1 - state.step_start >= step.limit_ticks;
-    if (failed || late) {
-      emit(state, failed ? ExamEventKind::step_failed : ExamEventKind::step_time_limit, state.step);
-      end = scenario_.steps[at].failure_ends_exam;
-      how = failed ? Finish::failed : Finish::time;
-      next_step(state);
-    }
-  }
-  if (end)
-    finish(state, Finish::failed);
-  else if (static_cast<std::size_t>(state.step) >= steps_.size())
+  const Finish how = all_steps_done(state) ? Finish::running : watch_step(state);
+  if (how != Finish::running)
     finish(state, how);
   else if (clock(state) + 1 >= limit_ticks_) {
     emit(state, ExamEventKind::time_limit, 0);
-    finish(state, Finish::time);
+    finish(state, all_steps_done(state) ? Finish::completed : Finish::time);
   }
   ++state.ticks;
 }
 
+Finish Runner::watch_step(RunnerState& state) noexcept {
+  const auto at = static_cast<std::size_t>(state.step);
+  const CompiledStep& step = steps_[at];
+  if (step.complete.is_true()) {
+    emit(state, ExamEventKind::step_completed, state.step);
+    next_step(state);
+    return rules_ == 1 && all_steps_done(state) ? Finish::completed : Finish::running;
+  }
+  const bool failed = !step.fail.empty() && step.fail[0].is_true();
+  const bool late = clock(state) + 1 - state.step_start >= step.limit_ticks;
+  if (!failed && !late) return Finish::running;
+  emit(state, failed ? ExamEventKind::step_failed : ExamEventKind::step_time_limit, state.step);
+  next_step(state);
+  if (scenario_.steps[at].failure_ends_exam) return Finish::failed;
+  if (!all_steps_done(state)) return Finish::running;
+  return failed ? Finish::failed : Finish::time;
+}
+
 void Runner::end(RunnerState& state) noexcept {
-  if (state.finish == Finish::running) finish(state, Finish::ended);
+  if (state.finish == Finish::running) finish(state, all_steps_done(state) ? Finish::completed : Finish::ended);
 }
 
 const std::string& Runner::instruction(const RunnerState& state) const noexcept {
-  static const std::string k_over;
-  const auto at = static_cast<std::size_t>(state.step);
-  return state.finish == Finish::running && at < scenario_.steps.size() ? scenario_.steps[at].instruction : k_over;
+  static const std::string k_over, k_all_done = "All steps are done. Go on if something is left to do, and hand in when you are ready.";
+  if (state.finish != Finish::running) return k_over;
+  return all_steps_done(state) ? k_all_done : scenario_.steps[static_cast<std::size_t>(state.step)].instruction;
 }
 
 }  // namespace cavum::scenarios

@@ -43,6 +43,10 @@ struct ExamEvent {
   friend bool operator==(const ExamEvent&, const ExamEvent&) = default;
 };
 
+/// Version of the rules by which an exam ends; a session holds its own (`exam_rules`, 1 where it does not say).
+/// 1: it was over when its last step was completed. 2: only the candidate or the clock ends it, so that a look with the pedal off ends nothing.
+inline constexpr int k_exam_rules = 2;
+
 enum class Finish : std::uint8_t { running, completed, failed, time, ended };
 [[nodiscard]] const char* finish_name(Finish finish) noexcept;
 
@@ -72,20 +76,20 @@ struct RunnerState {
 
 class Runner {
  public:
-  /// `tray[i]` is the name of point i of TickInput::point. Throws Error when a condition cannot be compiled.
+  /// `tray[i]` is the name of point i of TickInput::point. Throws Error when a condition cannot be compiled, or when these rules are not known.
   /// Scenario, zones and tooth must outlive the runner.
-  Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray);
+  Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray, int rules);
 
   /// After a servo step. Does nothing once the exam is over. Allocates nothing.
   void advance(RunnerState& state, const TickInput& input, const TickOutput& output, std::span<const RemovedLeaf> removed) noexcept;
-  /// The candidate stops before the end (device lost, operator done): the exam is over with `ended`.
+  /// The candidate hands in (or is gone): the exam is over, `completed` when all steps were, else `ended`.
   void end(RunnerState& state) noexcept;
 
   /// True when the next tick falls into a pause, if the button is not pressed in it: the handpiece must be off.
   [[nodiscard]] static bool paused(const RunnerState& state) noexcept { return state.finish == Finish::running && state.pause_start >= 0; }
   /// Ticks of the exam's clock until time is up, extra time included.
   [[nodiscard]] std::int64_t limit_ticks() const noexcept { return limit_ticks_; }
-  /// What the candidate is asked to do now; empty when the exam is over.
+  /// What the candidate is asked to do now: the step, or to hand in when all are done; empty when the exam is over.
   [[nodiscard]] const std::string& instruction(const RunnerState& state) const noexcept;
   /// Live quantities by name and, after `advance`, by value.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
@@ -103,10 +107,14 @@ class Runner {
   /// Begins and ends pauses; true when this tick is one of a pause.
   [[nodiscard]] bool pause(RunnerState& state, const TickInput& input, const TickOutput& output) const noexcept;
   void next_step(RunnerState& state) const noexcept;
+  /// The current step against this tick's values; `running`, or how it ended the exam.
+  [[nodiscard]] Finish watch_step(RunnerState& state) noexcept;
+  [[nodiscard]] bool all_steps_done(const RunnerState& state) const noexcept { return static_cast<std::size_t>(state.step) >= steps_.size(); }
   void finish(RunnerState& state, Finish how) const noexcept;
 
   const Scenario& scenario_;
   const ZoneMap& zones_;
+  int rules_;
   std::vector<std::string> names_;
   std::vector<double> values_;
   std::vector<std::uint8_t> touched_ids_;  // tissue of names_[k_live_quantities.size() + i]

@@ -78,7 +78,7 @@ def result_changed_unsigned(s):
 @attack("recording", FOUND, P1)
 def event_changed(s):
     """The detail of an event is another."""
-    return changed(s, lambda r: r.events[-1].update(detail_json='{"how":"completed"}'))
+    return changed(s, lambda r: r.events[-1].update(detail_json='{"how":"failed"}'))
 
 
 @attack("recording", FOUND, P1)

@@ -42,9 +42,10 @@ void top_bar(const ScreenContext& c, const scenarios::LiveView& view, const Layo
   ImGui::PopStyleVar();
   const float clock = t.px(200);
   ImGui::BeginChild("step", {l.top.x - clock - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
-  const std::size_t steps = scenario.steps.size(), step = std::min(static_cast<std::size_t>(view.step), steps - 1);
-  quiet_text(t, fmt::format("Step {} of {}    {}{}", step + 1, steps, c.sitting->candidate(), c.practice ? "    practice" : "    examination"));
-  wrapped_text(scenario.steps[step].instruction);
+  const std::size_t steps = scenario.steps.size(), step = static_cast<std::size_t>(view.step);
+  quiet_text(t, fmt::format("{}    {}{}", step < steps ? fmt::format("Step {} of {}", step + 1, steps) : fmt::format("All {} steps done", steps),
+                            c.sitting->candidate(), c.practice ? "    practice" : "    examination"));
+  wrapped_text(view.instruction);
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);

@@ -25,7 +25,7 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
     : reader_(path),
       setup_(scenarios::prepare_exam(sound(reader_).setup())),
       simulation_(make_simulation(reader_.setup(), path)),
-      runner_(setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names),
+      runner_(setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names, setup_->session.exam_rules),
       inputs_(reader_.inputs()),
       events_(reader_.events()),
       between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {

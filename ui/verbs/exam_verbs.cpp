@@ -198,8 +198,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
       if (source.done()) live.ask_to_end();
       const scenarios::LiveView view = live.view();
       const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
-      const auto step = std::min(static_cast<std::size_t>(std::max(0, view.step)), setup.scenario.steps.size() - 1);
-      bar.show(view.ticks, std::min(1.0, share), setup.scenario.steps[step].instruction);
+      bar.show(view.ticks, std::min(1.0, share), view.instruction);
       if (view.ticks > 0) recording.look(view.recording_error, view.session);
       if (const std::string problem = source.problem(); problem != told) {
         if (!problem.empty()) std::fprintf(stderr, "\ncavum: %s\n", one_line(problem).c_str());

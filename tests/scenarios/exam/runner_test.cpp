@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/error.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum::scenarios {
@@ -18,8 +19,8 @@ struct Exam {
   ZoneMap zones;
   Runner runner;
   RunnerState state;
-  explicit Exam(Scenario s)
-      : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
+  explicit Exam(Scenario s, int rules = k_exam_rules)
+      : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}, rules) {}
 
   void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t point = 0, double rpm = 0) {
     TickInput in;
@@ -152,31 +153,59 @@ TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
   EXPECT_EQ(exam.state.finish, Finish::running);
   exam.tick();
   exam.tick(two);  // 2 of 1000 leaves of 0.001 mm3
-  EXPECT_EQ(exam.state.finish, Finish::completed);
   EXPECT_EQ(exam.events(ExamEventKind::step_completed).at(0).tick, 2);
-  EXPECT_EQ(exam.events(ExamEventKind::finished).at(0).index, static_cast<int>(Finish::completed));
+}
+
+/// A look with the pedal off completes the step; then the work goes on.
+TEST(Runner, OnlyTheCandidateOrTheClockEndsAnExam) {
+  const Scenario s = scenario_with("target_removed_percent >= 99", "target_removed_percent > 0 && contact == 0 && pedal == 0");
+  const auto look_and_go_on = [](Exam& exam) {
+    const RemovedLeaf one[] = {exam.leaf({0.01, 0, -0.1})}, more[] = {exam.leaf({0.01, 0.11, -0.1})};
+    exam.tick(one);
+    exam.tick(more);
+    return exam.state.removed_in_zone[static_cast<std::size_t>(Zone::target)];
+  };
+  Exam exam(s), by_the_clock(s), as_before(s, 1);
+  EXPECT_EQ(look_and_go_on(exam), 2u);
+  EXPECT_EQ(exam.state.finish, Finish::running);
+  EXPECT_EQ(exam.events(ExamEventKind::step_completed).at(0).tick, 0);
+  EXPECT_NE(exam.runner.instruction(exam.state).find("hand in"), std::string::npos);
+  exam.runner.end(exam.state);
+  EXPECT_EQ(exam.state.finish, Finish::completed);
+  EXPECT_EQ(exam.events(ExamEventKind::finished).at(0).tick, 2);
+
+  look_and_go_on(by_the_clock);
+  while (by_the_clock.state.finish == Finish::running) by_the_clock.tick();
+  EXPECT_EQ(by_the_clock.state.ticks, by_the_clock.runner.limit_ticks());
+  EXPECT_EQ(by_the_clock.state.finish, Finish::completed);
+  EXPECT_EQ(by_the_clock.events(ExamEventKind::time_limit).size(), 1u);
+
+  EXPECT_EQ(look_and_go_on(as_before), 1u) << "recorded exams end as they did";
+  EXPECT_EQ(as_before.state.finish, Finish::completed);
+  EXPECT_THROW(Exam(s, k_exam_rules + 1), Error);
 }
 
 TEST(Runner, WhatIsProtectedCountsAsOutsideWhileTheExamRuns) {
   const std::string guard = "[[zones.protected]]\nshape = \"box\"\nat_mm = [0.9, 0, -0.5]\nsize_mm = [0.4, 1, 1]\n";  // 0.2 mm beside the target
-  const auto finish = [&](const char* condition) {
+  const auto completes = [&](const char* condition) {
     std::string text = scenario_text(k_box + guard);
     const std::string from = "target_removed_percent >= 99";
     text.replace(text.find(from), from.size(), condition);
     Exam exam(parse_scenario(text, "s.toml"));
     const RemovedLeaf guarded[] = {exam.leaf({0.75, 0, -0.5})};  // the leeway would reach there
     exam.tick(guarded);
-    return exam.state.finish;
+    return exam.state.step == 1;
   };
-  EXPECT_EQ(finish("outside_mm3 > 0.0005"), Finish::completed);
-  EXPECT_EQ(finish("protected_mm3 > 0.0005"), Finish::completed);
-  EXPECT_EQ(finish("leeway_mm3 + container_mm3 > 0"), Finish::running);
+  EXPECT_TRUE(completes("outside_mm3 > 0.0005"));
+  EXPECT_TRUE(completes("protected_mm3 > 0.0005"));
+  EXPECT_FALSE(completes("leeway_mm3 + container_mm3 > 0"));
 }
 
 TEST(Runner, HowTheLastStepEndedIsHowTheExamEnded) {
   const auto ended = [](const char* step) {
     Exam exam(scenario_with("complete_when = \"target_removed_percent >= 99\"\n", step));
     for (int i = 0; i < 60; ++i) exam.tick();
+    exam.runner.end(exam.state);
     return exam.state.finish;
   };
   EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.05\n"), Finish::time);
