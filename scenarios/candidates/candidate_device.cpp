@@ -23,7 +23,7 @@ DeviceReading CandidateDevice::read(double elapsed_s) {
     if (intent.done && ++rested_ > k_rest_ticks) done_.store(true, std::memory_order_release);
   }
   progress_.store(candidate_.hands.progress(), std::memory_order_relaxed);
-  return {{tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, candidate_.point};
+  return {{tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, intent.point};
 }
 
 void CandidateDevice::send_force(Vec3 force_n) {

@@ -1,6 +1,7 @@
 #include "scenarios/candidates/cut_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/tooth/distance_transform.h"
@@ -207,6 +208,38 @@ std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth, const Pl
   for (const auto& loop : loops_of(all, options.finish_spacing_mm / map.step_mm)) way.follow(corners(map, loop, deepest, options.tolerance_mm));
   way.lift();
   return way.take();
+}
+
+std::vector<Waypoint> plan_pilot(const ReachMap& map, const Tooth& tooth, double head_radius_mm, const std::vector<std::string>& aims) {
+  constexpr double k_into_mm = 0.35, k_light_mm = 0.8;  // it goes on that far when it gives way; pressed lightly from there on
+  constexpr double k_none = -1e9, k_falls_share = 0.7;  // of the head's radius: with so much of it over the aim it falls in
+  const double leaf = tooth.octree.leaf_mm();
+  std::array<bool, 256> is_aim{};
+  for (const auto& t : tooth.tissues) is_aim[t.id] = t.id != k_air && std::find(aims.begin(), aims.end(), t.name) != aims.end();
+  std::vector<double> roof(map.lowest_mm.size(), k_none);  // height of the aim's first place from above
+  for (int y = 0; y < map.ny; ++y)
+    for (int x = 0; x < map.nx; ++x)
+      for (double z = map.top_mm; z > map.bottom_mm && roof[map.index(x, y)] == k_none; z -= leaf)
+        if (is_aim[tooth.octree.tissue_at(map.at(x, y, z))]) roof[map.index(x, y)] = z;
+  double falls_at = 0, to_z = 0, least_spread = 1e9;
+  int at_x = -1, at_y = -1;
+  const int around = static_cast<int>(k_falls_share * head_radius_mm / map.step_mm);
+  for (int y = around; y + around < map.ny; ++y)
+    for (int x = around; x + around < map.nx; ++x) {
+      double high = k_none, low = map.top_mm;
+      for (int dy = -around; dy <= around; ++dy)
+        for (int dx = -around; dx <= around; ++dx)
+          if (dx * dx + dy * dy <= around * around) {
+            high = std::max(high, roof[map.index(x + dx, y + dy)]);
+            low = std::min(low, roof[map.index(x + dx, y + dy)]);
+          }
+      const double lowest = map.lowest_mm[map.index(x, y)];
+      if (low == k_none || lowest >= low - leaf || high - low > least_spread - (low > falls_at ? 0.0 : leaf)) continue;
+      least_spread = high - low, falls_at = low, to_z = std::max(lowest, low - k_into_mm), at_x = x, at_y = y;
+    }
+  if (at_x < 0) return {};
+  const Vec3 air = map.at(at_x, at_y, map.origin_mm.z + k_above_mm);
+  return {{air, false, false}, {map.at(at_x, at_y, falls_at + k_light_mm), true, false}, {map.at(at_x, at_y, to_z), true, true}, {air, false, false}};
 }
 
 std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth, const ReachMap& map, std::uint8_t fault) {

@@ -79,7 +79,7 @@ double expert_time_s(const std::vector<Waypoint>& tooth_way, const Mat3& held, c
   double time_s = 1.5;  // until the handpiece turns, and the rest at the end
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Vec3 from = way[i - 1].tip_mm, whole = way[i].tip_mm - from;
-    const double far_mm = length(whole), press_mm = way[i].careful ? skill.careful_press_mm : skill.press_mm;
+    const double far_mm = length(whole), press_mm = (way[i].careful ? skill.careful_press_n : skill.press_n) / k_hard_n_per_mm;
     const double free_mm_s = way[i].careful ? k_careful_free_mm_s : k_free_mm_s;
     const int steps = std::max(1, static_cast<int>(far_mm / k_cell_mm + 0.5));
     for (int k = 1; k <= steps; ++k) {

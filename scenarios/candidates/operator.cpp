@@ -18,6 +18,9 @@ constexpr double k_correction = 2.0;          // of an error across the way ...
 constexpr double k_most_correction_mm = 0.8;  // ... up to this
 constexpr double k_astray_mm = 0.12;          // further off the way it no longer goes on along it
 constexpr double k_friction_n = 0.26;         // of the device's joints: a practised hand knows it
+constexpr double k_felt_n = 0.02;
+constexpr double k_firmest = 1.3;     // of the way that a push goes before its force is there: a hand that is held up pushes no harder
+constexpr double k_turning_s = 0.06;  // in which a push changes its direction
 constexpr double k_intention_s = 0.025;
 constexpr double k_gentle_bend = 0.7;  // cosine between two pieces of the way
 constexpr double k_give_up_s = 1.5;    // without getting nearer
@@ -39,8 +42,8 @@ Skill student(double level, std::uint64_t seed) {
   const auto between = [&](double beginner, double expert) { return expert + lack * (beginner - expert); };
   Skill s;
   s.name = "student";
-  s.press_mm = between(random.uniform(0.9, 1.5), s.press_mm);
-  s.careful_press_mm = between(random.uniform(0.7, 1.1), s.careful_press_mm);
+  s.press_n = between(random.uniform(0.7, 1.2), s.press_n);
+  s.careful_press_n = between(random.uniform(0.55, 0.9), s.careful_press_n);
   s.reaction_s = between(0.18, s.reaction_s);
   s.tremor_mm = between(random.uniform(0.05, 0.1), s.tremor_mm);
   s.offset_mm = Vec3{random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), 0} * lack;
@@ -62,8 +65,8 @@ Skill make_skill(const std::string& name, std::uint64_t seed) {
   }
   if (name == "novice") {
     Random random(seed);
-    s.press_mm = 1.2;
-    s.careful_press_mm = 0.9;
+    s.press_n = 0.95;
+    s.careful_press_n = 0.7;
     s.reaction_s = 0.16;
     s.tremor_mm = 0.07;
     // leans towards one wall, by half a millimetre to three quarters
@@ -99,7 +102,7 @@ Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::u
 
 Operator::Sight Operator::delayed(const TickOutput& seen, double dt_s) noexcept {
   const auto length_ticks = std::clamp<std::size_t>(static_cast<std::size_t>(skill_.reaction_s / dt_s), 1, memory_.size());
-  memory_[now_] = {seen.proxy_mm, seen.penetration_mm, seen.contact};
+  memory_[now_] = {seen.proxy_mm, length(seen.rendered_force_n), seen.contact};
   now_ = (now_ + 1) % length_ticks;
   return memory_[now_];
 }
@@ -108,8 +111,9 @@ bool Operator::retreat(Vec3 from_mm) noexcept {
   if (next_ + 1 >= way_.size() || way_.size() == way_.capacity()) return false;
   // held up: out of the cavity, and in again above the place after the next
   const Vec3 to = way_[next_ + 1].tip_mm;
-  way_[next_] = {in_air(from_mm), true, false};  // turning, so that a ledge gives way
-  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {in_air(to), false, false});
+  const std::uint8_t point = way_[next_].point;
+  way_[next_] = {in_air(from_mm), true, false, point};  // turning, so that a ledge gives way
+  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {in_air(to), false, false, point});
   from_mm_ = from_mm;
   best_mm_ = 1e9;
   stuck_s_ = 0;
@@ -160,12 +164,13 @@ Operator::Aim Operator::aim_at(const Waypoint& goal, Vec3 proxy_mm) const noexce
 }
 
 void Operator::push(const Waypoint& goal, const Sight& felt, double slow_down, double dt_s) noexcept {
-  const double wanted_mm = goal.cut ? (goal.careful ? skill_.careful_press_mm : skill_.press_mm) : 0.3;
+  const double wanted_n = goal.cut ? (goal.careful ? skill_.careful_press_n : skill_.press_n) : 0.25;
   const double free_n = k_free_speed_mm_s * (goal.careful ? 0.4 : 1.0) * skill_.hand.damping_n_s_per_mm + k_friction_n;
   const double free_lead = free_n / skill_.hand.stiffness_n_per_mm;
-  if (felt.contact && felt.penetration_mm > 0.02) {
-    const double error = std::clamp((wanted_mm * slow_down - felt.penetration_mm) / wanted_mm, -1.0, 1.0);
-    lead_mm_ = std::clamp(lead_mm_ + k_lead_rate_mm_s * error * dt_s, 0.05, 4.0);
+  if (felt.contact && felt.force_n > k_felt_n) {
+    const double error = std::clamp((wanted_n * slow_down - felt.force_n) / wanted_n, -1.0, 1.0);
+    const double most_mm = free_lead + k_firmest * wanted_n * (1.0 / skill_.hand.stiffness_n_per_mm + 1.0 / k_hard_n_per_mm);
+    lead_mm_ = std::clamp(lead_mm_ + k_lead_rate_mm_s * error * dt_s, 0.05, most_mm);
   } else {
     lead_mm_ = std::max(free_lead, lead_mm_ - 40.0 * dt_s);
     if (lead_mm_ < free_lead + 0.2) lead_mm_ = free_lead;
@@ -185,16 +190,16 @@ void Operator::move_foot(bool cut, double dt_s) noexcept {
 
 Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   const Sight felt = delayed(seen, dt_s);
-  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, true};
+  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, way_.empty() ? std::uint8_t{0} : way_.back().point, true};
   // The eye sees the point where it is now; a free way is judged along it, a cut by how near the point came.
   double left = left_to_goal(seen.proxy_mm);
   watch_progress(left, dt_s);
   const bool through = bends_gently(), cutting = way_[next_].cut;
   const double arrived_mm = !cutting ? 0.2 : through ? 0.06 : k_arrived_mm;
-  if (stuck_s_ > k_give_up_s && cutting && retreat(seen.proxy_mm)) return {intended_mm_, pedal_, false};
+  if (stuck_s_ > k_give_up_s && cutting && retreat(seen.proxy_mm)) return {intended_mm_, pedal_, way_[next_].point, false};
   if (left < arrived_mm || stuck_s_ > k_give_up_s) {
     go_on(through);
-    if (next_ >= way_.size()) return {from_mm_, 0.0, true};
+    if (next_ >= way_.size()) return {from_mm_, 0.0, way_.back().point, true};
     left = left_to_goal(seen.proxy_mm);
   }
   const Waypoint& goal = way_[next_];
@@ -202,23 +207,36 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   push(goal, felt, through ? 1.0 : std::clamp(left / 0.25, 0.4, 1.0), dt_s);
   tremble(dt_s);
   move_foot(goal.cut, dt_s);
-  Vec3 tip = seen.proxy_mm + aim.correction_mm + aim.direction * lead_mm_ + tremor_mm_;
+  towards_ += (aim.direction - towards_) * (dt_s / (k_turning_s + dt_s));  // where it goes to and fro it pushes less
+  Vec3 tip = seen.proxy_mm + aim.correction_mm + towards_ * lead_mm_ + tremor_mm_;
   if (goal.cut && pedal_ < 0.95 && !felt.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
   // an intention has no corners: the hand follows it within some 25 ms
   intended_mm_ += (tip - intended_mm_) * (dt_s / (k_intention_s + dt_s));
-  return {intended_mm_, pedal_, false};
+  return {intended_mm_, pedal_, way_[next_].point, false};
 }
+
+namespace {
+
+/// Radius near the end as a share of the head's, 0..1: a ball has 0.66, a flat end 1.
+double bluntness(const DiamondPoint& p) { return p.profile.radius_mm(0.25 * p.head_radius_mm) / p.head_radius_mm; }
+
+}  // namespace
 
 ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray) {
   ChosenPoint chosen;
   chosen.index = tray.size();
-  double best_score = 0;
+  double best_score = 0, best_bluntness = 0;
   const FreeRoom room = free_room(zones, tooth, k_expert_margin);
   for (std::size_t i = 0; i < tray.size(); ++i) {
     ReachMap map = reach_map(room, zones, tooth, tray[i]);
     chosen.covers.push_back(coverage(room, map, tray[i]));
     // a head shorter than the target is deep leaves ledges that hold up its neck
     const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
+    if (const double blunt = bluntness(tray[i].point); chosen.covers.back() > 0 && blunt > best_bluntness * 1.01) {
+      best_bluntness = blunt;
+      chosen.blunt = i;
+      chosen.blunt_map = map;
+    }
     const double score = chosen.covers.back() * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
     if (score > best_score * 1.01) {
       best_score = score;
@@ -227,6 +245,17 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
     }
   }
   return chosen;
+}
+
+std::vector<Waypoint> plan_work(const ChosenPoint& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
+                                const std::vector<std::string>& aims) {
+  std::vector<Waypoint> cut = plan_cut(chosen.map, tooth, PlanOptions{});
+  if (cut.empty()) return cut;
+  for (auto& w : cut) w.point = static_cast<std::uint8_t>(chosen.index);
+  std::vector<Waypoint> way = plan_pilot(chosen.blunt_map, tooth, tray[chosen.blunt].point.head_radius_mm, aims);
+  for (auto& w : way) w.point = static_cast<std::uint8_t>(chosen.blunt);
+  way.insert(way.end(), cut.begin(), cut.end());
+  return way;
 }
 
 namespace {
@@ -253,7 +282,7 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
     skill.perforates = scenario.careless.perforates;
     chosen.map = careless_map(scenario, zones, tooth, tray[chosen.index]);
   }
-  auto way = plan_cut(chosen.map, tooth, PlanOptions{});
+  auto way = plan_work(chosen, tooth, tray, scenario.perforation.aims);
   if (way.empty()) throw Error(where, "the careless candidate finds nothing to cut", "let [careless] leave more of the target");
   bool finds_a_way = false;
   if (skill.perforates)
@@ -263,6 +292,7 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       if (!present) continue;
       auto deeper = plan_perforation(zones, tooth, chosen.map, tooth.tissue_id(fault));
       if (deeper.empty()) continue;
+      for (auto& w : deeper) w.point = static_cast<std::uint8_t>(chosen.index);
       way.insert(way.end(), deeper.begin(), deeper.end());
       finds_a_way = true;
       break;

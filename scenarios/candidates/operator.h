@@ -1,5 +1,5 @@
 // A simulated candidate: a skill, and a hand that follows a plan while it looks and feels. It sees the
-// diamond point where the screen shows it (the proxy) and feels penetration, both a reaction time late;
+// diamond point where the screen shows it (the proxy) and feels the force, both a reaction time late;
 // it says where it wants the tip, and the hand and the device (engine/device) do the rest.
 #pragma once
 
@@ -15,16 +15,19 @@
 
 namespace cavum::scenarios {
 
+/// Stiffness of hard tissue that a practised hand reckons with.
+inline constexpr double k_hard_n_per_mm = 0.8;
+
 /// What distinguishes an expert from a novice.
 struct Skill {
   std::string name;
-  double press_mm = 1.2;          ///< penetration aimed at: sets the force, and with it the speed
-  double careful_press_mm = 0.6;  ///< the same close to a cavity
-  double reaction_s = 0.06;       ///< from seeing and feeling to acting
-  double tremor_mm = 0.01;        ///< rms, below 5 Hz
-  Vec3 offset_mm;                 ///< constant error of aim
-  double stops_short = 0.0;       ///< share of the plan's depth that is never reached
-  bool perforates = false;        ///< goes on through the floor
+  double press_n = 0.95;         ///< force on the point while cutting: with the tissue it gives the speed
+  double careful_press_n = 0.5;  ///< the same close to a cavity
+  double reaction_s = 0.06;      ///< from seeing and feeling to acting
+  double tremor_mm = 0.01;       ///< rms, below 5 Hz
+  Vec3 offset_mm;                ///< constant error of aim
+  double stops_short = 0.0;      ///< share of the plan's depth that is never reached
+  bool perforates = false;       ///< goes on through the floor
   HandModel hand;
 };
 
@@ -36,7 +39,8 @@ struct Skill {
 struct Intent {
   Vec3 tip_mm;
   double pedal = 0;
-  bool done = false;  ///< nothing left to do
+  std::uint8_t point = 0;  ///< of the tray
+  bool done = false;       ///< nothing left to do
 };
 
 class Operator {
@@ -56,7 +60,7 @@ class Operator {
  private:
   struct Sight {
     Vec3 proxy_mm;
-    double penetration_mm = 0;
+    double force_n = 0;
     bool contact = false;
   };
   bool retreat(Vec3 from_mm) noexcept;
@@ -73,7 +77,7 @@ class Operator {
     Vec3 direction, correction_mm;  // unit, towards the goal; across the way, back to it
   };
   [[nodiscard]] Aim aim_at(const Waypoint& goal, Vec3 proxy_mm) const noexcept;
-  /// Until the penetration felt is the one aimed at; where nothing resists, at a quiet speed.
+  /// Until the force felt is the one aimed at; where nothing resists, at a quiet speed.
   void push(const Waypoint& goal, const Sight& felt, double slow_down, double dt_s) noexcept;
   void tremble(double dt_s) noexcept;
   void move_foot(bool cut, double dt_s) noexcept;
@@ -86,6 +90,7 @@ class Operator {
   std::size_t now_ = 0;
   std::size_t next_ = 1;
   Vec3 from_mm_, tremor_mm_, intended_mm_;
+  Vec3 towards_;  // of the push: a unit vector, shorter while it turns
   double lead_mm_ = 0, stuck_s_ = 0, best_mm_ = 1e9, pedal_ = 0;
 };
 
@@ -93,16 +98,22 @@ class Operator {
 struct ChosenPoint {
   std::size_t index = 0;       ///< the tray's size when none fits
   ReachMap map;                ///< of that point
+  std::size_t blunt = 0;       ///< of those that go into the target the one with the bluntest end: it falls in where a taper wedges itself in
+  ReachMap blunt_map;          ///< of that
   std::vector<double> covers;  ///< share of the target that each point of the tray can remove, 0..1
 };
 [[nodiscard]] ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray);
 
-/// The plan and the candidate for a scenario laid into a tooth: the mounted point is the first one allowed
-/// that removes the target best. Throws Error when no allowed point fits into the target, or when `careless` is asked for
-/// and the scenario has no [careless].
+/// All that a candidate does in an exam: the pilot hole, where there is an aim, then the target (plan_cut).
+[[nodiscard]] std::vector<Waypoint> plan_work(const ChosenPoint& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
+                                              const std::vector<std::string>& aims);
+
+/// The plan and the candidate for a scenario laid into a tooth: the pilot hole is made with the bluntest
+/// point, all else with the first one allowed that removes the target best. Throws Error when no allowed point fits into the target, or when
+/// `careless` is asked for and the scenario has no [careless].
 struct Candidate {
   Operator hands;
-  std::uint8_t point = 0;
+  std::uint8_t point = 0;  ///< with which the target is cut, of the tray
 };
 [[nodiscard]] Candidate make_candidate(const std::string& skill, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                                        const std::vector<ContactTool>& tray, std::uint64_t seed);

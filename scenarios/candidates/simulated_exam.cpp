@@ -14,7 +14,7 @@ bool SimulatedCandidate::next(const TickOutput& last, const TickInput& previous,
   constexpr std::int64_t k_rest_ticks = 1500;  // a finished candidate holds still for a moment: conditions of the last step can come true
   if (intent.done && ++rested_ > k_rest_ticks) return false;
   const Vec3 tip = advance_omni(omni_, candidate_.hands.skill().hand, state_, last.rendered_force_n, intent.tip_mm, k_tick_s);
-  input = make_tick_input({tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, candidate_.point, previous);
+  input = make_tick_input({tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, intent.point, previous);
   return true;
 }
 

@@ -31,11 +31,12 @@ class InputSource {
 class SimulatedCandidate final : public InputSource {
  public:
   SimulatedCandidate(Candidate candidate, const OmniModel& omni);
+  /// With which the target is cut, of the tray.
+  [[nodiscard]] std::uint8_t point() const noexcept { return candidate_.point; }
   [[nodiscard]] Vec3 start_mm() const noexcept override { return candidate_.hands.start_mm(); }
   [[nodiscard]] bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept override;
   [[nodiscard]] double progress() const noexcept override { return candidate_.hands.progress(); }
   /// The diamond point of the tray that was chosen for the target.
-  [[nodiscard]] std::uint8_t point() const noexcept { return candidate_.point; }
 
  private:
   Candidate candidate_;

@@ -195,7 +195,7 @@ void Adviser::time(std::optional<double>& expert_s) {
     warn("points", fmt::format("no allowed point removes more than {} of the target", percent(best)),
          "allow one that fits, or make the target wider");
   if (chosen.index == tray.size()) return;
-  const auto way = plan_cut(chosen.map, tooth_, PlanOptions{});
+  const auto way = plan_work(chosen, tooth_, tray, s_.perforation.aims);
   expert_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
   if (*expert_s > limit_s_)
     warn("time_limit_s", fmt::format("the built-in expert needs about {} s, and the limit is {} s", fixed(*expert_s, 0), plain_number(limit_s_)),
