@@ -14,10 +14,10 @@ namespace cavum {
 namespace {
 
 constexpr double k_bench_leaf_mm = 0.05, k_over_bench_mm = 0.02;
-constexpr double k_lowered_mm = 1e-3, k_fastest_mm = 1e-2;  // a tick: in air, and while the load comes on
-constexpr double k_most_s = 1200.0;                         // a weight that has not sunk in by then does not
-constexpr double k_groove_mm = 0.05;                        // on its side: so shallow that pressure and load point the same way
-constexpr double k_end_in_mm = 0.1;                         // on its end: so far beyond the height where the head is widest
+constexpr double k_lowered_mm = 1e-3, k_fastest_mm = 0.1;  // a tick: in air, and while the load comes on
+constexpr double k_most_s = 1200.0;                        // a weight that has not sunk in by then does not
+constexpr double k_groove_mm = 0.05;                       // on its side: so shallow that pressure and load point the same way
+constexpr double k_end_in_mm = 0.1;                        // on its end: so far beyond the height where the head is widest
 constexpr double k_seconds_per_min = 60.0;
 
 /// The bench: a block, a point over it, and the way of its tip to the surface.
@@ -58,7 +58,9 @@ GrindRow grind(const ForceModel& force, const DiamondPoint& point, const std::st
   const GrindBench bench = make_grind_bench(tissue, point, options.side);
   ServoConfig config;
   config.max_rpm = options.rpm;
-  const ServoModel model = make_servo_model(bench.block, {point}, force, config);
+  ForceModel undamped = force;  // a weight that comes on presses no harder than it weighs
+  for (auto& [name, material] : undamped.materials) material.voigt.damping_n_s_per_mm = 0.0;
+  const ServoModel model = make_servo_model(bench.block, {point}, undamped, config);
   ServoState state = make_servo_state(model, bench.block, bench.start_mm);
   TickInput input;
   const auto tick = [&](Vec3 tip) {
@@ -75,7 +77,7 @@ GrindRow grind(const ForceModel& force, const DiamondPoint& point, const std::st
     const std::uint64_t edit = state.tooth.edit_hash();
     out = tick({bench.start_mm.x, bench.start_mm.y, z});
     t_s += k_tick_s;
-    // A weight: the tip goes to where the force is the load, X = (F − c V)/k, as far below the surface that has receded by what is owed.
+    // A weight: the tip goes to where the force is the load, X = F/k, as far below the surface that has receded by what is owed.
     if (!out.contact) {
       z -= k_lowered_mm;
       continue;
