@@ -68,7 +68,7 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     if (model.law == CuttingLaw::penetration)
       material.tau_s = m.number_or("tau_s", 0, 1e6, 0);
     else
-      material.wear_mm3_per_n_m = m.number_or("wear_mm3_per_n_m", 0, 100, 0);
+      material.wear_mm3_per_n_m = m.number_or("wear_mm3_per_n_m", 1e-6, 100, 0);
     m.finish();
     model.materials.emplace(name.str(), material);
   }

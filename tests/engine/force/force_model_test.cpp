@@ -71,7 +71,8 @@ TEST(ForceModel, BrokenFilesAreErrorsWithLineAndColumn) {
                                                              {"torque_n_mm = 1.4", "torque_n_mm = 0"},
                                                              {"slip_rpm = 400000.0 ", "slip = 400000.0 "},
                                                              {"wear_mm3_per_n_m = 0.005", "tau_s = 2.02"},
-                                                             {"wear_mm3_per_n_m = 0.005", "wear_mm3_per_n_m = -0.005"}};
+                                                             {"wear_mm3_per_n_m = 0.005", "wear_mm3_per_n_m = -0.005"},
+                                                             {"wear_mm3_per_n_m = 0.005", "wear_mm3_per_n_m = 1e-300"}};
   const std::regex place("^m\\.toml:[0-9]+:[0-9]+: .+; .+");
   for (const auto& [from, to] : of_paper)
     EXPECT_TRUE(std::regex_search(broken("paper", from, to), place)) << to << ": '" << broken("paper", from, to) << "'";
