@@ -1,6 +1,7 @@
 #include "engine/contact/touched_means.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/contact/proxy.h"
 
@@ -17,9 +18,10 @@ constexpr double k_close_leaves = 0.1;      // and there, where a sheet is thinn
 constexpr double k_void_near_leaves = 3.0;  // what is looked up ahead, and the eight leaves around it
 constexpr double k_furthest_mm2 = 1e-3;     // an eighth of what a sample of the head stands for
 constexpr double k_least_area_mm2 = 1e-9;   // rounding
+constexpr double k_least_radius_mm = 0.05;  // half a coarse grain: no grain stands still, though the axis does
 constexpr double k_even_share = 0.999;      // stiffnesses nearer than that are one tissue's
 
-/// Means of k, c and 1/τ over the solid (or the void) tissues of a mix, and their share in it.
+/// Means of k, c, 1/τ and 1/K over the solid (or the void) tissues of a mix, and their share in it.
 double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {
   double share = 0.0;
   mean = {};
@@ -36,11 +38,13 @@ double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants*
     mean.stiffness_n_per_mm += mix.share[i] * tissue[label].stiffness_n_per_mm;
     mean.damping_n_s_per_mm += mix.share[i] * tissue[label].damping_n_s_per_mm;
     mean.recession_per_s += mix.share[i] * tissue[label].recession_per_s;
+    mean.resistance_n_per_mm2 += mix.share[i] * tissue[label].resistance_n_per_mm2;
   }
   if (share > 0.0) {
     mean.stiffness_n_per_mm /= share;
     mean.damping_n_s_per_mm /= share;
     mean.recession_per_s /= share;
+    mean.resistance_n_per_mm2 /= share;
   }
   return share;
 }
@@ -92,14 +96,14 @@ class Touching {
       if (head) state_.touched.counted[i] = 1;
       const double seen = -dot(state_.rotation * s.normal, state_.normal);
       const auto& h = gathered.half_spaces[n];
-      if (seen > 0.0) count(tip_ + state_.rotation * s.at_mm, s.area_mm2 * seen, h.slack_mm + dot(h.normal, since), head, near);
+      if (seen > 0.0) count(s.at_mm, s.area_mm2 * seen, seen, h.slack_mm + dot(h.normal, since), head, near);
     }
   }
 
   /// A fine tip may touch between its samples: the furthest place counts a little, and alone if need be.
   void count_furthest() noexcept {
-    const Vec3 furthest = tip_ + state_.rotation * tool_.furthest_along(state_.rotation.transposed(-state_.normal));
-    count(furthest, k_furthest_mm2, tooth_.sample(furthest, state_.cursor).distance_mm, true, true);
+    const Vec3 at_tool = tool_.furthest_along(state_.rotation.transposed(-state_.normal)), furthest = tip_ + state_.rotation * at_tool;
+    count(at_tool, k_furthest_mm2, 1.0, tooth_.sample(furthest, state_.cursor).distance_mm, true, true);
   }
 
   /// Samples of the head that are far from the surface, and have void tissue before them.
@@ -124,12 +128,14 @@ class Touching {
     m.touching = cut_area_ > k_least_area_mm2;
     if (!m.touching) {
       m.of = {};
+      m.grinding = {};
       return m;
     }
     const double area = solid_area_ + void_area_;
     m.of.stiffness_n_per_mm /= area;
     m.of.damping_n_s_per_mm /= area;
     m.of.recession_per_s /= cut_area_;
+    m.grinding.head_share = ground_area_ / cut_area_;
     return m;
   }
   [[nodiscard]] bool even() const noexcept { return !sums_.void_tissue && least_n_per_mm_ > k_even_share * most_n_per_mm_; }
@@ -147,8 +153,10 @@ class Touching {
     sums_.of.damping_n_s_per_mm += area * void_mean_.damping_n_s_per_mm;
   }
 
-  /// Adds a place of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface.
-  void count(Vec3 at, double area, double gap_mm, bool head, bool void_near) noexcept {
+  /// Adds the place `at_tool` (tool frame) of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface; `cosine` of
+  /// the angle between its own normal and that.
+  void count(Vec3 at_tool, double area, double cosine, double gap_mm, bool head, bool void_near) noexcept {
+    const Vec3 at = tip_ + state_.rotation * at_tool;
     double touch = std::clamp(1.0 - (gap_mm - k_touch_leaves * leaf_mm_) / (k_fade_leaves * leaf_mm_), 0.0, 1.0);
     if (touch <= 0.0 && !(head && void_near)) return;
     const TissueMix mix = tooth_.mix(at + ahead_, state_.cursor);
@@ -160,7 +168,10 @@ class Touching {
       least_n_per_mm_ = std::min(least_n_per_mm_, solid_mean_.stiffness_n_per_mm);
       most_n_per_mm_ = std::max(most_n_per_mm_, solid_mean_.stiffness_n_per_mm);
       cut_area_ += touched;
-      if (head) sums_.of.recession_per_s += touched * solid_mean_.recession_per_s;
+      if (head) {
+        sums_.of.recession_per_s += touched * solid_mean_.recession_per_s;
+        if (solid_mean_.resistance_n_per_mm2 > 0.0) count_ground(at_tool, touched, cosine);
+      }
       // a sheet over air holds the tool whole; one over void tissue only as far as there is solid tissue ahead
       solid_share = void_share > 0.0 ? solid_share / (solid_share + void_share) : 1.0;
       solid_area_ += touched * solid_share;
@@ -169,6 +180,14 @@ class Touching {
       if (head) count_void(touched * (1.0 - solid_share));
     }
     if (head) count_void(area * (1.0 - touch) * void_share);
+  }
+
+  /// Preston's sums of a place of the head, in the tissue of `solid_mean_`.
+  void count_ground(Vec3 at_tool, double touched, double cosine) noexcept {
+    const double resisted = touched * solid_mean_.resistance_n_per_mm2;
+    sums_.grinding.sliding_n += resisted;
+    sums_.grinding.per_turn_n_per_mm += resisted * cosine / std::max(k_least_radius_mm, std::sqrt(at_tool.x * at_tool.x + at_tool.y * at_tool.y));
+    ground_area_ += touched;
   }
 
   const Octree& tooth_;
@@ -182,7 +201,7 @@ class Touching {
   const std::uint32_t head_end_;
   TouchedMeans sums_;
   TissueConstants solid_mean_, void_mean_;  // of the last place
-  double cut_area_ = 0.0, solid_area_ = 0.0, void_area_ = 0.0, least_n_per_mm_ = 1e9, most_n_per_mm_ = 0.0;
+  double cut_area_ = 0.0, ground_area_ = 0.0, solid_area_ = 0.0, void_area_ = 0.0, least_n_per_mm_ = 1e9, most_n_per_mm_ = 0.0;
 };
 
 }  // namespace

@@ -15,7 +15,17 @@ struct ContactState;
 /// Constants of one tissue as the contact averages them.
 struct TissueConstants {
   double stiffness_n_per_mm = 0, damping_n_s_per_mm = 0;
-  double recession_per_s = 0;  ///< 1/τ; 0 for void tissue
+  double recession_per_s = 0;  ///< 1/τ; 0 for void tissue, and where cutting goes by pressure
+  double resistance_n_per_mm2 =
+      0;  ///< 1/K: pressure for each mm that is ground off while the coating slides 1 mm; 0 where cutting goes by penetration
+};
+
+/// What grinding by pressure needs of the area touched: sums over the coated head, zero where cutting goes by penetration (engine/servo/grinding.h).
+/// A: area of a place, w: how far it touches, θ: between its normal and the contact normal, r: its distance from the tool's axis.
+struct GrindingSums {
+  double per_turn_n_per_mm = 0;  ///< S = Σ A w cos²θ/(K r): force for each mm of recession in a radian of turning
+  double sliding_n = 0;          ///< Q = Σ A w cosθ/K
+  double head_share = 0;         ///< part of the area touched that is the coated head's; neck and shank bear the rest, and do not grind
 };
 
 /// Means over the area touched, weighted by the area seen along the contact normal.
@@ -23,6 +33,7 @@ struct TouchedMeans {
   TissueConstants of;        ///< recession over the solid part only, where the coated head touches it
   bool touching = false;     ///< false: nothing touched, `of` is zero
   bool void_tissue = false;  ///< pulp or another void tissue lies before the head
+  GrindingSums grinding;
 };
 
 /// Means of an earlier tick, and what they were taken from: they hold as long as neither tool, tooth nor normal changed much.

@@ -20,6 +20,28 @@ std::vector<double> numbers(TomlReader& in, const char* key) {
   return out;
 }
 
+/// [cutting], and [handpiece] where the law knows a torque.
+void read_cutting(TomlReader& in, const std::string& where, ForceModel& model) {
+  const auto* t = in.table("cutting");
+  if (t == nullptr) in.fail("cutting", "is missing", "add [cutting] with rpm_ref");
+  TomlReader cutting(*t, where);
+  const std::string law = cutting.text_or("law", "penetration");
+  if (law != "penetration" && law != "pressure") cutting.fail("law", fmt::format("'{}' is no law of cutting", law), "write penetration or pressure");
+  if (law == "penetration") {
+    model.rpm_ref = cutting.number("rpm_ref", 1, 1e6);
+    cutting.finish();
+    return;
+  }
+  model.law = CuttingLaw::pressure;
+  model.force_ratio = cutting.number("force_ratio", 0, 10);
+  cutting.finish();
+  if (const auto* h = in.table("handpiece")) {
+    TomlReader handpiece(*h, where);
+    model.drive = {handpiece.number("torque_n_mm", 1e-3, 1e3), handpiece.number("slip_rpm", 1, 1e6)};
+    handpiece.finish();
+  }
+}
+
 }  // namespace
 
 ForceModel parse_force_model(const std::string& text, const std::string& where) {
@@ -27,13 +49,7 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
   TomlReader in(document, where);
   ForceModel model;
   model.name = in.text("name");
-  if (const auto* t = in.table("cutting")) {
-    TomlReader cutting(*t, where);
-    model.rpm_ref = cutting.number("rpm_ref", 1, 1e6);
-    cutting.finish();
-  } else {
-    in.fail("cutting", "is missing", "add [cutting] with rpm_ref");
-  }
+  read_cutting(in, where, model);
   if (const auto* t = in.table("rendering")) {
     TomlReader r(*t, where);
     model.rendering.kvc_n_per_mm = r.number("kvc_n_per_mm", 0, 10);
@@ -49,7 +65,10 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     TomlReader m(*node.as_table(), where);
     Material material;
     material.voigt = {m.number("k_n_per_mm", 0, 100), m.number("c_n_s_per_mm", 0, 100)};
-    material.tau_s = m.number_or("tau_s", 0, 1e6, 0);
+    if (model.law == CuttingLaw::penetration)
+      material.tau_s = m.number_or("tau_s", 0, 1e6, 0);
+    else
+      material.wear_mm3_per_n_m = m.number_or("wear_mm3_per_n_m", 1e-6, 100, 0);
     m.finish();
     model.materials.emplace(name.str(), material);
   }

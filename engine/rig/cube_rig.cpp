@@ -111,6 +111,7 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint
   std::vector<std::vector<ServoModel>> servos;
   std::vector<Job> jobs;
   for (const CubeModel& m : models) {
+    require_penetration(m.force);
     CubeSet set;
     set.name = m.name;
     servos.emplace_back();

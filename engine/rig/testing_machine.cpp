@@ -57,6 +57,13 @@ ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_
   return model;
 }
 
+void require_penetration(const ForceModel& model) {
+  if (model.law == CuttingLaw::pressure)
+    throw Error(fmt::format("force model '{}'", model.name),
+                "cuts by pressure, and this experiment feeds at the paper's speed, for which it needs tau_s",
+                "name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one");
+}
+
 ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni) {
   ServoConfig config;
   config.position_quantum_mm = omni.quantum_mm;

@@ -50,6 +50,9 @@ class TestingMachine {
 /// every k, from `consistent` the critical damping of the stylus. Throws Error when the tissue has no material or k0 = 0.
 [[nodiscard]] ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm);
 
+/// Throws Error when the model cuts by pressure: the paper's feed of 0.25 mm/s is ten times what a dentist's force grinds enamel at, and has no τ.
+void require_penetration(const ForceModel& model);
+
 /// A servo for a machine: one diamond point, the limits of the Omni, and, as in an exam with one, told the step of its encoder.
 [[nodiscard]] ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni);
 

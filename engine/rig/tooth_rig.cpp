@@ -223,6 +223,7 @@ std::vector<ToothLayer> layers_of(const Tooth& tooth, const std::vector<ToothRun
 }  // namespace
 
 ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const DiamondPoint& point, const ToothRigOptions& options) {
+  require_penetration(force);
   ToothRigResult result;
   result.options = options;
   result.tooth = tooth.name;

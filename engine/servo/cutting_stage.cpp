@@ -1,6 +1,7 @@
 // The stage that cuts: recession gathers, and the head is carved, one carve at a time and a part of it in each tick.
 #include <algorithm>
 
+#include "engine/servo/grinding.h"
 #include "engine/servo/stages.h"
 
 namespace cavum {
@@ -52,22 +53,31 @@ void carve(const ServoModel& model, ServoState& state, TickOutput& out) noexcept
   if (done == CarvingStep::done) state.contact.opened = {head.tip_mm, head.rotation == state.contact.rotation ? state.contact.turned_rad : -1.0};
 }
 
+/// r', mm/s.
+double recession_mm_s(const ServoModel& model, const ServoState& state, const Tick& tick, double pressing_n) noexcept {
+  const double rpm = state.handpiece.rpm;
+  if (model.force.law == CuttingLaw::penetration) return tick.penetration_mm * tick.means.of.recession_per_s * (rpm / model.force.rpm_ref);
+  return ground_mm_s(tick.means.grinding, pressing_n, tick.tissue().stiffness_n_per_mm, rpm, model.config.tick_s);
+}
+
 }  // namespace
 
 void cut(const ServoModel& model, ServoState& state, const Tick& tick, TickOutput& out) noexcept {
+  // F = k X + c V alone: what wear, water or run-out add is felt, and grinds nothing.
+  const double pressing_n = voigt_force_n(tick.tissue(), tick.penetration_mm, state.render.speed_mm_s);
+  if (model.force.drive.torque_n_mm > 0.0) state.handpiece.load_n_mm = grinding_torque_n_mm(tick.means.grinding, pressing_n, model.force.force_ratio);
   const bool still = !turns(model.config, state.handpiece);
   if (still || state.carving.now.point != tick.input.point) drop_carving(state.carving);
   if (still) return;
   state.carving.swept_mm += length(tick.contact.moved_mm);
   if (tick.means.touching) {
     const double leaf_mm = state.tooth.leaf_mm();
-    const double speed_mm_s = tick.penetration_mm * tick.means.of.recession_per_s * (state.handpiece.rpm / model.force.rpm_ref);
-    gather_recession(speed_mm_s, model.config.tick_s, leaf_mm, state.recession);
+    gather_recession(recession_mm_s(model, state, tick, pressing_n), model.config.tick_s, leaf_mm, state.recession);
     if (!travels(tick, leaf_mm)) {
       state.recession.head = head_here(state);
       state.recession.normal = state.contact.normal;
     }
-    out.cutting = tick.means.of.recession_per_s > 0;
+    out.cutting = tick.means.of.recession_per_s > 0 || tick.means.grinding.per_turn_n_per_mm > 0;
   }
   if (!state.carving.under_way()) begin_what_is_due(state, tick, state.carving);
   if (state.carving.under_way()) carve(model, state, out);

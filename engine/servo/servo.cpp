@@ -9,6 +9,7 @@
 namespace cavum {
 namespace {
 
+constexpr double k_mm_per_m = 1000.0;
 constexpr std::size_t k_most_points = 255;       // TickInput::point is a byte
 constexpr std::size_t k_edit_room = 1 << 17;     // bricks, 8 million leaves: more than a tooth has at its surface; untouched room costs no memory
 constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick: a ball of 2.5 mm radius at leaves of 0.1 mm, or of 1.2 mm at 0.05
@@ -31,9 +32,17 @@ ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>&
                   fmt::format("add [materials.{}]", t.name));
     }
     const Material& m = found->second;
-    if (t.solid && !(m.tau_s > 0))
-      throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no tau_s for solid tissue '{}'", t.name), "add tau_s");
-    model.tissue[t.id] = {m.voigt.stiffness_n_per_mm, m.voigt.damping_n_s_per_mm, t.solid ? 1.0 / m.tau_s : 0.0};
+    const bool by_pressure = force.law == CuttingLaw::pressure;
+    const double cut = by_pressure ? m.wear_mm3_per_n_m : m.tau_s;
+    const char* name = by_pressure ? "wear_mm3_per_n_m" : "tau_s";
+    if (t.solid && !(cut > 0))
+      throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no {} for solid tissue '{}'", name, t.name),
+                  fmt::format("add {}", name));
+    TissueConstants& of = model.tissue[t.id];
+    of.stiffness_n_per_mm = m.voigt.stiffness_n_per_mm;
+    of.damping_n_s_per_mm = m.voigt.damping_n_s_per_mm;
+    if (t.solid && by_pressure) of.resistance_n_per_mm2 = k_mm_per_m / m.wear_mm3_per_n_m;
+    if (t.solid && !by_pressure) of.recession_per_s = 1.0 / m.tau_s;
   }
   return model;
 }
@@ -56,7 +65,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   Vec3 wanted_n;
   state.removed.clear();
   if ((input.flags & k_pedal_fresh) == 0) out.notices |= k_notice_no_pedal;
-  update_handpiece(config, input, state.handpiece);
+  update_handpiece(config, model.force.drive, input, state.handpiece);
   const Vec3 tip_before_mm = state.estimate.tip_mm;
   update_tip_estimate(state.estimate, input.tip_nm, state.tick, config.position_quantum_mm, config.tick_s);
   if (input.point < model.tray.size()) {
@@ -67,7 +76,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
     look_at_tissue(model, state, tick);       // k, c, 1/τ
     work_out_force(model, state, tick, out);  // F = max(0, k X + c V + Σ)
     wanted_n = render(model, state, tick);    // k X + z + b V + Σ, along n
-    cut(model, state, tick, out);             // r' = X/τ · rpm/rpm_ref
+    cut(model, state, tick, out);             // r' = X/τ · rpm/rpm_ref, or by pressure
   } else {
     out.notices |= k_notice_bad_point;
     state.handpiece = {};

@@ -32,7 +32,7 @@ void look_at_tissue(const ServoModel& model, ServoState& state, Tick& tick) noex
 void work_out_force(const ServoModel& model, ServoState& state, Tick& tick, TickOutput& out) noexcept;
 /// The same as a sampled device may be given it, N: k X + z + b V + Σ tissue terms, and drag through a spring.
 [[nodiscard]] Vec3 render(const ServoModel& model, ServoState& state, const Tick& tick) noexcept;
-/// r' = X/τ · rpm/rpm_ref; the head, moved on by r, is carved when enough has gathered.
+/// r' = X/τ · rpm/rpm_ref, or by pressure (grinding.h); the head, moved on by r, is carved when enough has gathered.
 void cut(const ServoModel& model, ServoState& state, const Tick& tick, TickOutput& out) noexcept;
 
 }  // namespace cavum

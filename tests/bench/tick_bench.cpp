@@ -5,7 +5,7 @@
 // times. The step is deterministic: tick n does the same work each time, so what is above the least was done by something else on the machine. How
 // often and how long that stops a thread which does nothing but ask for the time is printed first.
 //   tick_bench [TICKS [TOOTH.cvt]]   times; with a tooth file also on that tooth
-//   tick_bench count LEAF            drills 2000 ticks in a block, for valgrind --tool=callgrind --toggle-collect='cavum::step*'
+//   tick_bench count LEAF [SET]      drills 2000 ticks in a block, for valgrind --tool=callgrind --toggle-collect='cavum::step*'
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -60,9 +60,9 @@ Quantiles quantiles(std::vector<double> us) {
 }
 
 /// Drills straight down at 0.25 mm/s from `top`, timing each tick from the third second on.
-std::vector<double> drill(const Tooth& tooth, const DiamondPoint& point, Vec3 top, int ticks) {
+std::vector<double> drill(const Tooth& tooth, const DiamondPoint& point, Vec3 top, int ticks, const char* set = "consistent") {
   const Vec3 start = top + Vec3{0, 0, 0.05};
-  Rig rig(tooth, {point}, shipped_model("consistent"), start);
+  Rig rig(tooth, {point}, shipped_model(set), start);
   rig.spin_up(start);
   double z = start.z;
   std::vector<double> us;
@@ -165,7 +165,7 @@ namespace cavum {
 namespace {
 
 int usage() {
-  std::fprintf(stderr, "tick_bench: use [TICKS [TOOTH.cvt]], 100 to 1000000 ticks, or count LEAF, 0.02 to 0.5 mm\n");
+  std::fprintf(stderr, "tick_bench: use [TICKS [TOOTH.cvt]], 100 to 1000000 ticks, or count LEAF [SET], 0.02 to 0.5 mm\n");
   return 2;
 }
 
@@ -174,7 +174,7 @@ int run(int argc, char** argv) {
   const auto block = [](double leaf) { return make_block({4, 4, 5.6}, {{"enamel", 5.6}}, leaf); };
   if (argc > 2 && std::strcmp(argv[1], "count") == 0) {
     if (!(std::atof(argv[2]) >= 0.02 && std::atof(argv[2]) <= 0.5)) return usage();
-    (void)drill(block(std::atof(argv[2])), ball, {0, 0, 0}, 2000);
+    (void)drill(block(std::atof(argv[2])), ball, {0, 0, 0}, 2000, argc > 3 ? argv[3] : "consistent");
     return 0;
   }
   const int ticks = argc > 1 ? std::atoi(argv[1]) : 8000;

@@ -25,13 +25,10 @@ void fuzz_settings(Data data) {
 
 std::vector<Bytes> settings_seeds() {
   const auto with = [](char kind, const std::string& text) { return bytes_of(kind + text); };
-  return {with(0, data_text("materials/paper.toml")),
-          with(0, data_text("materials/consistent.toml")),
-          with(1, to_toml(ServoConfig{})),
-          with(2, data_text("points/round-1.0.toml")),
-          with(2, data_text("points/flame-1.0.toml")),
-          with(2, data_text("points/cylinder-flat-1.0.toml")),
-          with(2, data_text("points/endo-access-1.0.toml"))};
+  return {with(0, data_text("materials/paper.toml")),          with(0, data_text("materials/consistent.toml")),
+          with(0, data_text("materials/clinical.toml")),       with(1, to_toml(ServoConfig{})),
+          with(2, data_text("points/round-1.0.toml")),         with(2, data_text("points/flame-1.0.toml")),
+          with(2, data_text("points/cylinder-flat-1.0.toml")), with(2, data_text("points/endo-access-1.0.toml"))};
 }
 
 }  // namespace cavum::fuzz

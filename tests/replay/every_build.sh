@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # every_build.sh CAVUM SOURCE_DIR BUILD_DIR REPLAYER...
-# Records two simulated candidates at two tasks with CAVUM, takes the recorded exams in tests/replay/sessions too, and
+# Records three simulated candidates with CAVUM, one of them under the set that cuts by pressure, takes the recorded exams in tests/replay/sessions too, and
 # lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All must verify and
 # print the same lines. With CAVUM_DEEP one for arm64 is built, too.
 set -euo pipefail
@@ -9,8 +9,9 @@ shift 3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
-for sitting in perforator:class_1 novice:slot; do
-  "$cavum" exam "$source/data/scenarios/${sitting#*:}.toml" --candidate replay --operator "${sitting%:*}" --out "$work/${sitting%:*}.cavum" --quiet >/dev/null
+for sitting in perforator:class_1:consistent novice:slot:consistent expert:slot:clinical; do
+  IFS=: read -r operator task model <<<"$sitting"
+  "$cavum" exam "$source/data/scenarios/$task.toml" --candidate replay --operator "$operator" --model "$model" --out "$work/$operator.cavum" --quiet >/dev/null
 done
 cp "$source"/tests/replay/sessions/*.cavum "$work/"
 replayers=("$@")

@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/rig/cube_rig.h"
+#include "engine/rig/grind_rig.h"
 #include "engine/rig/press_rig.h"
 #include "engine/rig/record_rig.h"
 #include "engine/rig/servo_rig.h"
@@ -54,6 +55,12 @@ struct PressArgs : Common {
   std::vector<double> hand_n_per_m;
   PressOptions options;
   bool cells = false;
+};
+
+struct GrindArgs {
+  std::string model = "clinical", point = "cylinder-flat-1.0";
+  bool json = false;
+  GrindOptions options;
 };
 
 struct ServoArgs {
@@ -168,6 +175,14 @@ bool run_press(PressArgs a) {
   return result.within_limits();
 }
 
+void run_grind(const GrindArgs& a) {
+  const GrindResult result = run_grind_rig(load_model(a.model), load_point(a.point), a.options);
+  if (a.json)
+    print_json(to_json(result));
+  else
+    std::cout << to_text(result);
+}
+
 bool run_servo(const ServoArgs& a) {
   require_writable(a.out);
   const std::string point = data_path("points", a.point), model = data_path("materials", a.model);
@@ -249,6 +264,22 @@ void add_press(CLI::App& rig, int& exit_code) {
   verb->callback([a, &exit_code] { exit_code = run_press(*a) ? 0 : 1; });
 }
 
+void add_grind(CLI::App& rig, int& exit_code) {
+  auto* verb = rig.add_subcommand("grind", "How fast a point under a constant load removes each tissue, and how fast it turns meanwhile");
+  const auto a = std::make_shared<GrindArgs>();
+  GrindOptions& o = a->options;
+  verb->add_option("--model", a->model, "force model: clinical, paper, consistent, or a TOML file")->capture_default_str();
+  verb->add_option("--point", a->point, "diamond point: a name of data/points, or a TOML file")->capture_default_str();
+  verb->add_option("--load-n", o.load_n, "loads, N")->delimiter(',')->check(between(0.05, 10.0))->capture_default_str();
+  verb->add_option("--rpm", o.rpm, "free speed of the handpiece")->check(between(1000.0, 1e6))->capture_default_str();
+  verb->add_flag("--side", o.side, "the point lies on its side instead of standing on its end");
+  verb->add_flag("--json", a->json, "one JSON object on standard output");
+  verb->callback([a, &exit_code] {
+    run_grind(*a);
+    exit_code = 0;
+  });
+}
+
 void add_servo(CLI::App& rig, int& exit_code) {
   auto* verb =
       rig.add_subcommand("servo", "Does this computer keep the servo's time? Drills in real time and records it. Exit 1 when a tick was late");
@@ -287,6 +318,7 @@ void add_rig_verbs(CLI::App& app, int& exit_code) {
   add_cube(*rig, exit_code);
   add_tooth(*rig, exit_code);
   add_press(*rig, exit_code);
+  add_grind(*rig, exit_code);
   add_servo(*rig, exit_code);
   add_record(*rig, exit_code);
 }

@@ -48,6 +48,20 @@ void write(std::ostream& out, const char* key, const std::vector<double>& values
   out << "]\n";
 }
 
+/// What stands under [cutting], and [handpiece] where there is one.
+std::string cutting_toml(const ForceModel& model) {
+  std::ostringstream out;
+  out.precision(17);
+  if (model.law == CuttingLaw::penetration) {
+    out << "rpm_ref = " << model.rpm_ref << "\n";
+    return out.str();
+  }
+  out << "law = \"pressure\"\nforce_ratio = " << model.force_ratio << "\n";
+  if (model.drive.torque_n_mm > 0.0)
+    out << "\n[handpiece]\ntorque_n_mm = " << model.drive.torque_n_mm << "\nslip_rpm = " << model.drive.slip_rpm << "\n";
+  return out.str();
+}
+
 }  // namespace
 
 std::string material_of(const ForceModel& model) {
@@ -66,8 +80,8 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
   std::ostringstream out;
   out.precision(17);
   out << "# Written by `cavum explain`: verdict " << e.verdict
-      << ".\nname = " << quoted(start.name.ends_with("-extended") ? start.name : start.name + "-extended")
-      << "\n\n[cutting]\nrpm_ref = " << start.rpm_ref << "\n\n[rendering]\nkvc_n_per_mm = " << start.rendering.kvc_n_per_mm
+      << ".\nname = " << quoted(start.name.ends_with("-extended") ? start.name : start.name + "-extended") << "\n\n[cutting]\n"
+      << cutting_toml(start) << "\n[rendering]\nkvc_n_per_mm = " << start.rendering.kvc_n_per_mm
       << "\nfiltered_damping_n_s_per_mm = " << start.rendering.filtered_damping_n_s_per_mm << "\nspeed_filter_s = " << start.rendering.speed_filter_s
       << "\ndrag_n_per_mm = " << start.rendering.drag_n_per_mm << "\n";
   // What was measured is the one material; the others keep their ratio to it.
@@ -79,6 +93,7 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
         << "]\nk_n_per_mm = " << scaled(m.voigt.stiffness_n_per_mm, of_measured.stiffness_n_per_mm, e.base.k_n_per_mm)
         << "\nc_n_s_per_mm = " << scaled(m.voigt.damping_n_s_per_mm, of_measured.damping_n_s_per_mm, e.base.c_n_s_per_mm) << "\n";
     if (m.tau_s > 0.0) out << "tau_s = " << m.tau_s << "\n";
+    if (m.wear_mm3_per_n_m > 0.0) out << "wear_mm3_per_n_m = " << m.wear_mm3_per_n_m << "\n";
   }
   const auto effect = [&](const MeasurementEffect& m, const std::string& why) {
     out << "\n# " << why << "\n[[measurement]]\nkind = " << quoted(m.kind) << "\n";

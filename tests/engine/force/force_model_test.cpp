@@ -29,25 +29,55 @@ TEST(ForceModel, TheConsistentSetIsCriticallyDampedAt45Grams) {
   EXPECT_NEAR(m.voigt.damping_n_s_per_mm * 1000, critical_n_s_per_m, 0.01);
 }
 
-TEST(ForceModel, BrokenFilesAreErrorsWithLineAndColumn) {
-  const std::string good = read_text_file(data_path("materials/paper.toml"));
-  const std::pair<const char*, const char*> edits[] = {{"rpm_ref = 200000.0", "rpm_ref = 0"},
-                                                       {"k_n_per_mm = 0.8", "k_n_per_mm = -0.8"},
-                                                       {"k_n_per_mm = 0.8", "k_n_per_mm = nan"},
-                                                       {"k_n_per_mm = 0.8", "k_n_per_m = 800"},
-                                                       {"c_n_s_per_mm = 1.7888543819998317", "c_n_s_per_mm = \"1.79\""},
-                                                       {"[materials.enamel]", "[material.enamel]"},
-                                                       {"[cutting]", "[cuting]"},
-                                                       {"speed_filter_s = 0.005", ""},
-                                                       {"name = \"paper\"", "name = paper"}};
-  for (const auto& [from, to] : edits) {
-    std::string text = good;
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, std::string(from).size(), to);
-    const std::string error = error_of([&] { (void)parse_force_model(text, "m.toml"); });
-    EXPECT_TRUE(std::regex_search(error, std::regex("^m\\.toml:[0-9]+:[0-9]+: .+; .+"))) << to << ": '" << error << "'";
+/// What is wrong with a shipped set in which `from` reads `to`.
+std::string broken(const std::string& set, const std::string& from, const std::string& to) {
+  std::string text = read_text_file(data_path("materials/" + set + ".toml"));
+  const auto at = text.find(from);
+  if (at == std::string::npos) return "no '" + from + "' in it";
+  text.replace(at, from.size(), to);
+  return error_of([&] { (void)parse_force_model(text, "m.toml"); });
+}
+
+TEST(ForceModel, TheClinicalSetCutsByPressureAndTellsTissuesApart) {
+  const ForceModel model = shipped_model("clinical"), felt = shipped_model("consistent");
+  EXPECT_EQ(model.law, CuttingLaw::pressure);
+  EXPECT_EQ(felt.law, CuttingLaw::penetration);
+  const auto wear = [&](const char* tissue) { return model.materials.find(tissue)->second.wear_mm3_per_n_m; };
+  EXPECT_NEAR(wear("dentin") / wear("enamel"), 274.8 / 65.6, 0.05) << "the ratio of hardness";
+  EXPECT_EQ(wear("pulp"), 0.0);
+  for (const auto& [name, m] : felt.materials) {
+    EXPECT_EQ(model.materials.find(name)->second.voigt.stiffness_n_per_mm, m.voigt.stiffness_n_per_mm) << name;
+    EXPECT_EQ(model.materials.find(name)->second.voigt.damping_n_s_per_mm, m.voigt.damping_n_s_per_mm) << name;
   }
+}
+
+TEST(ForceModel, BrokenFilesAreErrorsWithLineAndColumn) {
+  const std::pair<const char*, const char*> of_paper[] = {{"rpm_ref = 200000.0", "rpm_ref = 0"},
+                                                          {"k_n_per_mm = 0.8", "k_n_per_mm = -0.8"},
+                                                          {"k_n_per_mm = 0.8", "k_n_per_mm = nan"},
+                                                          {"k_n_per_mm = 0.8", "k_n_per_m = 800"},
+                                                          {"c_n_s_per_mm = 1.7888543819998317", "c_n_s_per_mm = \"1.79\""},
+                                                          {"[materials.enamel]", "[material.enamel]"},
+                                                          {"[cutting]", "[cuting]"},
+                                                          {"[cutting]", "[handpiece]\ntorque_n_mm = 1.0\nslip_rpm = 1.0\n[cutting]"},
+                                                          {"tau_s = 2.02", "wear_mm3_per_n_m = 0.005"},
+                                                          {"speed_filter_s = 0.005", ""},
+                                                          {"name = \"paper\"", "name = paper"}};
+  const std::pair<const char*, const char*> of_clinical[] = {{"law = \"pressure\"", "law = \"force\""},
+                                                             {"law = \"pressure\"", "law = \"penetration\""},
+                                                             {"law = \"pressure\"", "law = \"pressure\"\nrpm_ref = 200000.0"},
+                                                             {"force_ratio = 0.4", "force_ratio = -0.4"},
+                                                             {"force_ratio = 0.4", ""},
+                                                             {"torque_n_mm = 1.4", "torque_n_mm = 0"},
+                                                             {"slip_rpm = 400000.0 ", "slip = 400000.0 "},
+                                                             {"wear_mm3_per_n_m = 0.005", "tau_s = 2.02"},
+                                                             {"wear_mm3_per_n_m = 0.005", "wear_mm3_per_n_m = -0.005"},
+                                                             {"wear_mm3_per_n_m = 0.005", "wear_mm3_per_n_m = 1e-300"}};
+  const std::regex place("^m\\.toml:[0-9]+:[0-9]+: .+; .+");
+  for (const auto& [from, to] : of_paper)
+    EXPECT_TRUE(std::regex_search(broken("paper", from, to), place)) << to << ": '" << broken("paper", from, to) << "'";
+  for (const auto& [from, to] : of_clinical)
+    EXPECT_TRUE(std::regex_search(broken("clinical", from, to), place)) << to << ": '" << broken("clinical", from, to) << "'";
 }
 
 }  // namespace

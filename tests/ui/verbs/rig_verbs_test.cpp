@@ -60,6 +60,17 @@ TEST_F(RigVerbs, PressOfASingleCellSaysWhetherItIsWithinTheLimits) {
   EXPECT_NE(read_text_file(path("p.svg")).find("hand 300 N/m"), std::string::npos);
 }
 
+TEST_F(RigVerbs, GrindSaysHowFastEachTissueGoesUnderALoad) {
+  const Ran r = run("rig grind --load-n 0.65,1.05 --json");
+  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
+  const json j = json::parse(r.out);
+  ASSERT_EQ(j["rows"].size(), 6u);
+  EXPECT_EQ(j["rows"][0]["tissue"], "dentin");
+  EXPECT_LT(j["rows"][1]["rpm"], j["rows"][0]["rpm"]) << "more load, less speed";
+  EXPECT_GT(j["rows"][1]["mm3_per_min"], j["rows"][0]["mm3_per_min"]);
+  EXPECT_NE(run("rig grind --point round-1.0 --load-n 0.65").out.find("enamel"), std::string::npos);
+}
+
 TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
   expect_refused("rig cube --out " + path("c.png"), {"use a name ending in .svg"});
   expect_refused("rig cube --out " + path("no/folder/c.svg"), {"c.svg"});
@@ -75,6 +86,9 @@ TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
     expect_refused(std::string("rig ") + nan, {"'nan' is no number from"});
   expect_refused("rig servo --seconds nan --out " + path("s.cavum"), {"'nan' is no number from"});
   expect_refused("rig servo", {"--out"});
+  expect_refused("rig grind --load-n 0", {"--load-n"});
+  expect_refused("rig cube --model clinical", {"cuts by pressure", "rig grind"});
+  expect_refused("rig tooth --model clinical", {"cuts by pressure"});
   write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
   expect_refused("rig tooth --model " + path("bad.toml"), {"bad.toml:3"});
 }

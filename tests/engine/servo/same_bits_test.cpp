@@ -1,0 +1,35 @@
+// The sets that cut by penetration give the bits that physics 5 gave before there was another law of cutting: the hashes were taken from that
+// program.
+#include <gtest/gtest.h>
+
+#include "engine/base/det_math.h"
+#include "engine/tooth/make/make_block.h"
+#include "tests/engine/support/engine_testing.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_engine;
+
+/// Down through enamel and dentin into pulp, swaying, tilted, with a pedal that is half released on the way.
+std::uint64_t drilled_hash(const std::string& set, const std::string& point) {
+  static const Tooth block = make_block({3.0, 3.0, 2.4}, {{"enamel", 0.8}, {"dentin", 0.8}, {"pulp", 0.4}, {"dentin", 0.4}}, 0.05);
+  Rig rig(block, {diamond_point(point)}, shipped_model(set), {0.2, 0, 0.05});
+  rig.spin_up({0.2, 0, 0.05});
+  for (int i = 0; i < 9000; ++i) {
+    const SinCos sway = det_sincos(2 * k_pi * 0.7e-3 * i);
+    const Quat turned = normalized(Quat{1.0, 0.05 * sway.sin, 0.03 * sway.cos, 0.0});
+    (void)rig.tick({0.2 * sway.cos, 0.3 * sway.sin, 0.05 - 0.35e-3 * i}, i / 1000 % 3 == 2 ? 0.5 : 1.0, turned);
+  }
+  return state_hash(rig.state);
+}
+
+TEST(SameBits, SetsThatCutByPenetrationAreWhatTheyWere) {
+  EXPECT_EQ(drilled_hash("paper", "round-1.0"), 1884002967465141591u);
+  EXPECT_EQ(drilled_hash("consistent", "round-1.0"), 17331915814153634025u);
+  EXPECT_EQ(drilled_hash("paper", "cylinder-flat-1.0"), 8082216859165726856u);
+  EXPECT_EQ(drilled_hash("consistent", "inverted-cone-1.0"), 3146552370888440034u);
+}
+
+}  // namespace
+}  // namespace cavum
