@@ -15,7 +15,7 @@ Tooth block() {
            in_box(p, {0.8, -0.3, -5.3}, {1.2, 0.3, -4.5});
   };
   return testing::make_tooth(
-      {-3.4, -2.8, -5.8}, {3.4, 2.8, 0.3}, 0.1,
+      {-3, -2.5, -5.7}, {3, 2.5, 0.3}, 0.1,
       [pulp](Vec3 p) -> std::uint8_t {
         return p.z > 0 ? k_air : p.z < -5.3 ? k_periodontium : pulp(p) ? k_pulp : p.z > -1.5 ? k_enamel : k_dentin;
       },

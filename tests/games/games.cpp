@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <set>
+
 #include "engine/base/random.h"
 #include "tests/games/bodies.h"
 
@@ -183,6 +185,23 @@ Game under_a_skin(const Task& task) {
     return false;
   };
   return cutting("skin_left", either(sparing(g.target, tree, skin), both(g.target, g.hole(0, 0, 0.5, g.floor))), Fair::not_pass);
+}
+
+Game lips_over_the_canals(const Task& task) {
+  const Ground g(task);
+  const Octree& tree = task.tooth.octree;
+  constexpr double k_thick_mm = 0.6;
+  std::set<IVec3> lip;
+  for (std::size_t i = 0; i < task.leaves.size(); ++i) {
+    if (!task.is_hard[i]) continue;
+    // straight on into the tooth: the pulp begins near, and is there still where the target ends
+    double to_pulp = -1, s = 0;
+    Vec3 p = task.leaves[i];
+    for (; task.zones.zone(tree.leaf_at(p)) == scenarios::Zone::target; s += tree.leaf_mm(), p = p - g.f.out * tree.leaf_mm())
+      if (to_pulp < 0 && tree.tissue_at(p) == k_pulp) to_pulp = s;
+    if (to_pulp >= 0 && to_pulp <= k_thick_mm && tree.tissue_at(p) == k_pulp) lip.insert(tree.leaf_at(task.leaves[i]));
+  }
+  return cutting("lips_over_the_canals", sparing(g.target, tree, [lip](IVec3 l) { return lip.contains(l); }), Fair::not_pass);
 }
 
 std::vector<Game> mixtures_of(const Task& task, std::uint64_t seed, int count) {

@@ -67,6 +67,22 @@ TEST_P(Games, NonePassesWhoseWallsOrFloorAreAMillimetreOff) {
 
 TEST_P(Games, NonePassesThatLeavesTheToothClosedByASkin) { judge(ground(), honest_mark(), under_a_skin(ground())); }
 
+TEST_P(Games, NonePassesWithEveryCanalCovered) {
+  if (ground().scenario.perforation.aims.empty()) return;  // no canals to find
+  judge(ground(), honest_mark(), lips_over_the_canals(ground()));
+}
+
+/// The criterion called so gives no points from 12 degrees on.
+TEST_P(Games, WallsThatLeanByTwentyDegreesAreNotUpright) {
+  for (const auto& game : games_of(ground())) {
+    if (game.name != "tilted_20") continue;
+    Sitting s(ground());
+    game.play(s);
+    const grading::Result r = s.marked();
+    for (const auto& c : r.criteria) EXPECT_LE(c.points, (c.id == "upright" ? 0.5 : 1.0) * c.max) << told(r);
+  }
+}
+
 TEST_P(Games, NoMixtureIsMarkedBetterThanHonestWork) {
   const std::uint64_t seed = testing_basics::drawn_seed("Games.NoMixtureIsMarkedBetterThanHonestWork");
   for (const auto& game : mixtures_of(ground(), seed, 5)) judge(ground(), honest_mark(), game);

@@ -170,7 +170,7 @@ Work worse(const Task& t, Work& a, Respect respect, Random& random) {
     case Respect::cut_elsewhere: {
       const Frame f(t);
       const double angle = random.uniform(0, 2 * std::numbers::pi);
-      const Vec3 at = t.middle_mm + (f.u * std::cos(angle) + f.v * std::sin(angle)) * 3.2 + out * (height_of(t, true) - dot(t.middle_mm, out));
+      const Vec3 at = t.middle_mm + (f.u * std::cos(angle) + f.v * std::sin(angle)) * 2.4 + out * (height_of(t, true) - dot(t.middle_mm, out));
       add(t, b, stroke(at, at - out * 1.5, size), fmt::format("elsewhere {:.3f} at {}", size, told(at)));
       return b;
     }
