@@ -80,7 +80,7 @@ class Exams : public testing_ui::Program {
 TEST_F(Exams, GamesByHandAreMarkedBelowHonestWorkAndDoNotPass) {
   const auto best = sat("honest", "--operator expert");
   EXPECT_EQ(best["verdict"], "pass") << best["criteria"].dump();
-  std::vector<std::pair<std::string, Way>> games(6);
+  std::vector<std::pair<std::string, Way>> games(5);
   auto* at = games.data();
   const auto next = [&](const char* name) -> Way& {
     at->first = name;
@@ -105,17 +105,12 @@ TEST_F(Exams, GamesByHandAreMarkedBelowHonestWorkAndDoNotPass) {
   circle.done();
   Way& pulse = next("pulse");
   pulse.pulse_s = 0.25;
-  to_and_fro(pulse, -1.5, 0.5);
+  to_and_fro(pulse, -1.5, 0.75);
   pulse.done();
   Way& lean = next("lean");
   lean.tilt_deg = 30;
-  to_and_fro(lean, -1.5, 0.3);
+  to_and_fro(lean, -1.5, 0.5);
   lean.done();
-  Way& shank = next("shank");
-  shank.to(0, 0, -1.5, 0.2);
-  for (int n = 0; n < 3; ++n)
-    for (const double x : {2.25, -2.25}) shank.to(x, 1.2, -1.5, 0.8);
-  shank.done();
   for (const auto& [name, way] : games) {
     const auto j = marked(name, way);
     EXPECT_LE(j["score"]["points"].get<double>(), best["score"]["points"].get<double>()) << name << j["criteria"].dump();

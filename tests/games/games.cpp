@@ -86,7 +86,6 @@ void too_little(std::vector<Game>& list, const Ground& g) {
                   },
                   Fair::fail});
   list.push_back(cutting("hold", g.hole(0, 0, 0.5, g.floor), Fair::fail));
-  list.push_back(cutting("hold_too_deep", g.hole(0, 0, 0.5, g.floor - 1.2), Fair::fail));
   Body pecks = [](Vec3) { return 1e3; };
   for (int i = -6; i <= 6; ++i)
     for (int j = -6; j <= 6; ++j)
@@ -103,7 +102,6 @@ void too_little(std::vector<Game>& list, const Ground& g) {
       return false;
     };
     list.push_back(cutting("thin_roof_left", sparing(g.target, tree, roof), Fair::not_pass));
-    list.push_back(cutting("thin_roof_with_a_hole", either(sparing(g.target, tree, roof), both(g.target, g.hole(0, 0, 0.5, g.floor)))));
   }
   if (g.t.name == "hidden_lesion") {
     const std::uint8_t lesion = g.t.tooth.tissue_id("lesion");
@@ -140,7 +138,6 @@ void about_time(std::vector<Game>& list, const Ground& g) {
     s.hand_in();
   };
   list.push_back({"pulse", [pulse, &t = g.t](Sitting& s) { pulse(s, t, 20); }});
-  list.push_back({"pulse_half", [pulse, &t = g.t](Sitting& s) { pulse(s, t, 10); }, Fair::fail});
   list.push_back({"wrong_point_at_wild_speed", [body = g.target](Sitting& s) {
                     s.cut(body, 20, Hand{6.0, 400000, true, true, 200});
                     s.hand_in();

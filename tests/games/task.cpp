@@ -53,7 +53,10 @@ Tooth halved(const Tooth& fine) {
 }
 
 Task laid(const std::string& name, scenarios::Scenario scenario, Tooth tooth) {
-  Task t{name, std::move(scenario), std::move(tooth), {}, {}, {}, {}, {}, {}};
+  Task t;
+  t.name = name;
+  t.scenario = std::move(scenario);
+  t.tooth = std::move(tooth);
   t.tooth.octree.reserve_edits(80000);
   t.zones = scenarios::build_zones(t.scenario, t.tooth);
   t.low_mm = t.zones.target_low_mm();
@@ -116,8 +119,13 @@ Task task_on(const std::string& toml, const std::string& name, Tooth tooth) {
 }
 
 Body grown_target(const Task& t, double by_mm) {
-  const scenarios::ZoneMap& zones = t.zones;
-  return [&zones, by_mm](Vec3 p) { return zones.distance_mm(p) - by_mm; };
+  return [&t, by_mm](Vec3 p) {
+    if (p.x != t.asked_mm.x || p.y != t.asked_mm.y || p.z != t.asked_mm.z) {
+      t.asked_mm = p;
+      t.answer_mm = t.zones.distance_mm(p);
+    }
+    return t.answer_mm - by_mm;
+  };
 }
 
 }  // namespace cavum::games

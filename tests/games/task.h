@@ -22,6 +22,9 @@ struct Task {
   Vec3 middle_mm;             ///< mean of the target's leaves
   std::vector<Vec3> leaves;   ///< centres of the target's leaves, mm
   std::vector<bool> is_hard;  ///< of each of them
+  /// The last distance asked for, and where: bodies put together of several ask for it again and again.
+  mutable Vec3 asked_mm{1e9, 1e9, 1e9};
+  mutable double answer_mm = 0.0;
 };
 
 /// Names of all data/scenarios/*.toml, sorted.
