@@ -1,0 +1,111 @@
+// Pairs of sessions: the second is the first made worse in one respect, and is never marked better, neither in points nor in verdict. Rubrics drawn
+// at random on a block with a pulp chamber, and those that ship.
+#include "tests/games/pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "tests/engine/support/basics.h"
+#include "tests/games/block.h"
+
+namespace cavum::games {
+namespace {
+
+// A cut a leaf beside the target moves the surface there by parts of a leaf, and what was left of a target's border leaf by less than this; points.
+constexpr double k_sliver = 0.02;
+
+/// How many pairs of each respect there were, printed at the end.
+std::map<std::string, int>& counted() {
+  static std::map<std::string, int> all;
+  return all;
+}
+
+std::string compared(const grading::Result& a, const grading::Result& b) {
+  std::string text;
+  for (std::size_t i = 0; i < a.criteria.size(); ++i)
+    if (a.criteria[i].points != b.criteria[i].points || a.criteria[i].critical_failed != b.criteria[i].critical_failed)
+      text += "\n    " + a.criteria[i].metric + ": " + std::to_string(a.criteria[i].value.value_or(-99)) + " " +
+              std::to_string(a.criteria[i].points) + (a.criteria[i].critical_failed ? "!" : "") + " -> " +
+              std::to_string(b.criteria[i].value.value_or(-99)) + " " + std::to_string(b.criteria[i].points) +
+              (b.criteria[i].critical_failed ? "!" : "") + " of " + std::to_string(a.criteria[i].max);
+  return text;
+}
+
+void hold(const Task& t, const scenarios::RubricSpec& rubric, std::uint64_t seed, int group, const std::vector<Respect>& respects) {
+  if (const char* only = std::getenv("CAVUM_GAMES_GROUP"); only != nullptr && std::atoi(only) != group) return;
+  Random random(seed + static_cast<std::uint64_t>(group) * 1000003);
+  Work first = drawn_work(t, random);
+  Sitting sat(t);
+  play(first, sat);
+  const grading::Result marked = sat.marked_by(rubric);
+  for (const Respect respect : respects) {
+    Work a = first;
+    const Work b = worse(t, a, respect, random);
+    grading::Result of_a = marked;
+    if (a.words != first.words) {
+      Sitting again(t);
+      play(a, again);
+      of_a = again.marked_by(rubric);
+    }
+    Sitting other(t);
+    play(b, other);
+    const grading::Result of_b = other.marked_by(rubric);
+    ++counted()[respect_name(respect)];
+    const std::string where = t.name + ", CAVUM_TEST_SEED=" + std::to_string(seed) + " CAVUM_GAMES_GROUP=" + std::to_string(group) + ", " +
+                              respect_name(respect) + "\n  A: " + a.words + "\n  B: " + b.words + compared(of_a, of_b);
+    EXPECT_LE(of_b.points, of_a.points + k_sliver) << where;
+    EXPECT_LE(rank(of_b.verdict), rank(of_a.verdict)) << of_a.points << " -> " << of_b.points << " of " << of_a.max_points << ": " << where;
+    for (std::size_t i = 0; i < of_a.criteria.size(); ++i)
+      EXPECT_LE(of_b.criteria[i].points, of_a.criteria[i].points + k_sliver) << of_a.criteria[i].metric << ": " << where;
+  }
+}
+
+std::vector<Respect> drawn_respects(Random& random, std::size_t count) {
+  std::vector<Respect> list;
+  while (list.size() < count) list.push_back(static_cast<Respect>(random.below(k_respects)));
+  return list;
+}
+
+TEST(Pairs, TheWorseOfTwoIsNeverMarkedBetterByDrawnRubrics) {
+  const std::uint64_t seed = testing_basics::drawn_seed("Pairs.TheWorseOfTwoIsNeverMarkedBetterByDrawnRubrics");
+  for (int group = 0; group < 67; ++group) {
+    const Task& t = block_task(group % 4 == 3);
+    Random random(seed * 31 + static_cast<std::uint64_t>(group));
+    const auto rubric = drawn_rubric(t, random);
+    hold(t, rubric, seed, group, drawn_respects(random, 7));
+  }
+  for (const auto& [respect, pairs] : counted()) std::printf("%-20s %d pairs\n", respect.c_str(), pairs);
+}
+
+/// The way into the chamber, a tenth of a millimetre narrow and its floor untouched, is not worth less than one that scrapes the floor besides. Found
+/// by drawn rubrics: without a cut on the floor `floor_max_under_mm` has no value, and no points.
+TEST(Findings, ScrapingTheChambersFloorGainsNothing) {
+  const Task& t = block_task(true);
+  for (const char* metric : {"floor_max_under_mm", "floor_max_over_mm", "walls_max_under_mm"}) {
+    scenarios::RubricSpec rubric = t.scenario.rubric;
+    rubric.criteria.push_back({metric, metric, metric, 0.1, 1.0, 40, {}, {}});
+    Sitting kept(t), scraped(t);
+    kept.cut(grown_target(t, -0.1), 10);
+    kept.hand_in();
+    scraped.cut(either(grown_target(t, -0.1), without([](Vec3 p) { return length(p - Vec3{0, 0.5, -4.5}) - 0.3; }, grown_target(t))), 10);
+    scraped.hand_in();
+    const grading::Result a = kept.marked_by(rubric), b = scraped.marked_by(rubric);
+    EXPECT_LE(b.points, a.points + k_sliver) << metric << "\n  kept: " << told(a) << "\n  scraped: " << told(b);
+    EXPECT_LE(rank(b.verdict), rank(a.verdict)) << metric << "\n  kept: " << told(a) << "\n  scraped: " << told(b);
+  }
+}
+
+class ShippedPairs : public ::testing::TestWithParam<std::string> {};
+TEST_P(ShippedPairs, TheWorseOfTwoIsNeverMarkedBetter) {
+  const std::uint64_t seed = testing_basics::drawn_seed("ShippedPairs.TheWorseOfTwoIsNeverMarkedBetter");
+  const Task& t = coarse_task(GetParam());
+  Random random(seed * 37);
+  hold(t, t.scenario.rubric, seed, 100, drawn_respects(random, 4));
+}
+INSTANTIATE_TEST_SUITE_P(Tasks, ShippedPairs, ::testing::ValuesIn(task_names()), [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace cavum::games
