@@ -173,17 +173,6 @@ std::vector<Game> gross_overcuts_of(const Task& task) {
   return list;
 }
 
-Game under_a_skin(const Task& task) {
-  const Ground g(task);
-  const Octree& tree = task.tooth.octree;
-  const auto skin = [&tree, thick = static_cast<int>(0.2 / tree.leaf_mm() + 0.5)](IVec3 l) {
-    for (int k = 1; k <= thick; ++k)
-      if (tree.tissue(l + IVec3{0, 0, k}) == k_air) return true;
-    return false;
-  };
-  return cutting("skin_left", either(sparing(g.target, tree, skin), both(g.target, g.hole(0, 0, 0.5, g.floor))), Fair::not_pass);
-}
-
 Game lips_over_the_canals(const Task& task) {
   const Ground g(task);
   const Octree& tree = task.tooth.octree;

@@ -20,8 +20,6 @@ struct Game {
 [[nodiscard]] std::vector<Game> games_of(const Task& task);
 /// Walls a millimetre and more beside the target, all of them or the floor alone; everything above the floor taken off.
 [[nodiscard]] std::vector<Game> gross_overcuts_of(const Task& task);
-/// The target is gone, but 0.2 mm of the tooth's surface stay over it, and a hole of 1 mm.
-[[nodiscard]] Game under_a_skin(const Task& task);
 /// The way into the pulp, but over the mouth of every canal 0.6 mm of the chamber's roof stay. Of tasks with an aim.
 [[nodiscard]] Game lips_over_the_canals(const Task& task);
 /// Drawn at random from parts of honest work and what may be wrong with it.

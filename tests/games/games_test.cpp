@@ -65,22 +65,9 @@ TEST_P(Games, NonePassesWhoseWallsOrFloorAreAMillimetreOff) {
   for (const auto& game : gross_overcuts_of(ground())) judge(ground(), honest_mark(), game);
 }
 
-TEST_P(Games, NonePassesThatLeavesTheToothClosedByASkin) { judge(ground(), honest_mark(), under_a_skin(ground())); }
-
 TEST_P(Games, NonePassesWithEveryCanalCovered) {
   if (ground().scenario.perforation.aims.empty()) return;  // no canals to find
   judge(ground(), honest_mark(), lips_over_the_canals(ground()));
-}
-
-/// The criterion called so gives no points from 12 degrees on.
-TEST_P(Games, WallsThatLeanByTwentyDegreesAreNotUpright) {
-  for (const auto& game : games_of(ground())) {
-    if (game.name != "tilted_20") continue;
-    Sitting s(ground());
-    game.play(s);
-    const grading::Result r = s.marked();
-    for (const auto& c : r.criteria) EXPECT_LE(c.points, (c.id == "upright" ? 0.5 : 1.0) * c.max) << told(r);
-  }
 }
 
 TEST_P(Games, NoMixtureIsMarkedBetterThanHonestWork) {

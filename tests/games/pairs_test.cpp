@@ -80,24 +80,6 @@ TEST(Pairs, TheWorseOfTwoIsNeverMarkedBetterByDrawnRubrics) {
   for (const auto& [respect, pairs] : counted()) std::printf("%-20s %d pairs\n", respect.c_str(), pairs);
 }
 
-/// The way into the chamber, a tenth of a millimetre narrow and its floor untouched, is not worth less than one that scrapes the floor besides. Found
-/// by drawn rubrics: without a cut on the floor `floor_max_under_mm` has no value, and no points.
-TEST(Findings, ScrapingTheChambersFloorGainsNothing) {
-  const Task& t = block_task(true);
-  for (const char* metric : {"floor_max_under_mm", "floor_max_over_mm", "walls_max_under_mm"}) {
-    scenarios::RubricSpec rubric = t.scenario.rubric;
-    rubric.criteria.push_back({metric, metric, metric, 0.1, 1.0, 40, {}, {}});
-    Sitting kept(t), scraped(t);
-    kept.cut(grown_target(t, -0.1), 10);
-    kept.hand_in();
-    scraped.cut(either(grown_target(t, -0.1), without([](Vec3 p) { return length(p - Vec3{0, 0.5, -4.5}) - 0.3; }, grown_target(t))), 10);
-    scraped.hand_in();
-    const grading::Result a = kept.marked_by(rubric), b = scraped.marked_by(rubric);
-    EXPECT_LE(b.points, a.points + k_sliver) << metric << "\n  kept: " << told(a) << "\n  scraped: " << told(b);
-    EXPECT_LE(rank(b.verdict), rank(a.verdict)) << metric << "\n  kept: " << told(a) << "\n  scraped: " << told(b);
-  }
-}
-
 class ShippedPairs : public ::testing::TestWithParam<std::string> {};
 TEST_P(ShippedPairs, TheWorseOfTwoIsNeverMarkedBetter) {
   const std::uint64_t seed = testing_basics::drawn_seed("ShippedPairs.TheWorseOfTwoIsNeverMarkedBetter");

@@ -22,8 +22,11 @@ const Interval& parameter(const Cause& c, const char* name) {
   return std::find_if(c.parameters.begin(), c.parameters.end(), [&](const auto& p) { return p.first == name; })->second;
 }
 
-/// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, and do not lie at the edge of what was
-/// looked at.
+/// Way that the positions show, mm; 0 when a speed was measured beside them.
+double resolved_mm(const Motion& m) { return m.speed_sd_mm_s > 0.0 ? 0.0 : std::max(m.quantum_mm, std::sqrt(12.0) * m.noise_mm); }
+
+/// A cause that a careful person would sign: its parameters have an end, leave out that nothing is there, do not lie at the edge of what was
+/// looked at, and are no way that the positions do not show.
 bool is_signed(const Cause& c, const Scene& scene) {
   const Mechanism& m = mechanism_of(c.term);
   for (const auto& [name, i] : c.parameters)
@@ -35,6 +38,7 @@ bool is_signed(const Cause& c, const Scene& scene) {
     const double edge = range.logarithmic ? 1e-3 * c.term.shape[i] : 1e-6 * (range.high - range.low);
     if (c.term.shape[i] < range.low + edge || c.term.shape[i] > range.high - edge) return false;
   }
+  if (m.way != nullptr && parameter(c, m.way).value < resolved_mm(*scene.motion)) return false;
   if (m.must_exceed.first != nullptr && parameter(c, m.must_exceed.first).low <= parameter(c, m.must_exceed.second).value) return false;
   return std::any_of(c.parameters.begin(), c.parameters.end(), [&](const auto& p) {
     const bool counts = &p == &c.parameters.front() || m.from_residual || m.several;

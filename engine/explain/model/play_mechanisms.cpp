@@ -87,6 +87,7 @@ Mechanism backlash() {
             return true;
           },
       .one_way = OneWay::needs_reversal,
+      .way = "b_mm",
       .inside = true,
   };
 }
@@ -120,6 +121,7 @@ Mechanism hysteresis() {
           },
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
+      .way = "d_mm",
       .same_as =
           [](const Shape& shape) { return shape[0] > 1.5 ? "coulomb_friction" : nullptr; },  // in air too: friction that gives before it slides
   };
