@@ -41,8 +41,10 @@ Examined examine(const Drilled& d, const grading::BreakthroughSettings& settings
     }
     if (!at_opening) out.false_alarm = true;
     const std::int64_t felt = out.drop.felt() ? out.drop.felt_tick : out.drop.to_tick;
-    const bool at_drop =
-        !opened.empty() && out.drop.from_tick >= 0 && e.seen_tick >= out.drop.from_tick - k_early_ticks && e.tick <= felt + k_late_ticks;
+    const auto within = [&](std::int64_t from, std::int64_t to) { return e.seen_tick >= from && e.tick <= to + k_late_ticks; };
+    // the steepest stretch may come long after the drop could be felt first
+    const bool at_drop = !opened.empty() && out.drop.from_tick >= 0 &&
+                         (within(out.drop.from_tick - k_early_ticks, out.drop.to_tick) || within(felt - grading::k_felt_drop_ticks, felt));
     if (at_drop && !out.seen) out.seen = true, out.delay_ms = static_cast<double>(e.seen_tick - felt);
     if (at_drop || opened.empty()) out.sureness = std::max(out.sureness, e.sureness);
   }

@@ -57,7 +57,7 @@ std::string log_line(const Examined& e) {
   for (const auto& b : e.events) events += fmt::format("{}{}:{}:{:.2f}", events.empty() ? "" : ";", b.tick, b.seen_tick, b.sureness);
   std::string style = e.style;
   std::replace(style.begin(), style.end(), ',', ';');
-  return fmt::format("{},{},{},{},{:d},{:.0f},{},{},{},{:.1f},{},{:.4f},{:.3f},{:.2f},{},{},{},{:d},{:.0f},{:.2f},{:d},{}", e.hand, e.style, e.tooth,
+  return fmt::format("{},{},{},{},{:d},{:.0f},{},{},{},{:.1f},{},{:.4f},{:.3f},{:.2f},{},{},{},{:d},{:.0f},{:.2f},{:d},{}", e.hand, style, e.tooth,
                      e.point, e.meant_to_open, e.tilt_deg, e.friction_n, e.noise_n, e.quantum_mm, e.seconds, e.opened_tick, e.area_mm2,
                      e.drop.missing_n, e.drop.share, e.drop.from_tick, e.drop.to_tick, e.drop.felt_tick, e.seen, e.delay_ms, e.sureness,
                      e.false_alarm, events);
