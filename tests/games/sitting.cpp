@@ -22,13 +22,13 @@ std::vector<std::string> tray_of(const Task& t) {
 Sitting::Sitting(const Task& task)
     : task_(task),
       after_(task.tooth.octree),
-      runner_(task.scenario, task.zones, task.tooth, tray_of(task)),
+      runner_(task.scenario, task.zones, task.tooth, tray_of(task), scenarios::k_exam_rules),
       state_(std::make_unique<scenarios::RunnerState>()) {}
 
 Sitting::Sitting(const Sitting& o)
     : task_(o.task_),
       after_(o.after_),
-      runner_(o.task_.scenario, o.task_.zones, o.task_.tooth, tray_of(o.task_)),
+      runner_(o.task_.scenario, o.task_.zones, o.task_.tooth, tray_of(o.task_), scenarios::k_exam_rules),
       state_(std::make_unique<scenarios::RunnerState>(*o.state_)),
       inputs_(o.inputs_),
       records_(o.records_),
