@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/base/file.h"
 #include "scenarios/candidates/operator.h"
 #include "scenarios/file/parse.h"
@@ -55,6 +57,25 @@ TEST(CutPlan, FollowsALeaningTargetAlongItsAxisAndStaysInIt) {
   EXPECT_LT(p.furthest_mm(way, map.tool, true), 0.15);
   EXPECT_GT(coverage(free_room(p.zones, p.tooth, k_expert_margin), map, p.tool), 0.9)
       << "upright, the point could not get below the overhanging wall";
+}
+
+/// The chambered block's roof is flat at z = -3 between its horns, which are no wider than the head.
+TEST(CutPlan, ThePilotHoleGoesThroughTheFlatOfTheRoofAndNotIntoAHorn) {
+  const Tooth tooth = testing::chambered_block(0.1);
+  const Scenario scenario = parse_scenario(scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -2]\nsize_mm = [3, 2, 5]\n"), "s.toml");
+  const ZoneMap zones = build_zones(scenario, tooth);
+  const ContactTool tool = cylinder();
+  const ReachMap map = reach_map(zones, tooth, tool, k_expert_margin);
+  const auto way = plan_pilot(map, tooth, tool.point.head_radius_mm, {"pulp"});
+  ASSERT_EQ(way.size(), 4u);
+  const Vec3 p = way[2].tip_mm;  // the horns: |x| from 0.9 to 1.4, |y| up to 0.3
+  EXPECT_GT(std::hypot(std::max(0.0, 0.9 - std::abs(p.x)), std::max(0.0, std::abs(p.y) - 0.3)), 0.25);
+  EXPECT_NEAR(p.z, -3.35, 0.11);
+  EXPECT_TRUE(way[2].careful);
+  EXPECT_GT(way.front().tip_mm.z, 0);
+  EXPECT_GT(way.back().tip_mm.z, 0);
+  for (const auto& w : way) EXPECT_NEAR(std::hypot(w.tip_mm.x - way[0].tip_mm.x, w.tip_mm.y - way[0].tip_mm.y), 0, 1e-9);
+  EXPECT_TRUE(plan_pilot(map, tooth, tool.point.head_radius_mm, {}).empty());
 }
 
 TEST(CutPlan, WithAWiderMarginGoesThatFarBeyondTheSidesOrTheFloorAndNotTheOther) {
