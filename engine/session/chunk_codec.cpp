@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <array>
 #include <limits>
+#include <new>
 
 #include "engine/base/error.h"
 #include "engine/session/session.h"
@@ -99,6 +101,7 @@ Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std:
   if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) damaged(where, "the packed data are not one frame");
   Bytes raw(size);
   const auto n = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
+  if (ZSTD_getErrorCode(n) == ZSTD_error_memory_allocation) throw std::bad_alloc();  // nothing is wrong with the recording
   if (ZSTD_isError(n) || n != size) damaged(where, "the packed data do not unpack");
   return raw;
 }

@@ -9,9 +9,11 @@
 //   with name, source and tissues as above in the body, then the octree as Octree::write writes it
 #include <fmt/core.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <string_view>
 
 #include "engine/base/error.h"
@@ -54,6 +56,7 @@ Tooth read_all_but_octree(ByteReader& in) {
 Bytes unpack(std::span<const std::uint8_t> packed, std::uint64_t size, const ByteReader& in) {
   constexpr std::size_t k_portion = 1 << 20;
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
+  if (!stream) throw std::bad_alloc();
   Bytes out;
   ZSTD_inBuffer from{packed.data(), packed.size(), 0};
   for (std::size_t more = 1; more != 0;) {
@@ -61,6 +64,7 @@ Bytes unpack(std::span<const std::uint8_t> packed, std::uint64_t size, const Byt
     out.resize(had + std::min<std::uint64_t>(k_portion, size - had));
     ZSTD_outBuffer to{out.data() + had, out.size() - had, 0};
     more = ZSTD_decompressStream(stream.get(), &to, &from);
+    if (ZSTD_getErrorCode(more) == ZSTD_error_memory_allocation) throw std::bad_alloc();  // nothing is wrong with the file
     out.resize(had + to.pos);
     if (ZSTD_isError(more) != 0 || (to.pos == 0 && more != 0)) in.fail("the compressed data are damaged");
   }

@@ -103,7 +103,7 @@ struct Mechanism {
   bool several = false;
   OneWay one_way = OneWay::told;
   const char* like_when_short = nullptr;  ///< a lag in tau_s: the one that cannot be told from it when both are shorter than the data resolve
-  const char* way = nullptr;  ///< its parameter that is a way, mm: one shorter than the positions resolve is not told from a dry friction
+  const char* way = nullptr;              ///< its parameter that is a way, mm: one shorter than the positions resolve is not told from a dry friction
   /// A shape that goes by another law's name as well; nullptr: it does not.
   std::function<const char*(const std::vector<double>& shape)> same_as{};
   bool in_recordings = true;   ///< false: no recording of k and c can show it, whatever the motion
