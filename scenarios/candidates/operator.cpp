@@ -61,6 +61,8 @@ Skill make_skill(const std::string& name, std::uint64_t seed) {
   if (name == "expert" || name == "careless") return s;
   if (name == "perforator") {
     s.perforates = true;
+    s.press_n = 1.2;
+    s.careful_press_n = 0.9;  // presses on and plunges
     return s;
   }
   if (name == "novice") {
