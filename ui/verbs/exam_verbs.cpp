@@ -241,6 +241,7 @@ int run_new_live(const ExamArguments& o) {
 
 int run_new(const ExamArguments& o) {
   ledger::require_candidate_id("--candidate", o.candidate);
+  if (o.end) throw Error("--end", "closes an exam that was cut off", "say --resume, too");
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
     throw Error("cavum exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
@@ -331,7 +332,10 @@ int run_resumed(const ExamArguments& o) {
   }
   const auto exam = scenarios::Exam::resume(*setup, o.out, notes);
   exam->set_second_place(o.out_if_full);
-  if (source) {
+  if (source && exam->over()) {
+    std::fprintf(stderr, "cavum: %s: this exam was over when it was interrupted: it is closed as it stands, and nothing more is run\n",
+                 o.out.c_str());
+  } else if (source) {
     RecordingWatch recording(o.out);
     scenarios::run_exam(*exam, *source, [&](const scenarios::Exam& e, double) { recording.look(e.recording_problem(), e.recorder().path()); });
   } else if (!exam->over()) {
@@ -349,9 +353,10 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--candidate", o->candidate, "candidate's pseudonym");
   exam->add_option("--ticket", o->ticket,
                    "the school's promise of this exam (see `cavum ledger ticket`): says who sits it, and is kept in the session");
-  auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file");
-  auto* name = exam->add_option("--operator", o->operator_name,
-                                "simulated candidate: expert, novice, perforator, or careless, who does what the scenario's [careless] says");
+  auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file, from its first row on, with --resume too");
+  auto* name = exam->add_option(
+      "--operator", o->operator_name,
+      "simulated candidate: expert, novice, perforator, student-0 to student-100, or careless, who does what the scenario's [careless] says");
   auto* device = exam->add_option("--device", o->device,
                                   fmt::format("in real time, without a window: {}, or {} with --operator as its hand",
                                               stylus_kinds().ids({StylusHand::person}), stylus_kinds().ids({StylusHand::candidate})));
@@ -361,7 +366,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_option("--out", o->out, "session file to write (.cavum)");
   exam->add_option("--out-if-full", o->out_if_full, "session file, on another disk, to begin or go on with when --out cannot be written");
   exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
-  const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, clinical, or a TOML file")->capture_default_str();
   exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   add_grant_options(exam, o->grant);
   exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();

@@ -268,7 +268,7 @@ void add_grind(CLI::App& rig, int& exit_code) {
   auto* verb = rig.add_subcommand("grind", "How fast a point under a constant load removes each tissue, and how fast it turns meanwhile");
   const auto a = std::make_shared<GrindArgs>();
   GrindOptions& o = a->options;
-  verb->add_option("--model", a->model, "force model: clinical, paper, consistent, or a TOML file")->capture_default_str();
+  verb->add_option("--model", a->model, "force model: paper, consistent, clinical, or a TOML file")->capture_default_str();
   verb->add_option("--point", a->point, "diamond point: a name of data/points, or a TOML file")->capture_default_str();
   verb->add_option("--load-n", o.load_n, "loads, N")->delimiter(',')->check(between(0.05, 10.0))->capture_default_str();
   verb->add_option("--rpm", o.rpm, "free speed of the handpiece")->check(between(1000.0, 1e6))->capture_default_str();

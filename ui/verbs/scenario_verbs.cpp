@@ -351,7 +351,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   auto* solves = verb->add_subcommand("solve", "Prove that the task can be passed: the built-in expert takes it");
   solves->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
   solves->add_option("--tooth", o->tooth, "solve it on this tooth instead");
-  solves->add_option("--model", o->model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  solves->add_option("--model", o->model, "force model: paper, consistent, clinical, or a TOML file")->capture_default_str();
   solves->add_option("--seed", o->seed, "of the expert's tremor")->check(seed_check())->capture_default_str();
   solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
   solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");

@@ -121,7 +121,7 @@ void add_candidate(CLI::App* station, station::StationOptions& s) {
       ->excludes(practice);
   station->add_option("--candidate", s.candidate, "code that stands in the field already");
   station->add_option("--tooth", s.sitting.tooth, "another tooth than the scenario's");
-  station->add_option("--model", s.sitting.model, "force model: paper, consistent, or a TOML file")->capture_default_str();
+  station->add_option("--model", s.sitting.model, "force model: paper, consistent, clinical, or a TOML file")->capture_default_str();
   station->add_option("--rubric", s.sitting.rubric, "mark by this rubric (TOML) instead of the scenario's own");
   station->add_option("--extra-time-percent", s.sitting.grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
   station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
