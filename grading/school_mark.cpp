@@ -31,15 +31,14 @@ bool is_runners(const std::string& kind) {
   return k_kinds.contains(kind);
 }
 
-/// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did.
-std::int64_t ended_by_hand(const std::vector<SessionEvent>& events, int rules) {
-  bool by_clock = false;
+/// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did. What the clock ends with all steps done is `completed` as
+/// well, in the last tick and not after it.
+std::int64_t ended_by_hand(const SessionReader& session, const std::vector<SessionEvent>& events) {
   for (const auto& e : events) {
-    by_clock = by_clock || e.kind == scenarios::event_name(scenarios::ExamEventKind::time_limit);
     if (e.kind != scenarios::event_name(scenarios::ExamEventKind::finished)) continue;
     const std::string how = text_in(parse_json_or_null(e.detail_json), "how");
     if (how == scenarios::finish_name(scenarios::Finish::ended)) return e.tick;
-    if (rules > 1 && !by_clock && how == scenarios::finish_name(scenarios::Finish::completed)) return e.tick;
+    if (how == scenarios::finish_name(scenarios::Finish::completed) && e.tick == session.ticks()) return e.tick;
   }
   return -1;
 }
@@ -53,7 +52,7 @@ class EventsAgain {
         ground_(grounds.of(scenario_, setup_, session.path())),
         runner_(scenario_, ground_->zones, ground_->tooth, tray(setup_, session.path()), setup_.exam_rules),
         recorded_(session.events()),
-        ended_(ended_by_hand(recorded_, setup_.exam_rules)) {}
+        ended_(ended_by_hand(session, recorded_)) {}
 
   void see(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
     if (tick == ended_) runner_.end(*state_);
