@@ -91,8 +91,10 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
     allowed_[i] = std::find(scenario.points.begin(), scenario.points.end(), tray[i]) != scenario.points.end();
 }
 
-void Runner::emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf) noexcept {
-  if (state.event_count == RunnerState::k_most_events) {
+void Runner::emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf) const noexcept {
+  // the last place is the end's; by rules 1 it was taken, and the end of a full list never came into the recording
+  const std::size_t room = RunnerState::k_most_events - (rules_ > 1 && kind != ExamEventKind::finished ? 1 : 0);
+  if (state.event_count >= room) {
     ++state.events_dropped;
     return;
   }
@@ -101,7 +103,7 @@ void Runner::emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IV
 
 void Runner::finish(RunnerState& state, Finish how) const noexcept {
   state.finish = how;
-  // the end must be known even when the list is full: it replaces the last entry
+  // by rules 1 the list may be full
   if (state.event_count == RunnerState::k_most_events) {
     --state.event_count;
     ++state.events_dropped;

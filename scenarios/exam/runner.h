@@ -101,7 +101,7 @@ class Runner {
     std::vector<Expression> fail;  // none or one
     std::int64_t limit_ticks;
   };
-  static void emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf = {}) noexcept;
+  void emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf = {}) const noexcept;
   void count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept;
   void fill_values(const RunnerState& state, const TickInput& input, const TickOutput& output) noexcept;
   /// Begins and ends pauses; true when this tick is one of a pause.

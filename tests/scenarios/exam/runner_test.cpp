@@ -105,6 +105,24 @@ TEST(Runner, APauseStopsTheClockToTheTick) {
   EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick, 150);
 }
 
+/// Whoever presses the button three hundred times does not push the end out of the list.
+TEST(Runner, TheEndHasItsPlaceInAFullListOfEvents) {
+  Exam exam(pausing("10"));
+  for (int i = 0; i < 1000; ++i) {
+    TickInput in;
+    in.flags = i % 2 == 1 ? k_button_2 : 0;
+    TickOutput turning;
+    turning.rpm = 5000;
+    exam.runner.advance(exam.state, in, turning, {});
+  }
+  EXPECT_EQ(exam.state.event_count, RunnerState::k_most_events - 1);
+  EXPECT_GT(exam.state.events_dropped, 0u);
+  const std::uint32_t recorded = exam.state.event_count;  // a recorder takes each once
+  exam.runner.end(exam.state);
+  ASSERT_EQ(exam.state.event_count, recorded + 1);
+  EXPECT_EQ(exam.state.events[recorded].kind, ExamEventKind::finished);
+}
+
 TEST(Runner, APauseEndsByItselfAndTheThirdIsRefused) {
   Exam exam(pausing("1"));
   const auto step = [&](std::uint16_t buttons, double rpm = 0) {
