@@ -94,6 +94,20 @@ double lost_s(std::span<const SessionEvent> events) {
   return static_cast<double>(periods) * k_tick_s;
 }
 
+/// Recordings that were cut off and taken up again: the exam's clock stood still meanwhile, so a reader must know how long for.
+void note_interruptions(const GradeInput& input, Result& r) {
+  constexpr double k_longest_s = 1e9;  // whatever a file says
+  for (const auto& e : input.events) {
+    if (e.kind != "gap") continue;
+    const auto detail = parse_json_or_null(e.detail_json);
+    const auto gap = detail.is_object() ? detail.find("gap_utc_s") : detail.end();
+    const double away_s = gap != detail.end() && gap->is_number() ? std::clamp(gap->get<double>(), 0.0, k_longest_s) : 0.0;
+    r.notes.push_back(fmt::format("the recording was interrupted at {} and taken up again{}; the exam's clock stood still meanwhile",
+                                  when({e.tick, {}}),
+                                  away_s > 0 ? fmt::format(" after {} s by the computer's clock", fixed(away_s, 0)) : std::string()));
+  }
+}
+
 /// What granted, paused and late time means for a reader.
 void note_time(const GradeInput& input, Result& r) {
   std::string refused;
@@ -119,6 +133,7 @@ void note_time(const GradeInput& input, Result& r) {
   if (r.motion.lost_s > 0)
     r.notes.push_back(fixed(r.motion.lost_s, 3) +
                       " s were lost while the station's program stood still: the exam's clock does not show them, and the " + "candidate had them");
+  note_interruptions(input, r);
   if (r.motion.late_ticks > 0)
     r.notes.push_back(fmt::format("{} ticks were recorded after the exam was over, {} mm3 removed in them; they do not count", r.motion.late_ticks,
                                   fixed(r.motion.late_removed_mm3, 2)));

@@ -138,17 +138,21 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   say_circumstances(e, session, path);
   say_limits(e, session.closed(), mark.replay.station_key);
   e.holds = mark.replay.verified && e.findings.empty();
+  e.interrupted = !session.closed() && mark.replay.intact && e.findings.size() == 1;
   return e;
 }
 
 std::string to_text(const SessionExplanation& e) {
-  std::string out = fmt::format("{}: {}\n", one_line(e.file), e.holds ? "holds" : "DOES NOT HOLD");
+  const char* verdict = e.holds         ? "holds"
+                        : e.interrupted ? "INTERRUPTED: what is recorded holds, and can be taken up or closed with `cavum exam --resume`"
+                                        : "DOES NOT HOLD";
+  std::string out = fmt::format("{}: {}\n", one_line(e.file), verdict);
   const auto list = [&](const char* title, const std::vector<std::string>& lines) {
     if (lines.empty()) return;
     out += fmt::format("{}\n", title);
     for (const auto& l : lines) out += fmt::format("  - {}\n", one_line(l));
   };
-  list("what does not hold", e.findings);
+  list(e.interrupted ? "what is missing" : "what does not hold", e.findings);
   list("what is proved", e.proved);
   list("to be known", e.remarks);
   return out;

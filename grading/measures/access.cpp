@@ -6,24 +6,27 @@
 #include "engine/tooth/octree_edit.h"
 #include "grading/measures/bounds.h"
 #include "grading/measures/cut_surface.h"
+#include "grading/measures/volumes.h"
+#include "scenarios/zones/leaf_parts.h"
 
 namespace cavum::grading {
 namespace {
 
-/// A mark for each leaf of the zones' box.
+/// A mark for each leaf of the zones' box; 0 = none.
+template <class Mark>
 class Marks {
  public:
   explicit Marks(const scenarios::ZoneMap& zones)
       : low_(zones.low()),
         size_(zones.size()),
-        mark_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0) {}
-  [[nodiscard]] std::uint8_t at(IVec3 leaf) const noexcept {
+        mark_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), Mark{}) {}
+  [[nodiscard]] Mark at(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
-    return l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z ? std::uint8_t{0} : mark_[index(l)];
+    return l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z ? Mark{} : mark_[index(l)];
   }
-  void set(IVec3 leaf, std::uint8_t mark) noexcept { mark_[index(leaf - low_)] = mark; }
+  void set(IVec3 leaf, Mark mark) noexcept { mark_[index(leaf - low_)] = mark; }
   /// What of a cube of leaves lies in the box.
-  void set_cube(IVec3 at, int edge, std::uint8_t mark) noexcept {
+  void set_cube(IVec3 at, int edge, Mark mark) noexcept {
     const IVec3 a = at - low_;
     for (int z = std::max(0, a.z); z < std::min(size_.z, a.z + edge); ++z)
       for (int y = std::max(0, a.y); y < std::min(size_.y, a.y + edge); ++y)
@@ -36,27 +39,26 @@ class Marks {
            static_cast<std::size_t>(l.x);
   }
   IVec3 low_, size_;
-  std::vector<std::uint8_t> mark_;
+  std::vector<Mark> mark_;
 };
 
-/// Connected pieces of marked leaves (over corners, too), in their order; the marks are used up. `counts(mark)`: whether a leaf counts to `part`.
-template <class Counts>
-std::vector<Piece> pieces_of(Marks& marks, const std::vector<IVec3>& leaves, const scenarios::ZoneMap& zones, double worth, const Counts& counts) {
+/// Connected pieces of marked leaves (over corners, too), in their order; the marks are used up. `add(piece, mark)` counts a leaf to a piece.
+template <class Mark, class Add>
+std::vector<Piece> pieces_of(Marks<Mark>& marks, const std::vector<IVec3>& leaves, const scenarios::ZoneMap& zones, const Add& add) {
   std::vector<Piece> pieces;
   std::vector<IVec3> next;
   for (const IVec3 first : leaves) {
-    if (marks.at(first) == 0) continue;
+    if (marks.at(first) == Mark{}) continue;
     Piece piece;
     Vec3 sum;
     double n = 0;
     const auto take = [&](IVec3 leaf) {
-      const std::uint8_t mark = marks.at(leaf);
-      if (mark == 0) return;
-      if (counts(mark)) piece.part += worth;
-      piece.whole += worth;
+      const Mark mark = marks.at(leaf);
+      if (mark == Mark{}) return;
+      add(piece, mark);
       sum += zones.centre_mm(leaf);
       n += 1;
-      marks.set(leaf, 0);
+      marks.set(leaf, Mark{});
       next.push_back(leaf);
     };
     take(first);
@@ -71,8 +73,10 @@ std::vector<Piece> pieces_of(Marks& marks, const std::vector<IVec3>& leaves, con
   return pieces;
 }
 
-Marks aim_leaves(const GradeInput& input) {
-  Marks aim(input.zones);
+using AimLeaves = Marks<std::uint8_t>;
+
+AimLeaves aim_leaves(const GradeInput& input) {
+  AimLeaves aim(input.zones);
   std::array<bool, 256> wanted{};
   for (const auto& t : input.before.tissues)
     for (const auto& name : input.scenario.perforation.aims) wanted[t.id] = wanted[t.id] || t.name == name;
@@ -82,48 +86,48 @@ Marks aim_leaves(const GradeInput& input) {
   return aim;
 }
 
-void measure_overhang(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
+void measure_overhang(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, const AimLeaves& aim, AccessMeasures& m) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& tree = input.before.octree;
   const Vec3 down = zones.approach() * (-0.5 * zones.leaf_mm());
-  Marks left(zones);
-  std::vector<IVec3> leaves;
   bool any_aim = false;
-  zones.for_each_target_leaf([&](IVec3 leaf) {
-    any_aim = any_aim || aim.at(leaf) != 0;
-    if (!input.after.is_solid(input.after.tissue(leaf))) return;
+  zones.for_each_target_leaf([&](IVec3 leaf) { any_aim = any_aim || aim.at(leaf) != 0; });
+  if (!any_aim) return;  // this target opens nothing
+  const double leaf_mm3 = zones.leaf_volume_mm3(), reach_mm = scenarios::k_parts_reach_leaves * zones.leaf_mm();
+  const auto in_target = [&](IVec3 leaf) { return zones.in_box(leaf) && zones.distance_mm(leaf) < reach_mm; };
+  Marks<float> left_mm3(zones);
+  std::vector<IVec3> leaves;
+  Vec3 sum;
+  BoundedVolume overhang;
+  for_each_left_in_target(input, removed, last_tick, [&](IVec3 leaf, const LeftShare& left) {
+    if (!tree.is_solid(tree.tissue(leaf))) return;
     Vec3 p = zones.centre_mm(leaf);
-    for (IVec3 below = leaf; zones.zone(below) == scenarios::Zone::target; p += down, below = tree.leaf_at(p))
+    for (IVec3 below = leaf; in_target(below); p += down, below = tree.leaf_at(p))
       if (aim.at(below) != 0) {
-        left.set(leaf, 1);
+        const auto mm3 = static_cast<float>(left.leaves * leaf_mm3);
+        left_mm3.set(leaf, mm3);
         leaves.push_back(leaf);
+        overhang.mm3 += static_cast<double>(mm3);
+        overhang.bound_mm3 += left.unsure * leaf_mm3;
+        sum += zones.centre_mm(leaf) * static_cast<double>(mm3);
         return;
       }
   });
-  if (!any_aim) return;  // this target opens nothing
-  std::uint64_t border = 0;
-  Vec3 sum;
-  for (const IVec3 leaf : leaves) {
-    sum += zones.centre_mm(leaf);
-    for (const IVec3 step : scenarios::k_six_neighbours)
-      if (left.at(leaf + step) == 0) {
-        ++border;
-        break;
-      }
-  }
-  const double leaf_mm3 = zones.leaf_volume_mm3();
-  m.overhang = BoundedVolume{static_cast<double>(leaves.size()) * leaf_mm3, 0.5 * static_cast<double>(border) * leaf_mm3};
-  if (!leaves.empty()) m.overhang_middle_mm = sum / static_cast<double>(leaves.size());
-  m.overhang_pieces = pieces_of(left, leaves, zones, leaf_mm3, [](std::uint8_t) { return true; });
+  m.overhang = overhang;
+  if (!leaves.empty()) m.overhang_middle_mm = sum / overhang.mm3;
+  m.overhang_pieces = pieces_of(left_mm3, leaves, zones, [](Piece& piece, float mm3) {
+    piece.part += static_cast<double>(mm3);
+    piece.whole += static_cast<double>(mm3);
+  });
   std::stable_sort(m.overhang_pieces.begin(), m.overhang_pieces.end(), [](const Piece& a, const Piece& b) { return a.part > b.part; });
 }
 
-void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m) {
+void measure_canals(const GradeInput& input, const AimLeaves& aim, AccessMeasures& m) {
   constexpr std::uint8_t k_open = 1, k_covered = 2;
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& tree = input.before.octree;
   const Vec3 up = zones.approach() * (0.5 * zones.leaf_mm());
-  Marks mouth(zones);
+  Marks<std::uint8_t> mouth(zones);
   std::vector<IVec3> mouths;
   double covered = 0, border = 0;
   Vec3 sum;
@@ -150,7 +154,10 @@ void measure_canals(const GradeInput& input, const Marks& aim, AccessMeasures& m
   m.canals_covered_percent = 100.0 * covered / all;
   m.canals_bound_percent = 50.0 * border / all;
   if (covered > 0) m.canals_covered_mm = sum / covered;
-  m.canal_mouths = pieces_of(mouth, mouths, zones, 1.0, [](std::uint8_t mark) { return mark == k_covered; });
+  m.canal_mouths = pieces_of(mouth, mouths, zones, [](Piece& piece, std::uint8_t mark) {
+    piece.part += mark == k_covered ? 1 : 0;
+    piece.whole += 1;
+  });
 }
 
 void measure_floor(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, AccessMeasures& m) {
@@ -202,8 +209,8 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
 AccessMeasures measure_access(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   AccessMeasures m;
   if (!input.scenario.perforation.aims.empty()) {
-    const Marks aim = aim_leaves(input);
-    measure_overhang(input, aim, m);
+    const AimLeaves aim = aim_leaves(input);
+    measure_overhang(input, removed, last_tick, aim, m);
     measure_canals(input, aim, m);
   }
   measure_floor(input, removed, last_tick, m);

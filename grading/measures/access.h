@@ -10,9 +10,10 @@
 
 namespace cavum::grading {
 
-/// Rules. Overhang: hard leaves of the target left standing that have a leaf of the aim below them within the target. Mouth of a canal: a
+/// Rules. Overhang: hard tissue of the target left standing, by the parts of its leaves, that has a leaf of the aim below it within the target;
+/// where the aim begins is a matter of leaves, for the tooth's tissues are. Mouth of a canal: a
 /// leaf of the aim just below the target's floor whose next leaf above belongs to the target; it is covered when the straight line from it out of
-/// the tooth meets hard tissue that was left. Floor cut: hard tissue removed below the target. Target's taper: mean slope of its side
+/// the tooth meets hard tissue that was left. Floor cut: hard leaves removed below the target. Target's taper: mean slope of its side
 /// walls where tissue stands beyond them, as `measure_shape` takes that of the cut.
 [[nodiscard]] AccessMeasures measure_access(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick);
 

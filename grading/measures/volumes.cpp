@@ -208,12 +208,13 @@ struct TargetCount {
   Count missed;
 };
 
-/// Counts both; `v` gets the walls' parts. `seen` are the leaves that may be gone in part.
-TargetCount count_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, VolumeMeasures& v) {
+/// Calls `visit(leaf, share, left)` for each leaf with a part in the target: that part, and what of it was left standing. `seen` are the leaves that
+/// may be gone in part.
+template <class Visit>
+void for_each_in_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, const Visit& visit) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
-  const double leaf_mm3 = zones.leaf_volume_mm3(), reach_mm = scenarios::k_parts_reach_leaves * zones.leaf_mm();
-  TargetCount count;
+  const double reach_mm = scenarios::k_parts_reach_leaves * zones.leaf_mm();
   zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone z) {
     const double d = zones.distance_mm(leaf);
     if (z != scenarios::Zone::target && (shares.late() || d > reach_mm)) return;
@@ -222,19 +223,29 @@ TargetCount count_target(const GradeInput& input, const RemovedMap& removed, con
     const double share = sum(in);
     if (share < k_code) return;
     const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
-    const double left = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
-    const auto wall = static_cast<std::size_t>(zones.wall(leaf));
-    count.leaves += share;
-    v.target_by_wall_mm3[wall] += share * leaf_mm3;
-    if (left < k_code) return;
-    count.missed.leaves += left;
-    v.missed_by_wall_mm3[wall] += left * leaf_mm3;
-    bool edge = left < 1;
+    LeftShare left;
+    left.leaves = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
+    if (left.leaves < k_code) return visit(leaf, share, LeftShare{});
+    bool edge = left.leaves < 1;
     for (const IVec3 step : scenarios::k_six_neighbours)
       edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != scenarios::Zone::target;
-    const double unsure = edge ? unsure_of(shares.late(), left, share) : 0.0;
-    count.missed.unsure += unsure;
-    v.missed_bound_by_wall_mm3[wall] += unsure * leaf_mm3;
+    left.unsure = edge ? unsure_of(shares.late(), left.leaves, share) : 0.0;
+    visit(leaf, share, left);
+  });
+}
+
+/// Counts both; `v` gets the walls' parts.
+TargetCount count_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, VolumeMeasures& v) {
+  const double leaf_mm3 = input.zones.leaf_volume_mm3();
+  TargetCount count;
+  for_each_in_target(input, removed, shares, seen, [&](IVec3 leaf, double share, const LeftShare& left) {
+    const auto wall = static_cast<std::size_t>(input.zones.wall(leaf));
+    count.leaves += share;
+    v.target_by_wall_mm3[wall] += share * leaf_mm3;
+    count.missed.leaves += left.leaves;
+    count.missed.unsure += left.unsure;
+    v.missed_by_wall_mm3[wall] += left.leaves * leaf_mm3;
+    v.missed_bound_by_wall_mm3[wall] += left.unsure * leaf_mm3;
   });
   return count;
 }
@@ -278,6 +289,16 @@ void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, 
       const double leaf_mm3 = input.zones.leaf_volume_mm3();
       visit({leaf, held, when, z, share * leaf_mm3, edge || share < 1 ? unsure * leaf_mm3 : 0.0});
     });
+  });
+}
+
+void for_each_left_in_target(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                             const std::function<void(IVec3, const LeftShare&)>& visit) {
+  const Shares shares(input, removed, removed_late(input, last_tick));
+  RemovedMap::Marks seen = removed.marks();
+  for_each_touched(input, removed, last_tick, shares.late(), seen, [](IVec3, std::uint8_t, std::int64_t) {});
+  for_each_in_target(input, removed, shares, seen, [&](IVec3 leaf, double, const LeftShare& left) {
+    if (left.leaves > 0) visit(leaf, left);
   });
 }
 

@@ -30,4 +30,12 @@ struct RemovedShare {
 void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
                             const std::function<void(const RemovedShare&)>& visit);
 
+/// What of a leaf's part in the target was left standing, in leaves, and how much of that is not known, as `measure_volumes` counts it.
+struct LeftShare {
+  double leaves = 0.0, unsure = 0.0;
+};
+/// Calls `visit(leaf, left)` for every leaf of which a part belongs to the target and was left standing.
+void for_each_left_in_target(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                             const std::function<void(IVec3, const LeftShare&)>& visit);
+
 }  // namespace cavum::grading

@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 3;
+inline constexpr int k_grading_version = 4;
 
 /// When and where something happened; tick -1 = never.
 struct Trace {

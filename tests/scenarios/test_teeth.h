@@ -39,23 +39,30 @@ inline Tooth dentin_block(double half_mm, double depth_mm, double leaf_mm) {
 /// A block with a flat pulp chamber (box 3 x 2 x 1.5 mm, its floor at z = -4.5), two horns on its roof, two canals below it, and
 /// periodontium under z = -6.5.
 inline Tooth chambered_block(double leaf_mm) {
-  const auto in_box = [](Vec3 p, Vec3 low, Vec3 high) {
-    return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y && p.z < high.z;
-  };
-  const auto pulp = [in_box](Vec3 p) {
-    return in_box(p, {-1.5, -1, -4.5}, {1.5, 1, -3}) || in_box(p, {-1.4, -0.3, -3}, {-0.9, 0.3, -2.5}) ||
-           in_box(p, {0.9, -0.3, -3}, {1.4, 0.3, -2.5}) || in_box(p, {-1.2, -0.3, -6.5}, {-0.8, 0.3, -4.5}) ||
-           in_box(p, {0.8, -0.3, -6.5}, {1.2, 0.3, -4.5});
+  // boxes of pulp: chamber, horns, canals; the latter reach into the chamber, so that no surface lies between them
+  constexpr Vec3 k_pulp_boxes[][2]{{{-1.5, -1, -4.5}, {1.5, 1, -3}},
+                                   {{-1.4, -0.3, -3.7}, {-0.9, 0.3, -2.5}},
+                                   {{0.9, -0.3, -3.7}, {1.4, 0.3, -2.5}},
+                                   {{-1.2, -0.3, -6.5}, {-0.8, 0.3, -3.7}},
+                                   {{0.8, -0.3, -6.5}, {1.2, 0.3, -3.7}}};
+  const auto into_pulp = [k_pulp_boxes](Vec3 p) {  // how deep in it, negative outside
+    double deepest = -9;
+    for (const auto& [low, high] : k_pulp_boxes) {
+      const Vec3 out{std::max(low.x - p.x, p.x - high.x), std::max(low.y - p.y, p.y - high.y), std::max(low.z - p.z, p.z - high.z)};
+      const double most = std::max({out.x, out.y, out.z});
+      deepest = std::max(deepest, most < 0 ? -most : -length(Vec3{std::max(out.x, 0.0), std::max(out.y, 0.0), std::max(out.z, 0.0)}));
+    }
+    return deepest;
   };
   return make_tooth(
       {-4, -3.5, -7.5}, {4, 3.5, 0.5}, leaf_mm,
-      [pulp](Vec3 p) -> std::uint8_t {
+      [into_pulp](Vec3 p) -> std::uint8_t {
         if (p.z > 0) return k_air;
         if (p.z < -6.5) return k_periodontium;
-        return pulp(p) ? k_pulp : p.z > -1.5 ? k_enamel : k_dentin;
+        return into_pulp(p) > 0 ? k_pulp : p.z > -1.5 ? k_enamel : k_dentin;
       },
-      [pulp](Vec3 p) {
-        return p.z > 0 ? p.z : p.z < -6.5 ? -6.5 - p.z : pulp(p) ? 0.1 : p.z > -0.15 ? p.z : p.z < -6.35 ? -6.5 - p.z : -0.1;
+      [into_pulp](Vec3 p) {
+        return std::max({p.z, -6.5 - p.z, into_pulp(p)});
       });
 }
 

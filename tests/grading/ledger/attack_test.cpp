@@ -368,12 +368,17 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   // the same file, at a station that began it and did not close it: what a crash leaves. A memory that was put back to that looks alike.
   remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
   const std::string cut = cut_back(school_, session_, "cut.cavum");
+  const SessionExplanation open = explain_session(cut, "");
+  EXPECT_FALSE(open.holds);
+  EXPECT_TRUE(open.interrupted);
+  EXPECT_NE(to_text(open).find("INTERRUPTED"), std::string::npos);
   close_again(cut);
   const Filing f = file(cut);
   EXPECT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
   EXPECT_TRUE(f.findings.empty());
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_TRUE(told.holds);
+  EXPECT_FALSE(told.interrupted);
   expect_finding(told.remarks, {"interrupted for", "taken up again"});
 }
 TEST_F(Attack, TwoEndingsOfOneExam) {
