@@ -9,11 +9,19 @@
 
 namespace cavum {
 
+/// A place with a name, mm of the tooth frame.
+struct NamedPoint {
+  std::string name;  ///< of docs/anatomy.md: `central_pit`, `cusp_2`
+  Vec3 at_mm;
+  friend bool operator==(const NamedPoint&, const NamedPoint&) = default;
+};
+
 struct Tooth {
   Octree octree;
   std::vector<Tissue> tissues = standard_tissues();
-  std::string name;    ///< for people: "lower first molar (parametric)"
-  std::string source;  ///< what it was made from, and every assumption made on the way (spacing, frame)
+  std::string name;                          ///< for people: "lower first molar (parametric)"
+  std::string source;                        ///< what it was made from, and every assumption made on the way (spacing, frame)
+  std::vector<NamedPoint> placed_landmarks;  ///< that a person put; they stand in place of what find_landmarks finds
 
   /// Name of a tissue id; "air" for 0, "tissue N" for one that the table does not list.
   [[nodiscard]] std::string tissue_name(std::uint8_t id) const;
@@ -21,7 +29,11 @@ struct Tooth {
   [[nodiscard]] std::uint8_t tissue_id(const std::string& name) const;
 };
 
-/// The compact tooth file (`.cvt`), layout in tooth_file.cpp. The same tooth always gives the same bytes.
+/// The most landmarks that a person may put on one tooth, and the longest of their names, bytes.
+inline constexpr std::size_t k_most_placed = 64, k_longest_landmark_name = 32;
+
+/// The compact tooth file (`.cvt`), layout in tooth_file.cpp. The same tooth always gives the same bytes. Throws Error when there are more landmarks
+/// than above, or one with a name that is empty, too long, twice there, or no plain text, or with a place that is not finite.
 [[nodiscard]] Bytes save_tooth(const Tooth& tooth);
 /// Reads a compact tooth file held in memory; `where` names it in errors. Throws Error on any damage.
 [[nodiscard]] Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where);
@@ -29,7 +41,7 @@ struct Tooth {
 void save_tooth_file(const Tooth& tooth, const std::string& path);
 [[nodiscard]] Tooth load_tooth_file(const std::string& path);
 
-/// SHA-256 (hex) of tissues and octree; name and source do not count. What sessions and scenarios pin.
+/// SHA-256 (hex) of tissues, octree and, where there are any, placed landmarks; name and source do not count. What sessions and scenarios pin.
 [[nodiscard]] std::string tooth_hash(const Tooth& tooth);
 
 }  // namespace cavum

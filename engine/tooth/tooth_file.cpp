@@ -4,6 +4,8 @@
 //   tissue count u8, each tissue {u8 id, u8 solid, name}
 //   packed octree         see packed_octree.cpp
 //   SHA-256               32 bytes, over all of the above
+// Version 3 ("CVTOOTH3") is written only for a tooth with landmarks that a person put: as version 2, and before the checksum
+//   landmark count u32 (1 to 64), each {name, f64 x, y, z, mm}
 // Version 1 is read, too:
 //   "CVTOOTH1", u64 size of the body, u64 packed size, zstd frame of that size, SHA-256 as above
 //   with name, source and tissues as above in the body, then the octree as Octree::write writes it
@@ -12,6 +14,7 @@
 #include <zstd_errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -26,7 +29,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::string_view k_magic = "CVTOOTH2", k_magic_1 = "CVTOOTH1";
+constexpr std::string_view k_magic = "CVTOOTH2", k_magic_1 = "CVTOOTH1", k_magic_3 = "CVTOOTH3";
 constexpr std::uint64_t k_largest_body_1 = 1ULL << 28;  // the octree of a molar has 7 MB
 
 void write_tissues(const Tooth& tooth, ByteWriter& out) {
@@ -36,6 +39,44 @@ void write_tissues(const Tooth& tooth, ByteWriter& out) {
     out.put(static_cast<std::uint8_t>(t.solid));
     out.put_string(t.name);
   }
+}
+
+/// What is wrong with landmarks that a person put; empty when nothing is.
+std::string fault_of(const std::vector<NamedPoint>& landmarks) {
+  constexpr double k_farthest_mm = 200.0;
+  if (landmarks.size() > k_most_placed) return fmt::format("{} landmarks, at most {} may be put", landmarks.size(), k_most_placed);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const auto& [name, at] = landmarks[i];
+    if (name.empty() || name.size() > k_longest_landmark_name || !is_plain_text(name))
+      return fmt::format("the name of landmark {} cannot be read, or has more than {} bytes", i + 1, k_longest_landmark_name);
+    if (!is_finite(at) || std::max({std::fabs(at.x), std::fabs(at.y), std::fabs(at.z)}) > k_farthest_mm)
+      return fmt::format("landmark {} lies nowhere in a tooth", i + 1);
+    for (std::size_t j = 0; j < i; ++j)
+      if (landmarks[j].name == name) return fmt::format("landmark {} has the name of another", i + 1);
+  }
+  return "";
+}
+
+void write_landmarks(const Tooth& tooth, ByteWriter& out) {
+  out.put(static_cast<std::uint32_t>(tooth.placed_landmarks.size()));
+  for (const auto& [name, at] : tooth.placed_landmarks) {
+    out.put_string(name);
+    for (const double v : {at.x, at.y, at.z}) out.put(v);
+  }
+}
+
+std::vector<NamedPoint> read_landmarks(ByteReader& in) {
+  const auto count = in.get<std::uint32_t>();
+  if (count == 0 || count > k_most_placed) in.fail(fmt::format("a tooth of version 3 has 1 to {} landmarks", k_most_placed));
+  std::vector<NamedPoint> landmarks(count);
+  for (auto& [name, at] : landmarks) {
+    name = in.get_string();
+    at.x = in.get<double>();
+    at.y = in.get<double>();
+    at.z = in.get<double>();
+  }
+  if (const auto fault = fault_of(landmarks); !fault.empty()) in.fail(fault);
+  return landmarks;
 }
 
 Tooth read_all_but_octree(ByteReader& in) {
@@ -99,8 +140,11 @@ std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
 }
 
 Bytes save_tooth(const Tooth& tooth) {
+  const bool placed = !tooth.placed_landmarks.empty();
+  if (const auto fault = fault_of(tooth.placed_landmarks); !fault.empty())
+    throw Error(fmt::format("tooth '{}'", tooth.name), fault, "put fewer landmarks, or others");
   ByteWriter out;
-  for (const char c : k_magic) out.put(c);
+  for (const char c : placed ? k_magic_3 : k_magic) out.put(c);
   out.put_string(tooth.name);
   out.put_string(tooth.source);
   write_tissues(tooth, out);
@@ -108,6 +152,7 @@ Bytes save_tooth(const Tooth& tooth) {
   tooth.octree.write(canonical);
   ByteReader from(canonical.bytes(), "tooth");
   pack_octree(from, tooth.tissues, out);
+  if (placed) write_landmarks(tooth, out);
   out.put_bytes(sha256(out.bytes()));
   return out.take();
 }
@@ -116,9 +161,9 @@ Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) 
   const auto begins_with = [&bytes](std::string_view magic) {
     return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
   };
-  const bool first_version = begins_with(k_magic_1);
-  if (!first_version && !begins_with(k_magic))
-    throw Error(where, "not a Cavum tooth file of version 1 or 2", "make or import the tooth again with `cavum tooth`");
+  const bool first_version = begins_with(k_magic_1), third_version = begins_with(k_magic_3);
+  if (!first_version && !third_version && !begins_with(k_magic))
+    throw Error(where, "not a Cavum tooth file of version 1, 2 or 3", "make or import the tooth again with `cavum tooth`");
   if (bytes.size() < k_magic.size() + sizeof(Sha256)) throw Error(where, "the data end too early", "the file is incomplete: use an intact copy");
   const auto signed_bytes = bytes.first(bytes.size() - sizeof(Sha256));
   const Sha256 sum = sha256(signed_bytes);
@@ -132,6 +177,7 @@ Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) 
     const Bytes canonical = unpack_octree(in, tooth.tissues);
     ByteReader from(canonical, where);
     tooth.octree = Octree::read(from, tooth.tissues);
+    if (third_version) tooth.placed_landmarks = read_landmarks(in);
   }
   if (in.left() != 0) in.fail("data after the end");
   return tooth;
@@ -145,6 +191,7 @@ std::string tooth_hash(const Tooth& tooth) {
   ByteWriter content;
   write_tissues(tooth, content);
   tooth.octree.write(content);
+  if (!tooth.placed_landmarks.empty()) write_landmarks(tooth, content);
   return to_hex(sha256(content.bytes()));
 }
 
