@@ -303,6 +303,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
       if (column && shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
       if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
         need(shape.bottom.tissue, place + "/bottom");
+      if (column && shape.bottom.kind == BottomSpec::Kind::below_border) need("enamel", place + "/bottom");
     }
   for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
     const auto measure = find_measure(s.rubric.criteria[i].metric);

@@ -37,7 +37,7 @@ double area_mm2(const std::vector<Vec3>& p) {
 void check_outline(CheckedTable& t, const OutlineSpec& o, const ProblemList& problems) {
   using Kind = OutlineSpec::Kind;
   if (!problems.strict()) return;
-  if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) || (o.kind == Kind::stroke && 0.5 * o.width_mm + o.offset_mm <= 0))
+  if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) || ((o.kind == Kind::stroke || o.kind == Kind::fissure) && 0.5 * o.width_mm + o.offset_mm <= 0))
     t.problem("offset_mm", "'offset_mm' leaves nothing of the outline", "move it inwards by less than half its width");
   if (o.kind != Kind::polygon || o.points_mm.size() < 3) return;
   if (crosses_itself(o.points_mm))
@@ -52,7 +52,7 @@ OutlineSpec read_outline(const toml::table& table, const std::string& name, Prob
   using Kind = OutlineSpec::Kind;
   CheckedTable t(table, name + " outline", problems);
   OutlineSpec o;
-  const std::size_t kind = t.word("kind", {"circle", "polygon", "stroke", "projection"}, 0, true);
+  const std::size_t kind = t.word("kind", {"circle", "polygon", "stroke", "projection", "fissure"}, 0, true);
   if (kind == CheckedTable::k_wrong) return o;  // what else it needs depends on the kind
   o.kind = static_cast<Kind>(kind);
   o.offset_mm = t.number("offset_mm", -5, 5, 0);
@@ -72,8 +72,16 @@ OutlineSpec read_outline(const toml::table& table, const std::string& name, Prob
       o.part = read_part(t);
       o.rounding_mm = t.number("rounding_mm", 0, 5, 0);
       break;
+    case Kind::fissure: {
+      o.width_mm = t.number("width_mm", 0.1, 5, 1, true);
+      o.ridge_mm = t.number("ridge_mm", 0, 5, 1.6);
+      o.branches = t.word("branches", {"none", "all"}, 0) == 1;
+      const std::size_t through = t.word("through", {"none", "mesial", "distal"}, 0);
+      o.through = through == 1 ? 1 : through == 2 ? -1 : 0;
+      break;
+    }
   }
-  if (o.kind != Kind::projection) {
+  if (o.kind != Kind::projection && o.kind != Kind::fissure) {
     o.centre_mm = t.vector("centre_mm", 2, {});
     o.from_chamber = t.word("from", {"tooth", "chamber"}, 0) == 1;
   }
@@ -86,7 +94,7 @@ BottomSpec read_bottom(const toml::table& table, const std::string& name, Proble
   using Kind = BottomSpec::Kind;
   CheckedTable t(table, name + " bottom", problems);
   BottomSpec b;
-  const std::size_t kind = t.word("kind", {"level", "below_surface", "below_lowest", "below_mean", "tissue_roof", "tissue_floor"}, 0, true);
+  const std::size_t kind = t.word("kind", {"level", "below_surface", "below_lowest", "below_mean", "tissue_roof", "tissue_floor", "below_border"}, 0, true);
   if (kind == CheckedTable::k_wrong) return b;
   b.kind = static_cast<Kind>(kind);
   switch (b.kind) {
@@ -97,6 +105,9 @@ BottomSpec read_bottom(const toml::table& table, const std::string& name, Proble
     case Kind::below_lowest:
     case Kind::below_mean:
       b.depth_mm = t.number("depth_mm", 0.05, 30, 1, true);
+      break;
+    case Kind::below_border:
+      b.depth_mm = t.number("depth_mm", -5, 5, 0.2, true);
       break;
     default:
       b.tissue = t.text("tissue", "pulp");
@@ -153,7 +164,8 @@ void read_prism(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemL
   read_turned_place(t, s);
   s.height_mm = read_length(t, "height_mm");
   if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
-  if (s.outline.kind == OutlineSpec::Kind::projection) t.problem("outline", "a prism cannot use a projection", "use shape = \"column\"");
+  if (s.outline.kind == OutlineSpec::Kind::projection || s.outline.kind == OutlineSpec::Kind::fissure)
+    t.problem("outline", "a prism cannot follow a tissue or a fissure", "use shape = \"column\"");
 }
 
 void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
@@ -189,6 +201,13 @@ void read_canal_cone(CheckedTable& t, ShapeSpec& s) {
   read_axis(t, s);
 }
 
+void read_proximal_box(CheckedTable& t, ShapeSpec& s) {
+  s.side = t.word("side", {"mesial", "distal"}, 0, true) == 1 ? -1 : 1;
+  s.width_mm = t.number("width_mm", 0.5, 10, 3, true);
+  s.depth_mm = t.number("depth_mm", 0.2, 5, 1.5, true);
+  s.above_neck_mm = t.number("above_neck_mm", 0, 6, 1, true);
+}
+
 /// What a body of its kind needs.
 void read_body(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
   using Kind = ShapeSpec::Kind;
@@ -211,6 +230,8 @@ void read_body(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemLi
       return read_stl(t, s);
     case Kind::canal_cone:
       return read_canal_cone(t, s);
+    case Kind::proximal_box:
+      return read_proximal_box(t, s);
   }
 }
 
@@ -221,7 +242,7 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   s.column = static_cast<int>(table.source().begin.column);
   places[at] = {s.line, s.column};
   for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, fmt::format("{}/{}", at, key));
-  const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone"}, 0, true);
+  const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone", "proximal_box"}, 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
   s.kind = static_cast<ShapeSpec::Kind>(kind);

@@ -25,25 +25,29 @@ enum class TissuePart { all, chamber };
 
 /// A closed line on the occlusal surface, seen from above. All lengths in mm, tooth frame x and y.
 struct OutlineSpec {
-  enum class Kind { circle, polygon, stroke, projection };
+  enum class Kind { circle, polygon, stroke, projection, fissure };
   Kind kind = Kind::circle;
   Vec3 centre_mm;               ///< added to every point; z unused
   bool from_chamber = false;    ///< centre counted from the middle of the pulp chamber instead of the tooth's origin
   double radius_mm = 0.0;       ///< circle
   std::vector<Vec3> points_mm;  ///< polygon corners, or the path of a stroke
-  double width_mm = 0.0;        ///< of a stroke
+  double width_mm = 0.0;        ///< of a stroke, and along a fissure
   std::string tissue = "pulp";  ///< projection: seen from above, the shadow of this tissue
   TissuePart part = TissuePart::all;
   double offset_mm = 0.0;    ///< moves the outline outwards (negative: inwards)
   double rounding_mm = 0.0;  ///< projection: no notch and no corner sharper than this radius
+  double ridge_mm = 0.0;     ///< fissure: of each marginal ridge that stays, from its crest to the outline
+  bool branches = false;     ///< fissure: its branches, too
+  int through = 0;           ///< fissure: goes on through the mesial (+1) or distal (-1) ridge
+  std::vector<std::vector<Vec3>> paths_mm;  ///< fissure: its lines on the tooth, once it was placed there
 };
 
 /// Where a column ends.
 struct BottomSpec {
-  enum class Kind { level, below_surface, below_lowest, below_mean, tissue_roof, tissue_floor };
+  enum class Kind { level, below_surface, below_lowest, below_mean, tissue_roof, tissue_floor, below_border };
   Kind kind = Kind::level;
   double z_mm = 0.0;      ///< level: height in the tooth frame
-  double depth_mm = 0.0;  ///< below the surface (everywhere, or its lowest or mean height inside the outline)
+  double depth_mm = 0.0;  ///< below the surface (everywhere, or its lowest or mean height inside the outline), or below the lowest enamel under it
   std::string tissue = "pulp";
   TissuePart part = TissuePart::all;
   double deeper_mm = 0.0;  ///< moves a tissue's roof or floor down
@@ -51,7 +55,7 @@ struct BottomSpec {
 
 /// A body in the tooth frame, or one relative to a tissue. Bodies of a list are combined in their order.
 struct ShapeSpec {
-  enum class Kind { box, cylinder, cone, ball, prism, column, tissue, stl, canal_cone };
+  enum class Kind { box, cylinder, cone, ball, prism, column, tissue, stl, canal_cone, proximal_box };
   enum class Combine { add, subtract, intersect };
   Kind kind = Kind::box;
   Combine combine = Combine::add;
@@ -71,6 +75,10 @@ struct ShapeSpec {
   std::shared_ptr<const TriangleMesh> surface;  ///< stl: what the file holds, tooth frame; null until read_surfaces (surface_files.h)
   int canals_x = 0, canals_y = 0;               ///< canal_cone: only canals on this side of the chamber's middle, +1 mesial / buccal; 0 = either
   double deeper_mm = 0.0;                       ///< canal_cone: begins this far below the canal's mouth
+  int side = 1;                                 ///< proximal_box: at the mesial (+1) or distal (-1) surface
+  double width_mm = 0.0;                        ///< proximal_box: from buccal to lingual
+  double depth_mm = 0.0;                        ///< proximal_box: from the outer surface at its floor to its axial wall
+  double above_neck_mm = 0.0;                   ///< proximal_box: of its floor above the cemento-enamel junction
   int line = 0, column = 0;                     ///< in the scenario file, for messages
 };
 

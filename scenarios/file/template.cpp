@@ -243,12 +243,14 @@ constexpr std::string_view k_shapes = R"(
 #   column   outline, bottom, taper_deg: from the occlusal surface down to the bottom
 #   tissue   tissue, part, offset_mm: the leaves of a tissue, grown
 #   canal_cone  canals = "all" or "mesial", "distobuccal" ..., radius_mm (else the mouth's own), taper_deg, deeper_mm, axis: on the canals' mouths
+#   proximal_box  side = "mesial" or "distal", width_mm, depth_mm (from the outer surface), above_neck_mm: a box at the contact area
 #   stl      file = "zone.stl": a closed surface in mm, in the tooth's frame, beside this file
 # outline = { kind = "circle", radius_mm } | { kind = "polygon", points_mm } | { kind = "stroke", points_mm, width_mm }
 #         | { kind = "projection", tissue, part = "all" or "chamber", rounding_mm }; all with offset_mm, the first three
 #           with centre_mm and from = "tooth" or "chamber"
+#         | { kind = "fissure", width_mm, ridge_mm (of each marginal ridge that stays), branches = "none" or "all", through = "mesial" or "distal" }
 # bottom  = { kind = "level", z_mm } | { kind = "below_surface" or "below_lowest" or "below_mean", depth_mm }
-#         | { kind = "tissue_roof" or "tissue_floor", tissue, part, deeper_mm }
+#         | { kind = "tissue_roof" or "tissue_floor", tissue, part, deeper_mm } | { kind = "below_border" (of enamel and dentin), depth_mm }
 )";
 
 constexpr std::string_view k_margins = R"(
@@ -358,25 +360,39 @@ std::string scenario_template(const std::string& tooth_word, const std::string& 
     if (t.tooth == tooth_word && t.word == task_word) task = &t;
   if (tooth == nullptr) throw Error("--tooth " + tooth_word, "there is no such tooth to write a scenario for", "choose " + all_choices());
   if (task == nullptr) throw Error("--task " + task_word, "there is no such task for the " + tooth_word, "choose " + all_choices());
-  const bool access = task->kind == Kind::access;
+  return scenario_text({.id = fmt::format("{}_{}", tooth_word, task_word),
+                        .title = std::string(task->title),
+                        .what = std::string(task->what),
+                        .tooth_file = std::string(tooth->file),
+                        .about = std::string(tooth->how),
+                        .points = std::string(task->points),
+                        .time_limit_s = task->time_limit_s,
+                        .access = task->kind == Kind::access,
+                        .aims = std::string(task->aims),
+                        .faults = std::string(task->faults),
+                        .zones = std::string(task->zones),
+                        .guard = std::string(task->guard)});
+}
+
+std::string scenario_text(const TaskText& task) {
   std::string s(k_head);
-  s += line("id = " + in_quotes(fmt::format("{}_{}", tooth_word, task_word)), "small letters, digits, _ and -");
-  s += line("title = " + in_quotes(task->title), "what the candidate reads first");
-  s += line("description = " + in_quotes(task->what), "");
-  s += fmt::format("# {}\n", tooth->how);
-  s += line("tooth = " + in_quotes(tooth->file), "beside this file, or in data/teeth");
-  s += "# allowed diamond points (data/points); the first is mounted\n" + line(fmt::format("points = {}", task->points), "");
+  s += line("id = " + in_quotes(task.id), "small letters, digits, _ and -");
+  s += line("title = " + in_quotes(task.title), "what the candidate reads first");
+  s += line("description = " + in_quotes(task.what), "");
+  s += fmt::format("# {}\n", task.about);
+  s += line("tooth = " + in_quotes(task.tooth_file), "beside this file, or in data/teeth");
+  s += "# allowed diamond points (data/points); the first is mounted\n" + line(fmt::format("points = {}", task.points), "");
   s += line("max_rpm = 200000", "a faster handpiece is a violation");
-  s += line(fmt::format("time_limit_s = {}", static_cast<int>(task->time_limit_s)), "to the tick of 1 ms; what is done later does not count");
+  s += line(fmt::format("time_limit_s = {}", static_cast<int>(task.time_limit_s)), "to the tick of 1 ms; what is done later does not count");
   s += line("force_limit_n = 2.5", "pressing harder is counted; 0 = no limit");
   s += k_frame;
-  s += access ? k_access_steps : k_cavity_steps;
-  s += fmt::format("\n[perforation]\n{}{}", line(fmt::format("aims = {}", task->aims), "tissues that are to be opened"),
-                   line(fmt::format("faults = {}", task->faults), "tissues that must not be"));
+  s += task.access ? k_access_steps : k_cavity_steps;
+  s += fmt::format("\n[perforation]\n{}{}", line(fmt::format("aims = {}", task.aims), "tissues that are to be opened"),
+                   line(fmt::format("faults = {}", task.faults), "tissues that must not be"));
   s += k_shapes;
-  s += task->zones;
+  s += task.zones;
   s += k_margins;
-  s += task->guard;
+  s += task.guard;
   s += k_rubric;
   return s;
 }

@@ -6,6 +6,19 @@
 
 namespace cavum::scenarios {
 
+/// What one scenario says of its own: steps, pauses, margins, rubric and comments are the same for all of its kind.
+struct TaskText {
+  std::string id, title, what;    ///< `what` is for the candidate
+  std::string tooth_file, about;  ///< `about` the tooth, a comment
+  std::string points;             ///< the tray, as a TOML list
+  double time_limit_s = 600.0;
+  bool access = false;        ///< opens a pulp chamber: its steps ask for that
+  std::string aims, faults;   ///< TOML lists of tissues
+  std::string zones, guard;   ///< [[zones.target]] and [[zones.protected]] with comments
+};
+/// A whole scenario with comments.
+[[nodiscard]] std::string scenario_text(const TaskText& task);
+
 /// A tooth and a task that there is a template for.
 struct TemplateChoice {
   std::string tooth, task;

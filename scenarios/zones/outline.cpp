@@ -21,16 +21,21 @@ class Circle final : public Outline {
 
 class Stroke final : public Outline {
  public:
-  Stroke(std::vector<Vec3> path, double half) : path_(std::move(path)), half_(half) {}
+  Stroke(std::vector<std::vector<Vec3>> paths, double half) : paths_(std::move(paths)), half_(half) {}
   double distance_mm(double x, double y) const noexcept override {
     double d = 1e300;
-    for (std::size_t i = 0; i + 1 < path_.size(); ++i) d = std::min(d, segment_distance({x, y, 0}, path_[i], path_[i + 1]));
+    for (const auto& path : paths_)
+      for (std::size_t i = 0; i + 1 < path.size(); ++i) d = std::min(d, segment_distance({x, y, 0}, path[i], path[i + 1]));
     return d - half_;
   }
-  std::uint64_t pieces() const noexcept override { return path_.size(); }
+  std::uint64_t pieces() const noexcept override {
+    std::uint64_t sum = 0;
+    for (const auto& path : paths_) sum += path.size();
+    return sum;
+  }
 
  private:
-  std::vector<Vec3> path_;
+  std::vector<std::vector<Vec3>> paths_;
   double half_;
 };
 
@@ -119,7 +124,9 @@ std::unique_ptr<Outline> make_outline(const OutlineSpec& spec, Vec3 centre, cons
     case OutlineSpec::Kind::circle:
       return std::make_unique<Circle>(centre, spec.radius_mm + spec.offset_mm);
     case OutlineSpec::Kind::stroke:
-      return std::make_unique<Stroke>(std::move(points), 0.5 * spec.width_mm + spec.offset_mm);
+      return std::make_unique<Stroke>(std::vector<std::vector<Vec3>>{std::move(points)}, 0.5 * spec.width_mm + spec.offset_mm);
+    case OutlineSpec::Kind::fissure:
+      return std::make_unique<Stroke>(spec.paths_mm, 0.5 * spec.width_mm + spec.offset_mm);
     case OutlineSpec::Kind::polygon:
       return std::make_unique<Polygon>(std::move(points), spec.offset_mm);
     case OutlineSpec::Kind::projection:

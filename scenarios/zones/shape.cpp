@@ -15,6 +15,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/mesh_body.h"
 #include "scenarios/zones/outline.h"
+#include "scenarios/zones/placed.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -245,6 +246,9 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
   return all;
 }
 
+/// Under a stroke the border of enamel and dentin is looked at in the middle half of its width.
+constexpr double k_beside_border_share = 0.25;
+
 /// Heights of the tooth's surface inside an outline.
 struct SurfaceHeights {
   double lowest_mm = 1e9, mean_mm = 0;
@@ -284,6 +288,7 @@ std::string place_text(const std::string& file, const ShapeSpec& spec) { return 
 
 struct ShapeMaker::Cache {
   std::optional<ColumnMap> surface;
+  std::optional<Landmarks> landmarks;
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
 };
 
@@ -294,6 +299,11 @@ ShapeMaker::~ShapeMaker() = default;
 const ColumnMap& ShapeMaker::surface() {
   if (!cache_->surface) cache_->surface = surface_relief(tooth_);
   return *cache_->surface;
+}
+
+const Landmarks& ShapeMaker::landmarks() {
+  if (!cache_->landmarks) cache_->landmarks = find_landmarks(tooth_);
+  return *cache_->landmarks;
 }
 
 std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
@@ -333,6 +343,8 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
       return std::make_unique<MeshBody>(tooth_, *spec.surface);
     case ShapeSpec::Kind::canal_cone:
       return canal_cones(tooth_, spec, relief(spec.tissue, TissuePart::chamber, where).middle_mm, where);
+    case ShapeSpec::Kind::proximal_box:
+      return std::make_unique<Box>(place_proximal_box(spec, tooth_, landmarks(), where));
     case ShapeSpec::Kind::column:
       break;
   }
@@ -340,7 +352,7 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
 }
 
 std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std::string& where) {
-  const OutlineSpec& o = spec.outline;
+  const OutlineSpec o = spec.outline.kind == OutlineSpec::Kind::fissure ? place_fissure(spec.outline, landmarks(), where) : spec.outline;
   Vec3 centre = o.centre_mm;
   if (o.from_chamber) {
     const Vec3 middle = relief("pulp", TissuePart::chamber, where).middle_mm;
@@ -348,19 +360,38 @@ std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std:
   }
   const TissueRelief* shadow = o.kind == OutlineSpec::Kind::projection ? &relief(o.tissue, o.part, where) : nullptr;
   auto outline = make_outline(o, centre, shadow);
-  ColumnBottom bottom = bottom_of(spec.bottom, *outline, where);
+  ColumnBottom bottom = bottom_of(spec.bottom, *outline, o, where);
   work_.steps(bottom.height_mm.value.size(), outline->pieces());
   return std::make_unique<Column>(std::move(outline), std::move(bottom.height_mm), spec.taper_deg, bottom.outline_z_mm);
 }
 
-ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outline& outline, const std::string& where) {
-  using Kind = BottomSpec::Kind;
-  switch (b.kind) {
-    case Kind::level: {
-      ColumnBottom level{surface(), b.z_mm};
-      std::fill(level.height_mm.value.begin(), level.height_mm.value.end(), b.z_mm);
-      return level;
+/// Of the enamel's underside: under the middle lines of a fissure's outline, else anywhere inside it.
+double ShapeMaker::lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const std::string& where) {
+  const TissueRelief& enamel = relief("enamel", TissuePart::all, where);
+  const ColumnMap& floor = enamel.floor_mm;
+  double lowest = 1e9;
+  for (int y = 0; y < floor.ny; ++y)
+    for (int x = 0; x < floor.nx; ++x) {
+      const Vec3 at = floor.origin_mm + Vec3{x + 0.5, y + 0.5, 0} * floor.leaf_mm;
+      if (enamel.shadow[floor.index(x, y)] == 0 || outline.distance_mm(at.x, at.y) >= -k_beside_border_share * placed.width_mm) continue;
+      lowest = std::min(lowest, floor.value[floor.index(x, y)]);
     }
+  if (lowest > 1e8) throw Error(where, "there is no enamel under the outline", "move it over the crown, or let the bottom follow something else");
+  return lowest;
+}
+
+ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outline& outline, const OutlineSpec& placed, const std::string& where) {
+  using Kind = BottomSpec::Kind;
+  const auto level_at = [&](double z_mm) {
+    ColumnBottom level{surface(), z_mm};
+    std::fill(level.height_mm.value.begin(), level.height_mm.value.end(), z_mm);
+    return level;
+  };
+  switch (b.kind) {
+    case Kind::level:
+      return level_at(b.z_mm);
+    case Kind::below_border:
+      return level_at(lowest_border_mm(outline, placed, where) - b.depth_mm);
     case Kind::tissue_roof:
     case Kind::tissue_floor: {
       const TissueRelief& part = relief(b.tissue, b.part, where);

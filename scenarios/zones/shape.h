@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/relief.h"
@@ -44,6 +45,8 @@ class ShapeMaker {
   /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to, and beyond a limit of zone_work.h.
   [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);
   [[nodiscard]] const ColumnMap& surface();
+  /// Where the tooth's cusps, fissures and ridges are; found when they are first asked for.
+  [[nodiscard]] const Landmarks& landmarks();
   [[nodiscard]] ZoneWork& work() noexcept { return work_; }
 
  private:
@@ -54,7 +57,8 @@ class ShapeMaker {
   };
   [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
   [[nodiscard]] std::unique_ptr<Shape> make_column(const ShapeSpec& spec, const std::string& where);
-  [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const std::string& where);
+  [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const OutlineSpec& placed, const std::string& where);
+  [[nodiscard]] double lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const std::string& where);
   [[nodiscard]] const TissueRelief& relief(const std::string& tissue, TissuePart part, const std::string& where);
   struct Cache;
   const Tooth& tooth_;

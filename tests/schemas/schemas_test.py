@@ -35,6 +35,9 @@ SHAPES = [
     {"shape": "tissue", "tissue": "pulp", "part": "chamber", "offset_mm": 0.1},
     {"shape": "stl", "file": "cavity.stl"},
     {"shape": "canal_cone", "tissue": "pulp", "canals": "mesial", "radius_mm": 0.5, "taper_deg": 5, "deeper_mm": 0, "axis": [0, 0, 1]},
+    {"shape": "column", "outline": {"kind": "fissure", "width_mm": 1.2, "ridge_mm": 1.5, "branches": "all", "through": "mesial", "offset_mm": 0},
+     "bottom": {"kind": "below_border", "depth_mm": 0.2}},
+    {"shape": "proximal_box", "side": "distal", "width_mm": 3, "depth_mm": 1.2, "above_neck_mm": 1},
 ]
 
 

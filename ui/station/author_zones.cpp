@@ -10,10 +10,14 @@ namespace {
 
 using Kind = scenarios::ShapeSpec::Kind;
 
-constexpr std::array<const char*, 9> k_shape_names{"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "STL file", "canal cone"};
+constexpr std::array<const char*, 10> k_shape_names{"box",    "cylinder", "cone",     "ball",       "prism",
+                                                    "column", "tissue",   "STL file", "canal cone", "proximal box"};
 
 void add_bottom(AuthorZone& zone, const scenarios::BottomSpec& b, const std::string& at) {
   switch (b.kind) {
+    case scenarios::BottomSpec::Kind::below_border:
+      zone.numbers.push_back({"deeper than the enamel", at + "/depth_mm", b.depth_mm, -5, 5});
+      break;
     case scenarios::BottomSpec::Kind::level:
       zone.numbers.push_back({"level of the floor, z", at + "/z_mm", b.z_mm, -100, 100});
       break;
@@ -41,6 +45,10 @@ void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::s
     case scenarios::OutlineSpec::Kind::polygon:
       zone.closed = true;
       zone.least_points = 3;
+      break;
+    case scenarios::OutlineSpec::Kind::fissure:
+      zone.numbers.push_back({"width", at + "/width_mm", o.width_mm, 0.1, 5});
+      zone.numbers.push_back({"ridges left", at + "/ridge_mm", o.ridge_mm, 0, 5});
       break;
     case scenarios::OutlineSpec::Kind::projection:
       zone.numbers.push_back({"rounding", at + "/rounding_mm", o.rounding_mm, 0, 5});
@@ -76,6 +84,11 @@ AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double 
       zone.frame.at = f.at + f.z * up + f.x * s.outline.centre_mm.x + f.y * s.outline.centre_mm.y;
       break;
     }
+    case Kind::proximal_box:
+      number("width", "width_mm", s.width_mm, 0.5, 10);
+      number("axial depth", "depth_mm", s.depth_mm, 0.2, 5);
+      number("floor above the neck", "above_neck_mm", s.above_neck_mm, 0, 6);
+      break;
     case Kind::box:
       zone.numbers.push_back({"size along x", at + "/size_mm/0", s.size_mm.x, 0.05, 100});
       zone.numbers.push_back({"size along y", at + "/size_mm/1", s.size_mm.y, 0.05, 100});

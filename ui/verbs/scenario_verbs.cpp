@@ -1,4 +1,4 @@
-// `cavum scenario check | show | solve | new`: authoring help.
+// `cavum scenario check | show | solve`: authoring help.
 #include <fmt/core.h>
 #include <stdlib.h>
 
@@ -19,21 +19,21 @@
 #include "scenarios/candidates/simulated_exam.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/parse.h"
-#include "scenarios/file/template.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/picture.h"
 #include "scenarios/zones/zone_map.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/seed_check.h"
+#include "ui/verbs/scenario_new.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {
 namespace {
 
 struct ScenarioArguments {
-  std::string scenario, tooth, tooth_kind = "molar", task, out, model = "consistent";
+  std::string scenario, tooth, out, model = "consistent";
   std::uint64_t seed = 1;
-  bool json = false, force = false, careless = false;
+  bool json = false, careless = false;
 };
 
 int check(const ScenarioArguments& o) {
@@ -308,26 +308,6 @@ int solve(const ScenarioArguments& o) {
   return answer;
 }
 
-/// The task that is written when none is named: a class I where the tooth has one.
-std::string first_task(const std::string& tooth) {
-  std::string first = "class_1";  // of an unknown tooth, which is refused with all choices
-  bool any = false;
-  for (const auto& c : scenarios::template_choices()) {
-    if (c.tooth != tooth || (any && c.task != "class_1")) continue;
-    first = c.task;
-    any = true;
-  }
-  return first;
-}
-
-int make_new(const ScenarioArguments& o) {
-  require_writable(o.out);
-  if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  write_text_file(o.out, scenarios::scenario_template(o.tooth_kind, o.task.empty() ? first_task(o.tooth_kind) : o.task), {.may_replace = o.force});
-  std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
-  return 0;
-}
-
 }  // namespace
 
 void add_scenario_verbs(CLI::App& app, int& exit_code) {
@@ -358,14 +338,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_flag("--json", o->json, "one JSON object on standard output");
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
 
-  auto* news = verb->add_subcommand("new", "Write a commented scenario to start from");
-  std::string known;
-  for (const auto& c : scenarios::template_choices()) known += fmt::format("{}{} {}", known.empty() ? "" : ", ", c.tooth, c.task);
-  news->add_option("--tooth", o->tooth_kind, "kind of tooth, with the task one of: " + known)->capture_default_str();
-  news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
-  news->add_option("--out", o->out, "file to write")->required();
-  news->add_flag("--force", o->force, "overwrite");
-  news->callback([o, &exit_code] { exit_code = make_new(*o); });
+  add_scenario_new(*verb, exit_code);
 }
 
 }  // namespace cavum::ui

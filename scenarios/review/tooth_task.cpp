@@ -1,0 +1,286 @@
+#include "scenarios/review/tooth_task.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "scenarios/file/template.h"
+#include "scenarios/review/check.h"
+#include "scenarios/zones/relief.h"
+
+namespace cavum::scenarios {
+namespace {
+
+// Preparation guides: the isthmus about a quarter of the distance between cusps, 1.2 to 1.5 mm; 1.5 to 2 mm deep from the fissure, 0.2 to 0.5 mm of it
+// in dentin; 1.6 mm of each marginal ridge stays, less on a small tooth; the box's axial wall 1.2 to 1.5 mm from the surface, its floor half a
+// millimetre below the contact and clear of the neck (Sturdevant's Art and Science of Operative Dentistry, amalgam classes I and II).
+constexpr double k_isthmus_share = 0.25, k_narrowest_mm = 1.2, k_widest_mm = 1.5;
+constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm = 4.0;
+constexpr double k_below_contact_mm = 0.5, k_least_above_neck_mm = 0.8;
+constexpr double k_in_dentin_mm = 0.2;
+
+/// What there is to choose from, best first; the first that fits is taken.
+struct Choice {
+  std::string zones, guard, what, chosen;
+};
+
+struct ToothTask {
+  const char *word, *title, *points;
+  bool access;
+  const char *aims, *faults;
+  std::function<std::string(const Tooth&, const Landmarks&)> why_not;
+  std::function<std::vector<Choice>(const Tooth&, const Landmarks&)> choices;
+};
+
+bool has_tissue(const Tooth& tooth, const char* name) {
+  return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [&](const Tissue& t) {
+    return t.name == name && tooth.octree.count_leaves()[t.id] > 0;
+  });
+}
+
+std::string guard_text(double offset_mm) {
+  return fmt::format(
+      "[[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out\n"
+      "shape = \"tissue\"\ntissue = \"pulp\"\noffset_mm = {}\n",
+      fixed(offset_mm, 1));
+}
+
+/// From the buccal to the lingual cusps, mm: of the two tips furthest apart across the tooth.
+double across_mm(const Landmarks& l) {
+  double low = 1e9, high = -1e9;
+  for (const auto& c : l.cusps) {
+    low = std::min(low, c.tip_mm.y);
+    high = std::max(high, c.tip_mm.y);
+  }
+  return high > low ? high - low : 0.0;
+}
+
+double crown_width_mm(const Landmarks& l) {
+  double low = 1e9, high = -1e9;
+  for (const Vec3& p : l.height_of_contour_mm) {
+    low = std::min(low, p.y);
+    high = std::max(high, p.y);
+  }
+  return high > low ? high - low : 0.0;
+}
+
+/// Enamel over the deepest place of the fissure, mm; 0 where there is none.
+double enamel_under_fissure_mm(const Tooth& tooth, const Landmarks& l) {
+  const TissueRelief enamel = tissue_relief(tooth, "enamel", TissuePart::all, tooth.name);
+  double surface = 1e9, border = 1e9;
+  for (const Vec3& p : l.central_fissure_mm) {
+    surface = std::min(surface, p.z);
+    border = std::min(border, enamel.floor_mm.at(p.x, p.y));
+  }
+  return std::max(0.0, surface - border);
+}
+
+std::string isthmus_mm(const Landmarks& l) { return fixed(std::clamp(k_isthmus_share * across_mm(l), k_narrowest_mm, k_widest_mm), 1); }
+
+/// Floors of an occlusal cavity, deepest first: from the surface where that ends in dentin, else from the border of enamel and dentin.
+struct Floor {
+  std::string toml, words;
+};
+std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
+  std::vector<Floor> list;
+  const double enamel_mm = enamel_under_fissure_mm(tooth, l);
+  for (const double depth : {1.8, 1.5})
+    if (depth >= enamel_mm + k_in_dentin_mm)
+      list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm below the fissure"});
+  for (const double depth : {0.5, 0.3, 0.2})
+    list.push_back({fmt::format("{{ kind = \"below_border\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm into dentin"});
+  return list;
+}
+
+std::string no_fissure(const Tooth&, const Landmarks& l) { return l.central_fissure_mm.size() < 2 ? "no central fissure is found on it" : ""; }
+
+std::vector<Choice> class_1(const Tooth& tooth, const Landmarks& l) {
+  std::vector<Choice> list;
+  const std::string width = isthmus_mm(l);
+  for (const Floor& floor : floors(tooth, l))
+    for (const char* ridge : {"1.6", "1.2", "0.8"})
+      list.push_back({fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
+                                  "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
+                                  width, ridge, floor.toml),
+                      guard_text(0.5), fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; leave both marginal ridges.", width, floor.words),
+                      fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge)});
+  return list;
+}
+
+const Vec3* furthest(const Polyline& line, int side) {
+  const Vec3* most = nullptr;
+  for (const Vec3& p : line)
+    if (most == nullptr || p.x * side > most->x * side) most = &p;
+  return most;
+}
+
+std::string no_contact(const Landmarks& l, int side) {
+  return furthest(l.height_of_contour_mm, side) == nullptr || furthest(l.neck_mm, side) == nullptr ? "its contact area or its neck is not found" : "";
+}
+
+std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
+  std::vector<Choice> list;
+  const std::string_view word = side > 0 ? "mesial" : "distal";
+  const std::string width = fixed(std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), 1), isthmus = isthmus_mm(l);
+  const double above = std::max(k_least_above_neck_mm, furthest(l.height_of_contour_mm, side)->z - furthest(l.neck_mm, side)->z - k_below_contact_mm);
+  const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
+  for (const double more : {0.0, 0.5, 1.0})
+    for (const Floor& floor : all)
+      for (const char* axial : {"1.5", "1.2"}) {
+        const std::string level = fixed(above + more, 1);
+        std::string zones;
+        if (with_step)
+          zones = fmt::format("# The occlusal step along the fissure, through the {} ridge ...\n[[zones.target]]\nshape = \"column\"\n"
+                              "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = 1.2, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact area.\n",
+                              word, isthmus, word, floor.toml);
+        else
+          zones = "# A box at the contact area, open to the neighbouring tooth.\n";
+        zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word, width, axial, level);
+        const std::string box_words = fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width,
+                                                  word, axial, level);
+        list.push_back({zones, guard_text(0.5),
+                        with_step ? fmt::format("An occlusal step along the fissure, {} mm wide, floor {}, and {}.", isthmus, floor.words, box_words)
+                                  : fmt::format("Cut {}.", box_words),
+                        with_step ? fmt::format("isthmus {} mm, floor {}, {}", isthmus, floor.words, box_words) : box_words});
+      }
+  return list;
+}
+
+std::vector<Choice> access(const Tooth&, const Landmarks&) {
+  std::vector<Choice> list;
+  for (const char* rounding : {"0.55", "0.5"})
+    list.push_back({fmt::format("# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canals begin.\n[[zones.target]]\n"
+                                "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1, rounding_mm = {} }}\n"
+                                "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
+                                rounding),
+                    "", "Remove the whole roof of the pulp chamber with its horns; leave walls and floor.", "the chamber's shadow, corners of " + std::string(rounding) + " mm"});
+  return list;
+}
+
+std::vector<Choice> lesion(const Tooth&, const Landmarks&) {
+  return {{"# The lesion itself ...\n[[zones.target]]\nshape = \"tissue\"\ntissue = \"lesion\"\n\n# ... and the way to it: its shadow, down to its roof.\n"
+           "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"lesion\", rounding_mm = 0.55 }\n"
+           "bottom = { kind = \"tissue_roof\", tissue = \"lesion\" }\n",
+           guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
+}
+
+constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
+
+const std::vector<ToothTask>& tasks() {
+  const auto no_step = [](int side) {
+    return [side](const Tooth& tooth, const Landmarks& l) {
+      const std::string fissure = no_fissure(tooth, l);
+      return fissure.empty() ? no_contact(l, side) : fissure;
+    };
+  };
+  const auto no_box = [](int side) {
+    return [side](const Tooth&, const Landmarks& l) {
+      if (!l.incisal_edge_mm.empty()) return std::string("a front tooth has no such box");
+      return no_contact(l, side);
+    };
+  };
+  const auto boxes = [](int side, bool with_step) {
+    return [side, with_step](const Tooth& tooth, const Landmarks& l) { return box(tooth, l, side, with_step); };
+  };
+  static const std::vector<ToothTask> k_tasks{
+      {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_fissure, class_1},
+      {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true)},
+      {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true)},
+      {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false)},
+      {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false)},
+      {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])", R"(["periodontium"])",
+       [](const Tooth& tooth, const Landmarks& l) -> std::string {
+         if (!has_tissue(tooth, "pulp")) return "it has no pulp";
+         if (!l.incisal_edge_mm.empty()) return "it is a front tooth: its access leans, and is drawn by hand (data/scenarios/incisor_access.toml shows how)";
+         return l.chamber_roof_mm ? "" : "no pulp chamber is found in it";
+       },
+       access},
+      {"lesion", "Removal of a hidden lesion", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
+       [](const Tooth& tooth, const Landmarks&) -> std::string { return has_tissue(tooth, "lesion") ? "" : "it has no lesion: `cavum tooth lesion` grows one"; }, lesion}};
+  return k_tasks;
+}
+
+std::string id_of(const std::string& tooth_file, const std::string& task) {
+  std::string id;
+  for (const char c : std::filesystem::path(tooth_file).stem().string() + "_" + task) {
+    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    id += (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9') || small == '-' ? small : '_';
+  }
+  return id.substr(0, 60);
+}
+
+/// Tissues that the tooth has, of a TOML list of names.
+std::string present(const Tooth& tooth, const std::string& list) {
+  std::string kept;
+  for (const auto& t : tooth.tissues)
+    if (list.find("\"" + t.name + "\"") != std::string::npos) kept += fmt::format("{}\"{}\"", kept.empty() ? "" : ", ", t.name);
+  return "[" + kept + "]";
+}
+
+/// Whole minutes, at least five: two and a half times what the expert needs.
+double time_limit_s(const std::optional<double>& expert_s) { return 60.0 * std::max(5.0, std::ceil(2.5 * expert_s.value_or(0) / 60.0)); }
+
+}  // namespace
+
+std::vector<std::string> tooth_task_words() {
+  std::vector<std::string> words;
+  for (const auto& t : tasks()) words.emplace_back(t.word);
+  return words;
+}
+
+std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& landmarks) {
+  std::vector<OfferedTask> list;
+  for (const auto& t : tasks()) list.push_back({t.word, t.title, t.why_not(tooth, landmarks)});
+  return list;
+}
+
+WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, const std::string& tooth_file, const std::string& path, const std::string& task) {
+  const ToothTask* asked = nullptr;
+  std::string words;
+  for (const auto& t : tasks()) {
+    words += (words.empty() ? "" : ", ") + std::string(t.word);
+    if (t.word == task) asked = &t;
+  }
+  if (asked == nullptr) throw Error("--task " + task, "there is no such task", "choose one of " + words);
+  if (const std::string why = asked->why_not(tooth, landmarks); !why.empty())
+    throw Error("--task " + task, fmt::format("'{}' is not fit for it: {}", tooth.name, why), "see `cavum tooth landmarks`, or choose another of " + words);
+
+  WrittenTask best;
+  std::string refused;
+  std::size_t fewest = 1000;
+  for (const Choice& choice : asked->choices(tooth, landmarks)) {
+    TaskText text{.id = id_of(tooth_file, task),
+                  .title = asked->title,
+                  .what = choice.what,
+                  .tooth_file = tooth_file,
+                  .about = one_line(tooth.name),
+                  .points = asked->points,
+                  .time_limit_s = 7200,
+                  .access = asked->access,
+                  .aims = asked->aims,
+                  .faults = present(tooth, asked->faults),
+                  .zones = choice.zones,
+                  .guard = choice.guard};
+    CheckedScenario checked = check_whole(scenario_text(text), path);
+    if (checked.sound()) {
+      text.time_limit_s = time_limit_s(checked.expert_s);
+      const std::string written = scenario_text(text);
+      checked = check_whole(written, path);
+      if (checked.sound() && checked.problems.size() < fewest) {
+        fewest = checked.problems.size();
+        best = {written, checked.problems, choice.chosen};
+      }
+    }
+    if (fewest == 0) return best;
+    if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
+  }
+  if (fewest == 1000) throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
+  return best;
+}
+
+}  // namespace cavum::scenarios

@@ -1,0 +1,126 @@
+#include "scenarios/zones/placed.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "scenarios/zones/outline.h"
+
+namespace cavum::scenarios {
+namespace {
+
+constexpr double k_line_mm = 0.03;    // a line is known so well with fewer points
+constexpr double k_beyond_mm = 3.0;   // out of the tooth
+constexpr std::size_t k_fewest = 2;  // points of a line
+
+Vec3 flat(Vec3 p) { return {p.x, p.y, 0}; }
+
+/// Points between `first` and `last` that the line needs (Douglas and Peucker).
+void keep_points(const Polyline& line, std::size_t first, std::size_t last, std::vector<Vec3>& kept) {
+  double furthest_mm = 0;
+  std::size_t at = first;
+  for (std::size_t i = first + 1; i < last; ++i)
+    if (const double d = segment_distance(flat(line[i]), flat(line[first]), flat(line[last])); d > furthest_mm) {
+      furthest_mm = d;
+      at = i;
+    }
+  if (furthest_mm > k_line_mm) {
+    keep_points(line, first, at, kept);
+    keep_points(line, at, last, kept);
+    return;
+  }
+  kept.push_back(flat(line[last]));
+}
+
+std::vector<Vec3> simplified(const Polyline& line) {
+  std::vector<Vec3> kept;
+  if (line.size() < k_fewest) return kept;
+  kept.push_back(flat(line[0]));
+  keep_points(line, 0, line.size() - 1, kept);
+  return kept;
+}
+
+/// The line from where it is at least `away_mm` from `place`, going from its first point on. Empty when it never is.
+Polyline begun_away_from(const Polyline& line, Vec3 place, double away_mm) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const double d = length(flat(line[i] - place));
+    if (d < away_mm) continue;
+    Polyline rest(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
+    if (i == 0) return rest;
+    const double before = length(flat(line[i - 1] - place)), share = (away_mm - before) / std::max(1e-9, d - before);
+    rest.insert(rest.begin(), line[i - 1] + (line[i] - line[i - 1]) * share);
+    return rest;
+  }
+  return {};
+}
+
+Polyline reversed(Polyline line) {
+  std::reverse(line.begin(), line.end());
+  return line;
+}
+
+/// The line's beginning kept away from a ridge, or led through it.
+Polyline begun_at_ridge(Polyline line, const MarginalRidge& ridge, double away_mm, bool through) {
+  if (!ridge.lowest_mm) return line;
+  if (!through) return begun_away_from(line, *ridge.lowest_mm, away_mm);
+  line.insert(line.begin(), *ridge.lowest_mm);
+  const Vec3 out = normalized(flat(line[0] - line[1]));
+  line.insert(line.begin(), line[0] + out * k_beyond_mm);
+  return line;
+}
+
+/// The place of a closed line furthest to one side along x.
+const Vec3* furthest(const Polyline& line, int side) {
+  const Vec3* most = nullptr;
+  for (const Vec3& p : line)
+    if (most == nullptr || p.x * side > most->x * side) most = &p;
+  return most;
+}
+
+}  // namespace
+
+OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const std::string& where) {
+  if (landmarks.central_fissure_mm.size() < k_fewest)
+    throw Error(where, "no central fissure is found on this tooth", "look at `cavum tooth landmarks`, set its pits there, or draw the outline yourself");
+  OutlineSpec placed = spec;
+  const double away_mm = spec.ridge_mm + 0.5 * spec.width_mm;
+  Polyline line = begun_at_ridge(landmarks.central_fissure_mm, landmarks.mesial_ridge, away_mm, spec.through > 0);
+  if (line.size() >= k_fewest) line = reversed(begun_at_ridge(reversed(line), landmarks.distal_ridge, away_mm, spec.through < 0));
+  if (line.size() < k_fewest)
+    throw Error(where, fmt::format("nothing of the fissure is {} mm away from both marginal ridges", fixed(away_mm, 2)),
+                "make 'ridge_mm' or 'width_mm' smaller");
+  placed.paths_mm.push_back(simplified(line));
+  if (spec.branches)
+    for (const Polyline& branch : landmarks.fissure_branches_mm)
+      if (branch.size() >= k_fewest) placed.paths_mm.push_back(simplified(branch));
+  return placed;
+}
+
+ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const Landmarks& landmarks, const std::string& where) {
+  const std::string_view side = spec.side > 0 ? "mesial" : "distal";
+  const Vec3 *contact = furthest(landmarks.height_of_contour_mm, spec.side), *neck = furthest(landmarks.neck_mm, spec.side);
+  if (contact == nullptr || neck == nullptr)
+    throw Error(where, fmt::format("no {} contact area or no neck is found on this tooth", side), "look at `cavum tooth landmarks`, or place the box yourself");
+  const Octree& tree = tooth.octree;
+  const double leaf = tree.leaf_mm(), floor_mm = neck->z + spec.above_neck_mm;
+  if (floor_mm > contact->z + 1.0)
+    throw Error(where, fmt::format("the box's floor lies {} mm above the {} contact", fixed(floor_mm - contact->z, 2), side), "make 'above_neck_mm' smaller");
+  // the outer surface just above the floor, coming from outside
+  const double beyond_mm = tree.origin_mm().x + (spec.side > 0 ? static_cast<double>(tree.size().x) * leaf : 0.0);
+  double surface_mm = beyond_mm;
+  const auto air = [&](double x) { return !tree.is_solid(tree.tissue_at({x, contact->y, floor_mm + leaf})); };
+  while (surface_mm * spec.side > 0 && air(surface_mm)) surface_mm -= 0.5 * leaf * spec.side;
+  if (air(surface_mm)) throw Error(where, fmt::format("the tooth ends below the box's floor at the {} side", side), "make 'above_neck_mm' smaller");
+  ShapeSpec box = spec;
+  box.kind = ShapeSpec::Kind::box;
+  const double axial_mm = surface_mm - spec.depth_mm * spec.side, outer_mm = beyond_mm + k_beyond_mm * spec.side;
+  const double top_mm = tree.origin_mm().z + static_cast<double>(tree.size().z) * leaf + k_beyond_mm;
+  box.size_mm = {std::fabs(outer_mm - axial_mm), spec.width_mm, top_mm - floor_mm};
+  box.at_mm = {0.5 * (outer_mm + axial_mm), contact->y, 0.5 * (top_mm + floor_mm)};
+  return box;
+}
+
+}  // namespace cavum::scenarios

@@ -1,0 +1,11 @@
+// `cavum scenario new`: a commented scenario to start from, by a kind of tooth or by the landmarks of a tooth of one's own.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace cavum::ui {
+
+/// Adds it to `cavum scenario`. `exit_code` gets what the verb ends with.
+void add_scenario_new(CLI::App& scenario, int& exit_code);
+
+}  // namespace cavum::ui
