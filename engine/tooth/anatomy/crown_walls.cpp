@@ -88,6 +88,15 @@ std::vector<int> contour_rows(const CrownWalls& walls, const TissueIds& ids) {
       }
     if (n > 0) rows[static_cast<std::size_t>(d)] = (2 * sum + n) / (2 * n);
   }
+  // the median of five directions: one that jumps is a ripple
+  const auto found = rows;
+  for (int d = 0; d < k_n; ++d) {
+    std::array<int, 5> near{};
+    for (int k = 0; k < 5; ++k) near[static_cast<std::size_t>(k)] = found[static_cast<std::size_t>((d + k - 2 + k_n) % k_n)];
+    std::sort(near.begin(), near.end());
+    if (near[0] < 0) continue;
+    if (const int row = near[2]; walls.radius_mm[walls.index(row, d)] >= 0) rows[static_cast<std::size_t>(d)] = row;
+  }
   return rows;
 }
 

@@ -1,4 +1,7 @@
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 
 #include "engine/tooth/anatomy/occlusal_marks.h"
 #include "engine/tooth/anatomy/polylines.h"
@@ -6,9 +9,11 @@
 namespace cavum {
 namespace {
 
-constexpr double k_hollow_mm = 0.03;  // least depth of a pit that is a hollow of its own
-constexpr double k_on_way_mm = 0.5;   // how far from the fissure's way a pit may lie
-constexpr double k_end_share = 0.38;  // of the way: an end's pit lies in it
+constexpr double k_pit_mm = 0.012;       // least depth of a pit below the lowest way out of it
+constexpr double k_central_mm = 0.03;    // of the central pit
+constexpr double k_fossa_mm = 0.3;       // of the central pit where no ridge tells the table's ends: the central fossa
+constexpr double k_end_share = 0.32;     // of the table's length: an end's pit lies in it
+constexpr double k_from_crest_mm = 0.3;  // a pit nearer to the ridge's crest is a fault of the crest
 constexpr double k_pits_apart_mm = 1.0;
 constexpr double k_least_branch_mm = 0.8;
 constexpr int k_passes = 4;
@@ -33,72 +38,93 @@ double median_bend(const std::vector<int>& way, const std::vector<double>& curva
   return bends.empty() ? 0.0 : bends[bends.size() / 2];
 }
 
-/// Where on the way the nearest place to a cell is.
-std::size_t nearest_on(const HeightMap& map, const std::vector<int>& way, int cell) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < way.size(); ++i)
-    if (flat_distance(map.place(way[i]), map.place(cell)) < flat_distance(map.place(way[best]), map.place(cell))) best = i;
-  return best;
+/// Hollows of the table, and its mesial and distal ends.
+struct Ground {
+  const HeightMap& map;
+  const std::vector<std::uint8_t>& inside;
+  const std::vector<double>& curvature;
+  std::vector<Peak> hollows;
+  double low_x = 1e9, high_x = -1e9;
+
+  /// `end` is 1 at the mesial end of the table, -1 at the distal one.
+  [[nodiscard]] bool at_end(Vec3 p, int end) const {
+    const double share = (p.x - low_x) / (high_x - low_x);
+    return end > 0 ? share > 1 - k_end_share : share < k_end_share;
+  }
+};
+
+/// The deepest hollow at an end of the table, away from the ridge's crest.
+std::optional<int> end_hollow(const Ground& g, Vec3 crest, int end) {
+  std::optional<Peak> best;
+  for (const auto& h : g.hollows) {
+    const Vec3 p = g.map.place(h.cell);
+    if (g.at_end(p, end) && flat_distance(p, crest) >= k_from_crest_mm && p.z < crest.z && (!best || h.prominence_mm > best->prominence_mm)) best = h;
+  }
+  return best ? std::optional(best->cell) : std::nullopt;
 }
 
-/// The end of the fissure on the first part of a way: the outermost hollow there, else where the way begins to be a valley.
-std::optional<std::size_t> end_pit(const HeightMap& map, const std::vector<int>& way, const std::vector<double>& curvature,
-                                   const std::vector<Peak>& hollows, double valley) {
-  const auto reach = static_cast<std::size_t>(k_end_share * static_cast<double>(way.size()));
-  std::optional<std::size_t> hollow;
-  for (const auto& h : hollows) {
-    const auto at = nearest_on(map, way, h.cell);
-    if (at > 1 && at <= reach && flat_distance(map.place(way[at]), map.place(h.cell)) <= k_on_way_mm && (!hollow || at < *hollow)) hollow = at;
-  }
-  if (hollow) return hollow;
-  for (std::size_t i = 0; i + 2 < reach; ++i)
-    if (bend_at(way, curvature, i) >= valley && bend_at(way, curvature, i + 2) >= valley) return i;
+/// Where the way from a ridge's crest inwards begins to be a valley as the whole of it is.
+std::optional<int> knee(const Ground& g, const std::vector<int>& way, int end) {
+  const double valley = 0.5 * median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
+  if (2 * valley < k_fissure_per_mm) return std::nullopt;
+  for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
+    if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
+      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_from_crest_mm ? std::optional(way[i]) : std::nullopt;
   return std::nullopt;
 }
 
-int cell_of(const HeightMap& map, Vec3 p) { return map.cell_at(p.x, p.y); }
+std::optional<int> end_pit(const Ground& g, Vec3 crest, Vec3 other_crest, int end) {
+  if (const auto hollow = end_hollow(g, crest, end)) return hollow;
+  const auto way = valley_way(g.map, g.inside, g.curvature, g.map.cell_at(crest.x, crest.y), {g.map.cell_at(other_crest.x, other_crest.y)});
+  return way.size() < 12 ? std::nullopt : knee(g, way, end);
+}
 
-Vec3 on_map(const HeightMap& map, int cell) { return map.place(cell); }
+/// The lowest hollow of the table's middle that is as deep as this, away from other pits.
+std::optional<Vec3> middle_hollow(const Ground& g, double least_mm, const std::vector<Vec3>& others) {
+  std::optional<Vec3> best;
+  for (const auto& h : g.hollows) {
+    const Vec3 p = g.map.place(h.cell);
+    if (h.prominence_mm < least_mm || g.at_end(p, 1) || g.at_end(p, -1) || (best && p.z >= best->z)) continue;
+    if (std::all_of(others.begin(), others.end(), [&](Vec3 o) { return flat_distance(o, p) >= k_pits_apart_mm; })) best = p;
+  }
+  return best;
+}
+
+int cell_of(const HeightMap& map, Vec3 p) { return map.cell_at(p.x, p.y); }
 
 }  // namespace
 
 void find_fissures(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks) {
   const HeightMap& map = maps.fissures;
+  const auto curvature = valley_curvature(map);
+  Ground ground{map, table.inside, curvature, find_hollows(map, k_pit_mm)};
+  std::erase_if(ground.hollows, [&](const Peak& h) { return table.inside[place(h.cell)] == 0; });
+  for (const int c : table.edge) {
+    ground.low_x = std::min(ground.low_x, map.place(c).x);
+    ground.high_x = std::max(ground.high_x, map.place(c).x);
+  }
   if (!marks.mesial.lowest_mm || !marks.distal.lowest_mm) {
     marks.notes.emplace_back("no fissures: a marginal ridge is missing to run between");
+    marks.central_pit = middle_hollow(ground, k_fossa_mm, {});
     return;
   }
-  const auto curvature = valley_curvature(map);
-  auto way = valley_way(map, table.inside, curvature, cell_of(map, *marks.mesial.lowest_mm), {cell_of(map, *marks.distal.lowest_mm)});
-  if (way.size() < 12) return;
-  const double usual = median_bend(way, curvature, way.size() / 4, way.size() - way.size() / 4);
-  if (usual < k_fissure_per_mm) {
-    marks.notes.emplace_back("no central fissure: the valley between the cusps is too flat");
+  const auto mesial = end_pit(ground, *marks.mesial.lowest_mm, *marks.distal.lowest_mm, 1);
+  const auto distal = end_pit(ground, *marks.distal.lowest_mm, *marks.mesial.lowest_mm, -1);
+  if (mesial) marks.mesial_pit = map.place(*mesial);
+  if (distal) marks.distal_pit = map.place(*distal);
+  std::vector<Vec3> pits;
+  for (const auto& pit : std::array{marks.mesial_pit, marks.distal_pit})
+    if (pit) pits.push_back(*pit);
+  marks.central_pit = middle_hollow(ground, k_central_mm, pits);
+  if (!mesial || !distal) {
+    marks.notes.push_back(fmt::format("no central fissure: its {} end cannot be told", mesial ? "distal" : "mesial"));
     return;
   }
-  const auto hollows = find_hollows(map, k_hollow_mm);
-  const double valley = 0.5 * std::min(usual, 4.0);
-  const auto mesial = end_pit(map, way, curvature, hollows, valley);
-  std::reverse(way.begin(), way.end());
-  auto distal = end_pit(map, way, curvature, hollows, valley);
-  std::reverse(way.begin(), way.end());
-  if (distal) distal = way.size() - 1 - *distal;
-  if (!mesial || !distal || *mesial + 8 > *distal) {
-    marks.notes.emplace_back("no central fissure: its ends cannot be told");
+  const auto fissure = valley_way(map, table.inside, curvature, *mesial, {*distal});
+  if (fissure.size() < 8 || median_bend(fissure, curvature, 0, fissure.size()) < k_fissure_per_mm) {
+    marks.notes.emplace_back("no central fissure: the valley between the pits is too flat");
     return;
   }
-  marks.mesial_pit = on_map(map, way[*mesial]);
-  marks.distal_pit = on_map(map, way[*distal]);
-  double lowest = 1e9;
-  for (const auto& h : hollows) {
-    const auto at = nearest_on(map, way, h.cell);
-    const Vec3 p = map.place(h.cell);
-    if (at <= *mesial || at >= *distal || flat_distance(map.place(way[at]), p) > k_on_way_mm || p.z >= lowest) continue;
-    if (flat_distance(p, *marks.mesial_pit) < k_pits_apart_mm || flat_distance(p, *marks.distal_pit) < k_pits_apart_mm) continue;
-    lowest = p.z;
-    marks.central_pit = p;
-  }
-  const std::vector<int> fissure(way.begin() + static_cast<std::ptrdiff_t>(*mesial), way.begin() + static_cast<std::ptrdiff_t>(*distal) + 1);
   marks.central_fissure = thinned(line_of(map, fissure, false, k_passes), 2, false);
   // a branch runs out between two cusps of one side, over the lowest place of the edge between them
   for (std::size_t i = 0; i + 1 < marks.cusps.size(); ++i) {

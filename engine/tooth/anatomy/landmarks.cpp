@@ -120,7 +120,7 @@ Landmarks found_landmarks(const Tooth& tooth) {
   Polyline widest;
   for (int d = 0; d < CrownWalls::k_directions; ++d)
     if (contour[static_cast<std::size_t>(d)] >= 0) widest.push_back(walls.place(contour[static_cast<std::size_t>(d)], d));
-  PulpMarks pulp = find_pulp_marks(tooth, frame, ids.pulp, neck_z);
+  PulpMarks pulp = find_pulp_marks(tooth, frame, ids.pulp, neck_z, front);
   if (frame.dentin_leaves > 0) out.apices_mm = find_apices(tooth, frame, neck_z.value_or(low.z), out.notes);
 
   const Turned turn(frame);

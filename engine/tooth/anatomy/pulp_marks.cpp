@@ -15,9 +15,8 @@ namespace {
 constexpr double k_cell = HeightMap::k_cell_mm;
 constexpr double k_horn_mm = 0.3;  // least height of a horn above the saddle to the next
 constexpr double k_horn_scale_mm = 0.1;
-constexpr double k_narrow = 0.35;   // of the widest slice's area: below is a canal
-constexpr double k_branch = 0.04;   // of the widest slice's area: what counts as a canal of its own
-constexpr double k_split_mm = 0.3;  // a split lasts this deep, or it is a ripple
+constexpr double k_branch_mm2 = 0.05;  // what counts as a canal of its own: 0.25 mm wide
+constexpr double k_split_mm = 0.3;     // a split lasts this deep, or it is a ripple
 constexpr double k_mouth_mm2 = 0.02;
 constexpr double k_least_pulp_mm3 = 0.5;
 constexpr double k_apex_mm = 1.0, k_flat_mm = 0.1, k_flat_mm2 = 1.0;
@@ -104,19 +103,16 @@ int area_of(const Slices& s, int z) {
 
 /// Lowest slice of a chamber that parts into canals; -1 where it never does.
 int floor_slice(const Slices& s, int widest) {
-  const int least = std::max(1, static_cast<int>(k_branch * area_of(s, widest)));
+  const int least = static_cast<int>(k_branch_mm2 / (k_cell * k_cell) + 0.5);
   const int lasting = std::max(1, static_cast<int>(k_split_mm / k_cell + 0.5));
   int since = -1;
   for (int z = widest; z >= 0; --z) {
     const auto pieces = pieces_of(s, z, z);
     const auto branches = std::count_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.cells >= least; });
-    if (branches < 2) {
-      // an end of a canal before another one begins to part is no floor
-      if (area_of(s, z) < k_narrow * area_of(s, widest) * 0.3) return -1;
+    if (branches < 2)
       since = -1;
-    } else if (since < 0) {
+    else if (since < 0)
       since = z;
-    }
     if (since >= 0 && since - z >= lasting) return since + 1;
   }
   return -1;
@@ -150,7 +146,7 @@ HeightMap top_of(const Slices& s) {
 
 }  // namespace
 
-PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp, std::optional<double> neck_z) {
+PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp, std::optional<double> neck_z, bool front) {
   PulpMarks marks;
   const Slices s = slices_of(tooth, frame, pulp);
   const auto cells = std::count(s.in.begin(), s.in.end(), std::uint8_t{1});
@@ -164,12 +160,15 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
   const int floor = floor_slice(s, widest);
   const double chamber_low = floor >= 0 ? s.low.z + (floor - 0.5) * k_cell : s.low.z + widest * k_cell - 0.5;
   const HeightMap top = top_of(s).smoothed(k_horn_scale_mm), raw = top_of(s);
+  std::optional<Vec3> between_horns;
   for (const auto& p : find_peaks(top, k_horn_mm)) {
     Vec3 at = top.place(p.cell);
     at.z = raw.at(p.cell);
-    if (at.z > chamber_low) marks.horns.push_back(at);
+    if (at.z <= chamber_low) continue;
+    marks.horns.push_back(at);
+    if (p.saddle >= 0 && top.at(p.saddle) > chamber_low && (!between_horns || top.at(p.saddle) < between_horns->z))
+      between_horns = top.place(p.saddle);
   }
-  // the roof: the lowest place of the pulp's upper side near the middle of the widest slice
   double sum_x = 0, sum_y = 0;
   for (int y = 0; y < s.ny; ++y)
     for (int x = 0; x < s.nx; ++x)
@@ -179,8 +178,10 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
       }
   const double area = area_of(s, widest);
   const Vec3 middle = s.place(sum_x / area, sum_y / area, widest);
+  // a front tooth's chamber narrows into the horns: its roof is the saddle between them
+  marks.roof = between_horns;
   constexpr double k_near_mm = 0.6;
-  for (int c = 0; c < top.count(); ++c) {
+  for (int c = 0; !front && c < top.count(); ++c) {
     const Vec3 p = top.place(c);
     const double dx = p.x - middle.x, dy = p.y - middle.y;
     if (top.on[static_cast<std::size_t>(c)] == 0 || dx * dx + dy * dy > k_near_mm * k_near_mm || p.z < middle.z) continue;

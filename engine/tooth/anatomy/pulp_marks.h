@@ -18,7 +18,8 @@ struct PulpMarks {
 };
 
 /// `neck_z`: mean height of the neck, where a single canal's mouth lies; none: such a canal has no mouth.
-[[nodiscard]] PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp, std::optional<double> neck_z);
+/// `front`: an incisor or canine, whose chamber has no roof but between its horns.
+[[nodiscard]] PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp, std::optional<double> neck_z, bool front);
 
 /// Ends of the roots: the lowest places of the solid tissue that hang at least 1 mm below where they join others, below `neck_z`. An end that is flat
 /// (1 mm2 and more within 0.1 mm) was cut or broken: it is no apex, and `notes` says so.

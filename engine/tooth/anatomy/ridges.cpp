@@ -62,6 +62,16 @@ void find_ridges(const CrownMaps& maps, const OcclusalTable& table, OcclusalMark
     for (const auto p : arc(lows[(i + n - 1) % n], lows[i], edge.size())) ridge.push_back(edge[p]);
     if (ridge.size() > 4) marks.cusp_ridges.push_back(thinned(ridge, k_thin, false));
   }
+  // where one side's cusps are worn away, nothing tells where a marginal ridge ends and a cusp begins
+  double buccal_mm = 0, lingual_mm = 0;
+  for (const auto& c : marks.cusps) {
+    if (is_buccal(c)) buccal_mm = std::max(buccal_mm, c.prominence_mm);
+    if (is_lingual(c)) lingual_mm = std::max(lingual_mm, c.prominence_mm);
+  }
+  if (std::min(buccal_mm, lingual_mm) < k_cusp_mm) {
+    marks.notes.emplace_back("no marginal ridges: one side has no cusp that stands out clearly");
+    return;
+  }
   // seen from above the edge runs counter-clockwise: lingual to buccal over the mesial side, buccal to lingual over the distal one
   int mesial = 0, distal = 0;
   for (std::size_t i = 0; i < n; ++i) {
