@@ -23,6 +23,7 @@ Tooth drilled_tooth(const Simulation& simulation) {
   tooth.tissues = simulation.tooth.tissues;
   tooth.name = simulation.tooth.name;
   tooth.source = simulation.tooth.source;
+  tooth.placed_landmarks = simulation.tooth.placed_landmarks;
   return tooth;
 }
 

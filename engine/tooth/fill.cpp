@@ -87,6 +87,7 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
   out.tissues = tooth.tissues;
   out.name = tooth.name + ", filled";
   out.source = tooth.source;
+  out.placed_landmarks = tooth.placed_landmarks;
   return out;
 }
 

@@ -28,6 +28,7 @@
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
 #include "ui/verbs/tooth_facts.h"
+#include "ui/verbs/tooth_verbs_parts.h"
 #include "ui/verbs/verbs.h"
 #ifdef CAVUM_WITH_IMPORT
 #include "engine/tooth/import/import_meshes.h"
@@ -37,9 +38,6 @@
 #endif
 
 namespace cavum::ui {
-namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<double> parse_numbers(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
@@ -59,6 +57,10 @@ Vec3 parse_vec(const std::string& text, const std::string& option) {
   if (n.size() != 3) throw Error(option, fmt::format("needs three numbers, '{}' has {}", text, n.size()), "write them as x,y,z");
   return {n[0], n[1], n[2]};
 }
+
+namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Saves the tooth and says what it is; `more` adds fields to the JSON.
 void finish(const Tooth& tooth, const std::string& path, bool json, const Json& more = Json::object()) {
@@ -379,6 +381,7 @@ void add_tooth_verbs(CLI::App& app, int& exit_code) {
   add_import(*tooth);
   add_info(*tooth);
   add_mesh(*tooth);
+  add_landmarks(*tooth);
   tooth->callback([&exit_code] { exit_code = 0; });
 }
 

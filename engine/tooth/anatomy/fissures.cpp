@@ -1,0 +1,151 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/tooth/anatomy/occlusal_marks.h"
+#include "engine/tooth/anatomy/polylines.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_pit_mm = 0.012;       // least depth of a pit below the lowest way out of it
+constexpr double k_central_mm = 0.03;    // of the central pit
+constexpr double k_fossa_mm = 0.3;       // of the central pit where no ridge tells the table's ends: the central fossa
+constexpr double k_end_share = 0.32;     // of the table's length: an end's pit lies in it
+constexpr double k_from_crest_mm = 0.3;  // a pit nearer to the ridge's crest is a fault of the crest
+constexpr double k_pits_apart_mm = 1.0;
+constexpr double k_least_branch_mm = 0.8;
+constexpr int k_passes = 4;
+
+std::size_t place(int cell) { return static_cast<std::size_t>(cell); }
+
+/// Mean curvature of five cells of the way around place i.
+double bend_at(const std::vector<int>& way, const std::vector<double>& curvature, std::size_t i) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t k = i >= 2 ? i - 2 : 0; k <= std::min(i + 2, way.size() - 1); ++k) {
+    sum += curvature[place(way[k])];
+    ++n;
+  }
+  return sum / n;
+}
+
+double median_bend(const std::vector<int>& way, const std::vector<double>& curvature, std::size_t from, std::size_t to) {
+  std::vector<double> bends;
+  for (std::size_t i = from; i < to; ++i) bends.push_back(curvature[place(way[i])]);
+  std::sort(bends.begin(), bends.end());
+  return bends.empty() ? 0.0 : bends[bends.size() / 2];
+}
+
+/// Hollows of the table, and its mesial and distal ends.
+struct Ground {
+  const HeightMap& map;
+  const std::vector<std::uint8_t>& inside;
+  const std::vector<double>& curvature;
+  std::vector<Peak> hollows;
+  double low_x = 1e9, high_x = -1e9;
+
+  /// `end` is 1 at the mesial end of the table, -1 at the distal one.
+  [[nodiscard]] bool at_end(Vec3 p, int end) const {
+    const double share = (p.x - low_x) / (high_x - low_x);
+    return end > 0 ? share > 1 - k_end_share : share < k_end_share;
+  }
+};
+
+/// The deepest hollow at an end of the table, away from the ridge's crest.
+std::optional<int> end_hollow(const Ground& g, Vec3 crest, int end) {
+  std::optional<Peak> best;
+  for (const auto& h : g.hollows) {
+    const Vec3 p = g.map.place(h.cell);
+    if (g.at_end(p, end) && flat_distance(p, crest) >= k_from_crest_mm && p.z < crest.z && (!best || h.prominence_mm > best->prominence_mm)) best = h;
+  }
+  return best ? std::optional(best->cell) : std::nullopt;
+}
+
+/// Where the way from a ridge's crest inwards begins to be a valley as the whole of it is.
+std::optional<int> knee(const Ground& g, const std::vector<int>& way, int end) {
+  const double valley = 0.5 * median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
+  if (2 * valley < k_fissure_per_mm) return std::nullopt;
+  for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
+    if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
+      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_from_crest_mm ? std::optional(way[i]) : std::nullopt;
+  return std::nullopt;
+}
+
+std::optional<int> end_pit(const Ground& g, Vec3 crest, Vec3 other_crest, int end) {
+  if (const auto hollow = end_hollow(g, crest, end)) return hollow;
+  const auto way = valley_way(g.map, g.inside, g.curvature, g.map.cell_at(crest.x, crest.y), {g.map.cell_at(other_crest.x, other_crest.y)});
+  return way.size() < 12 ? std::nullopt : knee(g, way, end);
+}
+
+/// The lowest hollow of the table's middle that is as deep as this, away from other pits.
+std::optional<Vec3> middle_hollow(const Ground& g, double least_mm, const std::vector<Vec3>& others) {
+  std::optional<Vec3> best;
+  for (const auto& h : g.hollows) {
+    const Vec3 p = g.map.place(h.cell);
+    if (h.prominence_mm < least_mm || g.at_end(p, 1) || g.at_end(p, -1) || (best && p.z >= best->z)) continue;
+    if (std::all_of(others.begin(), others.end(), [&](Vec3 o) { return flat_distance(o, p) >= k_pits_apart_mm; })) best = p;
+  }
+  return best;
+}
+
+int cell_of(const HeightMap& map, Vec3 p) { return map.cell_at(p.x, p.y); }
+
+}  // namespace
+
+void find_fissures(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks) {
+  const HeightMap& map = maps.fissures;
+  const auto curvature = valley_curvature(map);
+  Ground ground{map, table.inside, curvature, find_hollows(map, k_pit_mm)};
+  std::erase_if(ground.hollows, [&](const Peak& h) { return table.inside[place(h.cell)] == 0; });
+  for (const int c : table.edge) {
+    ground.low_x = std::min(ground.low_x, map.place(c).x);
+    ground.high_x = std::max(ground.high_x, map.place(c).x);
+  }
+  if (!marks.mesial.lowest_mm || !marks.distal.lowest_mm) {
+    marks.notes.emplace_back("no fissures: a marginal ridge is missing to run between");
+    marks.central_pit = middle_hollow(ground, k_fossa_mm, {});
+    return;
+  }
+  const auto mesial = end_pit(ground, *marks.mesial.lowest_mm, *marks.distal.lowest_mm, 1);
+  const auto distal = end_pit(ground, *marks.distal.lowest_mm, *marks.mesial.lowest_mm, -1);
+  if (mesial) marks.mesial_pit = map.place(*mesial);
+  if (distal) marks.distal_pit = map.place(*distal);
+  std::vector<Vec3> pits;
+  for (const auto& pit : std::array{marks.mesial_pit, marks.distal_pit})
+    if (pit) pits.push_back(*pit);
+  marks.central_pit = middle_hollow(ground, k_central_mm, pits);
+  if (!mesial || !distal) {
+    marks.notes.push_back(fmt::format("no central fissure: its {} end cannot be told", mesial ? "distal" : "mesial"));
+    return;
+  }
+  const auto fissure = valley_way(map, table.inside, curvature, *mesial, {*distal});
+  if (fissure.size() < 8 || median_bend(fissure, curvature, 0, fissure.size()) < k_fissure_per_mm) {
+    marks.notes.emplace_back("no central fissure: the valley between the pits is too flat");
+    return;
+  }
+  marks.central_fissure = thinned(line_of(map, fissure, false, k_passes), 2, false);
+  // a branch runs out between two cusps of one side, over the lowest place of the edge between them
+  for (std::size_t i = 0; i + 1 < marks.cusps.size(); ++i) {
+    const auto& ridges = marks.cusp_ridges;
+    const Vec3 a = marks.cusps[i].tip_mm, b = marks.cusps[i + 1].tip_mm;
+    const bool same_side =
+        (marks.cusps[i].name.find("lingual") != std::string::npos) == (marks.cusps[i + 1].name.find("lingual") != std::string::npos);
+    if (!same_side) continue;
+    // the common end of the two cusps' ridges
+    std::optional<Vec3> notch;
+    for (const auto& r : ridges)
+      for (const Vec3 end : {r.front(), r.back()})
+        if (flat_distance(end, a) + flat_distance(end, b) < 1.35 * flat_distance(a, b) + 0.4 && (!notch || end.z < notch->z)) notch = end;
+    if (!notch) continue;
+    auto branch = valley_way(map, table.inside, curvature, cell_of(map, *notch), fissure);
+    if (branch.size() < 3) continue;
+    std::reverse(branch.begin(), branch.end());
+    const Polyline line = line_of(map, branch, false, k_passes);
+    if (flat_length(line) >= k_least_branch_mm && median_bend(branch, curvature, 0, branch.size()) >= k_fissure_per_mm)
+      marks.branches.push_back(thinned(line, 2, false));
+  }
+}
+
+}  // namespace cavum

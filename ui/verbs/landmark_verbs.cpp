@@ -1,0 +1,161 @@
+// `cavum tooth landmarks`: what a dentist would point at, as points in mm; drawn; and put by a person where the program is wrong.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "engine/tooth/anatomy/landmarks.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/landmark_picture.h"
+#include "ui/verbs/tooth_facts.h"
+#include "ui/verbs/tooth_verbs_parts.h"
+
+namespace cavum::ui {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point(Vec3 p) { return Json::array({rounded(p.x, 1e-3), rounded(p.y, 1e-3), rounded(p.z, 1e-3)}); }
+Json point(const std::optional<Vec3>& p) { return p ? point(*p) : Json(nullptr); }
+Json points(const std::vector<Vec3>& line) {
+  Json out = Json::array();
+  for (const Vec3 p : line) out.push_back(point(p));
+  return out;
+}
+Json lines(const std::vector<Polyline>& all) {
+  Json out = Json::array();
+  for (const auto& line : all) out.push_back(points(line));
+  return out;
+}
+
+Json landmarks_json(const Tooth& tooth, const Landmarks& l) {
+  Json cusps = Json::array(), mouths = Json::array(), named = Json::object();
+  for (const auto& c : l.cusps) cusps.push_back({{"name", c.name}, {"tip_mm", point(c.tip_mm)}, {"prominence_mm", rounded(c.prominence_mm, 1e-3)}});
+  for (const auto& m : l.canal_mouths) mouths.push_back({{"at_mm", point(m.at_mm)}, {"radius_mm", rounded(m.radius_mm, 1e-3)}});
+  for (const auto& [name, at] : named_points(l)) named[name] = point(at);
+  return {
+      {"tooth", tooth.name},
+      {"hash", tooth_hash(tooth)},
+      {"tooth_class", {{"name", name_of(l.tooth_class.kind)}, {"sureness", rounded(l.tooth_class.sureness, 0.01)}, {"reason", l.tooth_class.reason}}},
+      {"long_axis",
+       {{"through_mm", point(l.long_axis.through_mm)}, {"occlusal", point(l.long_axis.occlusal)}, {"tilt_deg", rounded(l.long_axis.tilt_deg, 0.01)}}},
+      {"points_mm", named},
+      {"cusps", cusps},
+      {"cusp_ridges_mm", lines(l.cusp_ridges)},
+      {"mesial_ridge", {{"crest_mm", points(l.mesial_ridge.crest_mm)}, {"lowest_mm", point(l.mesial_ridge.lowest_mm)}}},
+      {"distal_ridge", {{"crest_mm", points(l.distal_ridge.crest_mm)}, {"lowest_mm", point(l.distal_ridge.lowest_mm)}}},
+      {"central_fissure_mm", points(l.central_fissure_mm)},
+      {"fissure_branches_mm", lines(l.fissure_branches_mm)},
+      {"incisal_edge_mm", points(l.incisal_edge_mm)},
+      {"occlusal_table_mm", points(l.occlusal_table_mm)},
+      {"height_of_contour_mm", points(l.height_of_contour_mm)},
+      {"neck_mm", points(l.neck_mm)},
+      {"canal_mouths", mouths},
+      {"moved", l.moved},
+      {"notes", l.notes}};
+}
+
+void print_landmarks(const Tooth& tooth, const Landmarks& l) {
+  std::printf("%s\n", one_line(tooth.name).c_str());
+  std::printf("  class   %s, sure to %.2f: %s\n", std::string(name_of(l.tooth_class.kind)).c_str(), l.tooth_class.sureness,
+              l.tooth_class.reason.c_str());
+  std::printf("  axis    (%.3f %.3f %.3f), %.1f degrees from +z\n", l.long_axis.occlusal.x, l.long_axis.occlusal.y, l.long_axis.occlusal.z,
+              l.long_axis.tilt_deg);
+  std::size_t cusp = 0;
+  for (const auto& [name, at] : named_points(l)) {
+    const std::string kind = name.starts_with("cusp_") ? "  " + l.cusps[cusp++].name : "";
+    const bool moved = std::find(l.moved.begin(), l.moved.end(), name) != l.moved.end();
+    std::printf("  %-14s %7.2f %7.2f %7.2f mm%s%s\n", name.c_str(), at.x, at.y, at.z, kind.c_str(), moved ? "  (put by a person)" : "");
+  }
+  const auto line = [](const char* what, const Polyline& p, const char* kind) {
+    if (p.empty()) return;
+    double low = p[0].z, high = p[0].z;
+    for (const Vec3 q : p) {
+      low = std::min(low, q.z);
+      high = std::max(high, q.z);
+    }
+    std::printf("  %-18s %3zu points, %s, z %.2f to %.2f mm\n", what, p.size(), kind, low, high);
+  };
+  line("mesial ridge", l.mesial_ridge.crest_mm, "open");
+  line("distal ridge", l.distal_ridge.crest_mm, "open");
+  line("central fissure", l.central_fissure_mm, "open");
+  for (const auto& b : l.fissure_branches_mm) line("fissure branch", b, "open");
+  line("incisal edge", l.incisal_edge_mm, "open");
+  line("occlusal table", l.occlusal_table_mm, "closed");
+  line("height of contour", l.height_of_contour_mm, "closed");
+  line("neck", l.neck_mm, "closed");
+  for (const auto& n : l.notes) std::printf("  note    %s\n", one_line(n).c_str());
+}
+
+/// `central_pit=0.1,0.2,1.0`
+NamedPoint parse_placed(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (equals == std::string::npos || !is_landmark_name(name))
+    throw Error("--set", fmt::format("cannot read '{}'", text),
+                "write NAME=x,y,z with a name that `cavum tooth landmarks` prints, such as central_pit=0.1,0.2,1.0");
+  return {name, parse_vec(text.substr(equals + 1), "--set " + name)};
+}
+
+struct LandmarkArgs {
+  std::string file, picture, out_tooth;
+  std::vector<std::string> set, unset;
+  bool json = false;
+};
+
+void run_landmarks(const LandmarkArgs& a) {
+  require_own_places({{"--out " + a.picture, a.picture}, {"--out-tooth " + a.out_tooth, a.out_tooth}}, {{"", a.file}});
+  const bool changes = !a.set.empty() || !a.unset.empty();
+  if (changes == a.out_tooth.empty())
+    throw Error("tooth landmarks", changes ? "--set and --unset need --out-tooth" : "--out-tooth needs --set or --unset",
+                "a tooth is never changed where it lies: name the new file");
+  Tooth tooth = load_tooth_file(a.file);
+  auto& placed = tooth.placed_landmarks;
+  for (const auto& name : a.unset)
+    if (std::erase_if(placed, [&](const NamedPoint& p) { return p.name == name; }) == 0)
+      throw Error("--unset", fmt::format("nobody put a point '{}'", name), "name one that is marked as put by a person");
+  for (const auto& text : a.set) {
+    const NamedPoint point = parse_placed(text);
+    std::erase_if(placed, [&](const NamedPoint& p) { return p.name == point.name; });
+    placed.push_back(point);
+  }
+  const Landmarks l = find_landmarks(tooth);
+  for (const auto& p : placed)
+    if (std::find(l.moved.begin(), l.moved.end(), p.name) == l.moved.end())
+      throw Error("--set " + p.name, "is beyond the end of its list", "number it as the next one");
+  if (!a.out_tooth.empty()) save_tooth_file(tooth, a.out_tooth);
+  if (!a.picture.empty()) write_text_file(a.picture, landmark_picture(tooth, l));
+  if (a.json) {
+    print_json(landmarks_json(tooth, l));
+    return;
+  }
+  print_landmarks(tooth, l);
+  for (const auto* path : {&a.picture, &a.out_tooth})
+    if (!path->empty()) std::printf("  wrote   %s\n", path->c_str());
+}
+
+}  // namespace
+
+void add_landmarks(CLI::App& tooth) {
+  auto* verb = tooth.add_subcommand("landmarks", "Cusps, fissures, pits, ridges, neck, pulp and canals as points in mm");
+  auto a = std::make_shared<LandmarkArgs>();
+  verb->add_option("TOOTH", a->file, "Tooth file (.cvt)")->required();
+  verb->add_option("--out", a->picture, "Picture to write (.svg): from above and from two sides");
+  verb->add_option("--set", a->set, "NAME=x,y,z, mm: put a landmark by hand; may be given again");
+  verb->add_option("--unset", a->unset, "NAME: take a point back that was put by hand");
+  verb->add_option("--out-tooth", a->out_tooth, "Tooth file to write (.cvt), with the points that were put");
+  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->callback([=] { run_landmarks(*a); });
+}
+
+}  // namespace cavum::ui

@@ -1,0 +1,19 @@
+// What the verbs of `cavum tooth` share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/base/vec.h"
+
+namespace cavum::ui {
+
+/// Numbers with commas between. Throws Error naming `option` and the part that is none.
+[[nodiscard]] std::vector<double> parse_numbers(const std::string& text, const std::string& option);
+/// Three of them.
+[[nodiscard]] Vec3 parse_vec(const std::string& text, const std::string& option);
+/// `cavum tooth landmarks`.
+void add_landmarks(CLI::App& tooth);
+
+}  // namespace cavum::ui
