@@ -40,7 +40,7 @@ struct BreakthroughSettings {
   double presses_on = 0.5;        ///< a fall counts while the tip's motion explains no more than half of it
   double confirm_s = 0.02;        ///< it has to be so sure for so long
   double chatter = 0.5;           ///< of G: a force that scatters by more than that, beyond its noise, is not gone
-  double least_advance_mm = 0.0;  ///< a cavity lets the tip on: by two steps of the encoder at least
+  double least_advance_mm = 0.1;  ///< a cavity lets the tip on: by two steps of the encoder at least
 
   // the fall
   double opens_at = 0.5;    ///< of G: a fall is watched from there ...

@@ -39,7 +39,8 @@ struct OutlineSpec {
   double ridge_mm = 0.0;     ///< fissure: of each marginal ridge that stays, from its crest to the outline
   bool branches = false;     ///< fissure: its branches, too
   int through = 0;           ///< fissure: goes on through the mesial (+1) or distal (-1) ridge
-  std::vector<std::vector<Vec3>> paths_mm;  ///< fissure: its lines on the tooth, once it was placed there
+  std::vector<std::vector<Vec3>> paths_mm;  ///< fissure: its lines on the tooth, once it was placed there ...
+  std::vector<Vec3> bottom_line_mm;         ///< ... and the bottom of the central one between the ridges, z at the surface
 };
 
 /// Where a column ends.

@@ -24,6 +24,9 @@ constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm =
 constexpr double k_below_contact_mm = 0.5, k_least_above_neck_mm = 0.8;
 constexpr double k_in_dentin_mm = 0.2;
 
+/// Looked at once one is sound, in the hope of one without a warning.
+constexpr std::size_t k_most_tried = 4, k_none = 1000;
+
 /// What there is to choose from, best first; the first that fits is taken.
 struct Choice {
   std::string zones, guard, what, chosen;
@@ -252,7 +255,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
 
   WrittenTask best;
   std::string refused;
-  std::size_t fewest = 1000;
+  std::size_t fewest = k_none, tried = 0;
   for (const Choice& choice : asked->choices(tooth, landmarks)) {
     TaskText text{.id = id_of(tooth_file, task),
                   .title = asked->title,
@@ -276,10 +279,10 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
         best = {written, checked.problems, choice.chosen};
       }
     }
-    if (fewest == 0) return best;
+    if (fewest == 0 || (fewest < k_none && ++tried >= k_most_tried)) return best;
     if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
   }
-  if (fewest == 1000) throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
+  if (fewest == k_none) throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
   return best;
 }
 

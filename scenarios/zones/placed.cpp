@@ -93,6 +93,7 @@ OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, c
     throw Error(where, fmt::format("nothing of the fissure is {} mm away from both marginal ridges", fixed(away_mm, 2)),
                 "make 'ridge_mm' or 'width_mm' smaller");
   placed.paths_mm.push_back(simplified(line));
+  placed.bottom_line_mm = landmarks.central_fissure_mm;
   if (spec.branches)
     for (const Polyline& branch : landmarks.fissure_branches_mm)
       if (branch.size() >= k_fewest) placed.paths_mm.push_back(simplified(branch));

@@ -246,9 +246,6 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
   return all;
 }
 
-/// Under a stroke the border of enamel and dentin is looked at in the middle half of its width.
-constexpr double k_beside_border_share = 0.25;
-
 /// Heights of the tooth's surface inside an outline.
 struct SurfaceHeights {
   double lowest_mm = 1e9, mean_mm = 0;
@@ -267,6 +264,17 @@ SurfaceHeights surface_heights(const ColumnMap& top, const Outline& outline) {
       ++heights.columns;
     }
   if (heights.columns > 0) heights.mean_mm = sum / heights.columns;
+  return heights;
+}
+
+/// Of a line's own points.
+SurfaceHeights heights_along(const std::vector<Vec3>& line) {
+  SurfaceHeights heights;
+  for (const Vec3& p : line) {
+    heights.lowest_mm = std::min(heights.lowest_mm, p.z);
+    heights.mean_mm += p.z / static_cast<double>(line.size());
+    ++heights.columns;
+  }
   return heights;
 }
 
@@ -365,16 +373,16 @@ std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std:
   return std::make_unique<Column>(std::move(outline), std::move(bottom.height_mm), spec.taper_deg, bottom.outline_z_mm);
 }
 
-/// Of the enamel's underside: under the middle lines of a fissure's outline, else anywhere inside it.
+/// Of the enamel's underside: under a fissure's bottom, else anywhere inside the outline.
 double ShapeMaker::lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const std::string& where) {
   const TissueRelief& enamel = relief("enamel", TissuePart::all, where);
   const ColumnMap& floor = enamel.floor_mm;
   double lowest = 1e9;
-  for (int y = 0; y < floor.ny; ++y)
+  for (const Vec3& p : placed.bottom_line_mm) lowest = std::min(lowest, floor.at(p.x, p.y));
+  for (int y = 0; y < floor.ny && placed.bottom_line_mm.empty(); ++y)
     for (int x = 0; x < floor.nx; ++x) {
       const Vec3 at = floor.origin_mm + Vec3{x + 0.5, y + 0.5, 0} * floor.leaf_mm;
-      if (enamel.shadow[floor.index(x, y)] == 0 || outline.distance_mm(at.x, at.y) >= -k_beside_border_share * placed.width_mm) continue;
-      lowest = std::min(lowest, floor.value[floor.index(x, y)]);
+      if (enamel.shadow[floor.index(x, y)] != 0 && outline.distance_mm(at.x, at.y) < 0) lowest = std::min(lowest, floor.value[floor.index(x, y)]);
     }
   if (lowest > 1e8) throw Error(where, "there is no enamel under the outline", "move it over the crown, or let the bottom follow something else");
   return lowest;
@@ -405,7 +413,7 @@ ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outlin
     case Kind::below_mean:
       break;
   }
-  const SurfaceHeights inside = surface_heights(surface(), outline);
+  const SurfaceHeights inside = placed.bottom_line_mm.empty() ? surface_heights(surface(), outline) : heights_along(placed.bottom_line_mm);
   if (inside.columns == 0) throw Error(where, fmt::format("the outline lies beside the tooth '{}'", tooth_.name), "move it over the crown");
   ColumnBottom below{surface(), (b.kind == Kind::below_lowest ? inside.lowest_mm : inside.mean_mm) - b.depth_mm};
   for (double& z : below.height_mm.value) z = b.kind == Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : below.outline_z_mm;
