@@ -15,6 +15,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/text.h"
 #include "engine/force/force_model.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_incisor.h"
@@ -34,6 +35,7 @@
 #include "engine/tooth/import/import_meshes.h"
 #include "engine/tooth/import/import_volume.h"
 #include "engine/tooth/import/segment.h"
+#include "engine/tooth/import/sense.h"
 #include "engine/tooth/mesh/read_mesh.h"
 #endif
 
@@ -236,7 +238,9 @@ void add_make(CLI::App& tooth) {
 }
 
 struct ImportArgs {
-  std::string volume, enamel, dentin, pulp, map, spacing, occlusal, mesial, out;
+  std::string volume, enamel, dentin, pulp, map, spacing, occlusal, mesial, out, units, patient_frame;
+  std::optional<int> fdi, universal;
+  bool mirror = false, anyway = false;
   std::optional<double> enamel_threshold, dentin_threshold;
   double leaf_mm = 0.05, periodontium_mm = 1.0, rotate_deg = 0.0;
   bool json = false;
@@ -258,26 +262,65 @@ void require_meshes(const ImportArgs& a) {
                 "give one closed surface for each of the three layers");
 }
 
+/// Which tooth the user says it is, in which unit and frame.
+SenseOptions sense_options(const ImportArgs& a) {
+  SenseOptions sense;
+  if (a.fdi) sense.number = from_fdi(*a.fdi, "--tooth-number");
+  if (a.universal) sense.number = from_universal(*a.universal, "--universal");
+  sense.units = a.units;
+  sense.patient_frame = a.patient_frame;
+  sense.anyway = a.anyway;
+  if (!a.patient_frame.empty() && !sense.number)
+    throw Error("--patient-frame", "tells where mesial is only for a tooth that is named", "give --tooth-number or --universal, too");
+  return sense;
+}
+
+Json sense_json(const ToothSense& sense, const SenseOptions& options) {
+  Json number = nullptr;
+  if (options.number) number = {{"fdi", options.number->fdi}, {"universal", options.number->universal()}, {"text", options.number->text()}};
+  return {{"tooth_number", number},
+          {"tooth_class", {{"name", name_of(sense.tooth_class.kind)}, {"sureness", rounded(sense.tooth_class.sureness, 0.01)}}},
+          {"guesses", sense.guesses},
+          {"warnings", sense.warnings}};
+}
+
+/// Guesses beside the result; warnings where they are seen even when the result goes to a file.
+void show_sense(const ToothSense& sense, const SenseOptions& options, bool mirrored, bool json) {
+  if (!json) {
+    if (options.number)
+      std::printf("  tooth   %s: +y is %s\n", options.number->text().c_str(), options.number->y_is_buccal() != mirrored ? "buccal" : "lingual");
+    for (const auto& g : sense.guesses) std::printf("  guess   %s\n", one_line(g).c_str());
+  }
+  for (const auto& w : sense.warnings) std::fprintf(stderr, "cavum: notice: %s\n", one_line(w).c_str());
+}
+
 void run_import(const ImportArgs& a) {
   require_own_places({{"--out " + a.out, a.out}}, {{"", a.volume}, {"", a.enamel}, {"", a.dentin}, {"", a.pulp}});
   FrameOptions frame;
   if (!a.occlusal.empty()) frame.occlusal_axis = parse_vec(a.occlusal, "--occlusal-axis");
   if (!a.mesial.empty()) frame.mesial_axis = parse_vec(a.mesial, "--mesial-axis");
   frame.rotate_deg = a.rotate_deg;
+  frame.mirror = a.mirror;
+  const SenseOptions sense = sense_options(a);
+  if (!a.patient_frame.empty() && !frame.mesial_axis) frame.mesial_axis = mesial_in_patient(*sense.number, a.patient_frame);
   const bool meshes = !a.enamel.empty() || !a.dentin.empty() || !a.pulp.empty();
   if (meshes == !a.volume.empty()) throw Error("tooth import", "needs either a VOLUME or the meshes --enamel --dentin --pulp", "give one of the two");
   if (meshes) {
     require_meshes(a);
     if (!a.spacing.empty() || !a.map.empty() || a.enamel_threshold || a.dentin_threshold)
       throw Error("tooth import", "spacing, map and thresholds belong to volumes", "leave them out for meshes (unit mm)");
-    const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame});
+    const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame, sense});
     finish(done.tooth, a.out, a.json,
            {{"mesh_volume_mm3", {{"enamel", done.mesh_enamel_mm3}, {"dentin", done.mesh_dentin_mm3}, {"pulp", done.mesh_pulp_mm3}}},
             {"overlap_leaves", done.overlap_leaves},
-            {"gap_leaves", done.gap_leaves}});
+            {"gap_leaves", done.gap_leaves},
+            {"sense", sense_json(done.sense, sense)}});
+    show_sense(done.sense, sense, a.mirror, a.json);
     return;
   }
+  if (!a.units.empty()) throw Error("--units", "belongs to meshes", "give --spacing-mm for a volume");
   VolumeImportOptions options;
+  options.sense = sense;
   if (!a.spacing.empty()) {
     auto n = parse_numbers(a.spacing, "--spacing-mm");
     if (n.size() == 1) n = {n[0], n[0], n[0]};
@@ -295,7 +338,9 @@ void run_import(const ImportArgs& a) {
           {"spacing_assumed", done.spacing_assumed},
           {"native_voxels", {{"enamel", done.native_enamel}, {"dentin", done.native_dentin}, {"pulp", done.native_pulp}}},
           {"pulp_bodies", done.pulp_bodies},
-          {"rim_percent", done.rim_percent}});
+          {"rim_percent", done.rim_percent},
+          {"sense", sense_json(done.sense, sense)}});
+  show_sense(done.sense, sense, a.mirror, a.json);
   if (!a.json) {
     std::printf("  voxels  enamel %llu, dentin %llu, pulp %llu (bodies: %llu); rim %.2f %%\n", static_cast<unsigned long long>(done.native_enamel),
                 static_cast<unsigned long long>(done.native_dentin), static_cast<unsigned long long>(done.native_pulp),
@@ -323,6 +368,12 @@ void add_import(CLI::App& tooth) {
   verb->add_option("--occlusal-axis", a->occlusal, "x,y,z in the file's frame (default: dentin centroid to enamel centroid)");
   verb->add_option("--mesial-axis", a->mesial, "x,y,z in the file's frame (default: the file's x axis)");
   verb->add_option("--rotate-deg", a->rotate_deg, "Turn about the occlusal axis, degrees")->capture_default_str();
+  verb->add_option("--units", a->units, "Unit of the meshes: mm, cm, m, um or in (default: mm, and checked)");
+  auto* fdi = verb->add_option("--tooth-number", a->fdi, "Which tooth it is, by its FDI number: 36");
+  verb->add_option("--universal", a->universal, "Which tooth it is, by its universal number: 19")->excludes(fdi);
+  verb->add_option("--patient-frame", a->patient_frame, "lps or ras: the file's axes are the patient's, and tell with the number where mesial is");
+  verb->add_flag("--mirror", a->mirror, "Mirror it, so that +y is buccal: the tooth of the other side of the jaw");
+  verb->add_flag("--anyway", a->anyway, "Take it although size, axis, class or pulp contradict");
   verb->add_option("--leaf-mm", a->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   verb->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
   verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();

@@ -13,7 +13,7 @@ namespace {
 constexpr double k_top_mm = 1.0, k_level_mm = 0.05;
 // Mean crown widths (mesiodistal x buccolingual, mm; Nelson, Wheeler's Dental Anatomy, table of measurements): incisors 5-8.5 x 6-7, canines
 // 7-7.5 x 7.5-8, premolars 7 x 7.5-9, molars 8.5-11 x 9.5-11. Premolars have at most 7 x 9 = 63 mm2, molars at least 8.5 x 9.5 = 81.
-constexpr double k_premolar_mm2 = 70.0, k_molar_mm2 = 76.0;
+constexpr double k_premolar_mm2 = 70.0, k_molar_mm2 = 76.0, k_large_mm2 = 88.0;
 
 /// Length and width of a set of places by their longest direction, every 5 degrees.
 struct Span {
@@ -108,9 +108,11 @@ ClassGuess guess_class(const ClassSigns& s) {
   }
   const std::string seen = fmt::format("{} cusp{}{}", s.cusps, s.cusps == 1 ? "" : "s", s.table ? " around a table" : "");
   const bool many = s.cusps >= 4, some = s.cusps == 3;
-  if (area >= k_molar_mm2)
-    say(many || some ? ToothClass::molar : ToothClass::unknown, many ? 0.95 : some ? 0.8 : 0.0, seen);
-  else if (area <= k_premolar_mm2)
+  if (area >= k_molar_mm2) {
+    // a table of that size is a molar's, however worn its cusps are
+    const bool large = s.table && area >= k_large_mm2;
+    say(many || some || large ? ToothClass::molar : ToothClass::unknown, many ? 0.95 : some ? 0.8 : large ? 0.7 : 0.0, seen);
+  } else if (area <= k_premolar_mm2)
     say(s.cusps <= 3 ? ToothClass::premolar : ToothClass::unknown, s.cusps == 2 ? 0.95 : s.cusps <= 3 ? 0.7 : 0.0, seen);
   else
     say(many           ? ToothClass::molar

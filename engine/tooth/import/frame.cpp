@@ -43,7 +43,8 @@ ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOpti
               : x_is_upright      ? ", mesial axis assumed along the file's y "
                                   : ", mesial axis assumed along the file's x ";
   out.note += text(x);
-  out.axes = {x, cross(z, x), z};
+  const Vec3 y = cross(z, x);
+  out.axes = {x, options.mirror ? -y : y, z};
   return out;
 }
 

@@ -14,10 +14,11 @@ namespace cavum {
 struct FrameOptions {
   std::optional<Vec3> occlusal_axis;  ///< default: from the dentin's centroid to the enamel's
   std::optional<Vec3> mesial_axis;    ///< default: the file's +x (+y when x is within 25 degrees of the occlusal axis)
+  bool mirror = false;                ///< +y is turned over: the tooth of the other side of the jaw, so that +y is buccal
   double rotate_deg = 0.0;            ///< turns the mesial axis about the occlusal one, counter-clockwise seen from above
 };
 
-/// Rows are the tooth's axes in the file's frame, so that `axes * v` carries a file vector into the tooth frame.
+/// Rows (+y turned over where mirrored) are the tooth's axes in the file's frame, so that `axes * v` carries a file vector into the tooth frame.
 struct ToothAxes {
   Mat3 axes;
   std::string note;  ///< for Tooth::source: which axes were given and which assumed

@@ -126,18 +126,32 @@ void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
                 "check which file is enamel, dentin and pulp, and that all share one frame");
 }
 
-void turn_into(TriangleMesh& mesh, const Mat3& axes) {
+/// From the file's unit and frame into the tooth's axes.
+void turn_into(TriangleMesh& mesh, const Mat3& axes, bool mirror) {
   for (auto& v : mesh.vertices_mm) v = axes * v;
+  if (mirror)
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+void scale(ReadMesh& read, double mm) {
+  if (mm == 1.0) return;
+  for (auto& v : read.mesh.vertices_mm) v = v * mm;
+  read.centroid_mm = read.centroid_mm * mm;
+  read.volume_mm3 *= mm * mm * mm;
 }
 
 }  // namespace
 
 MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& options) {
   ReadMesh enamel = read_closed_mesh(paths.enamel), dentin = read_closed_mesh(paths.dentin), pulp = read_closed_mesh(paths.pulp);
+  const double unit_mm = options.sense.units.empty() ? 1.0 : mm_per_unit(options.sense.units);
+  for (auto* m : {&enamel, &dentin, &pulp}) scale(*m, unit_mm);
   const ToothAxes frame = tooth_axes(dentin.centroid_mm, enamel.centroid_mm, options.frame);
-  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes);
+  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes, options.frame.mirror);
   Box crown, all;
   crown.add(enamel.mesh);
+  MeshImport out;
+  check_crown_size(crown.high - crown.low, options.sense, paths.enamel, false, out.sense);
   const Vec3 origin = (crown.low + crown.high) * 0.5;
   for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) {
     for (auto& v : m->vertices_mm) v = v - origin;
@@ -145,7 +159,6 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   }
   TissueGrid grid = lattice_around(all, options.leaf_mm, paths.dentin);
 
-  MeshImport out;
   out.mesh_enamel_mm3 = enamel.volume_mm3;
   out.mesh_dentin_mm3 = dentin.volume_mm3;
   out.mesh_pulp_mm3 = pulp.volume_mm3;
@@ -172,14 +185,16 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   band.add(dentin.mesh, outer);
   band.add(pulp.mesh, inner);
   band.encode(grid, out.tooth.tissues);
+  // exchanged layers have the plainer name, and were refused above
+  check_upright(frame.axes.row_z, dentin.centroid_mm, enamel.centroid_mm, options.sense, paths.enamel, out.sense);
   out.periodontium_leaves = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
 
   const auto file = [](const std::string& p) { return std::filesystem::path(p).filename().string(); };
   std::ostringstream source;
-  source << "import of meshes " << file(paths.enamel) << ", " << file(paths.dentin) << ", " << file(paths.pulp) << "; unit assumed mm; leaf "
-         << options.leaf_mm << " mm; " << frame.note << "; overlaps (pulp, enamel, dentin) " << out.overlap_leaves
-         << " leaves, gaps to the nearer hard tissue " << out.gap_leaves << " leaves; ";
+  source << "import of meshes " << file(paths.enamel) << ", " << file(paths.dentin) << ", " << file(paths.pulp) << "; unit "
+         << (options.sense.units.empty() ? "assumed mm" : "given: " + options.sense.units) << "; leaf " << options.leaf_mm << " mm; " << frame.note
+         << "; overlaps (pulp, enamel, dentin) " << out.overlap_leaves << " leaves, gaps to the nearer hard tissue " << out.gap_leaves << " leaves; ";
   if (out.periodontium_leaves > 0)
     source << "periodontium " << options.periodontium_mm << " mm added around the roots";
   else
@@ -188,6 +203,8 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
     for (const auto& note : m->notes) source << "; " << note;
   out.tooth.name = "tooth from " + std::filesystem::path(paths.enamel).stem().string();
   out.tooth.source = source.str();
+  sense_tooth(out.tooth, options.frame, options.sense, paths.enamel, out.sense);
+  name_tooth(out.sense, options.sense, options.frame.mirror, out.tooth);
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "engine/tooth/import/frame.h"
+#include "engine/tooth/import/sense.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
@@ -26,16 +27,18 @@ struct MeshImportOptions {
   double leaf_mm = 0.05;
   double periodontium_mm = 1.0;  ///< 0 = none
   FrameOptions frame;
+  SenseOptions sense;
 };
 
 struct MeshImport {
   Tooth tooth;
   double mesh_enamel_mm3 = 0, mesh_dentin_mm3 = 0, mesh_pulp_mm3 = 0;  ///< volumes of the meshes themselves
   std::uint64_t overlap_leaves = 0, gap_leaves = 0, periodontium_leaves = 0;
+  ToothSense sense;
 };
 
 /// Throws Error naming the file when a mesh cannot be read, is open, or the layers cannot be what they are said
-/// to be (enamel and dentin exchanged, pulp not enclosed).
+/// to be (enamel and dentin exchanged, pulp not enclosed), and as sense.h does.
 [[nodiscard]] MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& options);
 
 }  // namespace cavum

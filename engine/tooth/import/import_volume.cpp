@@ -184,8 +184,10 @@ Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, c
 /// Where the tooth stands in its own frame: z towards the occlusal surface, the middle of the crown at the origin.
 struct Placement {
   ToothAxes frame;
-  Vec3 origin;  // of the tooth, in the turned frame of the volume, mm
-  Extent box;   // of the tooth, in its own frame, mm
+  Vec3 origin;                            // of the tooth, in the turned frame of the volume, mm
+  Extent box;                             // of the tooth, in its own frame, mm
+  Vec3 crown;                             // widths and height of the enamel, mm
+  Vec3 enamel_centroid, dentin_centroid;  // in the volume's frame, mm
 };
 Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOptions& options, const std::string& path) {
   Extent enamel, dentin;
@@ -196,13 +198,19 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
   if ((enamel.n == 0 || dentin.n == 0) && !options.occlusal_axis)
     throw Error(path, fmt::format("holds no {}, so there is no occlusal direction", enamel.n == 0 ? "enamel" : "dentin"),
                 "give --occlusal-axis x,y,z");
-  Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options), .origin = {}, .box = {}};
+  Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options),
+                .origin = {},
+                .box = {},
+                .crown = {},
+                .enamel_centroid = enamel.centroid(),
+                .dentin_centroid = dentin.centroid()};
   Extent crown;
   for_voxels(s, [&](Vec3 v, std::uint8_t t) {
     const Vec3 p = out.frame.axes * volume.place_mm(v);
     if (t == k_enamel) crown.add(p);
     if (t != k_periodontium) out.box.add(p);
   });
+  if (enamel.n > 0) out.crown = crown.high - crown.low;
   out.origin = enamel.n > 0 ? (crown.low + crown.high) * 0.5 : (out.box.low + out.box.high) * 0.5;
   out.box.low = out.box.low - out.origin;
   out.box.high = out.box.high - out.origin;
@@ -226,6 +234,11 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   require_size_of_a_tooth(volume, placed.box, path);
 
   VolumeImport out;
+  if (s.voxels[k_enamel] > 0) {
+    check_crown_size(placed.crown, options.sense, path, true, out.sense);
+    if (s.voxels[k_dentin] > 0)
+      check_upright(placed.frame.axes.row_z, placed.dentin_centroid, placed.enamel_centroid, options.sense, path, out.sense);
+  }
   TissueGrid grid = resample(volume, s, placed.frame.axes, placed.origin, placed.box, options.leaf_mm, path);
   const auto around = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
@@ -246,6 +259,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
     source << "no periodontium added";
   out.tooth.source = source.str();
   out.tooth.name = "tooth from " + (file.empty() ? path : file);
+  sense_tooth(out.tooth, options.frame, options.sense, path, out.sense);
+  name_tooth(out.sense, options.sense, options.frame.mirror, out.tooth);
   return out;
 }
 

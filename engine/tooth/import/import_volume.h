@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/tooth/import/frame.h"
+#include "engine/tooth/import/sense.h"
 #include "engine/tooth/import/thresholds.h"
 #include "engine/tooth/tooth.h"
 
@@ -20,6 +21,7 @@ struct VolumeImportOptions {
   double leaf_mm = 0.05;
   double periodontium_mm = 1.0;  ///< 0 = none
   FrameOptions frame;
+  SenseOptions sense;
 };
 
 struct VolumeImport {
@@ -28,10 +30,11 @@ struct VolumeImport {
   std::string spacing_note;
   std::uint64_t native_enamel = 0, native_dentin = 0, native_pulp = 0;  ///< voxels of the file
   std::uint64_t pulp_bodies = 0;
+  ToothSense sense;
   double rim_percent = 0.0;  ///< share of the enamel's outer voxels covered by dentin; 0 for label maps
 };
 
-/// Throws Error as read_volume, find_gray_levels and segment do; when enamel or dentin is missing and no occlusal axis
+/// Throws Error as sense.h does; as read_volume, find_gray_levels and segment do; when enamel or dentin is missing and no occlusal axis
 /// given; when a label map has enamel and dentin exchanged; when the tooth would need more than 1024 leaves along an edge; and when an assumed
 /// spacing gives no tooth's size.
 [[nodiscard]] VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options);
