@@ -61,7 +61,9 @@ std::vector<std::string> caught_by(const Result& r) {
     if (c.critical_failed) critical.push_back(c.id);
     if (c.max > 0 && c.points <= 0) all_points.push_back(c.id);
   }
-  return critical.empty() ? all_points : critical;
+  if (!critical.empty()) return critical;
+  if (r.verdict == Verdict::review && !r.progress.open_last_step.empty()) return {"step " + r.progress.open_last_step};
+  return all_points;
 }
 
 /// Its value is worse than that of honest work, by more than both are unsure of. 'by_task' measures: further from full marks is not known, so any
@@ -162,16 +164,15 @@ bool surely_fails(const Result& r, const scenarios::RubricSpec& rubric) {
 /// A scenario in a tooth, with the works for it.
 struct Bench {
   Bench(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones)
-      : task(make_task(scenario, tooth, zones)), field(tooth, zones), box(box_of_works(field)), works(wrong_works(task, field)), errors(ladders(task, field)) {}
+      : task(make_task(scenario, tooth, zones)), field(tooth, zones), works(wrong_works(task, field)), errors(ladders(task, field)) {}
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
-  [[nodiscard]] Result honest(std::int64_t wait) const { return sit(task, honest_cut(field), box, wait); }
+  [[nodiscard]] Result honest(std::int64_t wait) const { return sit(task, honest_cut(field), box_of_work(field), wait); }
   [[nodiscard]] Result of(std::size_t work, std::int64_t wait, std::int64_t limit) const {
-    return sit(task, works[work].cut, box, works[work].waits ? limit : wait);
+    return sit(task, works[work].cut, box_of_work(field, works[work].below_mm), works[work].waits ? limit : wait);
   }
   Task task;
   TargetField field;
-  CutBox box;
   std::vector<WrongWork> works;
   std::vector<Ladder> errors;
 };
@@ -245,7 +246,7 @@ void BatteryRun::put(const WrongWork& work, const Result& r) {
 
 std::vector<scenarios::Problem> BatteryRun::growth(const Bench& bench, std::size_t l, const Result& honest) const {
   std::vector<Result> grown;
-  for (const Cut& cut : bench.errors[l].cut) grown.push_back(sit(bench.task, cut, bench.box, wait_));
+  for (const Cut& cut : bench.errors[l].cut) grown.push_back(sit(bench.task, cut, box_of_work(bench.field), wait_));
   return judge_growth(scenario_, bench.errors[l], honest, grown);
 }
 

@@ -177,13 +177,15 @@ void Works::faults() {
   for (const auto& tissue : task_.scenario.perforation.faults) {
     const auto below = f_.below(tissue);
     if (!below) continue;
-    for (const auto& [name, radius] : {std::pair("opens", 0.5), {"opens_narrowly", 0.25}})
+    for (const auto& [name, radius] : {std::pair("opens", 0.5), {"opens_narrowly", 0.25}}) {
       add(fmt::format("{}_{}", name, tissue), fmt::format("the target, and a hole of {} mm through its floor into {}", plain_number(2 * radius), tissue),
           Mistake::fault_opened, [&f = f_, b = *below, radius = radius](Vec3 p) {
             const Vec3 q = f.local(p);
             const double z = std::clamp(q.z, b.tissue.z - 0.2, b.floor.z + 0.5);
             return std::min(f.target_mm(p), length(q - Vec3{b.floor.x, b.floor.y, z}) - radius);
           });
+      list_.back().below_mm = std::max(list_.back().below_mm, f_.low_mm().z - below->tissue.z + 1.0);
+    }
   }
 }
 
@@ -270,14 +272,14 @@ std::vector<Ladder> ladders(const Task& task, const TargetField& field) {
   return list;
 }
 
-CutBox box_of_works(const TargetField& field) {
-  constexpr double k_beside_mm = 3.2, k_below_mm = 2.4, k_above_mm = 6.0;
+CutBox box_of_work(const TargetField& field, double below_mm) {
+  constexpr double k_beside_mm = 3.2, k_above_mm = 6.0;
   const Octree& tree = field.tooth().octree;
   CutBox box{{1e9, 1e9, 1e9}, {-1e9, -1e9, -1e9}};
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p = field.in_tooth({(corner & 1) != 0 ? field.high_mm().x + k_beside_mm : field.low_mm().x - k_beside_mm,
                                    (corner & 2) != 0 ? field.high_mm().y + k_beside_mm : field.low_mm().y - k_beside_mm,
-                                   (corner & 4) != 0 ? field.high_mm().z + k_above_mm : field.low_mm().z - k_below_mm});
+                                   (corner & 4) != 0 ? field.high_mm().z + k_above_mm : field.low_mm().z - below_mm});
     box.low_mm = {std::min(box.low_mm.x, p.x), std::min(box.low_mm.y, p.y), std::min(box.low_mm.z, p.z)};
     box.high_mm = {std::max(box.high_mm.x, p.x), std::max(box.high_mm.y, p.y), std::max(box.high_mm.z, p.z)};
   }

@@ -37,6 +37,7 @@ struct WrongWork {
   bool may_be_right = false;
   std::string measure{};  ///< the one that should catch it before all others; may be empty
   bool waits = false;     ///< until time is up
+  double below_mm = 2.4;  ///< how far below the target it reaches
 };
 
 /// The honest piece of work: exactly the target.
@@ -54,7 +55,7 @@ struct Ladder {
 };
 [[nodiscard]] std::vector<Ladder> ladders(const Task& task, const TargetField& field);
 
-/// Where all of them reach, tooth frame.
-[[nodiscard]] CutBox box_of_works(const TargetField& field);
+/// Where work reaches that goes so far below the target, tooth frame.
+[[nodiscard]] CutBox box_of_work(const TargetField& field, double below_mm = WrongWork{}.below_mm);
 
 }  // namespace cavum::grading

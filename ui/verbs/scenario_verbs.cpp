@@ -301,7 +301,7 @@ int solve(const ScenarioArguments& o) {
   std::optional<Caught> careless;
   if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless"));
   std::optional<grading::Battery> battery;
-  if (o.battery) battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::full);
+  if (o.battery) battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   const bool wrong_passes =
       battery && std::any_of(battery->problems.begin(), battery->problems.end(), [](const scenarios::Problem& p) { return !p.warning; });
   const int answer = passed && (!o.careless || (careless && careless->as_named)) && !wrong_passes ? 0 : 1;
