@@ -141,8 +141,16 @@ Lattice<std::uint8_t> through_faces(const std::vector<RemovedAt>& soft, const st
 
 }  // namespace
 
+std::array<bool, 256> tissues_around(const Tooth& tooth, const std::array<bool, 256>& of_interest) {
+  std::array<bool, 256> around{};
+  for (const auto& t : tooth.tissues)
+    if (of_interest[t.id]) around[t.id] = lies_around(tooth.octree, t.id);
+  return around;
+}
+
 std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<const RemovedAt> list, const RemovedMap& removed,
-                                                std::int64_t last_tick, const std::array<bool, 256>& of_interest) {
+                                                std::int64_t last_tick, const std::array<bool, 256>& of_interest,
+                                                const std::array<bool, 256>* known_around) {
   std::array<ExposedTissue, 256> out;
   const Octree& before = tooth.octree;
   std::vector<RemovedAt> hard;
@@ -151,10 +159,7 @@ std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<co
     if (before.is_solid(r.leaf.tissue)) hard.push_back(r);
     if (of_interest[r.leaf.tissue]) soft[r.leaf.tissue].push_back(r);
   });
-  std::array<bool, 256> around{};
-  for (const auto& t : tooth.tissues)
-    if (of_interest[t.id]) around[t.id] = lies_around(before, t.id);
-
+  const std::array<bool, 256> around = known_around != nullptr ? *known_around : tissues_around(tooth, of_interest);
   std::array<std::vector<Face>, 256> faces;
   if (!hard.empty()) {
     Cavity cavity(before, hard, around);

@@ -24,6 +24,10 @@ struct ExposedTissue {
   [[nodiscard]] bool opened() const noexcept { return first.tick >= 0; }
 };
 
+/// By tissue id, of those in `of_interest`: it lies around the tooth (see below). Takes longest of all that grading does, and depends on the tooth
+/// alone: whoever marks much work on one tooth finds it out once.
+[[nodiscard]] std::array<bool, 256> tissues_around(const Tooth& tooth, const std::array<bool, 256>& of_interest);
+
 /// By tissue id, of those in `of_interest`, up to and with `last_tick`. `tooth`: before the exam; `list`: what was removed, which `removed` maps.
 ///
 /// A face counts between a hard leaf that was removed and a leaf of the tissue. Of a tissue that the tooth encloses (pulp) every one does. Of one
@@ -31,7 +35,9 @@ struct ExposedTissue {
 /// leaves removed by then and joined to it reach a leaf more than 0.3 mm below the tooth's surface: there is a way through the tooth.
 ///
 /// A face's share of the area is leaf² |n|, n the wall's unit normal about it along the face's axis, so that slanted walls do not count as stairs.
+/// `around`: what tissues_around says, where that is known.
 [[nodiscard]] std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<const RemovedAt> list, const RemovedMap& removed,
-                                                              std::int64_t last_tick, const std::array<bool, 256>& of_interest);
+                                                              std::int64_t last_tick, const std::array<bool, 256>& of_interest,
+                                                              const std::array<bool, 256>* around = nullptr);
 
 }  // namespace cavum::grading

@@ -30,7 +30,7 @@ PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMa
   const std::array<bool, 256> aims = ids_of(spec.aims), faults = ids_of(spec.faults);
   std::array<bool, 256> either = aims;
   for (std::size_t i = 0; i < either.size(); ++i) either[i] = either[i] || faults[i];
-  const std::array<ExposedTissue, 256> exposed = measure_exposure(input.before, input.removed, removed, last_tick, either);
+  const std::array<ExposedTissue, 256> exposed = measure_exposure(input.before, input.removed, removed, last_tick, either, input.around);
   std::array<std::vector<std::int64_t>, 2> opened;  // ticks, of aims and of faults
   for (const auto& t : input.before.tissues) {
     if (!either[t.id]) continue;

@@ -1,6 +1,7 @@
 // What a grade is measured from: the tooth before and after, the motion, what happened, and the scenario's zones.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "engine/session/session.h"
@@ -23,6 +24,7 @@ struct GradeInput {
   std::span<const SessionEvent> events;  ///< kinds as event_name gives them; others are ignored
   std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
   const SessionSetup* again = nullptr;   ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
+  const std::array<bool, 256>* around = nullptr;  ///< by tissue id: it lies around the tooth (breakthrough/exposure.h); nullptr: to be found out
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.

@@ -61,9 +61,11 @@ std::string measures_page() {
          "check, marking, `grade --why` and the result's JSON go by. How each is measured, and how far it may be off: [grading.md](grading.md).\n\n"
          "*Better*: which value is; where the task says it, `full` and `zero` do. *Judges*: work, that something was done, which an untouched tooth\n"
          "fails in; or care, which counts only for as much as was done. *Ends at*: values run from 0 to there; without one, `check` says nothing of\n"
-         "the range. *Needs*: an exam without it has nothing to measure, and `--rubric` refuses the measure. *JSON*: where the result has it.\n\n"
-         "| measure | unit | better | judges | ends at | what it is | needs | JSON | `--why` lists |\n"
-         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+         "the range. *Needs*: an exam without it has nothing to measure, and `--rubric` refuses the measure. *JSON*: where the result has it.\n"
+         "*Counts*: two criteria that count the same charge one mistake twice; `check` warns of it unless one of them\n"
+         "names the other under `shares_with`.\n\n"
+         "| measure | unit | better | judges | ends at | what it is | counts | needs | JSON | `--why` lists |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   bool tissues = false;
   for (const auto& listed : scenarios::measures()) {
     if (!listed.tissue.empty() && tissues) continue;
@@ -71,7 +73,8 @@ std::string measures_page() {
     const scenarios::Measure m = listed.tissue.empty() ? listed : scenarios::tissue_measure("TISSUE");
     const char* ends = m.most != nullptr ? m.most->words : m.tissue.empty() ? "" : "the tissue";
     out << "| " << code(m.name) << " | " << m.unit << " | " << better_words(m.better) << " | "
-        << (m.judges == scenarios::Judges::work ? "work" : "care") << " | " << ends << " | " << m.words << " | " << needs_words(m.needs) << " | "
+        << (m.judges == scenarios::Judges::work ? "work" : "care") << " | " << ends << " | " << m.words << " | " << scenarios::counts_text(m.counts) << " | "
+        << needs_words(m.needs) << " | "
         << code(json_place(m)) << " | " << moments_of(m).words << " |\n";
   }
   return out.str();

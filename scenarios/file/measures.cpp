@@ -43,12 +43,20 @@ constexpr FigureWords k_figures[] = {{.figure = WallFigure::mean,
                                       .all = "largest thickness left standing at all walls and the floor",
                                       .most = &most::no_end}};
 
+/// Thickness left is of the target; all other figures of a wall, of what is cut beyond it.
+unsigned wall_counts(WallFigure figure, std::size_t first, std::size_t walls) {
+  if (figure == WallFigure::max_under) return k_counts_target;
+  const auto floor = static_cast<std::size_t>(Wall::floor);
+  return (first < floor ? unsigned{k_counts_sides} : 0u) | (first + walls > floor ? unsigned{k_counts_bottom} : 0u);
+}
+
 Measure wall_measure(const std::string& walls_name, const FigureWords& f, const char* words, std::size_t first, std::size_t walls) {
   return {.name = fmt::format("{}_{}", walls_name, wall_figure_name(f.figure)),
           .unit = "mm",
           .words = words,
           .better = f.better,
           .most = f.most,
+          .counts = wall_counts(f.figure, first, walls),
           .of_floor = walls == 1 && first == static_cast<std::size_t>(Wall::floor),
           .family = k_wall_family,
           .first_wall = first,
@@ -82,43 +90,43 @@ std::vector<Measure> volume_measures() {
        .words = "of the target's volume",
        .better = Better::more,
        .judges = Judges::work,
-       .most = &most::percent},
-      {.name = "missed_mm3", .unit = "mm3", .words = "target left standing", .judges = Judges::work, .most = &most::target},
-      {.name = "removed_mm3", .unit = "mm3", .words = "all tissue removed", .better = Better::by_task, .most = &most::tooth},
+       .most = &most::percent, .counts = k_counts_target},
+      {.name = "missed_mm3", .unit = "mm3", .words = "target left standing", .judges = Judges::work, .most = &most::target, .counts = k_counts_target},
+      {.name = "removed_mm3", .unit = "mm3", .words = "all tissue removed", .better = Better::by_task, .most = &most::tooth, .counts = k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected},
       {.name = "outside_mm3",
        .unit = "mm3",
        .words = "removed outside target, leeway and container, what is protected included",
        .most = &most::tooth,
-       .counts_protected = true},
+       .counts = k_counts_outside | k_counts_protected, .counts_protected = true},
       {.name = "protected_mm3",
        .unit = "mm3",
        .words = "removed of what is protected, wherever it lies",
        .most = &most::guarded,
        .needs = Needs::protection,
-       .counts_protected = true},
+       .counts = k_counts_protected, .counts_protected = true},
       {.name = "leeway_sides_mm3",
        .unit = "mm3",
        .words = "removed in the leeway beside the target",
        .most = &most::leeway_sides,
-       .needs = Needs::leeway_sides},
+       .needs = Needs::leeway_sides, .counts = k_counts_leeway},
       {.name = "leeway_bottom_mm3",
        .unit = "mm3",
        .words = "removed in the leeway below the target",
        .most = &most::leeway_bottom,
-       .needs = Needs::leeway_bottom},
+       .needs = Needs::leeway_bottom, .counts = k_counts_leeway},
       {.name = "container_sides_mm3",
        .unit = "mm3",
        .words = "damage beside the target",
        .most = &most::container_sides,
-       .needs = Needs::container_sides},
+       .needs = Needs::container_sides, .counts = k_counts_sides},
       {.name = "container_bottom_mm3",
        .unit = "mm3",
        .words = "damage below the target",
        .most = &most::container_bottom,
-       .needs = Needs::container_bottom},
-      {.name = "container_mm3", .unit = "mm3", .words = "damage beside and below the target", .most = &most::container, .needs = Needs::container},
-      {.name = "overcut_mm3", .unit = "mm3", .words = "everything removed beyond target and leeway", .most = &most::tooth, .counts_protected = true},
-      {.name = "dice", .words = "agreement of removed and target, 1 = equal", .better = Better::more, .judges = Judges::work, .most = &most::one},
+       .needs = Needs::container_bottom, .counts = k_counts_bottom},
+      {.name = "container_mm3", .unit = "mm3", .words = "damage beside and below the target", .most = &most::container, .needs = Needs::container, .counts = k_counts_sides | k_counts_bottom},
+      {.name = "overcut_mm3", .unit = "mm3", .words = "everything removed beyond target and leeway", .most = &most::tooth, .counts = k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected, .counts_protected = true},
+      {.name = "dice", .words = "agreement of removed and target, 1 = equal", .better = Better::more, .judges = Judges::work, .most = &most::one, .counts = k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected},
   };
 }
 
@@ -126,10 +134,10 @@ std::vector<Measure> shape_measures() {
   return {
       {.name = "outline_length_mm", .unit = "mm", .words = "mesial to distal, at the surface", .better = Better::by_task, .judges = Judges::work},
       {.name = "outline_width_mm", .unit = "mm", .words = "buccal to lingual, at the surface", .better = Better::by_task, .judges = Judges::work},
-      {.name = "outline_length_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end},
-      {.name = "outline_width_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end},
+      {.name = "outline_length_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end, .counts = k_counts_target | k_counts_sides},
+      {.name = "outline_width_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end, .counts = k_counts_target | k_counts_sides},
       {.name = "depth_mm", .unit = "mm", .words = "deepest point below the occlusal opening", .better = Better::by_task, .judges = Judges::work},
-      {.name = "depth_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end},
+      {.name = "depth_error_mm", .unit = "mm", .words = "difference from the target's", .judges = Judges::work, .most = &most::no_end, .counts = k_counts_target | k_counts_bottom},
       {.name = "taper_deg", .unit = "deg", .words = "opening of the side walls towards the occlusal side", .better = Better::by_task},
       {.name = "taper_error_deg", .unit = "deg", .words = "difference from the target's", .most = &most::no_end},
   };
@@ -142,14 +150,14 @@ std::vector<Measure> access_measures() {
        .words = "roof of the target left above what the task opens (perforation.aims)",
        .judges = Judges::work,
        .most = &most::target,
-       .needs = Needs::aim},
+       .needs = Needs::aim, .counts = k_counts_target},
       {.name = "canals_covered_percent",
        .unit = "%",
        .words = "of the canals' mouths, under hard tissue left on the straight line out",
        .judges = Judges::work,
        .most = &most::percent,
-       .needs = Needs::aim},
-      {.name = "floor_cut_mm3", .unit = "mm3", .words = "hard tissue removed below the target", .most = &most::tooth, .of_floor = true},
+       .needs = Needs::aim, .counts = k_counts_target},
+      {.name = "floor_cut_mm3", .unit = "mm3", .words = "hard tissue removed below the target", .most = &most::tooth, .counts = k_counts_bottom, .of_floor = true},
       {.name = "dentin_over_pulp_mm",
        .unit = "mm",
        .words = "thinnest hard tissue left between the cavity and the pulp, 0 where it was opened",
@@ -161,12 +169,12 @@ std::vector<Measure> access_measures() {
 
 std::vector<Measure> motion_measures() {
   return {
-      {.name = "time_s", .unit = "s", .words = "until the exam ended", .most = &most::limit},
-      {.name = "handpiece_time_s", .unit = "s", .words = "with the handpiece turning", .most = &most::limit},
-      {.name = "idle_s", .unit = "s", .words = "neither moving nor cutting", .most = &most::limit},
-      {.name = "force_mean_n", .unit = "N", .words = "while cutting", .better = Better::by_task, .most = &most::no_end},
-      {.name = "force_peak_n", .unit = "N", .words = "largest on the hand", .most = &most::no_end},
-      {.name = "force_over_limit_s", .unit = "s", .words = "above force_limit_n", .most = &most::over_limit, .needs = Needs::force_limit},
+      {.name = "time_s", .unit = "s", .words = "until the exam ended", .most = &most::limit, .counts = k_counts_time},
+      {.name = "handpiece_time_s", .unit = "s", .words = "with the handpiece turning", .most = &most::limit, .counts = k_counts_time},
+      {.name = "idle_s", .unit = "s", .words = "neither moving nor cutting", .most = &most::limit, .counts = k_counts_time},
+      {.name = "force_mean_n", .unit = "N", .words = "while cutting", .better = Better::by_task, .most = &most::no_end, .counts = k_counts_force},
+      {.name = "force_peak_n", .unit = "N", .words = "largest on the hand", .most = &most::no_end, .counts = k_counts_force},
+      {.name = "force_over_limit_s", .unit = "s", .words = "above force_limit_n", .most = &most::over_limit, .needs = Needs::force_limit, .counts = k_counts_force},
       {.name = "path_mm", .unit = "mm", .words = "way of the tip", .most = &most::no_end},
   };
 }
@@ -177,12 +185,12 @@ std::vector<Measure> perforation_measures() {
        .words = "1 when a tissue under perforation.faults was opened from the cavity",
        .most = &most::fault,
        .needs = Needs::fault,
-       .counts_faults = true},
+       .counts = k_counts_faults, .counts_faults = true},
       {.name = "perforation_volume_mm3",
        .unit = "mm3",
        .words = "removed from the cavity of the tissues under perforation.faults",
        .needs = Needs::fault,
-       .counts_faults = true},
+       .counts = k_counts_faults, .counts_faults = true},
       {.name = "soft_tissue_outside_mm3",
        .unit = "mm3",
        .words = "removed of the tissues under perforation.faults from outside the tooth",
@@ -190,7 +198,7 @@ std::vector<Measure> perforation_measures() {
       {.name = "perforation_events",
        .words = "faulty breakthroughs seen in the force and confirmed by the tissue",
        .most = &most::no_end,
-       .counts_faults = true},
+       .counts = k_counts_faults, .counts_faults = true},
   };
 }
 
@@ -221,6 +229,17 @@ constexpr std::string_view k_before_tissue = "touched_", k_after_tissue = "_mm3"
 const char* wall_figure_name(WallFigure figure) noexcept {
   constexpr const char* k_names[] = {"mean_mm", "p95_mm", "max_over_mm", "max_under_mm"};
   return k_names[static_cast<std::size_t>(figure)];
+}
+
+std::string counts_text(unsigned counts) {
+  static constexpr std::pair<unsigned, const char*> k_words[] = {
+      {k_counts_target, "what is left of the target"}, {k_counts_sides, "damage beside it"},   {k_counts_bottom, "damage below it"},
+      {k_counts_outside, "what is removed elsewhere"}, {k_counts_protected, "protected tissue"}, {k_counts_faults, "opened faults"},
+      {k_counts_leeway, "the leeway"},                 {k_counts_time, "time"},                  {k_counts_force, "force"}};
+  std::string text;
+  for (const auto& [bit, words] : k_words)
+    if ((counts & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(words);
+  return text;
 }
 
 Measure tissue_measure(const std::string& tissue) {

@@ -19,6 +19,22 @@ enum class Judges { care, work };
 /// What an exam must have for a measure to say anything.
 enum class Needs { nothing, protection, leeway_sides, leeway_bottom, container_sides, container_bottom, container, aim, fault, force_limit, pulp };
 
+/// What a measure counts, as bits: two criteria with one in common charge the same tissue, or the same ticks, twice.
+enum Counts : unsigned {
+  k_counts_nothing = 0,
+  k_counts_target = 1,      ///< what is left of the target
+  k_counts_sides = 2,       ///< damage beside the target
+  k_counts_bottom = 4,      ///< damage below it
+  k_counts_outside = 8,     ///< removed in no zone
+  k_counts_protected = 16,  ///< removed of what is protected
+  k_counts_faults = 32,     ///< removed of what must not be opened
+  k_counts_leeway = 64,     ///< removed in the leeway
+  k_counts_time = 128,      ///< ticks of the exam
+  k_counts_force = 256,     ///< ticks in which is pressed
+};
+/// "what is left of the target, damage beside it": how docs/measures.md says it; empty for nothing.
+[[nodiscard]] std::string counts_text(unsigned counts);
+
 /// What is said of a wall.
 enum class WallFigure { mean, p95, max_over, max_under };
 inline constexpr WallFigure k_wall_figures[] = {WallFigure::mean, WallFigure::p95, WallFigure::max_over, WallFigure::max_under};
@@ -38,6 +54,7 @@ struct Measure {
   Judges judges = Judges::care;
   const Most* most = nullptr;  ///< where its values end, from 0 on; null: nothing is known of that
   Needs needs = Needs::nothing;
+  unsigned counts = k_counts_nothing;  ///< bits of Counts
   bool counts_faults = false;     ///< it answers whether something was opened that must not be
   bool counts_protected = false;  ///< it counts what is removed of what is protected
   bool of_floor = false;          ///< it speaks of the cavity's floor alone

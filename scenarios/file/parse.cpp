@@ -59,8 +59,21 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
     c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
   else
     t.number("critical_below", 0, 0, 0);
+  c.shares_with = t.texts("shares_with");
   t.finish();
   return c;
+}
+
+/// Each id under `shares_with` is that of another criterion.
+void check_shares(const RubricSpec& r, ProblemList& problems) {
+  for (const auto& c : r.criteria)
+    for (const auto& id : c.shares_with) {
+      std::vector<std::string> others;
+      for (const auto& other : r.criteria)
+        if (other.id != c.id) others.push_back(other.id);
+      if (std::find(others.begin(), others.end(), id) == others.end())
+        problems.add(c.metric_at, fmt::format("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others));
+    }
 }
 
 RubricSpec read_rubric(const toml::table& table, const std::string& name, Places& places, ProblemList& problems) {
@@ -78,6 +91,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
       if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
         problems.add(c->source(), fmt::format("two criteria are called '{}'", r.criteria[i].id), "give each its own id");
   }
+  check_shares(r, problems);
   if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", "no criterion gives any points", "give at least one some points");
   t.finish();
   return r;

@@ -79,4 +79,24 @@ std::vector<Problem> turned_round(const RubricSpec& rubric) {
   return problems;
 }
 
+std::vector<Problem> charged_twice(const RubricSpec& rubric) {
+  std::vector<Problem> problems;
+  const auto names = [](const CriterionSpec& c, const std::string& id) {
+    return std::find(c.shares_with.begin(), c.shares_with.end(), id) != c.shares_with.end();
+  };
+  for (std::size_t i = 0; i < rubric.criteria.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const CriterionSpec &first = rubric.criteria[j], &second = rubric.criteria[i];
+      if (!(first.points > 0) || !(second.points > 0) || names(first, second.id) || names(second, first.id)) continue;
+      const unsigned both = known_measure(first.metric).counts & known_measure(second.metric).counts;
+      if (both == 0) continue;
+      problems.push_back(problem_of(rubric, second.metric_at,
+                                    fmt::format("'{}' charges what '{}' charges, too: {} and {} both count {}", second.id, first.id, second.metric,
+                                                first.metric, counts_text(both)),
+                                    fmt::format("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id)));
+      problems.back().warning = true;
+    }
+  return problems;
+}
+
 }  // namespace cavum::scenarios

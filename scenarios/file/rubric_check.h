@@ -1,5 +1,5 @@
 // What can be said of a rubric beside an exam: measures of things that the exam does not have, which everybody would have full marks for, and
-// criteria that are turned round.
+// criteria that are turned round, or charge one mistake twice.
 #pragma once
 
 #include <vector>
@@ -14,5 +14,9 @@ namespace cavum::scenarios {
 
 /// A warning for each criterion that gives its full marks to the worse value.
 [[nodiscard]] std::vector<Problem> turned_round(const RubricSpec& rubric);
+
+/// A warning for each two criteria with points whose measures count the same tissue or the same ticks, unless one of them names the other under
+/// `shares_with`: one mistake costs twice there, which is the author's to want.
+[[nodiscard]] std::vector<Problem> charged_twice(const RubricSpec& rubric);
 
 }  // namespace cavum::scenarios

@@ -118,6 +118,7 @@ struct CriterionSpec {
   double full = 0.0, zero = 0.0;  ///< metric value for full and for no points; linear between
   double points = 0.0;
   std::optional<double> critical_above, critical_below;  ///< beyond it the exam is failed whatever the sum
+  std::vector<std::string> shares_with = {};             ///< ids of criteria that charge the same mistakes, and are meant to
   Place metric_at = {}, zero_at = {};                    ///< in the rubric's file
 };
 

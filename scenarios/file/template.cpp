@@ -230,7 +230,7 @@ complete_when = "touched_pulp > 0.05"
 [[steps]]
 id = "roof"
 instruction = "Remove the rest of the roof. Do not touch the floor. Release the pedal and lift off when done."
-complete_when = "target_removed_percent >= 85 && pedal < 0.05 && contact == 0"
+complete_when = "target_removed_percent >= 87 && pedal < 0.05 && contact == 0"
 )";
 
 constexpr std::string_view k_shapes = R"(
@@ -271,13 +271,14 @@ pass_percent = 65
 borderline_percent = 3               # this close to the pass mark a person decides
 
 # Points run linearly from `full` to `zero`. critical_above or critical_below: beyond it the exam is failed.
+# `cavum scenario check` marks wrong pieces of work by this rubric, and none may pass; two criteria that charge the same say so: shares_with.
 [[rubric.criteria]]
 id = "removed"
 title = "Cavity complete"
 metric = "target_removed_percent"
 full = 92
 zero = 60
-points = 45
+points = 40
 critical_below = 60
 
 [[rubric.criteria]]
@@ -286,7 +287,17 @@ title = "Walls not overcut"
 metric = "container_sides_mm3"
 full = 0.3
 zero = 3
-points = 20
+points = 15
+
+[[rubric.criteria]]
+id = "wall_gouge"
+title = "No wall gouged"
+metric = "side_walls_max_over_mm"
+full = 0.4
+zero = 0.8
+points = 10
+critical_above = 0.8
+shares_with = ["walls"]
 
 [[rubric.criteria]]
 id = "floor"
@@ -294,7 +305,17 @@ title = "Floor not too deep"
 metric = "container_bottom_mm3"
 full = 0.1
 zero = 1.5
-points = 15
+points = 10
+
+[[rubric.criteria]]
+id = "floor_gouge"
+title = "Floor not gouged"
+metric = "floor_max_over_mm"
+full = 0.3
+zero = 0.7
+points = 5
+critical_above = 0.7
+shares_with = ["floor"]
 
 [[rubric.criteria]]
 id = "elsewhere"

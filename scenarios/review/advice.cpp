@@ -378,7 +378,9 @@ std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const 
   a.time(expert_s);
   a.steps();
   a.criteria();
-  return a.take();
+  std::vector<Problem> problems = a.take();
+  for (auto& p : charged_twice(scenario.rubric)) problems.push_back(std::move(p));
+  return problems;
 }
 
 }  // namespace cavum::scenarios

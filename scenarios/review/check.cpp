@@ -64,9 +64,14 @@ bool CheckedScenario::sound() const {
   return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
 }
 
+void sort_problems(std::vector<Problem>& problems) {
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+}
+
 CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file) {
   ReadScenario read = read_scenario(text, path);
-  CheckedScenario checked{std::move(read.problems), {}};
+  CheckedScenario checked{.problems = std::move(read.problems), .expert_s = {}};
   std::vector<Problem>& problems = checked.problems;
   SurfaceFiles files;
   for (auto& p : read_surfaces(read.scenario, files)) problems.push_back(std::move(p));
@@ -99,15 +104,15 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
     for (auto& p : missing_tissues(s, *tooth)) problems.push_back(std::move(p));
     if (checked.sound()) {
       try {
-        const ZoneMap zones = build_zones(s, *tooth);
+        ZoneMap zones = build_zones(s, *tooth);
         for (auto& p : advise(s, *tooth, zones, points, checked.expert_s)) problems.push_back(std::move(p));
+        if (checked.sound()) checked.laid = std::make_shared<const LaidScenario>(LaidScenario{s, std::move(*tooth), std::move(zones)});
       } catch (const Error& e) {
         problems.push_back(problem_of(e, s, "zones"));
       }
     }
   }
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+  sort_problems(problems);
   problems.erase(std::unique(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a.text() == b.text(); }),
                  problems.end());
   return checked;

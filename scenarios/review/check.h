@@ -2,21 +2,35 @@
 // not have, and warnings of what is legal but unwise. `cavum scenario check` prints it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scenarios/file/parse.h"
+#include "scenarios/zones/zone_map.h"
 
 namespace cavum::scenarios {
+
+/// A scenario laid into its tooth.
+struct LaidScenario {
+  Scenario scenario;
+  Tooth tooth;
+  ZoneMap zones;
+};
 
 struct CheckedScenario {
   std::vector<Problem> problems;     ///< mistakes and warnings, in the order of the file
   std::optional<double> expert_s;    ///< what the built-in expert needs, about; none with mistakes
-  [[nodiscard]] bool sound() const;  ///< no mistakes; warnings may be
+  std::shared_ptr<const LaidScenario> laid = {};  ///< what was checked; none with mistakes, or without its tooth
+  [[nodiscard]] bool sound() const;               ///< no mistakes; warnings may be
 };
 
 /// `tooth_file`: lay the zones into this tooth instead of the scenario's own. Throws Error when that one cannot be read.
+/// Not whether wrong work passes: grading/battery tries that.
 [[nodiscard]] CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file = "");
+
+/// Into the order of the file; what stands at one place keeps its order.
+void sort_problems(std::vector<Problem>& problems);
 
 }  // namespace cavum::scenarios

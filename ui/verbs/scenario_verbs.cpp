@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
+#include "grading/battery/battery.h"
 #include "grading/result/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/candidates/simulated_exam.h"
@@ -33,11 +35,16 @@ namespace {
 struct ScenarioArguments {
   std::string scenario, tooth, out, model = "consistent";
   std::uint64_t seed = 1;
-  bool json = false, careless = false;
+  bool json = false, careless = false, battery = false, no_battery = false;
 };
 
 int check(const ScenarioArguments& o) {
-  const scenarios::CheckedScenario checked = scenarios::check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
+  scenarios::CheckedScenario checked = scenarios::check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
+  if (checked.laid && !o.no_battery) {
+    const grading::Battery battery = grading::run_battery(checked.laid->scenario, checked.laid->tooth, checked.laid->zones, grading::Look::screened);
+    checked.problems.insert(checked.problems.end(), battery.problems.begin(), battery.problems.end());
+    scenarios::sort_problems(checked.problems);
+  }
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
@@ -256,6 +263,26 @@ std::string to_text(const Caught& c) {
   return s;
 }
 
+nlohmann::ordered_json to_json(const grading::Battery& battery) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const auto& row : battery.rows)
+    rows.push_back({{"name", row.name},
+                    {"what", row.what},
+                    {"verdict", grading::verdict_name(row.verdict)},
+                    {"points", grading::rounded(row.points)},
+                    {"max", grading::rounded(row.max)},
+                    {"caught_by", row.caught_by},
+                    {"should", row.should}});
+  return rows;
+}
+
+std::string to_text(const grading::Battery& battery) {
+  std::string s = fmt::format("wrong work, marked by this rubric ({} pieces in {} s):\n{}", battery.rows.size(), fixed(battery.wall_s, 1),
+                              grading::battery_text(battery));
+  for (const auto& p : battery.problems) s += one_line(p.text()) + "\n";
+  return s;
+}
+
 int solve(const ScenarioArguments& o) {
   if (!o.out.empty()) require_writable(o.out);
   scenarios::ExamOptions options;
@@ -273,7 +300,11 @@ int solve(const ScenarioArguments& o) {
   const bool passed = solved.result && solved.result->verdict == grading::Verdict::pass;
   std::optional<Caught> careless;
   if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless"));
-  const int answer = passed && (!o.careless || (careless && careless->as_named)) ? 0 : 1;
+  std::optional<grading::Battery> battery;
+  if (o.battery) battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
+  const bool wrong_passes =
+      battery && std::any_of(battery->problems.begin(), battery->problems.end(), [](const scenarios::Problem& p) { return !p.warning; });
+  const int answer = passed && (!o.careless || (careless && careless->as_named)) && !wrong_passes ? 0 : 1;
   const double limit_s = static_cast<double>(scenarios::exam_limit_ticks(setup->scenario)) * k_tick_s;
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
@@ -285,6 +316,7 @@ int solve(const ScenarioArguments& o) {
     j["reasons"] = solved.reasons;
     j["what_to_do"] = solved.advice;
     if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
+    if (battery) j["battery"] = to_json(*battery);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
     print_json(j);
     return answer;
@@ -304,6 +336,7 @@ int solve(const ScenarioArguments& o) {
   for (const auto& reason : solved.reasons) std::cout << "because: " << one_line(reason) << "\n";
   if (!passed) std::cout << "what to do: " << one_line(solved.advice) << "\n";
   if (careless) std::cout << to_text(*careless);
+  if (battery) std::cout << to_text(*battery);
   if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
   return answer;
 }
@@ -319,6 +352,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   checks->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
   checks->add_option("--tooth", o->tooth, "check the zones against this tooth instead");
   checks->add_flag("--json", o->json, "one JSON object on standard output");
+  checks->add_flag("--no-battery", o->no_battery, "do not try wrong pieces of work on the rubric");
   checks->callback([o, &exit_code] { exit_code = check(*o); });
 
   auto* shows = verb->add_subcommand("show", "Draw the zones on three sections and from above (SVG)");
@@ -335,6 +369,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_option("--seed", o->seed, "of the expert's tremor")->check(seed_check())->capture_default_str();
   solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
   solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");
+  solves->add_flag("--battery", o->battery, "also mark wrong pieces of work by the rubric: none may pass");
   solves->add_flag("--json", o->json, "one JSON object on standard output");
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
 

@@ -1,0 +1,291 @@
+#include "grading/battery/wrong_work.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "engine/base/text.h"
+#include "grading/battery/random_work.h"
+#include "grading/battery/shares_of_target.h"
+#include "scenarios/file/measures.h"
+
+namespace cavum::grading {
+namespace {
+
+double across(Vec3 a, Vec3 b) { return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)); }
+
+/// All wrong pieces of work, family by family.
+class Works {
+ public:
+  Works(const Task& task, const TargetField& f) : task_(task), f_(f), middle_((f.low_mm() + f.high_mm()) * 0.5) {}
+  std::vector<WrongWork> all() {
+    nothing();
+    short_of_it();
+    wrong_place();
+    wrong_depth();
+    too_wide();
+    lesion();
+    faults();
+    holes();
+    roof();
+    return std::move(list_);
+  }
+  // what is cut, as functions of what is wrong
+  [[nodiscard]] Cut deeper(double mm) const;
+  [[nodiscard]] Cut wider(double mm) const;
+  [[nodiscard]] Cut shifted(Vec3 by) const;
+  [[nodiscard]] Cut down_to_share(double share, int tissue = -1) const;
+  [[nodiscard]] Cut along_to_share(double share) const;
+  [[nodiscard]] bool longer_in_x() const { return f_.high_mm().x - f_.low_mm().x >= f_.high_mm().y - f_.low_mm().y; }
+
+ private:
+  void add(std::string name, std::string what, Mistake mistake, Cut cut) { list_.push_back({std::move(name), std::move(what), mistake, std::move(cut)}); }
+  /// The target down to a level, local mm.
+  [[nodiscard]] Cut down_to(double level) const {
+    return [&f = f_, level](Vec3 p) { return std::max(f.target_mm(p), level - f.local(p).z); };
+  }
+  /// The target's middle, `share` as wide as it is.
+  [[nodiscard]] Cut middle_of(double share) const;
+  void nothing();
+  void short_of_it();
+  void wrong_place();
+  void wrong_depth();
+  void too_wide();
+  void lesion();
+  void faults();
+  void holes();
+  void roof();
+
+  const Task& task_;
+  const TargetField& f_;
+  Vec3 middle_;
+  std::vector<WrongWork> list_;
+};
+
+Cut Works::deeper(double mm) const {
+  return [&f = f_, mm](Vec3 p) { return std::min(f.target_mm(p), f.open_mm(f.local(p) + Vec3{0, 0, mm})); };
+}
+
+/// Beside the target down to the level of its floor, and no deeper.
+Cut Works::wider(double mm) const {
+  return [&f = f_, mm](Vec3 p) {
+    const Vec3 q = f.local(p);
+    return std::min(f.target_mm(p), std::max(f.open_mm(q) - mm, f.floor_mm(q) - q.z));
+  };
+}
+
+Cut Works::shifted(Vec3 by) const {
+  return [&f = f_, by](Vec3 p) { return f.open_mm(f.local(p) - by); };
+}
+
+Cut Works::down_to_share(double share, int tissue) const {
+  return down_to(beyond_which(f_, share, [](Vec3 q) { return q.z; }, tissue));
+}
+
+Cut Works::along_to_share(double share) const {
+  const bool in_x = longer_in_x();
+  const auto along = [in_x](Vec3 q) { return in_x ? q.x : q.y; };
+  const double from = beyond_which(f_, share, along);
+  return [&f = f_, along, from](Vec3 p) { return std::max(f.target_mm(p), from - along(f.local(p))); };
+}
+
+Cut Works::middle_of(double share) const {
+  return [&f = f_, middle = middle_, share](Vec3 p) {
+    const Vec3 q = f.local(p);
+    const Vec3 scaled{middle.x + (q.x - middle.x) / share, middle.y + (q.y - middle.y) / share, q.z};
+    return std::max(f.target_mm(p), share * f.target_mm(f.in_tooth(scaled)));
+  };
+}
+
+void Works::nothing() {
+  add("hands_in_at_once", "nothing; hands in at once", Mistake::nothing_done, {});
+  add("does_nothing", "nothing; waits until time is up", Mistake::nothing_done, {});
+  list_.back().waits = true;
+  const double beside = 2.5, level = f_.low_mm().z;
+  add("everything_in_reach", fmt::format("everything down to the target's floor, {} mm around it", plain_number(beside)), Mistake::torn_down,
+      [&f = f_, beside, level](Vec3 p) {
+        const Vec3 q = f.local(p);
+        return std::max(f.open_mm(q) - beside, level - q.z);
+      });
+}
+
+void Works::short_of_it() {
+  for (const int percent : {25, 50, 70, 85}) {
+    add(fmt::format("stops_at_{}_percent_by_depth", percent), fmt::format("the upper {} % of the target", percent), Mistake::not_deep,
+        down_to_share(0.01 * percent));
+    add(fmt::format("stops_at_{}_percent_by_length", percent), fmt::format("{} % of the target, from one end", percent), Mistake::too_little,
+        along_to_share(0.01 * percent));
+  }
+}
+
+void Works::wrong_place() {
+  const std::array<std::pair<const char*, Vec3>, 4> ways{{{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {"buccal", {0, 1, 0}}, {"lingual", {0, -1, 0}}}};
+  for (const auto& [side, way] : ways)
+    for (const double mm : {1.0, 2.0})
+      add(fmt::format("shifted_{}_mm_{}", plain_number(mm), side), fmt::format("the target {} mm too far to {}", plain_number(mm), side),
+          Mistake::misplaced, shifted(way * mm));
+  const double cosine = std::sqrt(0.75), sine = 0.5;
+  add("turned_30_degrees", "the target turned by 30° about the way in", Mistake::misplaced, [&f = f_, m = middle_, cosine, sine](Vec3 p) {
+    const Vec3 q = f.local(p) - m;
+    return f.open_mm(m + Vec3{q.x * cosine + q.y * sine, -q.x * sine + q.y * cosine, q.z});
+  });
+  list_.back().may_be_right = true;
+  add("mirrored_mesial_distal", "the target as in a mirror, mesial for distal", Mistake::misplaced,
+      [&f = f_](Vec3 p) { return f.open_mm(f.local({-p.x, p.y, p.z})); });
+  list_.back().may_be_right = true;
+  add("mirrored_buccal_lingual", "the target as in a mirror, buccal for lingual", Mistake::misplaced,
+      [&f = f_](Vec3 p) { return f.open_mm(f.local({p.x, -p.y, p.z})); });
+  list_.back().may_be_right = true;
+}
+
+void Works::wrong_depth() {
+  for (const double mm : {0.8, 1.5})
+    add(fmt::format("too_deep_by_{}_mm", plain_number(mm)), fmt::format("the target, its floor {} mm too deep", plain_number(mm)), Mistake::too_deep,
+        deeper(mm));
+  add("half_as_deep", "the target, half as deep", Mistake::not_deep, down_to(0.5 * (f_.opening_mm() + f_.low_mm().z)));
+}
+
+void Works::too_wide() {
+  add("too_wide_by_1_mm", "the target, 1 mm too wide all round", Mistake::too_wide, wider(1.0));
+  const double beside = 1.2, deep = 0.8;
+  add("shank_at_the_entrance", fmt::format("the target, its entrance {} mm too wide down to {} mm", plain_number(beside), plain_number(deep)),
+      Mistake::too_wide, [&f = f_, beside, level = f_.opening_mm() - deep](Vec3 p) {
+        const Vec3 q = f.local(p);
+        return std::min(f.target_mm(p), std::max(f.open_mm(q) - beside, level - q.z));
+      });
+}
+
+/// A tissue that the target follows and that is no aim: to be excavated.
+void Works::lesion() {
+  const auto& aims = task_.scenario.perforation.aims;
+  for (const auto& shape : task_.scenario.zones.target) {
+    if (shape.kind != scenarios::ShapeSpec::Kind::tissue || shape.combine != scenarios::ShapeSpec::Combine::add) continue;
+    if (std::find(aims.begin(), aims.end(), shape.tissue) != aims.end()) continue;
+    const int id = task_.tooth.tissue_id(shape.tissue);
+    for (const int left : {100, 80, 50}) {
+      add(fmt::format("leaves_{}_percent_of_{}", left, shape.tissue), fmt::format("the way to {}, and {} % of it stays", shape.tissue, left),
+          Mistake::lesion_left, down_to_share(std::max(0.001, 1 - 0.01 * left), id));
+      list_.back().measure = scenarios::tissue_measure(shape.tissue).name;
+    }
+  }
+}
+
+void Works::faults() {
+  for (const auto& tissue : task_.scenario.perforation.faults) {
+    const auto below = f_.below(tissue);
+    if (!below) continue;
+    for (const auto& [name, radius] : {std::pair("opens", 0.5), {"opens_narrowly", 0.25}}) {
+      add(fmt::format("{}_{}", name, tissue), fmt::format("the target, and a hole of {} mm through its floor into {}", plain_number(2 * radius), tissue),
+          Mistake::fault_opened, [&f = f_, b = *below, radius = radius](Vec3 p) {
+            const Vec3 q = f.local(p);
+            const double z = std::clamp(q.z, b.tissue.z - 0.2, b.floor.z + 0.5);
+            return std::min(f.target_mm(p), length(q - Vec3{b.floor.x, b.floor.y, z}) - radius);
+          });
+      list_.back().below_mm = std::max(list_.back().below_mm, f_.low_mm().z - below->tissue.z + 1.0);
+    }
+  }
+}
+
+/// Where marks are taken: both ends of length and width, the middle, the deepest place. Holes as wide as a point, to full depth.
+void Works::holes() {
+  constexpr double k_radius_mm = 0.5;
+  const auto furthest = [&](auto&& along) {
+    const TargetLeaf* best = &f_.leaves().front();
+    for (const auto& leaf : f_.leaves())
+      if (along(leaf.at) > along(best->at)) best = &leaf;
+    return best->at;
+  };
+  const auto inwards = [&](Vec3 at, Vec3 out) { return at - out * (k_radius_mm - 0.5 * f_.tooth().octree.leaf_mm()); };
+  std::vector<Vec3> at{middle_, furthest([](Vec3 q) { return -q.z; })};
+  for (const Vec3 out : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}})
+    at.push_back(inwards(furthest([out](Vec3 q) { return dot(q, out); }), out));
+  add("holes_where_marks_are", "holes of 1 mm at the ends of length and width, in the middle and where it is deepest", Mistake::too_little,
+      [&f = f_, at](Vec3 p) {
+        const Vec3 q = f.local(p);
+        double nearest = 1e9;
+        for (const Vec3 hole : at) nearest = std::min(nearest, across(q, hole) - k_radius_mm);
+        return std::max(f.target_mm(p), nearest);
+      });
+  list_.back().may_be_right = true;  // a target no larger than them
+}
+
+void Works::roof() {
+  for (const int percent : {45, 65})
+    add(fmt::format("opens_the_middle_{}_percent", percent), fmt::format("the target's middle, {} % as wide and as long, to full depth", percent),
+        task_.scenario.perforation.aims.empty() ? Mistake::too_little : Mistake::roof_left, middle_of(0.01 * percent));
+  double roof = -1e9;
+  for (const auto& leaf : f_.leaves())
+    for (const auto& aim : task_.scenario.perforation.aims)
+      if (leaf.tissue == task_.tooth.tissue_id(aim)) roof = std::max(roof, leaf.at.z);
+  if (roof > -1e9) add("never_opened", "the target down to 0.2 mm above what it is to open", Mistake::roof_left, down_to(roof + 0.2));
+}
+
+}  // namespace
+
+const std::vector<std::string>& measures_against(Mistake mistake) {
+  static const std::map<Mistake, std::vector<std::string>> k_by_mistake{
+      {Mistake::nothing_done, {"target_removed_percent", "missed_mm3", "dice", "steps_completed"}},
+      {Mistake::too_little, {"target_removed_percent", "missed_mm3", "walls_max_under_mm", "side_walls_max_under_mm", "dice"}},
+      {Mistake::not_deep, {"target_removed_percent", "missed_mm3", "depth_error_mm", "floor_max_under_mm", "depth_mm", "dice"}},
+      {Mistake::roof_left, {"target_removed_percent", "overhang_mm3", "canals_covered_percent", "missed_mm3", "dice"}},
+      {Mistake::too_deep, {"floor_max_over_mm", "floor_p95_mm", "container_bottom_mm3", "floor_cut_mm3", "walls_max_over_mm", "depth_error_mm", "container_mm3", "overcut_mm3"}},
+      {Mistake::too_wide, {"side_walls_max_over_mm", "side_walls_p95_mm", "container_sides_mm3", "walls_max_over_mm", "container_mm3", "overcut_mm3"}},
+      {Mistake::misplaced, {"side_walls_max_over_mm", "side_walls_p95_mm", "walls_max_over_mm", "outside_mm3", "container_sides_mm3", "target_removed_percent", "dice"}},
+      {Mistake::lesion_left, {"target_removed_percent", "missed_mm3"}},
+      {Mistake::fault_opened, {"perforated", "perforation_volume_mm3"}},
+      {Mistake::torn_down, {"outside_mm3", "side_walls_max_over_mm", "overcut_mm3", "removed_mm3"}},
+      {Mistake::ragged, {"target_removed_percent", "dice", "missed_mm3", "side_walls_max_over_mm", "walls_max_over_mm", "outside_mm3"}},
+  };
+  return k_by_mistake.at(mistake);
+}
+
+Cut honest_cut(const TargetField& field) {
+  return [&field](Vec3 p) { return field.target_mm(p); };
+}
+
+std::vector<WrongWork> wrong_works(const Task& task, const TargetField& field) {
+  std::vector<WrongWork> all = Works(task, field).all();
+  for (auto& work : random_works(task, field)) all.push_back(std::move(work));
+  return all;
+}
+
+std::vector<Ladder> ladders(const Task& task, const TargetField& field) {
+  const Works works(task, field);
+  std::vector<Ladder> list;
+  const auto grow = [&](const char* name, const char* what, const char* unit, const std::vector<double>& amounts, const auto& cut) {
+    Ladder ladder{name, what, unit, amounts, {}};
+    for (const double amount : amounts) ladder.cut.push_back(cut(amount));
+    list.push_back(std::move(ladder));
+  };
+  grow("deeper", "the floor too deep", "mm", {0.1, 0.25, 0.5, 0.9, 1.4}, [&](double mm) { return works.deeper(mm); });
+  grow("wider", "all walls too far", "mm", {0.1, 0.25, 0.5, 0.8, 1.2}, [&](double mm) { return works.wider(mm); });
+  grow("less deep", "of the target left, from its floor up", "%", {3, 10, 25, 50, 80},
+       [&](double percent) { return works.down_to_share(1 - 0.01 * percent); });
+  grow("less long", "of the target left, from one end", "%", {3, 10, 25, 50, 80},
+       [&](double percent) { return works.along_to_share(1 - 0.01 * percent); });
+  grow("shifted", "in the wrong place", "mm", {0.2, 0.5, 0.9, 1.4, 2.0}, [&](double mm) {
+    return works.shifted(works.longer_in_x() ? Vec3{0, mm, 0} : Vec3{mm, 0, 0});
+  });
+  return list;
+}
+
+CutBox box_of_work(const TargetField& field, double below_mm) {
+  constexpr double k_beside_mm = 3.2, k_above_mm = 6.0;
+  const Octree& tree = field.tooth().octree;
+  CutBox box{{1e9, 1e9, 1e9}, {-1e9, -1e9, -1e9}};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p = field.in_tooth({(corner & 1) != 0 ? field.high_mm().x + k_beside_mm : field.low_mm().x - k_beside_mm,
+                                   (corner & 2) != 0 ? field.high_mm().y + k_beside_mm : field.low_mm().y - k_beside_mm,
+                                   (corner & 4) != 0 ? field.high_mm().z + k_above_mm : field.low_mm().z - below_mm});
+    box.low_mm = {std::min(box.low_mm.x, p.x), std::min(box.low_mm.y, p.y), std::min(box.low_mm.z, p.z)};
+    box.high_mm = {std::max(box.high_mm.x, p.x), std::max(box.high_mm.y, p.y), std::max(box.high_mm.z, p.z)};
+  }
+  const Vec3 low = tree.origin_mm(), n{double(tree.size().x), double(tree.size().y), double(tree.size().z)}, high = low + n * tree.leaf_mm();
+  return {{std::max(box.low_mm.x, low.x), std::max(box.low_mm.y, low.y), std::max(box.low_mm.z, low.z)},
+          {std::min(box.high_mm.x, high.x), std::min(box.high_mm.y, high.y), std::min(box.high_mm.z, high.z)}};
+}
+
+}  // namespace cavum::grading
