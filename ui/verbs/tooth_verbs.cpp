@@ -433,6 +433,7 @@ void add_tooth_verbs(CLI::App& app, int& exit_code) {
   add_info(*tooth);
   add_mesh(*tooth);
   add_landmarks(*tooth);
+  add_lesion(*tooth);
   tooth->callback([&exit_code] { exit_code = 0; });
 }
 

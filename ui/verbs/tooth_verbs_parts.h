@@ -15,5 +15,7 @@ namespace cavum::ui {
 [[nodiscard]] Vec3 parse_vec(const std::string& text, const std::string& option);
 /// `cavum tooth landmarks`.
 void add_landmarks(CLI::App& tooth);
+/// `cavum tooth lesion`.
+void add_lesion(CLI::App& tooth);
 
 }  // namespace cavum::ui

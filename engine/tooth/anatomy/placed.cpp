@@ -122,6 +122,20 @@ bool put(const Name& name, Vec3 at, Landmarks& l) {
   }
 }
 
+/// Where no fissure was found, on a worn crown say, and a person put both ends: straight from pit to pit.
+void draw_fissure(Landmarks& l) {
+  const auto put = [&](const char* name) { return std::find(l.moved.begin(), l.moved.end(), name) != l.moved.end(); };
+  if (!l.central_fissure_mm.empty() || !put("mesial_pit") || !put("distal_pit")) return;
+  constexpr int k_parts = 10;
+  std::vector<Vec3> pits{*l.mesial_pit_mm};
+  if (l.central_pit_mm) pits.push_back(*l.central_pit_mm);
+  pits.push_back(*l.distal_pit_mm);
+  for (std::size_t i = 0; i + 1 < pits.size(); ++i)
+    for (int k = 0; k < k_parts; ++k) l.central_fissure_mm.push_back(pits[i] + (pits[i + 1] - pits[i]) * (static_cast<double>(k) / k_parts));
+  l.central_fissure_mm.push_back(pits.back());
+  l.notes.emplace_back("the central fissure is drawn straight between the pits that were put by hand");
+}
+
 }  // namespace
 
 void place_landmarks(const std::vector<NamedPoint>& placed, Landmarks& landmarks) {
@@ -137,6 +151,7 @@ void place_landmarks(const std::vector<NamedPoint>& placed, Landmarks& landmarks
     else
       landmarks.notes.push_back(fmt::format("the point '{}' that was put is {}", name, known ? "beyond the end of its list" : "of no known name"));
   }
+  draw_fissure(landmarks);
 }
 
 std::vector<NamedPoint> named_points(const Landmarks& l) {

@@ -1,0 +1,54 @@
+// Tasks for a tooth file: what is offered, and that what is written is sound on its tooth.
+#include "scenarios/review/tooth_task.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/error.h"
+#include "scenarios/review/check.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum::scenarios {
+namespace {
+
+std::string file_of(const char* tooth) { return testing_basics::data_path(std::string("teeth/") + tooth); }
+
+TEST(ToothTask, AFrontToothAndABlockAreOfferedWhatMakesSense) {
+  for (const auto& [file, least, most] : {std::tuple("lower_molar.cvt", 6, 6), std::tuple("upper_premolar.cvt", 6, 6), std::tuple("upper_incisor.cvt", 0, 0),
+                                         std::tuple("block.cvt", 0, 1)}) {
+    const Tooth tooth = load_tooth_file(file_of(file));
+    int offered = 0;
+    for (const auto& t : offered_tasks(tooth, find_landmarks(tooth))) offered += t.why_not.empty() ? 1 : 0;
+    EXPECT_GE(offered, least) << file;
+    EXPECT_LE(offered, most) << file;
+  }
+}
+
+TEST(ToothTask, WhatIsWrittenIsSoundAndFollowsTheLandmarks) {
+  for (const auto& [file, task, relation] : {std::tuple("lower_molar.cvt", "class_1", "kind = \"fissure\", width_mm = 1.4"),
+                                             std::tuple("upper_premolar.cvt", "slot_mesial", "shape = \"proximal_box\"\nside")}) {
+    const Tooth tooth = load_tooth_file(file_of(file));
+    const WrittenTask written = write_tooth_task(tooth, find_landmarks(tooth), file_of(file), "here.toml", task);
+    EXPECT_TRUE(check_whole(written.text, "here.toml").sound()) << file << " " << task;
+    EXPECT_FALSE(written.chosen.empty());
+    EXPECT_NE(written.text.find(relation), std::string::npos) << written.text;
+  }
+}
+
+TEST(ToothTask, PitsThatAPersonPutMakeAFissureWhereNoneWasFound) {
+  Tooth tooth = load_tooth_file(file_of("block.cvt"));
+  EXPECT_FALSE(offered_tasks(tooth, find_landmarks(tooth))[0].why_not.empty());
+  tooth.placed_landmarks = {{"mesial_pit", {1.5, 0.5, 0}}, {"distal_pit", {-1.5, -0.5, 0}}};
+  const Landmarks landmarks = find_landmarks(tooth);
+  ASSERT_GE(landmarks.central_fissure_mm.size(), 2u);
+  for (const Vec3& p : landmarks.central_fissure_mm) EXPECT_NEAR(p.y, p.x / 3, 1e-9);
+  EXPECT_TRUE(offered_tasks(tooth, landmarks)[0].why_not.empty());
+}
+
+TEST(ToothTask, WhatMakesNoSenseIsRefused) {
+  const Tooth incisor = load_tooth_file(file_of("upper_incisor.cvt"));
+  EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, find_landmarks(incisor), "i.cvt", "here.toml", "class_1")), Error);
+  EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, {}, "i.cvt", "here.toml", "class_9")), Error);
+}
+
+}  // namespace
+}  // namespace cavum::scenarios
