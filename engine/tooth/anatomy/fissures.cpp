@@ -9,7 +9,8 @@
 namespace cavum {
 namespace {
 
-constexpr double k_pit_mm = 0.012;       // least depth of a pit below the lowest way out of it
+constexpr double k_pit_mm = 0.012;  // least depth of a pit below the lowest way out of it
+constexpr double k_deep_pit_mm = 0.05, k_elsewhere_mm = 0.6;
 constexpr double k_end_bend = 0.65;      // of the usual curvature: a fissure ends where it has less
 constexpr double k_pit_bend = 0.4;       // of the fissure's usual curvature: a pit has as much
 constexpr double k_pit_per_mm = 0.8;     // least curvature of a pit: a dip of a broad crest is none
@@ -57,14 +58,14 @@ struct Ground {
 };
 
 /// The deepest hollow at an end of the table, away from the ridge's crest.
-std::optional<int> end_hollow(const Ground& g, Vec3 crest, int end, double least_bend) {
+std::optional<Peak> end_hollow(const Ground& g, Vec3 crest, int end, double least_bend) {
   std::optional<Peak> best;
   for (const auto& h : g.hollows) {
     const Vec3 p = g.map.place(h.cell);
     if (g.curvature[place(h.cell)] < least_bend) continue;
     if (g.at_end(p, end) && flat_distance(p, crest) >= k_from_crest_mm && p.z < crest.z && (!best || h.prominence_mm > best->prominence_mm)) best = h;
   }
-  return best ? std::optional(best->cell) : std::nullopt;
+  return best;
 }
 
 /// Where the way from a ridge's crest inwards begins to be a valley as the whole of it is.
@@ -81,9 +82,12 @@ std::optional<int> end_pit(const Ground& g, Vec3 crest, Vec3 other_crest, int en
   const auto way = valley_way(g.map, g.inside, g.curvature, g.map.cell_at(crest.x, crest.y), {g.map.cell_at(other_crest.x, other_crest.y)});
   if (way.size() < 12) return std::nullopt;
   const double usual = median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
-  // a fissure of even depth has its lowest place anywhere: its end tells the pit better
-  if (const auto bend = knee(g, way, usual, end)) return bend;
-  return end_hollow(g, crest, end, std::max(k_pit_per_mm, k_pit_bend * usual));
+  const auto bend = knee(g, way, usual, end);
+  const auto hollow = end_hollow(g, crest, end, std::max(k_pit_per_mm, k_pit_bend * usual));
+  // a fissure of even depth has its lowest place anywhere: its end tells the pit better, but for a deep hollow that lies elsewhere
+  const bool elsewhere = bend && hollow && flat_distance(g.map.place(*bend), g.map.place(hollow->cell)) > k_elsewhere_mm;
+  if (hollow && (!bend || (elsewhere && hollow->prominence_mm >= k_deep_pit_mm))) return hollow->cell;
+  return bend;
 }
 
 /// The lowest hollow of the table's middle that is as deep as this, away from other pits.

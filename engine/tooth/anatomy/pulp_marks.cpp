@@ -19,6 +19,7 @@ constexpr double k_branch_mm2 = 0.05;  // what counts as a canal of its own: 0.2
 constexpr double k_split_mm = 0.3;     // a split lasts this deep, or it is a ripple
 constexpr double k_mouth_mm2 = 0.02;
 constexpr double k_chamber = 0.8;    // of the widest slice's area: such slices tell the chamber's middle
+constexpr double k_wider = 1.4;      // than the narrowest slice of canals: what is more is a rest of the floor
 constexpr double k_mouths_mm = 0.8;  // below the floor, in which all canals have parted
 constexpr double k_least_pulp_mm3 = 0.5;
 constexpr double k_apex_mm = 1.0, k_flat_mm = 0.1, k_flat_mm2 = 1.0;
@@ -125,6 +126,32 @@ CanalOpening opening_of(const Slices& s, const Piece& p, double z_mm) {
   return {{at.x, at.y, z_mm}, std::sqrt(p.cells / k_pi) * k_cell};
 }
 
+/// The canals below a floor. Two of one root may part a little below the others, and a floor that is not quite level goes on beside a canal: of the
+/// slices with the most canals the first counts that has no more than a share above the least area.
+std::vector<CanalOpening> mouths_below(const Slices& s, int floor, double floor_z) {
+  const int lasting = static_cast<int>(k_split_mm / k_cell + 0.5), last = std::max(0, floor - 1 - static_cast<int>(k_mouths_mm / k_cell + 0.5));
+  struct Level {
+    std::vector<CanalOpening> mouths;
+    int cells = 0;
+  };
+  std::vector<Level> levels;
+  std::size_t most = 0;
+  for (int z = floor - 1; z >= last; --z) {
+    Level level;
+    for (const auto& p : pieces_of(s, z, std::max(0, z - lasting))) {
+      if (!p.goes_on || p.cells * k_cell * k_cell < k_mouth_mm2) continue;
+      level.mouths.push_back(opening_of(s, p, floor_z));
+      level.cells += p.cells;
+    }
+    most = std::max(most, level.mouths.size());
+    levels.push_back(std::move(level));
+  }
+  std::erase_if(levels, [&](const Level& l) { return l.mouths.size() < most; });
+  const auto least = std::min_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.cells < b.cells; });
+  const auto level = std::find_if(levels.begin(), levels.end(), [&](const Level& l) { return l.cells <= k_wider * least->cells; });
+  return level == levels.end() ? std::vector<CanalOpening>{} : level->mouths;
+}
+
 /// How high the pulp reaches over each place of its slices, or how low.
 HeightMap top_of(const Slices& s) {
   HeightMap map;
@@ -198,14 +225,7 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
   }
   if (floor >= 1) {
     marks.floor = Vec3{middle.x, middle.y, chamber_low};
-    // two canals of one root may part a little below the others
-    const int lasting = static_cast<int>(k_split_mm / k_cell + 0.5);
-    for (int z = floor - 1; z >= std::max(0, floor - 1 - static_cast<int>(k_mouths_mm / k_cell + 0.5)); --z) {
-      std::vector<CanalOpening> here;
-      for (const auto& p : pieces_of(s, z, std::max(0, z - lasting)))
-        if (p.goes_on && p.cells * k_cell * k_cell >= k_mouth_mm2) here.push_back(opening_of(s, p, chamber_low));
-      if (here.size() > marks.mouths.size()) marks.mouths = here;
-    }
+    marks.mouths = mouths_below(s, floor, chamber_low);
   } else if (neck_z) {
     const int z = static_cast<int>((*neck_z - s.low.z) / k_cell + 0.5);
     if (z > 0 && z < s.nz) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -330,6 +331,64 @@ TEST(LandmarksTurned, ARoughSurfaceGivesTheSamePoints) {
     EXPECT_EQ(c.lost, 0);
     EXPECT_LT(c.worst_mm, 0.3) << c.worst;
   }
+}
+
+// Marks that a person set on pictures of the relief, before the program had said anything about fissures, pits and ridges (docs/anatomy.md).
+TEST(LandmarksOfRealTeeth, LieWhereTheyWereMarkedByEye) {
+  if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
+  const auto teeth = shared_folder() / "teeth";
+  const auto layers = [&](const std::string& tooth) {
+    const auto part = [&](const char* name) { return (teeth / "openmandible" / ("Tooth_" + tooth + "_" + name + ".stl")).string(); };
+    return MeshPaths{part("Enamel"), part("Dentin"), part("Pulp")};
+  };
+  const auto import_of = [&](const std::string& tooth, Vec3 mesial) {
+    MeshImportOptions o;
+    o.leaf_mm = k_fine_mm;
+    o.periodontium_mm = 0;
+    o.frame.mesial_axis = mesial;
+    return import_meshes(layers(tooth), o).tooth;
+  };
+  const auto check = [](const char* tooth, const Landmarks& l, const std::vector<std::pair<std::string, Vec3>>& marks) {
+    const auto found = named_points(l);
+    for (const auto& [name, mark] : marks) {
+      const auto at = std::find_if(found.begin(), found.end(), [&, n = name](const NamedPoint& p) { return p.name == n; });
+      ASSERT_NE(at, found.end()) << tooth << ' ' << name;
+      const double apart = length({at->at_mm.x - mark.x, at->at_mm.y - mark.y, 0});
+      std::cout << tooth << ' ' << name << ": " << apart << " mm from the mark\n";
+      EXPECT_LT(apart, 0.5) << tooth << ' ' << name;
+    }
+  };
+  const Landmarks molar = find_landmarks(import_of("L6", {0, -1, 0}));
+  EXPECT_EQ(molar.tooth_class.kind, ToothClass::molar);
+  EXPECT_FALSE(molar.mesial_pit_mm || molar.mesial_ridge.lowest_mm) << "its buccal side is worn: doubtful is absent";
+  check("L6", molar,
+        {{"cusp_1", {2.03, 2.10, 0}},
+         {"cusp_2", {0.10, 3.43, 0}},
+         {"cusp_3", {1.86, -3.87, 0}},
+         {"cusp_4", {-3.87, -2.06, 0}},
+         {"central_pit", {-0.63, -0.10, 0}}});
+  const Landmarks premolar = find_landmarks(import_of("L4", {-0.8, -0.6, 0}));
+  EXPECT_EQ(premolar.tooth_class.kind, ToothClass::premolar);
+  check("L4", premolar, {{"cusp_1", {-0.23, 0.86, 0}}});
+  const Landmarks incisor = find_landmarks(import_of("L1", {-1, 0, 0}));
+  EXPECT_EQ(incisor.tooth_class.kind, ToothClass::incisor);
+  ASSERT_FALSE(incisor.incisal_edge_mm.empty());
+  EXPECT_TRUE(incisor.cusps.empty() && incisor.occlusal_table_mm.empty());
+  VolumeImportOptions o;
+  o.leaf_mm = k_fine_mm;
+  o.periodontium_mm = 0;
+  o.frame.mesial_axis = Vec3{0, -1, 0};
+  const Landmarks ct = find_landmarks(import_volume((teeth / "ct_tooth_scivis" / "tooth.nhdr").string(), o).tooth);
+  EXPECT_EQ(ct.tooth_class.kind, ToothClass::molar);
+  check("CT", ct,
+        {{"cusp_1", {1.40, 3.40, 0}},
+         {"cusp_2", {-2.80, 2.06, 0}},
+         {"cusp_3", {0.50, -2.60, 0}},
+         {"mesial_ridge", {3.20, 0.60, 0}},
+         {"distal_ridge", {-3.10, -0.70, 0}},
+         {"mesial_pit", {2.30, 1.90, 0}},
+         {"central_pit", {-0.44, 0.44, 0}},
+         {"distal_pit", {-2.70, -0.30, 0}}});
 }
 
 }  // namespace
