@@ -1,6 +1,6 @@
 // A tooth file. Its checksum would turn away nearly all that a fuzzer makes, so the first byte says how the rest is wrapped: 0 as it is, 1 as all
-// of version 2 but magic and checksum, which are put right, 2 as the unpacked body of version 1, 3 as the unpacked octree's bytes behind a sound
-// head, 4 as all of either version but the checksum.
+// of version 2 but magic and checksum, which are put right (5: of version 3), 2 as the unpacked body of version 1, 3 as the unpacked octree's bytes
+// behind a sound head, 4 as all of either version but the checksum.
 #include <zstd.h>
 
 #include <cstdlib>
@@ -69,13 +69,16 @@ Bytes head(const Tooth& tooth) {
 
 Bytes unwrapped(std::uint8_t how, Data rest) {
   Bytes file(rest.begin(), rest.end());
-  switch (how % 5) {
+  switch (how % 6) {
     case 4:
       return sealed(file);
     case 0:
       return file;
     case 1:
       file.insert(file.begin(), {'C', 'V', 'T', 'O', 'O', 'T', 'H', '2'});
+      return sealed(file);
+    case 5:
+      file.insert(file.begin(), {'C', 'V', 'T', 'O', 'O', 'T', 'H', '3'});
       return sealed(file);
     case 2:
       return version_1(rest);
@@ -114,10 +117,14 @@ std::vector<Bytes> tooth_seeds() {
   Bytes body = head(tooth);
   body.insert(body.end(), octree.bytes().begin(), octree.bytes().end());
   const Bytes old = version_1(body);
+  Tooth marked = tooth;
+  marked.placed_landmarks = {{"central_pit", {0.1, 0.2, 0.3}}, {"cusp_1", {-0.3, 0, 0.4}}};
+  const Bytes third = save_tooth(marked);
   return {with(0, file),
           with(4, Data(file).first(file.size() - k_sum)),
           with(4, Data(old).first(old.size() - k_sum)),
           with(1, Data(file).subspan(k_magic, file.size() - k_magic - k_sum)),
+          with(5, Data(third).subspan(k_magic, third.size() - k_magic - k_sum)),
           with(2, body),
           with(3, octree.bytes())};
 }

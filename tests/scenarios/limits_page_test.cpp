@@ -11,6 +11,7 @@
 #include "engine/session/session_reader.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/mesh/read_mesh.h"
+#include "engine/tooth/tooth.h"
 #include "engine/tooth/volume/volume_limits.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/zones/zone_work.h"
@@ -57,6 +58,8 @@ TEST(LimitsPage, SaysTheNumbersOfTheCode) {
                                                    {"k_most_zone_steps", k_most_zone_steps},
                                                    {"k_most_removed_leaves", k_most_removed_leaves},
                                                    {"k_most_lattice_leaves", k_most_lattice_leaves},
+                                                   {"k_most_placed", k_most_placed},
+                                                   {"k_longest_landmark_name", k_longest_landmark_name},
                                                    {"k_most_near_triangles", k_most_near_triangles},
                                                    {"most_voxels", most_voxels(0)},
                                                    {"most_gray_voxels", most_gray_voxels(0)}};

@@ -9,7 +9,11 @@
 namespace cavum {
 namespace {
 
-constexpr double k_pit_mm = 0.012;       // least depth of a pit below the lowest way out of it
+constexpr double k_pit_mm = 0.012;  // least depth of a pit below the lowest way out of it
+constexpr double k_deep_pit_mm = 0.05, k_elsewhere_mm = 0.6;
+constexpr double k_end_bend = 0.65;      // of the usual curvature: a fissure ends where it has less
+constexpr double k_pit_bend = 0.4;       // of the fissure's usual curvature: a pit has as much
+constexpr double k_pit_per_mm = 0.8;     // least curvature of a pit: a dip of a broad crest is none
 constexpr double k_central_mm = 0.03;    // of the central pit
 constexpr double k_fossa_mm = 0.3;       // of the central pit where no ridge tells the table's ends: the central fossa
 constexpr double k_end_share = 0.32;     // of the table's length: an end's pit lies in it
@@ -54,19 +58,20 @@ struct Ground {
 };
 
 /// The deepest hollow at an end of the table, away from the ridge's crest.
-std::optional<int> end_hollow(const Ground& g, Vec3 crest, int end) {
+std::optional<Peak> end_hollow(const Ground& g, Vec3 crest, int end, double least_bend) {
   std::optional<Peak> best;
   for (const auto& h : g.hollows) {
     const Vec3 p = g.map.place(h.cell);
+    if (g.curvature[place(h.cell)] < least_bend) continue;
     if (g.at_end(p, end) && flat_distance(p, crest) >= k_from_crest_mm && p.z < crest.z && (!best || h.prominence_mm > best->prominence_mm)) best = h;
   }
-  return best ? std::optional(best->cell) : std::nullopt;
+  return best;
 }
 
 /// Where the way from a ridge's crest inwards begins to be a valley as the whole of it is.
-std::optional<int> knee(const Ground& g, const std::vector<int>& way, int end) {
-  const double valley = 0.5 * median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
-  if (2 * valley < k_fissure_per_mm) return std::nullopt;
+std::optional<int> knee(const Ground& g, const std::vector<int>& way, double usual, int end) {
+  if (usual < k_fissure_per_mm) return std::nullopt;
+  const double valley = k_end_bend * usual;
   for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
     if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
       return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_from_crest_mm ? std::optional(way[i]) : std::nullopt;
@@ -74,9 +79,15 @@ std::optional<int> knee(const Ground& g, const std::vector<int>& way, int end) {
 }
 
 std::optional<int> end_pit(const Ground& g, Vec3 crest, Vec3 other_crest, int end) {
-  if (const auto hollow = end_hollow(g, crest, end)) return hollow;
   const auto way = valley_way(g.map, g.inside, g.curvature, g.map.cell_at(crest.x, crest.y), {g.map.cell_at(other_crest.x, other_crest.y)});
-  return way.size() < 12 ? std::nullopt : knee(g, way, end);
+  if (way.size() < 12) return std::nullopt;
+  const double usual = median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
+  const auto bend = knee(g, way, usual, end);
+  const auto hollow = end_hollow(g, crest, end, std::max(k_pit_per_mm, k_pit_bend * usual));
+  // a fissure of even depth has its lowest place anywhere: its end tells the pit better, but for a deep hollow that lies elsewhere
+  const bool elsewhere = bend && hollow && flat_distance(g.map.place(*bend), g.map.place(hollow->cell)) > k_elsewhere_mm;
+  if (hollow && (!bend || (elsewhere && hollow->prominence_mm >= k_deep_pit_mm))) return hollow->cell;
+  return bend;
 }
 
 /// The lowest hollow of the table's middle that is as deep as this, away from other pits.

@@ -18,6 +18,9 @@ constexpr double k_horn_scale_mm = 0.1;
 constexpr double k_branch_mm2 = 0.05;  // what counts as a canal of its own: 0.25 mm wide
 constexpr double k_split_mm = 0.3;     // a split lasts this deep, or it is a ripple
 constexpr double k_mouth_mm2 = 0.02;
+constexpr double k_chamber = 0.8;    // of the widest slice's area: such slices tell the chamber's middle
+constexpr double k_wider = 1.4;      // than the narrowest slice of canals: what is more is a rest of the floor
+constexpr double k_mouths_mm = 0.8;  // below the floor, in which all canals have parted
 constexpr double k_least_pulp_mm3 = 0.5;
 constexpr double k_apex_mm = 1.0, k_flat_mm = 0.1, k_flat_mm2 = 1.0;
 
@@ -123,6 +126,32 @@ CanalOpening opening_of(const Slices& s, const Piece& p, double z_mm) {
   return {{at.x, at.y, z_mm}, std::sqrt(p.cells / k_pi) * k_cell};
 }
 
+/// The canals below a floor. Two of one root may part a little below the others, and a floor that is not quite level goes on beside a canal: of the
+/// slices with the most canals the first counts that has no more than a share above the least area.
+std::vector<CanalOpening> mouths_below(const Slices& s, int floor, double floor_z) {
+  const int lasting = static_cast<int>(k_split_mm / k_cell + 0.5), last = std::max(0, floor - 1 - static_cast<int>(k_mouths_mm / k_cell + 0.5));
+  struct Level {
+    std::vector<CanalOpening> mouths;
+    int cells = 0;
+  };
+  std::vector<Level> levels;
+  std::size_t most = 0;
+  for (int z = floor - 1; z >= last; --z) {
+    Level level;
+    for (const auto& p : pieces_of(s, z, std::max(0, z - lasting))) {
+      if (!p.goes_on || p.cells * k_cell * k_cell < k_mouth_mm2) continue;
+      level.mouths.push_back(opening_of(s, p, floor_z));
+      level.cells += p.cells;
+    }
+    most = std::max(most, level.mouths.size());
+    levels.push_back(std::move(level));
+  }
+  std::erase_if(levels, [&](const Level& l) { return l.mouths.size() < most; });
+  const auto least = std::min_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.cells < b.cells; });
+  const auto level = std::find_if(levels.begin(), levels.end(), [&](const Level& l) { return l.cells <= k_wider * least->cells; });
+  return level == levels.end() ? std::vector<CanalOpening>{} : level->mouths;
+}
+
 /// How high the pulp reaches over each place of its slices, or how low.
 HeightMap top_of(const Slices& s) {
   HeightMap map;
@@ -169,29 +198,34 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
     if (p.saddle >= 0 && top.at(p.saddle) > chamber_low && (!between_horns || top.at(p.saddle) < between_horns->z))
       between_horns = top.place(p.saddle);
   }
-  double sum_x = 0, sum_y = 0;
-  for (int y = 0; y < s.ny; ++y)
-    for (int x = 0; x < s.nx; ++x)
-      if (s.in[s.index(x, y, widest)] != 0) {
-        sum_x += x;
-        sum_y += y;
-      }
-  const double area = area_of(s, widest);
+  double sum_x = 0, sum_y = 0, area = 0;
+  for (int z = 0; z < s.nz; ++z) {
+    if (area_of(s, z) < k_chamber * area_of(s, widest)) continue;
+    for (int y = 0; y < s.ny; ++y)
+      for (int x = 0; x < s.nx; ++x)
+        if (s.in[s.index(x, y, z)] != 0) {
+          sum_x += x;
+          sum_y += y;
+          area += 1;
+        }
+  }
   const Vec3 middle = s.place(sum_x / area, sum_y / area, widest);
   // a front tooth's chamber narrows into the horns: its roof is the saddle between them
-  marks.roof = between_horns;
+  if (front && between_horns) {
+    Vec3 sum;
+    for (const Vec3 h : marks.horns) sum += h;
+    marks.roof = Vec3{sum.x / static_cast<double>(marks.horns.size()), sum.y / static_cast<double>(marks.horns.size()), between_horns->z};
+  }
   constexpr double k_near_mm = 0.6;
   for (int c = 0; !front && c < top.count(); ++c) {
     const Vec3 p = top.place(c);
     const double dx = p.x - middle.x, dy = p.y - middle.y;
     if (top.on[static_cast<std::size_t>(c)] == 0 || dx * dx + dy * dy > k_near_mm * k_near_mm || p.z < middle.z) continue;
-    if (!marks.roof || p.z < marks.roof->z) marks.roof = p;
+    if (!marks.roof || p.z < marks.roof->z) marks.roof = Vec3{middle.x, middle.y, p.z};
   }
   if (floor >= 1) {
     marks.floor = Vec3{middle.x, middle.y, chamber_low};
-    const int below = std::max(0, floor - 1 - static_cast<int>(k_split_mm / k_cell + 0.5));
-    for (const auto& p : pieces_of(s, floor - 1, below))
-      if (p.goes_on && p.cells * k_cell * k_cell >= k_mouth_mm2) marks.mouths.push_back(opening_of(s, p, chamber_low));
+    marks.mouths = mouths_below(s, floor, chamber_low);
   } else if (neck_z) {
     const int z = static_cast<int>((*neck_z - s.low.z) / k_cell + 0.5);
     if (z > 0 && z < s.nz) {

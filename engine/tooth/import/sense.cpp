@@ -234,15 +234,16 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
   else
     sense.guesses.push_back(fmt::format("class {}, sure to {:.2f}: {}", kind, l.tooth_class.sureness, l.tooth_class.reason));
   if (options.number) {
+    const char* article = l.tooth_class.kind == ToothClass::incisor ? "an" : "a";
     const ToothClass said = options.number->tooth_class();
     if (l.tooth_class.kind == ToothClass::unknown)
       sense.warnings.push_back("whether it is tooth " + options.number->text() + " could not be checked");
     else if (l.tooth_class.kind != said && l.tooth_class.sureness >= k_sure)
       object(options, where,
-             fmt::format("it is said to be tooth {}, but has the shape of a {} ({})", options.number->text(), kind, l.tooth_class.reason),
+             fmt::format("it is said to be tooth {}, but has the shape of {} {} ({})", options.number->text(), article, kind, l.tooth_class.reason),
              "give another number", sense);
     else if (l.tooth_class.kind != said)
-      sense.warnings.push_back(fmt::format("tooth {} has rather the shape of a {}", options.number->text(), kind));
+      sense.warnings.push_back(fmt::format("tooth {} has rather the shape of {} {}", options.number->text(), article, kind));
   }
   if (const auto share = coronal_share(tooth); share && *share < k_least_coronal_share)
     object(options, where,

@@ -288,7 +288,7 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
     out.mesh.triangles.push_back(t);
   }
   out.volume_mm3 = signed_volume_mm3(out.mesh);
-  if (!(std::fabs(out.volume_mm3) > 1e-6)) throw Error(path, "the surface encloses no volume", "check the file and its unit (mm)");
+  if (!(std::fabs(out.volume_mm3) > 1e-12)) throw Error(path, "the surface encloses no volume", "check the file");
   if (out.volume_mm3 < 0) {
     for (auto& t : out.mesh.triangles) std::swap(t[1], t[2]);
     out.volume_mm3 = -out.volume_mm3;

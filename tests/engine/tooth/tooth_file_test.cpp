@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <cstring>
 #include <functional>
 
 #include "engine/base/error.h"
@@ -142,6 +143,68 @@ TEST(ToothFile, DamagedFilesOfVersion1AreErrors) {
     ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
     bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
   }
+}
+
+TEST(ToothFile, PlacedLandmarksMakeItVersion3AndCountInTheHash) {
+  Tooth tooth = small_block();
+  const Bytes plain = save_tooth(tooth);
+  const std::string hash = tooth_hash(tooth);
+  tooth.placed_landmarks = {{"central_pit", {0.1, 0.2, 1.0}}, {"cusp_1", {-1, 2, 3}}};
+  const Bytes placed = save_tooth(tooth);
+  EXPECT_EQ(plain[7], '2');
+  EXPECT_EQ(placed[7], '3');
+  const Tooth again = load_tooth(placed, "t.cvt");
+  EXPECT_EQ(again.placed_landmarks, tooth.placed_landmarks);
+  EXPECT_EQ(save_tooth(again), placed);
+  EXPECT_NE(tooth_hash(tooth), hash);
+  EXPECT_EQ(tooth_hash(again), tooth_hash(tooth));
+  tooth.placed_landmarks[0].at_mm.z = 1.5;
+  EXPECT_NE(tooth_hash(tooth), tooth_hash(again));
+  tooth.placed_landmarks.clear();
+  EXPECT_EQ(save_tooth(tooth), plain) << "old teeth keep their bytes";
+  EXPECT_EQ(tooth_hash(tooth), hash);
+}
+
+TEST(ToothFile, DamagedFilesOfVersion3AreErrors) {
+  Tooth tooth = make_cube(0.5, "dentin", 0.1);
+  tooth.placed_landmarks = {{"apex_1", {0.1, 0.2, 1.0}}};
+  Bytes bytes = save_tooth(tooth);
+  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
+    ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
+    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
+  }
+}
+
+TEST(ToothFile, LandmarksOfNoToothAreRefusedWhenTheyAreWrittenAndWhenTheyAreRead) {
+  Tooth tooth = make_cube(0.5, "dentin", 0.1);
+  const auto refused = [&](std::vector<NamedPoint> placed) {
+    tooth.placed_landmarks = std::move(placed);
+    return testing_basics::error_of([&] { (void)save_tooth(tooth); });
+  };
+  std::vector<NamedPoint> many;
+  for (int i = 0; i < 65; ++i) many.push_back({"p" + std::to_string(i), {0, 0, 0}});
+  EXPECT_NE(refused(many).find("at most 64"), std::string::npos);
+  EXPECT_NE(refused({{std::string(33, 'a'), {}}}).find("more than 32 bytes"), std::string::npos);
+  EXPECT_NE(refused({{"", {}}}).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refused({{"a", {}}, {"a", {}}}).find("name of another"), std::string::npos);
+  EXPECT_NE(refused({{"a", {0, 0, 1e300}}}).find("nowhere in a tooth"), std::string::npos);
+  // the same by hand: 0 and 65 landmarks behind the octree, and a sound checksum
+  tooth.placed_landmarks = {{"a", {1, 2, 3}}};
+  const Bytes sound = save_tooth(tooth);
+  const auto with_count = [&](std::uint32_t count) {
+    Bytes file = sound;
+    file.resize(file.size() - sizeof(Sha256));
+    std::memcpy(file.data() + file.size() - (4 + 1 + 24) - 4, &count, 4);
+    const Sha256 sum = sha256(file);
+    file.insert(file.end(), sum.begin(), sum.end());
+    return file;
+  };
+  EXPECT_EQ(with_count(1), sound);
+  EXPECT_NE(refusal_of(with_count(0)).find("1 to 64 landmarks"), std::string::npos);
+  EXPECT_NE(refusal_of(with_count(0xffffffff)).find("1 to 64 landmarks"), std::string::npos);
+  EXPECT_NE(refusal_of(with_count(2)), "");
 }
 
 TEST(ToothFile, ShippedMolarIsTheOneOfVersion1) {

@@ -1,0 +1,395 @@
+// What an import says of a tooth, and what it refuses: our makers as STL in other units, upside down, with layers exchanged, mirrored; landmarks of
+// teeth that stand askew or have a rough surface.
+#include "engine/tooth/import/sense.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "engine/base/det_math.h"
+#include "engine/base/random.h"
+#include "engine/tooth/import/import_meshes.h"
+#include "engine/tooth/import/import_volume.h"
+#include "engine/tooth/make/make_incisor.h"
+#include "engine/tooth/make/make_molar.h"
+#include "engine/tooth/make/make_premolar.h"
+#include "tests/engine/tooth/import/import_testing.h"
+#include "tests/engine/tooth/tooth_testing.h"
+
+namespace cavum {
+namespace {
+
+using namespace testing_import;
+
+constexpr double k_leaf_mm = 0.2, k_fine_mm = 0.1;  // of what is refused or told; of what is measured
+
+/// The three surfaces of a tooth, which a test may turn, scale and roughen.
+struct Surfaces {
+  TriangleMesh enamel, dentin, pulp;
+  explicit Surfaces(const Tooth& tooth)
+      : enamel(surface_mesh(tooth, "enamel")), dentin(surface_mesh(tooth, "dentin")), pulp(surface_mesh(tooth, "pulp")) {}
+  template <class Change>
+  Surfaces changed(const Change& change) const {
+    Surfaces out = *this;
+    for (auto* m : {&out.enamel, &out.dentin, &out.pulp})
+      for (auto& v : m->vertices_mm) v = change(v);
+    return out;
+  }
+  [[nodiscard]] MeshPaths write(const fs::path& folder) const {
+    const MeshPaths paths{(folder / "enamel.stl").string(), (folder / "dentin.stl").string(), (folder / "pulp.stl").string()};
+    write_mesh_file(enamel, paths.enamel);
+    write_mesh_file(dentin, paths.dentin);
+    write_mesh_file(pulp, paths.pulp);
+    return paths;
+  }
+};
+
+template <class Shape>
+Shape shape_of(double leaf_mm = k_leaf_mm) {
+  Shape shape;
+  shape.leaf_mm = leaf_mm;
+  shape.periodontium_mm = 0;
+  return shape;
+}
+const Surfaces& molar() {
+  static const Surfaces s(make_molar(shape_of<MolarShape>()));
+  return s;
+}
+const Surfaces& premolar() {
+  static const Surfaces s(make_premolar(shape_of<PremolarShape>()));
+  return s;
+}
+const Surfaces& incisor() {
+  static const Surfaces s(make_incisor(shape_of<IncisorShape>()));
+  return s;
+}
+
+/// Molar, premolar and incisor.
+const std::vector<Surfaces>& fine_teeth() {
+  static const std::vector<Surfaces> teeth{Surfaces(make_molar(shape_of<MolarShape>(k_fine_mm))),
+                                           Surfaces(make_premolar(shape_of<PremolarShape>(k_fine_mm))),
+                                           Surfaces(make_incisor(shape_of<IncisorShape>(k_fine_mm)))};
+  return teeth;
+}
+
+MeshImportOptions upright(double leaf_mm = k_leaf_mm) {
+  MeshImportOptions o;
+  o.leaf_mm = leaf_mm;
+  o.periodontium_mm = 0;
+  o.frame.occlusal_axis = Vec3{0, 0, 1};
+  o.frame.mesial_axis = Vec3{1, 0, 0};
+  return o;
+}
+
+std::string refusal(const Surfaces& s, const MeshImportOptions& o) {
+  const auto paths = s.write(fresh_folder());
+  return error_of([&] { (void)import_meshes(paths, o); });
+}
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool says(const std::vector<std::string>& lines, const std::string& part) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& l) { return says(l, part); });
+}
+
+Mat3 turn_about(Vec3 axis, double deg) {
+  const SinCos half = det_sincos(0.5 * deg * k_pi / 180);
+  const Vec3 a = normalized(axis) * half.sin;
+  return rotation({half.cos, a.x, a.y, a.z});
+}
+
+TEST(Sense, NumbersOfBothSystemsAreTheSameTeeth) {
+  for (const auto& [fdi, universal] : {std::pair{18, 1}, {11, 8}, {21, 9}, {28, 16}, {38, 17}, {36, 19}, {31, 24}, {41, 25}, {46, 30}, {48, 32}}) {
+    EXPECT_EQ(from_fdi(fdi, "x").universal(), universal) << fdi;
+    EXPECT_EQ(from_universal(universal, "x").fdi, fdi) << universal;
+  }
+  for (int u = 1; u <= 32; ++u) EXPECT_EQ(from_universal(u, "x").universal(), u);
+  for (const int bad : {0, 10, 19, 29, 49, 51, 85, -36}) EXPECT_THROW((void)from_fdi(bad, "x"), Error) << bad;
+  for (const int bad : {0, 33, -1}) EXPECT_THROW((void)from_universal(bad, "x"), Error) << bad;
+  EXPECT_EQ(from_fdi(36, "x").text(), "36 (universal 19), lower left first molar");
+  EXPECT_EQ(from_fdi(36, "x").tooth_class(), ToothClass::molar);
+  EXPECT_TRUE(from_fdi(36, "x").y_is_buccal());
+  EXPECT_FALSE(from_fdi(46, "x").y_is_buccal());
+}
+
+// z cross mesial, in the patient: outwards at the molars of quadrants 1 and 3, inwards at those of 2 and 4.
+TEST(Sense, MesialInThePatientGivesTheHandednessOfTheQuadrant) {
+  for (const int fdi : {16, 26, 36, 46, 18, 47}) {
+    const ToothNumber n = from_fdi(fdi, "x");
+    const Vec3 mesial = mesial_in_patient(n, "lps"), occlusal{0, 0, n.upper() ? -1.0 : 1.0}, outwards{n.left() ? 1.0 : -1.0, 0, 0};
+    EXPECT_EQ(dot(cross(occlusal, mesial), outwards) > 0, n.y_is_buccal()) << fdi;
+    EXPECT_LT(mesial.y, -0.9) << "forwards";
+    const Vec3 ras = mesial_in_patient(n, "ras");
+    EXPECT_EQ(ras, (Vec3{-mesial.x, -mesial.y, mesial.z}));
+  }
+  EXPECT_GT(mesial_in_patient(from_fdi(11, "x"), "lps").x, 0.9) << "from the right to the midline";
+  EXPECT_THROW((void)mesial_in_patient(from_fdi(11, "x"), "xyz"), Error);
+}
+
+TEST(Sense, OtherUnitsAreRefusedWithTheirNameAndTakenWhenSaid) {
+  const struct {
+    const char* unit;
+    const char* text;
+    double mm;
+  } units[] = {{"in", "inches", 25.4}, {"m", "metres", 1000}, {"cm", "centimetres", 10}, {"um", "micrometres", 0.001}};
+  for (const auto& u : units) {
+    const Surfaces scaled = molar().changed([&](Vec3 v) { return v / u.mm; });
+    MeshImportOptions o = upright();
+    const std::string text = refusal(scaled, o);
+    EXPECT_TRUE(says(text, u.text) && says(text, std::string("--units ") + u.unit)) << text;
+    o.sense.units = u.unit;
+    const auto done = import_meshes(scaled.write(fresh_folder()), o);
+    EXPECT_EQ(done.sense.tooth_class.kind, ToothClass::molar) << u.unit;
+    EXPECT_TRUE(says(done.tooth.source, std::string("unit given: ") + u.unit)) << done.tooth.source;
+  }
+  MeshImportOptions wrong = upright();
+  wrong.sense.units = "cm";
+  EXPECT_TRUE(says(refusal(molar(), wrong), "millimetres"));
+  wrong.sense.units = "furlong";
+  EXPECT_TRUE(says(refusal(molar(), wrong), "give mm, cm, m, um or in"));
+}
+
+TEST(Sense, CrownsOfNoHumanAreRefusedUnlessTakenAnyway) {
+  const Surfaces horse = molar().changed([](Vec3 v) { return v * 2.0; });
+  MeshImportOptions o = upright();
+  o.leaf_mm = 0.2;
+  EXPECT_TRUE(says(refusal(horse, o), "human crowns 4.5 to 14 mm"));
+  o.sense.anyway = true;
+  EXPECT_TRUE(says(import_meshes(horse.write(fresh_folder()), o).sense.warnings, "taken anyway"));
+}
+
+TEST(Sense, UpsideDownAndAcrossAreRefused) {
+  MeshImportOptions o = upright();
+  o.frame.occlusal_axis = Vec3{0, 0, -1};
+  EXPECT_TRUE(says(refusal(molar(), o), "upside down"));
+  EXPECT_TRUE(says(refusal(incisor(), o), "upside down"));
+  o.frame.occlusal_axis = Vec3{0, 1, 0};
+  EXPECT_TRUE(says(refusal(molar(), o), "across the tooth"));
+  MeshImportOptions patient = upright();
+  patient.sense.number = from_fdi(16, "x");
+  patient.sense.patient_frame = "lps";
+  EXPECT_TRUE(says(refusal(molar(), patient), "an upper one"));
+}
+
+TEST(Sense, ExchangedLayersAreRefused) {
+  Surfaces s = molar();
+  std::swap(s.enamel, s.dentin);
+  MeshImportOptions o = upright();
+  EXPECT_TRUE(says(refusal(s, o), "exchange"));
+  s = molar();
+  std::swap(s.dentin, s.pulp);
+  EXPECT_NE(refusal(s, o), "");
+  s = molar();
+  std::swap(s.enamel, s.pulp);
+  EXPECT_NE(refusal(s, o), "");
+}
+
+// The pulp alone turned over inside its dentin: wide where the root's end is.
+TEST(Sense, APulpThatIsWideTowardsTheRootIsRefused) {
+  TissueGrid grid;
+  grid.allocate({80, 80, 160}, 0.1, {-4, -4, -12});
+  Tooth tooth;
+  const auto fill = [&](bool over) {
+    for (int z = 0; z < 160; ++z)
+      for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 80; ++x) {
+          const Vec3 p = grid.centre_mm({x, y, z});
+          const double r = length({p.x, p.y, 0}), up = (p.z + 9) / 9, wide = 0.3 + 1.2 * (over ? 1 - up : up);
+          auto& t = grid.tissue[grid.index({x, y, z})];
+          t = r > 3.5 || p.z < -11.5 || p.z > 3.5 ? k_air : p.z > 1 ? k_enamel : k_dentin;
+          if (p.z > -9 && p.z < 0 && r < wide) t = k_pulp;
+          grid.distance[grid.index({x, y, z})] = encode_distance(t == k_air || t == k_pulp ? 2 : -2);
+        }
+    tooth.octree = Octree(grid, tooth.tissues);
+  };
+  ToothSense sense;
+  fill(false);
+  sense_tooth(tooth, {}, {}, "t", sense);
+  fill(true);
+  EXPECT_TRUE(says(error_of([&] { sense_tooth(tooth, {}, {}, "t", sense); }), "crown and root may be exchanged"));
+}
+
+TEST(Sense, ANumberOfAnotherClassIsRefusedAndARightOneIsKept) {
+  MeshImportOptions o = upright();
+  o.sense.number = from_fdi(11, "x");
+  const std::string text = refusal(molar(), o);
+  EXPECT_TRUE(says(text, "11 (universal 8)") && says(text, "shape of a molar")) << text;
+  EXPECT_TRUE(says(refusal(premolar(), o), "shape of a premolar"));
+  o.sense.number = from_fdi(36, "x");
+  EXPECT_TRUE(says(refusal(incisor(), o), "shape of a incisor") || says(refusal(incisor(), o), "shape of an incisor"));
+  const auto done = import_meshes(molar().write(fresh_folder()), o);
+  EXPECT_TRUE(says(done.tooth.name, "tooth 36 (universal 19), lower left first molar")) << done.tooth.name;
+  EXPECT_TRUE(says(done.tooth.source, "+y is buccal")) << done.tooth.source;
+  o.sense.anyway = true;
+  o.sense.number = from_fdi(11, "x");
+  EXPECT_TRUE(says(import_meshes(molar().write(fresh_folder()), o).sense.warnings, "taken anyway"));
+}
+
+// A lower right molar is the mirror image of our lower left one: its +y is lingual, and --mirror makes it ours.
+TEST(Sense, MirroredTeethAreToldAndTurnedOver) {
+  const Surfaces other = [] {
+    Surfaces s = molar().changed([](Vec3 v) { return Vec3{v.x, -v.y, v.z}; });
+    for (auto* m : {&s.enamel, &s.dentin, &s.pulp}) turn_inside_out(*m);
+    return s;
+  }();
+  MeshImportOptions o = upright();
+  o.sense.number = from_fdi(46, "x");
+  const auto plain = import_meshes(other.write(fresh_folder()), o);
+  EXPECT_TRUE(says(plain.sense.warnings, "--mirror")) << "it says so";
+  EXPECT_TRUE(says(plain.tooth.source, "+y is lingual"));
+  o.frame.mirror = true;
+  const auto mirrored = import_meshes(other.write(fresh_folder()), o);
+  EXPECT_FALSE(says(mirrored.sense.warnings, "--mirror"));
+  EXPECT_TRUE(says(mirrored.tooth.source, "mirrored") && says(mirrored.tooth.source, "+y is buccal"));
+  const Landmarks ours = find_landmarks(import_meshes(molar().write(fresh_folder()), upright()).tooth), theirs = find_landmarks(mirrored.tooth);
+  ASSERT_EQ(ours.cusps.size(), theirs.cusps.size());
+  for (std::size_t i = 0; i < ours.cusps.size(); ++i) EXPECT_LT(length(ours.cusps[i].tip_mm - theirs.cusps[i].tip_mm), 0.3) << ours.cusps[i].name;
+}
+
+TEST(Sense, AFrontToothsEdgeTellsTheMesiodistalLine) {
+  MeshImportOptions o = upright();
+  o.frame.mesial_axis = Vec3{0, 1, 0};
+  EXPECT_TRUE(says(refusal(incisor(), o), "degrees off"));
+  EXPECT_TRUE(says(refusal(premolar(), o), "degrees off"));
+  o.frame.mesial_axis.reset();
+  o.frame.rotate_deg = 90;
+  const auto done = import_meshes(incisor().write(fresh_folder()), o);
+  EXPECT_TRUE(says(done.sense.warnings, "--rotate-deg") && says(done.sense.warnings, "was not said"));
+  o.frame.rotate_deg = 0;
+  EXPECT_FALSE(says(import_meshes(incisor().write(fresh_folder()), o).sense.warnings, "--rotate-deg"));
+}
+
+/// Largest distance between the landmarks of two imports of one tooth, once the second is turned back; counts those that only one has.
+struct Compared {
+  double worst_mm = 0;
+  int lost = 0, all = 0;
+  std::string worst;
+};
+Compared compare(const Landmarks& a, const Landmarks& b, const Mat3& back, Vec3 shift) {
+  Compared c;
+  const auto theirs = named_points(b);
+  for (const auto& [name, at] : named_points(a)) {
+    ++c.all;
+    double best = 1e9;
+    const std::string kind = name.substr(0, name.find_last_of('_'));
+    for (const auto& [other, place] : theirs)
+      if (other.substr(0, other.find_last_of('_')) == kind) best = std::min(best, length(at - (back.transposed(place + shift))));
+    if (best > 1e6) {
+      ++c.lost;
+    } else if (best > c.worst_mm) {
+      c.worst_mm = best;
+      c.worst = name;
+    }
+  }
+  return c;
+}
+
+TEST(LandmarksTurned, TurnedAndTiltedTeethGiveTheSamePoints) {
+  for (const auto& tooth : fine_teeth()) {
+    const MeshImport straight = import_meshes(tooth.write(fresh_folder()), upright(k_fine_mm));
+    const Landmarks ours = find_landmarks(straight.tooth);
+    const struct {
+      Vec3 axis;
+      double deg;
+    } turns[] = {{{0, 0, 1}, -17}, {{1, 0, 0}, 8}, {{0, 1, 0}, -10}, {{1, 1, 0.5}, 5}};
+    for (const auto& t : turns) {
+      const Mat3 turn = turn_about(t.axis, t.deg);
+      const Surfaces turned = tooth.changed([&](Vec3 v) { return turn * v; });
+      const MeshImport done = import_meshes(turned.write(fresh_folder()), upright(k_fine_mm));
+      // each import puts its origin at the middle of its own enamel's box
+      Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9}, low0 = low, high0 = high;
+      const auto grow = [](Vec3 v, Vec3& l, Vec3& h) {
+        l = {std::min(l.x, v.x), std::min(l.y, v.y), std::min(l.z, v.z)};
+        h = {std::max(h.x, v.x), std::max(h.y, v.y), std::max(h.z, v.z)};
+      };
+      for (const Vec3 v : turned.enamel.vertices_mm) grow(v, low, high);
+      for (const Vec3 v : tooth.enamel.vertices_mm) grow(v, low0, high0);
+      const Compared c = compare(ours, find_landmarks(done.tooth), turn, (low + high) * 0.5 - turn * ((low0 + high0) * 0.5));
+      std::cout << "turned " << t.deg << " degrees about (" << t.axis.x << ' ' << t.axis.y << ' ' << t.axis.z << "): " << c.all << " points, worst "
+                << c.worst_mm << " mm (" << c.worst << "), lost " << c.lost << '\n';
+      EXPECT_EQ(c.lost, 0);
+      EXPECT_LT(c.worst_mm, 0.3) << c.worst;
+    }
+  }
+}
+
+TEST(LandmarksTurned, ARoughSurfaceGivesTheSamePoints) {
+  Random random(testing_tooth::drawn_seed("LandmarksTurned.ARoughSurfaceGivesTheSamePoints"));
+  for (const auto& tooth : fine_teeth()) {
+    const Landmarks ours = find_landmarks(import_meshes(tooth.write(fresh_folder()), upright(k_fine_mm)).tooth);
+    const Surfaces rough = tooth.changed([&](Vec3 v) {
+      // a sum of four uniform draws is nearly normal: 20 micrometres each way
+      const auto draw = [&] {
+        double sum = 0;
+        for (int i = 0; i < 4; ++i) sum += static_cast<double>(random.below(1'000'001)) / 1e6 - 0.5;
+        return sum * 0.020 * 1.7320508;
+      };
+      return v + Vec3{draw(), draw(), draw()};
+    });
+    const Compared c = compare(ours, find_landmarks(import_meshes(rough.write(fresh_folder()), upright(k_fine_mm)).tooth), Mat3{}, {});
+    std::cout << "rough by 20 um: " << c.all << " points, worst " << c.worst_mm << " mm (" << c.worst << "), lost " << c.lost << '\n';
+    EXPECT_EQ(c.lost, 0);
+    EXPECT_LT(c.worst_mm, 0.3) << c.worst;
+  }
+}
+
+// Marks that a person set on pictures of the relief, before the program had said anything about fissures, pits and ridges (docs/anatomy.md).
+TEST(LandmarksOfRealTeeth, LieWhereTheyWereMarkedByEye) {
+  if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
+  const auto teeth = shared_folder() / "teeth";
+  const auto layers = [&](const std::string& tooth) {
+    const auto part = [&](const char* name) { return (teeth / "openmandible" / ("Tooth_" + tooth + "_" + name + ".stl")).string(); };
+    return MeshPaths{part("Enamel"), part("Dentin"), part("Pulp")};
+  };
+  const auto import_of = [&](const std::string& tooth, Vec3 mesial) {
+    MeshImportOptions o;
+    o.leaf_mm = k_fine_mm;
+    o.periodontium_mm = 0;
+    o.frame.mesial_axis = mesial;
+    return import_meshes(layers(tooth), o).tooth;
+  };
+  const auto check = [](const char* tooth, const Landmarks& l, const std::vector<std::pair<std::string, Vec3>>& marks) {
+    const auto found = named_points(l);
+    for (const auto& [name, mark] : marks) {
+      const auto at = std::find_if(found.begin(), found.end(), [&, n = name](const NamedPoint& p) { return p.name == n; });
+      ASSERT_NE(at, found.end()) << tooth << ' ' << name;
+      const double apart = length({at->at_mm.x - mark.x, at->at_mm.y - mark.y, 0});
+      std::cout << tooth << ' ' << name << ": " << apart << " mm from the mark\n";
+      EXPECT_LT(apart, 0.5) << tooth << ' ' << name;
+    }
+  };
+  const Landmarks molar = find_landmarks(import_of("L6", {0, -1, 0}));
+  EXPECT_EQ(molar.tooth_class.kind, ToothClass::molar);
+  EXPECT_FALSE(molar.mesial_pit_mm || molar.mesial_ridge.lowest_mm) << "its buccal side is worn: doubtful is absent";
+  check("L6", molar,
+        {{"cusp_1", {2.03, 2.10, 0}},
+         {"cusp_2", {0.10, 3.43, 0}},
+         {"cusp_3", {1.86, -3.87, 0}},
+         {"cusp_4", {-3.87, -2.06, 0}},
+         {"central_pit", {-0.63, -0.10, 0}}});
+  const Landmarks premolar = find_landmarks(import_of("L4", {-0.8, -0.6, 0}));
+  EXPECT_EQ(premolar.tooth_class.kind, ToothClass::premolar);
+  check("L4", premolar, {{"cusp_1", {-0.23, 0.86, 0}}});
+  const Landmarks incisor = find_landmarks(import_of("L1", {-1, 0, 0}));
+  EXPECT_EQ(incisor.tooth_class.kind, ToothClass::incisor);
+  ASSERT_FALSE(incisor.incisal_edge_mm.empty());
+  EXPECT_TRUE(incisor.cusps.empty() && incisor.occlusal_table_mm.empty());
+  VolumeImportOptions o;
+  o.leaf_mm = k_fine_mm;
+  o.periodontium_mm = 0;
+  o.frame.mesial_axis = Vec3{0, -1, 0};
+  const Landmarks ct = find_landmarks(import_volume((teeth / "ct_tooth_scivis" / "tooth.nhdr").string(), o).tooth);
+  EXPECT_EQ(ct.tooth_class.kind, ToothClass::molar);
+  check("CT", ct,
+        {{"cusp_1", {1.40, 3.40, 0}},
+         {"cusp_2", {-2.80, 2.06, 0}},
+         {"cusp_3", {0.50, -2.60, 0}},
+         {"mesial_ridge", {3.20, 0.60, 0}},
+         {"distal_ridge", {-3.10, -0.70, 0}},
+         {"mesial_pit", {2.30, 1.90, 0}},
+         {"central_pit", {-0.44, 0.44, 0}},
+         {"distal_pit", {-2.70, -0.30, 0}}});
+}
+
+}  // namespace
+}  // namespace cavum
