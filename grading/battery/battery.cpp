@@ -155,7 +155,8 @@ bool surely_fails(const Result& r, const scenarios::RubricSpec& rubric) {
       critical = critical || c.critical_failed;
       continue;
     }
-    critical = critical || (spec.critical_above && *c.value - c.bound > *spec.critical_above) || (spec.critical_below && *c.value + c.bound < *spec.critical_below);
+    critical = critical || (spec.critical_above && *c.value - c.bound > *spec.critical_above) ||
+               (spec.critical_below && *c.value + c.bound < *spec.critical_below);
   }
   const double short_by = r.pass_percent - r.borderline_percent - (r.max_points > 0 ? 100 * (r.points + r.points_bound) / r.max_points : 0.0);
   return critical || (r.compensatory && short_by > 0);
@@ -237,11 +238,11 @@ void BatteryRun::put(const WrongWork& work, const Result& r) {
   BatteryRow& row = battery_.rows.emplace_back(row_of(work.name, work.what, r));
   row.should = should.text();
   if (r.verdict != Verdict::pass) return;
-  battery_.problems.push_back(scenarios::problem_at(
-      scenario_, "rubric",
-      fmt::format("wrong work passes: '{}' ({}) gets {} of {} points{}", row.name, row.what, fixed(row.points, 1), fixed(row.max, 1),
-                  row.should.empty() ? "" : ", and " + row.should + " should have caught it"),
-      advice_against(should)));
+  battery_.problems.push_back(
+      scenarios::problem_at(scenario_, "rubric",
+                            fmt::format("wrong work passes: '{}' ({}) gets {} of {} points{}", row.name, row.what, fixed(row.points, 1),
+                                        fixed(row.max, 1), row.should.empty() ? "" : ", and " + row.should + " should have caught it"),
+                            advice_against(should)));
 }
 
 std::vector<scenarios::Problem> BatteryRun::growth(const Bench& bench, std::size_t l, const Result& honest) const {
@@ -271,19 +272,6 @@ Battery run_battery(const scenarios::Scenario& scenario, const Tooth& tooth, con
   Battery battery = BatteryRun(scenario, tooth, zones, look).run();
   battery.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   return battery;
-}
-
-std::string battery_text(const Battery& battery) {
-  std::string s;
-  const auto line = [&](const BatteryRow& row, const char* mark) {
-    std::string by;
-    for (const auto& id : row.caught_by) by += (by.empty() ? "" : ", ") + id;
-    s += fmt::format("{} {:<34} {:<6} {:>5} of {}  {}\n", mark, row.name, verdict_name(row.verdict), fixed(row.points, 1), fixed(row.max, 1),
-                     by.empty() ? (row.should.empty() ? "" : "should: " + row.should) : "by " + by);
-  };
-  line(battery.honest, battery.honest.verdict == Verdict::pass ? " " : "!");
-  for (const auto& row : battery.rows) line(row, row.verdict == Verdict::pass ? "!" : " ");
-  return s;
 }
 
 }  // namespace cavum::grading

@@ -19,10 +19,10 @@ struct BatteryRow {
 };
 
 struct Battery {
-  BatteryRow honest;              ///< exactly the target
-  std::vector<BatteryRow> rows;   ///< the wrong ones
+  BatteryRow honest;                         ///< exactly the target
+  std::vector<BatteryRow> rows;              ///< the wrong ones
   std::vector<scenarios::Problem> problems;  ///< a mistake for each wrong one that passes, and when the honest one does not; warnings
-  double wall_s = 0.0;            ///< what it took
+  double wall_s = 0.0;                       ///< what it took
 };
 
 /// The honest piece of work must pass with so many of the points that need no physics.
@@ -34,8 +34,5 @@ enum class Look { screened, full };
 
 /// The same scenario on the same tooth gives the same table, on however many threads it works. Throws Error when the scenario cannot be run.
 [[nodiscard]] Battery run_battery(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look);
-
-/// The table as text, a line for each piece of work.
-[[nodiscard]] std::string battery_text(const Battery& battery);
 
 }  // namespace cavum::grading

@@ -50,12 +50,11 @@ std::vector<scenarios::Problem> judge_growth(const scenarios::Scenario& scenario
     }
     if (r.points > before->points + r.points_bound + 1e-9) {
       const std::size_t c = most_risen(*before, r);
-      problems.push_back(scenarios::problem_at(
-          scenario, at(c),
-          fmt::format("more of an error gains points ({}): {} gets {}, {} gets {}", ladder.what, before_text, fixed(before->points, 1), amount(i),
-                      fixed(r.points, 1)),
-          fmt::format("'{}' gives {} there and {} before: measure a largest value or a volume in its place", r.criteria[c].id,
-                      fixed(r.criteria[c].points, 1), fixed(before->criteria[c].points, 1))));
+      problems.push_back(scenarios::problem_at(scenario, at(c),
+                                               fmt::format("more of an error gains points ({}): {} gets {}, {} gets {}", ladder.what, before_text,
+                                                           fixed(before->points, 1), amount(i), fixed(r.points, 1)),
+                                               fmt::format("'{}' gives {} there and {} before: measure a largest value or a volume in its place",
+                                                           r.criteria[c].id, fixed(r.criteria[c].points, 1), fixed(before->criteria[c].points, 1))));
       problems.back().warning = true;
     }
     if (r.verdict == Verdict::fail && !failed) {

@@ -46,8 +46,7 @@ struct Moment {
 
 class Sitting {
  public:
-  explicit Sitting(const Task& task)
-      : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.points, scenarios::k_exam_rules) {}
+  explicit Sitting(const Task& task) : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.points, scenarios::k_exam_rules) {}
 
   /// One tick; what is done once the exam is over is late work.
   void tick(const Moment& m, std::span<const RemovedLeaf> gone) {

@@ -104,7 +104,8 @@ void TargetField::lay_floor() {
 double TargetField::open_mm(Vec3 q) const noexcept {
   const Vec3 c = (q - origin_) / leaf_mm_;
   const Vec3 in{std::clamp(c.x, 0.0, nx_ - 1.0), std::clamp(c.y, 0.0, ny_ - 1.0), std::clamp(c.z, 0.0, nz_ - 1.0)};
-  const int x = std::min(static_cast<int>(in.x), nx_ - 2), y = std::min(static_cast<int>(in.y), ny_ - 2), z = std::min(static_cast<int>(in.z), nz_ - 2);
+  const int x = std::min(static_cast<int>(in.x), nx_ - 2), y = std::min(static_cast<int>(in.y), ny_ - 2),
+            z = std::min(static_cast<int>(in.z), nz_ - 2);
   const std::size_t row = static_cast<std::size_t>(nx_), layer = column(0, ny_), at = static_cast<std::size_t>(z) * layer + column(x, y);
   const double fx = in.x - x, fy = in.y - y, fz = in.z - z;
   const auto along_x = [&](std::size_t i) { return mix(static_cast<double>(open_[i]), static_cast<double>(open_[i + 1]), fx); };

@@ -63,8 +63,8 @@ class TargetField {
   double opening_mm_ = 0.0;
   Vec3 origin_;  // of the lattice's first cell
   int nx_ = 0, ny_ = 0, nz_ = 0;
-  std::vector<float> open_;      // x fastest
-  std::vector<float> floor_;     // by column
+  std::vector<float> open_;       // x fastest
+  std::vector<float> floor_;      // by column
   std::vector<std::uint8_t> in_;  // 1 for columns of the target itself
 };
 

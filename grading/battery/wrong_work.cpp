@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "engine/base/text.h"
 #include "grading/battery/random_work.h"
@@ -39,10 +40,14 @@ class Works {
   [[nodiscard]] Cut shifted(Vec3 by) const;
   [[nodiscard]] Cut down_to_share(double share, int tissue = -1) const;
   [[nodiscard]] Cut along_to_share(double share) const;
+  /// A ball around the protected place that is nearest to the target; empty where nothing is protected.
+  [[nodiscard]] Cut into_protected(double radius_mm) const;
   [[nodiscard]] bool longer_in_x() const { return f_.high_mm().x - f_.low_mm().x >= f_.high_mm().y - f_.low_mm().y; }
 
  private:
-  void add(std::string name, std::string what, Mistake mistake, Cut cut) { list_.push_back({std::move(name), std::move(what), mistake, std::move(cut)}); }
+  void add(std::string name, std::string what, Mistake mistake, Cut cut) {
+    list_.push_back({std::move(name), std::move(what), mistake, std::move(cut)});
+  }
   /// The target down to a level, local mm.
   [[nodiscard]] Cut down_to(double level) const {
     return [&f = f_, level](Vec3 p) { return std::max(f.target_mm(p), level - f.local(p).z); };
@@ -81,8 +86,19 @@ Cut Works::shifted(Vec3 by) const {
   return [&f = f_, by](Vec3 p) { return f.open_mm(f.local(p) - by); };
 }
 
+Cut Works::into_protected(double radius_mm) const {
+  const scenarios::ZoneMap& zones = task_.zones;
+  std::optional<IVec3> nearest;
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone z) {
+    if (z == scenarios::Zone::protected_ && (!nearest || zones.distance_mm(leaf) < zones.distance_mm(*nearest))) nearest = leaf;
+  });
+  if (!nearest) return {};
+  return [&f = f_, at = zones.centre_mm(*nearest), radius_mm](Vec3 p) { return std::min(f.target_mm(p), length(p - at) - radius_mm); };
+}
+
 Cut Works::down_to_share(double share, int tissue) const {
-  return down_to(beyond_which(f_, share, [](Vec3 q) { return q.z; }, tissue));
+  return down_to(beyond_which(
+      f_, share, [](Vec3 q) { return q.z; }, tissue));
 }
 
 Cut Works::along_to_share(double share) const {
@@ -122,7 +138,8 @@ void Works::short_of_it() {
 }
 
 void Works::wrong_place() {
-  const std::array<std::pair<const char*, Vec3>, 4> ways{{{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {"buccal", {0, 1, 0}}, {"lingual", {0, -1, 0}}}};
+  const std::array<std::pair<const char*, Vec3>, 4> ways{
+      {{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {"buccal", {0, 1, 0}}, {"lingual", {0, -1, 0}}}};
   for (const auto& [side, way] : ways)
     for (const double mm : {1.0, 2.0})
       add(fmt::format("shifted_{}_mm_{}", plain_number(mm), side), fmt::format("the target {} mm too far to {}", plain_number(mm), side),
@@ -133,11 +150,13 @@ void Works::wrong_place() {
     return f.open_mm(m + Vec3{q.x * cosine + q.y * sine, -q.x * sine + q.y * cosine, q.z});
   });
   list_.back().may_be_right = true;
-  add("mirrored_mesial_distal", "the target as in a mirror, mesial for distal", Mistake::misplaced,
-      [&f = f_](Vec3 p) { return f.open_mm(f.local({-p.x, p.y, p.z})); });
+  add("mirrored_mesial_distal", "the target as in a mirror, mesial for distal", Mistake::misplaced, [&f = f_](Vec3 p) {
+    return f.open_mm(f.local({-p.x, p.y, p.z}));
+  });
   list_.back().may_be_right = true;
-  add("mirrored_buccal_lingual", "the target as in a mirror, buccal for lingual", Mistake::misplaced,
-      [&f = f_](Vec3 p) { return f.open_mm(f.local({p.x, -p.y, p.z})); });
+  add("mirrored_buccal_lingual", "the target as in a mirror, buccal for lingual", Mistake::misplaced, [&f = f_](Vec3 p) {
+    return f.open_mm(f.local({p.x, -p.y, p.z}));
+  });
   list_.back().may_be_right = true;
 }
 
@@ -178,8 +197,9 @@ void Works::faults() {
     const auto below = f_.below(tissue);
     if (!below) continue;
     for (const auto& [name, radius] : {std::pair("opens", 0.5), {"opens_narrowly", 0.25}}) {
-      add(fmt::format("{}_{}", name, tissue), fmt::format("the target, and a hole of {} mm through its floor into {}", plain_number(2 * radius), tissue),
-          Mistake::fault_opened, [&f = f_, b = *below, radius = radius](Vec3 p) {
+      add(fmt::format("{}_{}", name, tissue),
+          fmt::format("the target, and a hole of {} mm through its floor into {}", plain_number(2 * radius), tissue), Mistake::fault_opened,
+          [&f = f_, b = *below, radius = radius](Vec3 p) {
             const Vec3 q = f.local(p);
             const double z = std::clamp(q.z, b.tissue.z - 0.2, b.floor.z + 0.5);
             return std::min(f.target_mm(p), length(q - Vec3{b.floor.x, b.floor.y, z}) - radius);
@@ -231,9 +251,13 @@ const std::vector<std::string>& measures_against(Mistake mistake) {
       {Mistake::too_little, {"target_removed_percent", "missed_mm3", "walls_max_under_mm", "side_walls_max_under_mm", "dice"}},
       {Mistake::not_deep, {"target_removed_percent", "missed_mm3", "depth_error_mm", "floor_max_under_mm", "depth_mm", "dice"}},
       {Mistake::roof_left, {"target_removed_percent", "overhang_mm3", "canals_covered_percent", "missed_mm3", "dice"}},
-      {Mistake::too_deep, {"floor_max_over_mm", "floor_p95_mm", "container_bottom_mm3", "floor_cut_mm3", "walls_max_over_mm", "depth_error_mm", "container_mm3", "overcut_mm3"}},
-      {Mistake::too_wide, {"side_walls_max_over_mm", "side_walls_p95_mm", "container_sides_mm3", "walls_max_over_mm", "container_mm3", "overcut_mm3"}},
-      {Mistake::misplaced, {"side_walls_max_over_mm", "side_walls_p95_mm", "walls_max_over_mm", "outside_mm3", "container_sides_mm3", "target_removed_percent", "dice"}},
+      {Mistake::too_deep,
+       {"floor_max_over_mm", "floor_p95_mm", "container_bottom_mm3", "floor_cut_mm3", "walls_max_over_mm", "depth_error_mm", "container_mm3",
+        "overcut_mm3"}},
+      {Mistake::too_wide,
+       {"side_walls_max_over_mm", "side_walls_p95_mm", "container_sides_mm3", "walls_max_over_mm", "container_mm3", "overcut_mm3"}},
+      {Mistake::misplaced,
+       {"side_walls_max_over_mm", "side_walls_p95_mm", "walls_max_over_mm", "outside_mm3", "container_sides_mm3", "target_removed_percent", "dice"}},
       {Mistake::lesion_left, {"target_removed_percent", "missed_mm3"}},
       {Mistake::fault_opened, {"perforated", "perforation_volume_mm3"}},
       {Mistake::torn_down, {"outside_mm3", "side_walls_max_over_mm", "overcut_mm3", "removed_mm3"}},
@@ -269,6 +293,9 @@ std::vector<Ladder> ladders(const Task& task, const TargetField& field) {
   grow("shifted", "in the wrong place", "mm", {0.2, 0.5, 0.9, 1.4, 2.0}, [&](double mm) {
     return works.shifted(works.longer_in_x() ? Vec3{0, mm, 0} : Vec3{mm, 0, 0});
   });
+  if (works.into_protected(0))
+    grow("protected", "a ball out of what is protected, its radius", "mm", {0.2, 0.4, 0.7, 1.0, 1.4},
+         [&](double mm) { return works.into_protected(mm); });
   return list;
 }
 

@@ -179,7 +179,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     at.finish();
   }
   if (const auto* p = t.table("pauses")) s.pauses = read_pauses(*p, problems);
-  for (const char* key : {"tooth", "points", "time_limit_s", "zones"}) t.note(s.places, key, key);
+  for (const char* key : {"tooth", "points", "time_limit_s", "zones", "rubric"}) t.note(s.places, key, key);
   s.steps = read_steps(t, s.places, problems);
   check_pause_button(s, problems);
   if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, s.places, problems);

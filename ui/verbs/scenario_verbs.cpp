@@ -15,7 +15,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
-#include "grading/battery/battery.h"
+#include "grading/battery/battery_output.h"
 #include "grading/result/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/candidates/simulated_exam.h"
@@ -263,19 +263,6 @@ std::string to_text(const Caught& c) {
   return s;
 }
 
-nlohmann::ordered_json to_json(const grading::Battery& battery) {
-  auto rows = nlohmann::ordered_json::array();
-  for (const auto& row : battery.rows)
-    rows.push_back({{"name", row.name},
-                    {"what", row.what},
-                    {"verdict", grading::verdict_name(row.verdict)},
-                    {"points", grading::rounded(row.points)},
-                    {"max", grading::rounded(row.max)},
-                    {"caught_by", row.caught_by},
-                    {"should", row.should}});
-  return rows;
-}
-
 std::string to_text(const grading::Battery& battery) {
   std::string s = fmt::format("wrong work, marked by this rubric ({} pieces in {} s):\n{}", battery.rows.size(), fixed(battery.wall_s, 1),
                               grading::battery_text(battery));
@@ -316,7 +303,7 @@ int solve(const ScenarioArguments& o) {
     j["reasons"] = solved.reasons;
     j["what_to_do"] = solved.advice;
     if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
-    if (battery) j["battery"] = to_json(*battery);
+    if (battery) j["battery"] = grading::battery_json(*battery);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
     print_json(j);
     return answer;

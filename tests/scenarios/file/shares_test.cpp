@@ -1,0 +1,59 @@
+// Criteria that charge one mistake twice, and say so or not.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "scenarios/file/measures.h"
+#include "scenarios/file/rubric_check.h"
+
+namespace cavum::scenarios {
+namespace {
+
+std::string criterion(const std::string& id, const std::string& metric, const std::string& more = "", int points = 10) {
+  return fmt::format("[[criteria]]\nid = \"{}\"\nmetric = \"{}\"\nfull = 0\nzero = 1\npoints = {}\n{}\n", id, metric, points, more);
+}
+std::vector<Problem> twice(const std::string& criteria) {
+  return charged_twice(parse_rubric("rule = \"compensatory\"\npass_percent = 60\n" + criteria, "r.toml"));
+}
+
+TEST(Shares, TwoThatCountTheSameAreWarnedOfUnlessOneNamesTheOther) {
+  const auto problems = twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3"));
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_TRUE(problems[0].warning);
+  EXPECT_EQ(problems[0].text(),
+            "r.toml:12:10: warning: 'guarded' charges what 'elsewhere' charges, too: protected_mm3 and outside_mm3 both count protected tissue; take one "
+            "of them out, or say that it is meant: shares_with = [\"elsewhere\"]");
+  EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "shares_with = [\"elsewhere\"]")).empty());
+  EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3", "shares_with = [\"guarded\"]") + criterion("guarded", "protected_mm3")).empty());
+  EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "critical_above = 0.5", 0)).empty())
+      << "what gives no points charges none";
+}
+
+TEST(Shares, WallsFloorAndVolumesAreToldApart) {
+  EXPECT_EQ(twice(criterion("a", "container_sides_mm3") + criterion("b", "mesial_max_over_mm")).size(), 1u);
+  EXPECT_EQ(twice(criterion("a", "container_sides_mm3") + criterion("b", "floor_max_over_mm")).size(), 0u);
+  EXPECT_EQ(twice(criterion("a", "container_bottom_mm3") + criterion("b", "walls_max_over_mm")).size(), 1u);
+  EXPECT_EQ(twice(criterion("a", "container_sides_mm3") + criterion("b", "container_bottom_mm3") + criterion("c", "outside_mm3")).size(), 0u);
+  EXPECT_EQ(twice(criterion("a", "container_mm3") + criterion("b", "overcut_mm3") + criterion("c", "dice")).size(), 3u);
+}
+
+TEST(Shares, IdThatIsNoOtherCriterionIsAMistake) {
+  for (const char* wrong : {"walls", "itself"}) {
+    try {
+      static_cast<void>(twice(criterion("wall", "container_sides_mm3") + criterion("itself", "outside_mm3", fmt::format("shares_with = [\"{}\"]", wrong))));
+      ADD_FAILURE() << wrong;
+    } catch (const ProblemsError& e) {
+      EXPECT_NE(std::string(e.what()).find("'itself' shares with"), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(Shares, MeasuresOfTheSameUnitSayWhatTheyCount) {
+  for (const auto& m : measures())
+    if (m.unit == std::string("mm3") && m.tissue.empty() && m.name != "soft_tissue_outside_mm3") {
+      EXPECT_NE(m.counts, k_counts_nothing) << m.name;
+      EXPECT_FALSE(counts_text(m.counts).empty());
+    }
+}
+
+}  // namespace
+}  // namespace cavum::scenarios
