@@ -24,14 +24,18 @@ struct IncisorMeasures {
 WallPlan incisor_wall(Individual& one, const IncisorMeasures& m) {
   const double h = m.height, neck_x = 0.5 * m.neck_length, neck_y = 0.5 * m.neck_width, x = 0.5 * m.length, y = 0.5 * m.width;
   WallPlan w;
-  w.mesial = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.2 * h, neck_x + 0.1}, {0.5 * h, x - 0.4}, {0.85 * h, x}, {1.0 * h, x - 0.15}};
-  w.distal = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.17 * h, neck_x + 0.1}, {0.45 * h, x - 0.35}, {0.74 * h, x}, {0.93 * h, x - 0.3}, {1.02 * h, x - 0.8}};
+  w.mesial = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.25 * h, neck_x}, {0.5 * h, x - 0.45}, {0.85 * h, x}, {1.0 * h, x - 0.15}};
+  w.distal = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.2 * h, neck_x}, {0.45 * h, x - 0.4}, {0.74 * h, x}, {0.93 * h, x - 0.3}, {1.02 * h, x - 0.8}};
   w.buccal = {{-6.0, neck_y - 0.2}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.16 * h, y}, {0.4 * h, y - 0.3}, {0.7 * h, y - 0.95}, {1.0 * h, y - 2.15}};
   w.lingual = {{-6.0, neck_y - 0.2}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.13 * h, y - 0.05}, {0.24 * h, y - 0.4}, {0.38 * h, y - 1.4}, {0.55 * h, y - 2.35}, {0.75 * h, y - 2.95}, {1.0 * h, y - 3.45}};
   w.squareness = 0.45;
   w.narrow_lingual = 0.08;
   const double ends = 2.0 * h;
-  w.dents = {{-1.0, 0.0, 2.2, one.between(0.3, 0.55), {0.22 * h, 0.5 * h, 0.75 * h, 1.0 * h}},
+  // Lingual: a hollow between two marginal ridges, above the cingulum. Labial: faint furrows between the three lobes.
+  const double hollow = one.between(0.5, 0.75), ridge = -one.between(0.12, 0.22);
+  w.dents = {{-1.0, 0.0, 1.9, hollow, {0.22 * h, 0.5 * h, 0.75 * h, 1.0 * h}},
+             {-1.0, x - 1.0, 0.9, ridge, {0.2 * h, 0.45 * h, 0.7 * h, 0.95 * h}},
+             {-1.0, 1.0 - x, 0.9, ridge, {0.2 * h, 0.45 * h, 0.7 * h, 0.95 * h}},
              {-1.0, -0.2, 1.6, -one.between(0.05, 0.18), {0.0, 0.12 * h, 0.2 * h, 0.42 * h}},
              {1.0, 1.35, 0.8, one.between(0.03, 0.08), {0.3 * h, 0.8 * h, ends, ends + 1}},
              {1.0, -1.35, 0.8, one.between(0.03, 0.08), {0.3 * h, 0.8 * h, ends, ends + 1}}};
@@ -73,14 +77,17 @@ ToothPlan incisor_plan(std::uint64_t seed) {
   q.roof_z_mm = one.draw(k_chamber_top) * h;
   q.floor_z_mm = -1.0;
   q.middle_x_mm = 0.0;
-  q.middle_y_mm = 0.1;
+  q.middle_y_mm = 0.0;
   q.half_x_mm = one.between(1.15, 1.4);
-  q.half_y_mm = one.between(0.6, 0.75);
-  q.widen = 0.1;
+  q.half_y_mm = one.between(0.5, 0.6);
+  // It follows the middle of the dentin, which leans labially above the cingulum, and grows thin there.
+  q.widen_x = 0.1;
+  q.widen_y = -0.075;
+  q.lean_y = 0.18;
   q.sag = 0.05;
   for (const double side : {1.0, -1.0}) {
     const double up = one.between(0.5, 0.9);
-    q.horns.push_back({{side * (q.half_x_mm - 0.3), 0.0, q.roof_z_mm - 0.7}, {side * (q.half_x_mm + 0.2), 0.2, q.roof_z_mm + up}, 0.3, 0.12});
+    q.horns.push_back({{side * (q.half_x_mm - 0.3), 0.18 * (q.roof_z_mm - 0.7), q.roof_z_mm - 0.7}, {side * (q.half_x_mm + 0.2), 0.2 * (q.roof_z_mm + up), q.roof_z_mm + up}, 0.3, 0.12});
   }
   q.canals = {{0, 0.0, 0.0, one.between(0.65, 0.8), 0.2, 1.0, 0.0}};
   p.steepest = 8.0;

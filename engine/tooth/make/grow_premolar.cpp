@@ -14,7 +14,7 @@ constexpr Published k_crown_length{6.7, 0.3, 6.1, 7.3}, k_crown_width{9.2, 0.4, 
 constexpr Published k_neck_length{4.8, 0.2, 4.4, 5.3}, k_neck_width{8.1, 0.3, 7.5, 8.7};
 constexpr Published k_mesial_curve{0.9, 0.2, 0.5, 1.3}, k_distal_curve{0.6, 0.15, 0.3, 0.9};
 constexpr Published k_root{14.0, 0.9, 12.2, 15.8};
-constexpr Published k_cusp_enamel{1.65, 0.12, 1.4, 1.9}, k_valley_enamel{1.2, 0.08, 1.05, 1.35}, k_wall_enamel{1.2, 0.1, 1.0, 1.4};
+constexpr Published k_cusp_enamel{1.6, 0.1, 1.4, 1.8}, k_valley_enamel{1.0, 0.06, 0.88, 1.12}, k_wall_enamel{1.2, 0.1, 1.0, 1.4};
 constexpr Published k_fissure{0.5, 0.05, 0.4, 0.6}, k_pit{0.2, 0.03, 0.14, 0.26};
 constexpr Published k_roof{1.1, 0.25, 0.6, 1.6};  // above the cervical line; narrow, so that individuals are of about equal difficulty
 
@@ -27,7 +27,7 @@ WallPlan premolar_wall(const PremolarMeasures& m) {
   WallPlan w;
   w.mesial = {{-6.0, neck_x - 0.25}, {-2.0, neck_x - 0.1}, {0.9, neck_x}, {0.42 * h, x - 0.2}, {0.62 * h, x}, {0.82 * h, x - 0.3}, {h, x - 0.9}};
   w.distal = {{-6.0, neck_x - 0.25}, {-2.0, neck_x - 0.1}, {0.4, neck_x}, {0.38 * h, x - 0.2}, {0.58 * h, x}, {0.78 * h, x - 0.3}, {h, x - 1.0}};
-  w.buccal = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.14 * h, 0.5 * (y + neck_y)}, {0.34 * h, y}, {0.6 * h, y - 0.35}, {h, y - 1.45}};
+  w.buccal = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.14 * h, 0.5 * (y + neck_y)}, {0.31 * h, y}, {0.6 * h, y - 0.4}, {h, y - 1.45}};
   w.lingual = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y - 0.05}, {0.25 * h, y - 0.3}, {0.5 * h, y}, {0.75 * h, y - 0.4}, {h, y - 1.35}};
   w.squareness = 0.3;
   w.narrow_lingual = 0.06;
@@ -43,7 +43,7 @@ std::vector<CuspPlan> premolar_cusps(Individual& one, const PremolarMeasures& m)
     const Vec3 tip{(side > 0 ? -0.1 : 0.35) * x + one.between(-0.15, 0.15), side * 2.75 * y + one.between(-0.1, 0.1),
                    m.height - (side > 0 ? 0.0 : one.between(0.2, 0.5))};
     cusps.push_back({tip, in_x / l, -side / l, one.between(0.46, 0.54), one.between(0.64, 0.72), one.between(0.76, 0.86), 0.5,
-                     one.between(0.08, 0.2) * (one.between(0, 1) < 0.5 ? -1.0 : 1.0)});
+                     one.between(0.05, 0.13) * (one.between(0, 1) < 0.5 ? -1.0 : 1.0)});
     cusps.back().cusp_ridge_bow = 0.13;
     cusps.back().side_groove_mm = one.between(0.04, 0.09);
   }
@@ -58,7 +58,7 @@ PulpPlan premolar_pulp(Individual& one, const PremolarMeasures& m, const std::ve
   q.middle_y_mm = 0.0;
   q.half_x_mm = one.between(0.65, 0.85);
   q.half_y_mm = 0.26 * m.neck_width + one.between(-0.1, 0.1);
-  q.widen = 0.05;
+  q.widen_x = q.widen_y = 0.05;
   q.sag = 0.05;
   for (const CuspPlan& c : cusps) {
     const double side = c.tip_mm.y > 0 ? 1.0 : -1.0, up = (side > 0 ? 1.3 : 0.9) + one.between(-0.2, 0.2);

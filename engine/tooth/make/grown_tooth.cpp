@@ -124,8 +124,8 @@ double GrownTooth::canal(Vec3 p, const CanalPlan& c) const noexcept {
   constexpr int k_parts = 8;
   const RootPlan& root = plan_.roots[c.root];
   const double from_z = plan_.pulp.floor_z_mm + 0.15, to_z = root.apex_z_mm + 1.0;
-  // An oval canal is a round one seen in a frame that is pressed together from buccal to lingual; it becomes round towards its end.
-  const double down = std::clamp((from_z - p.z) / (from_z - to_z), 0.0, 1.0), oval = 1.0 + (c.oval - 1.0) * (1 - down);
+  // An oval canal is a round one seen in a frame that is pressed together from buccal to lingual; it becomes rounder towards its end.
+  const double down = std::clamp((from_z - p.z) / (from_z - to_z), 0.0, 1.0), oval = 1.0 + (c.oval - 1.0) * (1 - 0.6 * down);
   const Vec3 pressed{p.x, (p.y - axis_y(root, depth(root, p.z)) - c.y_mm * (1 - c.draw_in * down)) / oval, p.z};
   double d = 1e9;
   Vec3 before;
@@ -144,9 +144,9 @@ double GrownTooth::canal(Vec3 p, const CanalPlan& c) const noexcept {
 double GrownTooth::pulp(Vec3 p) const noexcept {
   p.z -= plan_.base_z_mm;
   const PulpPlan& q = plan_.pulp;
-  const double x = p.x - q.middle_x_mm, y = p.y - q.middle_y_mm;
-  const double wider = q.widen * (p.z - 0.5 * (q.roof_z_mm + q.floor_z_mm));
-  const double side = tube(x, y, std::max(q.half_x_mm + wider, 0.2), std::max(q.half_y_mm + wider, 0.2));
+  const double x = p.x - q.middle_x_mm, y = p.y - q.middle_y_mm - q.lean_y * std::max(p.z, 0.0);
+  const double up = p.z - 0.5 * (q.roof_z_mm + q.floor_z_mm);
+  const double side = tube(x, y, std::max(q.half_x_mm + q.widen_x * up, 0.2), std::max(q.half_y_mm + q.widen_y * up, 0.2));
   const double roof = q.roof_z_mm + q.sag * std::sqrt(x * x + y * y + 0.04);
   double d = smooth_max(side, std::max(p.z - roof, q.floor_z_mm - p.z), 0.35);
   for (const HornPlan& h : q.horns) d = smooth_min(d, round_cone(p, h.from_mm, h.from_radius_mm, h.to_mm, h.to_radius_mm), 0.3);

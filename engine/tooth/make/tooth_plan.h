@@ -106,7 +106,8 @@ struct CanalPlan {
 struct PulpPlan {
   double roof_z_mm, floor_z_mm;
   double middle_x_mm, middle_y_mm, half_x_mm, half_y_mm;  // of the chamber at mid height
-  double widen;                                // growth of the half widths per mm upwards
+  double widen_x, widen_y;                     // growth of the half widths per mm upwards
+  double lean_y = 0.0;                         // shift of its middle towards buccal per mm above the neck
   double sag;                                  // the roof hangs down in its middle, mm per mm of distance
   std::vector<HornPlan> horns;
   std::vector<CanalPlan> canals;
