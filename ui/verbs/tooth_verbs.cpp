@@ -157,16 +157,14 @@ void add_make_molar(CLI::App& make) {
   auto args = add_make_args(molar);
   molar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   molar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
-  const auto seed = add_seed(molar,
-      {molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str(),
-       molar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the central fossa, mm")->capture_default_str(),
-       molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str(),
-       molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str(),
-       molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str()});
+  const auto seed = add_seed(
+      molar, {molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str(),
+              molar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the central fossa, mm")->capture_default_str(),
+              molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str(),
+              molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str(),
+              molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str()});
   molar->callback([=] {
-    make_tooth(*args, [&] {
-      return seed->has_value() ? grow_molar({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_molar(*shape);
-    });
+    make_tooth(*args, [&] { return seed->has_value() ? grow_molar({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_molar(*shape); });
   });
 }
 
@@ -176,14 +174,12 @@ void add_make_premolar(CLI::App& make) {
   auto args = add_make_args(premolar);
   premolar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   premolar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
-  const auto seed = add_seed(premolar,
-      {premolar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str(),
-       premolar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str(),
-       premolar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str()});
+  const auto seed = add_seed(
+      premolar, {premolar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str(),
+                 premolar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str(),
+                 premolar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str()});
   premolar->callback([=] {
-    make_tooth(*args, [&] {
-      return seed->has_value() ? grow_premolar({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_premolar(*shape);
-    });
+    make_tooth(*args, [&] { return seed->has_value() ? grow_premolar({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_premolar(*shape); });
   });
 }
 
@@ -193,14 +189,12 @@ void add_make_incisor(CLI::App& make) {
   auto args = add_make_args(incisor);
   incisor->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   incisor->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
-  const auto seed = add_seed(incisor,
-      {incisor->add_option("--incisal-enamel-mm", shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str(),
-       incisor->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str(),
-       incisor->add_option("--chamber-top-mm", shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str()});
+  const auto seed = add_seed(
+      incisor, {incisor->add_option("--incisal-enamel-mm", shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str(),
+                incisor->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str(),
+                incisor->add_option("--chamber-top-mm", shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str()});
   incisor->callback([=] {
-    make_tooth(*args, [&] {
-      return seed->has_value() ? grow_incisor({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_incisor(*shape);
-    });
+    make_tooth(*args, [&] { return seed->has_value() ? grow_incisor({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_incisor(*shape); });
   });
 }
 

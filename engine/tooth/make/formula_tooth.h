@@ -14,25 +14,25 @@
 
 namespace cavum {
 
-/// The shape of a tooth in the tooth frame, mm. Each function is negative inside its body and about a distance near its
-/// surface; where it says v, its zero is no nearer than |v| / steepest.
-template <class T>
-concept FormulaTooth = requires(const T& t, Vec3 p) {
-  { t.outside(p) } -> std::same_as<double>;          // the whole tooth, whatever it is made of
-  { t.pulp(p) } -> std::same_as<double>;             // chamber, horns, canals
-  { t.core(p) } -> std::same_as<double>;             // dentin of the crown: enamel lies outside it
-  { t.neck_mm(p.x, p.y) } -> std::same_as<double>;  // z of the cervical line: no enamel below it
-  requires std::convertible_to<decltype(T::k_steepest), double> || requires { t.steepest(); };
-};
-
 /// How fast the functions of a shape may change, mm per mm: of its class, or of each tooth.
-template <FormulaTooth T>
+template <class T>
 [[nodiscard]] double steepest_of(const T& shape) {
   if constexpr (requires { shape.steepest(); })
     return shape.steepest();
   else
     return T::k_steepest;
 }
+
+/// The shape of a tooth in the tooth frame, mm. Each function is negative inside its body and about a distance near its
+/// surface; where it says v, its zero is no nearer than |v| / steepest.
+template <class T>
+concept FormulaTooth = requires(const T& t, Vec3 p) {
+  { t.outside(p) } -> std::same_as<double>;         // the whole tooth, whatever it is made of
+  { t.pulp(p) } -> std::same_as<double>;            // chamber, horns, canals
+  { t.core(p) } -> std::same_as<double>;            // dentin of the crown: enamel lies outside it
+  { t.neck_mm(p.x, p.y) } -> std::same_as<double>;  // z of the cervical line: no enamel below it
+  { steepest_of(t) } -> std::same_as<double>;       // a k_steepest or a steepest()
+};
 
 struct FormulaBox {
   Vec3 low_mm, high_mm;

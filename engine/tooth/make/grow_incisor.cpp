@@ -25,9 +25,11 @@ WallPlan incisor_wall(Individual& one, const IncisorMeasures& m) {
   const double h = m.height, neck_x = 0.5 * m.neck_length, neck_y = 0.5 * m.neck_width, x = 0.5 * m.length, y = 0.5 * m.width;
   WallPlan w;
   w.mesial = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.25 * h, neck_x}, {0.5 * h, x - 0.45}, {0.85 * h, x}, {1.0 * h, x - 0.15}};
-  w.distal = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.2 * h, neck_x}, {0.45 * h, x - 0.4}, {0.74 * h, x}, {0.93 * h, x - 0.3}, {1.02 * h, x - 0.8}};
+  w.distal = {{-6.0, neck_x - 0.3}, {-2.0, neck_x - 0.1}, {0.2 * h, neck_x},  {0.45 * h, x - 0.4},
+              {0.74 * h, x},        {0.93 * h, x - 0.3},  {1.02 * h, x - 0.8}};
   w.buccal = {{-6.0, neck_y - 0.2}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.16 * h, y}, {0.4 * h, y - 0.3}, {0.7 * h, y - 0.95}, {1.0 * h, y - 2.15}};
-  w.lingual = {{-6.0, neck_y - 0.2}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.13 * h, y - 0.05}, {0.24 * h, y - 0.4}, {0.38 * h, y - 1.4}, {0.55 * h, y - 2.35}, {0.75 * h, y - 2.95}, {1.0 * h, y - 3.45}};
+  w.lingual = {{-6.0, neck_y - 0.2}, {-2.0, neck_y - 0.1}, {0.0, neck_y},        {0.13 * h, y - 0.05}, {0.24 * h, y - 0.4},
+               {0.38 * h, y - 1.4},  {0.55 * h, y - 2.35}, {0.75 * h, y - 2.95}, {1.0 * h, y - 3.45}};
   w.squareness = 0.45;
   w.narrow_lingual = 0.08;
   const double ends = 2.0 * h;
@@ -72,7 +74,8 @@ ToothPlan incisor_plan(std::uint64_t seed) {
   p.neck.distal_mm = std::min(one.draw(k_distal_curve, 0.3), p.neck.mesial_mm - 0.2);
   const double wall_enamel = one.draw(k_wall_enamel, 0.2), edge_enamel = one.draw(k_edge_enamel, 0.2);
   p.enamel = {wall_enamel, wall_enamel - 0.15, wall_enamel - 0.05, 5.5, edge_enamel, edge_enamel};
-  p.roots = {{0.0, 0.5, -one.draw(k_root, 0.6), 0.0, -one.between(0.0, 0.7), one.between(-0.4, 0.2), 0.515 * m.neck_length, 0.515 * m.neck_width, 1.3, 0.0}};
+  p.roots = {
+      {0.0, 0.5, -one.draw(k_root, 0.6), 0.0, -one.between(0.0, 0.7), one.between(-0.4, 0.2), 0.515 * m.neck_length, 0.515 * m.neck_width, 1.3, 0.0}};
   PulpPlan& q = p.pulp;
   q.roof_z_mm = one.draw(k_chamber_top) * h;
   q.floor_z_mm = -1.0;
@@ -81,13 +84,16 @@ ToothPlan incisor_plan(std::uint64_t seed) {
   q.half_x_mm = one.between(1.15, 1.4);
   q.half_y_mm = one.between(0.5, 0.6);
   // It follows the middle of the dentin, which leans labially above the cingulum, and grows thin there.
-  q.widen_x = 0.1;
+  q.widen_x = 0.16;
   q.widen_y = -0.075;
   q.lean_y = 0.18;
   q.sag = 0.05;
   for (const double side : {1.0, -1.0}) {
     const double up = one.between(0.5, 0.9);
-    q.horns.push_back({{side * (q.half_x_mm - 0.3), 0.18 * (q.roof_z_mm - 0.7), q.roof_z_mm - 0.7}, {side * (q.half_x_mm + 0.2), 0.2 * (q.roof_z_mm + up), q.roof_z_mm + up}, 0.3, 0.12});
+    q.horns.push_back({{side * (q.half_x_mm - 0.35), 0.18 * (q.roof_z_mm - 0.7), q.roof_z_mm - 0.7},
+                       {side * (q.half_x_mm + 0.2), 0.2 * (q.roof_z_mm + up), q.roof_z_mm + up},
+                       0.3,
+                       0.12});
   }
   q.canals = {{0, 0.0, 0.0, one.between(0.65, 0.8), 0.2, 1.0, 0.0}};
   p.steepest = 8.0;

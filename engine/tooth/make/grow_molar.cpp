@@ -18,7 +18,7 @@ constexpr Published k_root{14.0, 0.8, 12.4, 15.6}, k_trunk{5.6, 0.25, 5.1, 6.1};
 constexpr Published k_cusp_enamel{1.65, 0.1, 1.45, 1.85}, k_valley_enamel{1.0, 0.06, 0.88, 1.12}, k_wall_enamel{1.3, 0.08, 1.14, 1.46};
 constexpr Published k_fissure{0.5, 0.05, 0.4, 0.6}, k_pit{0.2, 0.03, 0.14, 0.26};
 // Narrower than the published deviations (0.93 and 0.68): individuals shall be of about equal difficulty.
-constexpr Published k_cusp_to_roof{6.36, 0.2, 5.95, 6.8}, k_chamber_height{1.6, 0.2, 1.25, 2.0};
+constexpr Published k_cusp_to_roof{6.45, 0.2, 6.05, 6.85}, k_chamber_height{1.6, 0.2, 1.25, 2.0};
 constexpr Published k_mesial_mouths{2.3, 0.25, 1.8, 2.8};
 
 struct MolarMeasures {
@@ -31,10 +31,10 @@ WallPlan molar_wall(const MolarMeasures& m) {
   w.mesial = {{-6.0, neck_x - 0.35}, {-2.0, neck_x - 0.2}, {0.9, neck_x}, {0.42 * h, x - 0.2}, {0.66 * h, x}, {0.84 * h, x - 0.3}, {h, x - 1.0}};
   w.distal = {{-6.0, neck_x - 0.35}, {-2.0, neck_x - 0.2}, {0.7, neck_x}, {0.36 * h, x - 0.25}, {0.60 * h, x}, {0.80 * h, x - 0.4}, {h, x - 1.4}};
   // Buccally the greatest width lies low, in the cervical third; the crown leans lingually.
-  w.buccal = {{-6.0, neck_y - 0.4},  {-2.0, neck_y - 0.15}, {0.0, neck_y}, {0.13 * h, 0.54 * y + 0.46 * neck_y}, {0.29 * h, y + 0.04}, {0.5 * h, y - 0.2},
-              {0.75 * h, y - 0.85}, {h, y - 1.85}};
-  w.lingual = {{-6.0, neck_y - 0.4}, {-2.0, neck_y - 0.2}, {0.4, neck_y - 0.05}, {0.3 * h, y - 0.3}, {0.55 * h, y - 0.1}, {0.8 * h, y - 0.45},
-               {1.06 * h, y - 1.3}};
+  w.buccal = {{-6.0, neck_y - 0.4}, {-2.0, neck_y - 0.15}, {0.0, neck_y},        {0.13 * h, 0.54 * y + 0.46 * neck_y},
+              {0.29 * h, y + 0.04}, {0.5 * h, y - 0.2},    {0.75 * h, y - 0.85}, {h, y - 1.85}};
+  w.lingual = {{-6.0, neck_y - 0.4}, {-2.0, neck_y - 0.2}, {0.4, neck_y - 0.05}, {0.3 * h, y - 0.3},
+               {0.55 * h, y - 0.1},  {0.8 * h, y - 0.45},  {1.06 * h, y - 1.3}};
   w.squareness = 0.55;
   w.root_squareness = 0.4;
   w.narrow_lingual = 0.05;
@@ -50,8 +50,11 @@ std::vector<CuspPlan> molar_cusps(Individual& one, const MolarMeasures& m) {
     double x, y, above, in_x, in_y, bend;
   };
   const double excess = one.between(0.25, 0.5);  // the lingual cusps are the higher ones
-  const Usual usual[] = {{2.45, 2.75, 0.0, -0.15, -1.0, 0.1}, {-1.15, 2.9, -0.15, -0.1, -1.0, -0.1}, {-3.65, 1.5, -0.6, 1.0, -0.6, 0.0},
-                         {2.3, -3.1, excess, -0.2, 1.0, 0.1}, {-2.2, -3.05, excess - 0.15, 0.2, 1.0, -0.1}};
+  const Usual usual[] = {{2.45, 2.75, 0.0, -0.15, -1.0, 0.1},
+                         {-1.15, 2.9, -0.15, -0.1, -1.0, -0.1},
+                         {-3.65, 1.5, -0.6, 1.0, -0.6, 0.0},
+                         {2.3, -3.1, excess, -0.2, 1.0, 0.1},
+                         {-2.2, -3.05, excess - 0.15, 0.2, 1.0, -0.1}};
   std::vector<CuspPlan> cusps;
   for (const Usual& u : usual) {
     const double in_x = u.in_x + one.between(-0.12, 0.12), l = std::sqrt(in_x * in_x + u.in_y * u.in_y);
@@ -71,16 +74,18 @@ PulpPlan molar_pulp(Individual& one, const MolarMeasures& m, const std::vector<C
   q.floor_z_mm = q.roof_z_mm - one.draw(k_chamber_height);
   q.middle_x_mm = 0.1;
   q.middle_y_mm = 0.0;
-  q.half_x_mm = 0.25 * m.neck_length + one.between(-0.12, 0.12);
+  q.half_x_mm = 0.235 * m.neck_length + one.between(-0.12, 0.12);
   q.half_y_mm = 0.195 * m.neck_width + one.between(-0.1, 0.1);
   q.widen_x = q.widen_y = 0.12;
   q.sag = 0.05;
   for (const CuspPlan& c : cusps) {
     const double up = 1.1 + one.between(-0.2, 0.2) - 0.4 * (m.height - c.tip_mm.z);
-    q.horns.push_back({{c.tip_mm.x * 0.62, c.tip_mm.y * 0.45, q.roof_z_mm - 0.35}, {c.tip_mm.x * 0.74, c.tip_mm.y * 0.6, q.roof_z_mm + up}, 0.42, 0.13});
+    q.horns.push_back(
+        {{c.tip_mm.x * 0.56, c.tip_mm.y * 0.36, q.roof_z_mm - 0.6}, {c.tip_mm.x * 0.74, c.tip_mm.y * 0.6, q.roof_z_mm + up}, 0.55, 0.12});
   }
   const double apart = 0.5 * one.draw(k_mesial_mouths, 0.4), wide = one.between(0.31, 0.37);
-  q.canals = {{0, -0.32, apart, wide, 0.15, 1.6, 0.45}, {0, -0.32, -apart, wide, 0.15, 1.6, 0.45}, {1, 0.32, 0.0, one.between(0.38, 0.46), 0.18, 2.0, 0.3}};
+  q.canals = {
+      {0, -0.32, apart, wide, 0.15, 1.6, 0.45}, {0, -0.32, -apart, wide, 0.15, 1.6, 0.45}, {1, 0.32, 0.0, one.between(0.38, 0.46), 0.18, 2.0, 0.3}};
   return q;
 }
 
@@ -117,7 +122,8 @@ ToothPlan molar_plan(std::uint64_t seed) {
   const double root = one.draw(k_root, 0.6), bend = one.between(0.6, 1.3);
   const double half_y = 0.5 * m.neck_width - 0.15, half_x = 0.212 * m.neck_length, at = 0.25 * m.neck_length;
   p.roots = {{at, 0.5, -root, bend, -1.6 * bend, one.between(-0.2, 0.4), half_x, half_y, 1.5, 0.18},
-             {-at, 0.5, -root + one.between(0.3, 1.0), -one.between(0.8, 1.6), one.between(0.2, 0.8), one.between(-0.2, 0.4), half_x, half_y - 0.15, 1.4, 0.1}};
+             {-at, 0.5, -root + one.between(0.3, 1.0), -one.between(0.8, 1.6), one.between(0.2, 0.8), one.between(-0.2, 0.4), half_x, half_y - 0.15,
+              1.4, 0.1}};
   p.pulp = molar_pulp(one, m, p.cusps);
   return p;
 }

@@ -27,8 +27,10 @@ WallPlan premolar_wall(const PremolarMeasures& m) {
   WallPlan w;
   w.mesial = {{-6.0, neck_x - 0.25}, {-2.0, neck_x - 0.1}, {0.9, neck_x}, {0.42 * h, x - 0.2}, {0.62 * h, x}, {0.82 * h, x - 0.3}, {h, x - 0.9}};
   w.distal = {{-6.0, neck_x - 0.25}, {-2.0, neck_x - 0.1}, {0.4, neck_x}, {0.38 * h, x - 0.2}, {0.58 * h, x}, {0.78 * h, x - 0.3}, {h, x - 1.0}};
-  w.buccal = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.14 * h, 0.5 * (y + neck_y)}, {0.31 * h, y}, {0.6 * h, y - 0.4}, {h, y - 1.45}};
-  w.lingual = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y - 0.05}, {0.25 * h, y - 0.3}, {0.5 * h, y}, {0.75 * h, y - 0.4}, {h, y - 1.35}};
+  w.buccal = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y}, {0.14 * h, 0.5 * (y + neck_y)},
+              {0.31 * h, y},        {0.6 * h, y - 0.4},   {h, y - 1.45}};
+  w.lingual = {{-6.0, neck_y - 0.3}, {-2.0, neck_y - 0.1}, {0.0, neck_y - 0.05}, {0.25 * h, y - 0.3},
+               {0.5 * h, y},         {0.75 * h, y - 0.4},  {h, y - 1.35}};
   w.squareness = 0.3;
   w.narrow_lingual = 0.06;
   return w;
@@ -57,12 +59,14 @@ PulpPlan premolar_pulp(Individual& one, const PremolarMeasures& m, const std::ve
   q.middle_x_mm = 0.0;
   q.middle_y_mm = 0.0;
   q.half_x_mm = one.between(0.65, 0.85);
-  q.half_y_mm = 0.26 * m.neck_width + one.between(-0.1, 0.1);
-  q.widen_x = q.widen_y = 0.05;
+  q.half_y_mm = 0.215 * m.neck_width + one.between(-0.1, 0.1);
+  q.widen_x = 0.1;  // a funnel into the canal
+  q.widen_y = 0.3;
   q.sag = 0.05;
   for (const CuspPlan& c : cusps) {
     const double side = c.tip_mm.y > 0 ? 1.0 : -1.0, up = (side > 0 ? 1.3 : 0.9) + one.between(-0.2, 0.2);
-    q.horns.push_back({{0.0, side * (q.half_y_mm - 0.65), q.roof_z_mm - 0.4}, {0.3 * c.tip_mm.x, side * (q.half_y_mm - 0.2), q.roof_z_mm + up}, 0.45, 0.13});
+    q.horns.push_back(
+        {{0.0, side * (q.half_y_mm - 0.35), q.roof_z_mm - 0.6}, {0.3 * c.tip_mm.x, side * (q.half_y_mm + 0.15), q.roof_z_mm + up}, 0.5, 0.12});
   }
   q.canals = {{0, 0.0, 0.0, one.between(0.44, 0.54), 0.2, 2.6, 0.0}};
   return q;
@@ -96,10 +100,10 @@ ToothPlan premolar_plan(std::uint64_t seed) {
   p.edge_round_mm = 0.7;
   p.neck = {one.draw(k_mesial_curve, 0.3), one.draw(k_distal_curve, 0.3), 0.1, 0.5 * m.neck_length, 0.5 * m.neck_width};
   const double wall_enamel = one.draw(k_wall_enamel, 0.2);
-  p.enamel = {wall_enamel + 0.05, wall_enamel, wall_enamel - 0.05, 4.0, one.draw(k_cusp_enamel, 0.2), one.draw(k_valley_enamel, 0.2)};
+  p.enamel = {wall_enamel + 0.05, wall_enamel, wall_enamel + 0.05, 4.0, one.draw(k_cusp_enamel, 0.2), one.draw(k_valley_enamel, 0.2)};
   const double root = one.draw(k_root, 0.6);
-  p.roots = {{0.0, 0.5, -root, one.between(-0.2, 0.2), -one.between(0.2, 0.9), one.between(-0.2, 0.4), 0.515 * m.neck_length, 0.515 * m.neck_width, 1.35,
-              one.between(0.14, 0.24)}};
+  p.roots = {{0.0, 0.5, -root, one.between(-0.2, 0.2), -one.between(0.2, 0.9), one.between(-0.2, 0.4), 0.515 * m.neck_length, 0.515 * m.neck_width,
+              1.35, one.between(0.14, 0.24)}};
   p.pulp = premolar_pulp(one, m, p.cusps);
   return p;
 }

@@ -26,7 +26,8 @@ double root_distance(const RootPlan& r, Vec3 p) {
   const double v = (p.y - axis_y(r, s)) / r.half_y_mm;
   const double half_x = r.half_x_mm * (1.0 - r.concave * bell(v, 0.5) * ramp(0.0, 0.3, t));
   const double u = (p.x - axis_x(r, s)) / half_x;
-  const double left = t * (r.taper + (1.0 - r.taper) * t), left_slope = (r.taper + 2 * (1.0 - r.taper) * std::max(t, 0.0)) / (r.top_z_mm - r.apex_z_mm);
+  const double left = t * (r.taper + (1.0 - r.taper) * t),
+               left_slope = (r.taper + 2 * (1.0 - r.taper) * std::max(t, 0.0)) / (r.top_z_mm - r.apex_z_mm);
   const double gx = 2 * u / half_x, gy = 2 * v / r.half_y_mm;
   return (u * u + v * v - (t > 0 ? left : t * r.taper)) / std::sqrt(gx * gx + gy * gy + left_slope * left_slope);
 }
@@ -148,11 +149,11 @@ double GrownTooth::pulp(Vec3 p) const noexcept {
   const double up = p.z - 0.5 * (q.roof_z_mm + q.floor_z_mm);
   const double side = tube(x, y, std::max(q.half_x_mm + q.widen_x * up, 0.2), std::max(q.half_y_mm + q.widen_y * up, 0.2));
   const double roof = q.roof_z_mm + q.sag * std::sqrt(x * x + y * y + 0.04);
-  double d = smooth_max(side, std::max(p.z - roof, q.floor_z_mm - p.z), 0.35);
-  for (const HornPlan& h : q.horns) d = smooth_min(d, round_cone(p, h.from_mm, h.from_radius_mm, h.to_mm, h.to_radius_mm), 0.3);
+  double d = smooth_max(side, std::max(p.z - roof, q.floor_z_mm - p.z), std::min(0.8, q.half_x_mm));
+  for (const HornPlan& h : q.horns) d = smooth_min(d, round_cone(p, h.from_mm, h.from_radius_mm, h.to_mm, h.to_radius_mm), 0.4);
   double canals = 1e9;
   for (const CanalPlan& c : q.canals) canals = std::min(canals, canal(p, c));
-  return smooth_min(d, canals, 0.25);
+  return smooth_min(d, canals, 0.5);  // the mouths are funnels
 }
 
 FormulaBox GrownTooth::box() const {

@@ -62,8 +62,7 @@ OcclusalRelief::OcclusalRelief(const ToothPlan& plan, double half_x_mm, double h
   for (int j = 0; j < ny_; ++j)
     for (int i = 0; i < nx_; ++i) {
       const double x = low_x_ + k_step_mm * i, y = low_y_ + k_step_mm * j;
-      for (std::size_t c = 0; c < all; ++c)
-        height[c] = c < cusps ? cusp_height(plan.cusps[c], x, y) : crest_height(plan.crests[c - cusps], x, y);
+      for (std::size_t c = 0; c < all; ++c) height[c] = c < cusps ? cusp_height(plan.cusps[c], x, y) : crest_height(plan.crests[c - cusps], x, y);
       double smooth = height[0], highest = height[0];
       for (std::size_t c = 1; c < all; ++c) {
         smooth = smooth_max(smooth, height[c], c < cusps ? 0.12 : 0.5);
@@ -117,7 +116,7 @@ Relief OcclusalRelief::at(double x, double y) const noexcept {
   const int i = static_cast<int>(fx), j = static_cast<int>(fy);
   const double u = fx - i, v = fy - j;
   const Relief &a = relief_[index(i, j)], &b = relief_[index(i + 1, j)], &c = relief_[index(i, j + 1)], &d = relief_[index(i + 1, j + 1)];
-  const auto mix = [&](double Relief::* m) { return (a.*m * (1 - u) + b.*m * u) * (1 - v) + (c.*m * (1 - u) + d.*m * u) * v; };
+  const auto mix = [&](double Relief::*m) { return (a.*m * (1 - u) + b.*m * u) * (1 - v) + (c.*m * (1 - u) + d.*m * u) * v; };
   return {mix(&Relief::height_mm), mix(&Relief::fissure_mm), mix(&Relief::slant), mix(&Relief::plain_slant), mix(&Relief::groove_mm)};
 }
 

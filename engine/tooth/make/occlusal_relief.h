@@ -11,11 +11,11 @@ namespace cavum {
 
 /// What lies over a place of the occlusal face. mm.
 struct Relief {
-  double height_mm;   // without fissures
-  double fissure_mm;  // depth of the fissure below that, along z, >= 0
-  double slant;       // 1 / sqrt(1 + slope²) with fissures: turns a distance along z into one along the normal
-  double plain_slant; // the same without fissures, averaged over half a millimetre
-  double groove_mm;   // how deep a groove cuts into the wall here, >= 0
+  double height_mm;    // without fissures
+  double fissure_mm;   // depth of the fissure below that, along z, >= 0
+  double slant;        // 1 / sqrt(1 + slope²) with fissures: turns a distance along z into one along the normal
+  double plain_slant;  // the same without fissures, averaged over half a millimetre
+  double groove_mm;    // how deep a groove cuts into the wall here, >= 0
 };
 
 class OcclusalRelief {
@@ -28,7 +28,9 @@ class OcclusalRelief {
  private:
   static constexpr double k_step_mm = 0.03;
   void work_out_slants();
-  [[nodiscard]] std::size_t index(int i, int j) const noexcept { return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i); }
+  [[nodiscard]] std::size_t index(int i, int j) const noexcept {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
+  }
 
   int nx_, ny_;
   double low_x_, low_y_;

@@ -55,7 +55,9 @@ void add_fissure(const ToothMeter& t, double low_x, double high_x, double tip_z,
 }
 
 double apart(Vec3 a, Vec3 b) { return length(a - b); }
-double apart(const CanalSlice& a, const CanalSlice& b) { return std::sqrt((a.x_mm - b.x_mm) * (a.x_mm - b.x_mm) + (a.y_mm - b.y_mm) * (a.y_mm - b.y_mm)); }
+double apart(const CanalSlice& a, const CanalSlice& b) {
+  return std::sqrt((a.x_mm - b.x_mm) * (a.x_mm - b.x_mm) + (a.y_mm - b.y_mm) * (a.y_mm - b.y_mm));
+}
 
 /// z where a tissue begins, from above.
 double first_z(const std::vector<std::pair<std::uint8_t, double>>& column, std::uint8_t tissue) {
@@ -129,7 +131,8 @@ Measures measure_molar(const Tooth& tooth) {
   }
   const auto below = t.canals(furcation - 2.0);
   if (below.size() == 3)
-    m.emplace_back("mesial canals to the furcal wall, 2 mm below the furcation", 0.5 * (t.to_outside_mm(below[1], furcation - 2.0) + t.to_outside_mm(below[2], furcation - 2.0)));
+    m.emplace_back("mesial canals to the furcal wall, 2 mm below the furcation",
+                   0.5 * (t.to_outside_mm(below[1], furcation - 2.0) + t.to_outside_mm(below[2], furcation - 2.0)));
   const auto deep = t.canals(t.apex_z(0.0, 9.0) + 4.0);
   if (!deep.empty()) {
     m.emplace_back("mesial canals 4 mm above the apex, mesiodistal", deep.back().mesiodistal_mm);
@@ -173,7 +176,8 @@ Measures measure_premolar(const Tooth& tooth) {
   m.emplace_back("canal at half the root, mesiodistal", halfway.front().mesiodistal_mm);
   m.emplace_back("canal at half the root, buccolingual", halfway.front().buccolingual_mm);
   const double neck_z = 0.5 * (c.buccal_cej + apex);
-  m.emplace_back("root width at half its length, buccolingual", t.outermost('y', 1, neck_z - 0.1, neck_z + 0.1).first + t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1).first);
+  m.emplace_back("root width at half its length, buccolingual",
+                 t.outermost('y', 1, neck_z - 0.1, neck_z + 0.1).first + t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1).first);
   return m;
 }
 
@@ -185,7 +189,9 @@ Measures measure_incisor(const Tooth& tooth) {
   const double apex = t.apex_z(-9, 9);
   m.emplace_back("root", c.buccal_cej - apex);
   m.emplace_back("root over crown", (c.buccal_cej - apex) / (edge.z - c.buccal_cej));
-  const auto thick = [&](double z) { return t.outermost('y', 1, z - 0.1, z + 0.1, 0.0, 0.3).first + t.outermost('y', -1, z - 0.1, z + 0.1, 0.0, 0.3).first; };
+  const auto thick = [&](double z) {
+    return t.outermost('y', 1, z - 0.1, z + 0.1, 0.0, 0.3).first + t.outermost('y', -1, z - 0.1, z + 0.1, 0.0, 0.3).first;
+  };
   m.emplace_back("thickness 2 mm below the edge", thick(edge.z - 2.0));
   m.emplace_back("thickness at half the crown", thick(0.5 * (edge.z + c.buccal_cej)));
   const double fossa = edge.z - 0.35 * (edge.z - c.buccal_cej);
@@ -214,7 +220,8 @@ Measures measure_incisor(const Tooth& tooth) {
   m.emplace_back("canals", static_cast<double>(halfway.size()));
   m.emplace_back("canal at half the root, mesiodistal", halfway.front().mesiodistal_mm);
   const double neck_z = c.buccal_cej + 3.0;
-  m.emplace_back("lingual surface to the pulp, at the cingulum", t.to_pulp_mm({0.0, -t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1, 0.0, 0.3).first, neck_z}));
+  m.emplace_back("lingual surface to the pulp, at the cingulum",
+                 t.to_pulp_mm({0.0, -t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1, 0.0, 0.3).first, neck_z}));
   return m;
 }
 

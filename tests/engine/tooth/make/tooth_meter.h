@@ -1,5 +1,5 @@
-// Measures a tooth the way a morphologist would: on the finished octree alone, without knowing how it was made. Lengths in mm, angles in degrees, in the
-// tooth frame (+x mesial, +y buccal, +z occlusal).
+// Measures a tooth the way a morphologist would: on the finished octree alone, without knowing how it was made. Lengths in mm, angles in degrees, in
+// the tooth frame (+x mesial, +y buccal, +z occlusal).
 #pragma once
 
 #include <array>
@@ -30,7 +30,8 @@ class ToothMeter {
   /// Lowest enamel within 0.5 mm of the plane through the axis, on one side: x or y is `towards`, its sign the side.
   [[nodiscard]] double cervical_z(char towards, double sign) const;
   /// Outermost hard tissue on one side, |other coordinate - at| < `within`, at heights from..to: its coordinate (positive) and its height.
-  [[nodiscard]] std::pair<double, double> outermost(char towards, double sign, double from_z, double to_z, double at = 0.0, double within = 99.0) const;
+  [[nodiscard]] std::pair<double, double> outermost(char towards, double sign, double from_z, double to_z, double at = 0.0,
+                                                    double within = 99.0) const;
   /// Thickness of enamel from a surface point: distance to the nearest dentin.
   [[nodiscard]] double enamel_mm(Vec3 surface) const;
   /// Thickness of enamel of a wall: from the outermost hard leaf at a height along the middle plane.
