@@ -81,8 +81,9 @@ template <FormulaTooth T>
                 grid.tissue[i] = k_pulp;
                 continue;
               }
-              const double to_core = std::fabs(core) > reach ? core : shape.core(p);
-              grid.tissue[i] = p.z > shape.neck_mm(p.x, p.y) && to_core > 0 ? k_enamel : k_dentin;
+              // The neck is asked first: it is cheap, and most of a tooth lies below it.
+              const auto outside_core = [&] { return (std::fabs(core) > reach ? core : shape.core(p)) > 0; };
+              grid.tissue[i] = p.z > shape.neck_mm(p.x, p.y) && outside_core() ? k_enamel : k_dentin;
               field[i] = std::min(field[i], -1e-12f);  // solid, however near the surface
             }
       }

@@ -64,7 +64,7 @@ PulpPlan premolar_pulp(Individual& one, const PremolarMeasures& m, const std::ve
   q.widen_y = 0.3;
   q.sag = 0.05;
   for (const CuspPlan& c : cusps) {
-    const double side = c.tip_mm.y > 0 ? 1.0 : -1.0, up = (side > 0 ? 1.3 : 0.9) + one.between(-0.2, 0.2);
+    const double side = c.tip_mm.y > 0 ? 1.0 : -1.0, up = (side > 0 ? 1.15 : 0.85) + one.between(-0.15, 0.15);
     q.horns.push_back(
         {{0.0, side * (q.half_y_mm - 0.35), q.roof_z_mm - 0.6}, {0.3 * c.tip_mm.x, side * (q.half_y_mm + 0.15), q.roof_z_mm + up}, 0.5, 0.12});
   }

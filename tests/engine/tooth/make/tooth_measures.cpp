@@ -210,8 +210,7 @@ Measures measure_incisor(const Tooth& tooth) {
     if (!t.canals(z).empty()) pulp_top = z;
   m.emplace_back("edge to the pulp's horns", edge.z - pulp_top);
   m.emplace_back("edge to the nearest pulp", t.to_pulp_mm(t.highest(-0.2, 0.2, -1.5, 2.5)));
-  const double horn_z = c.buccal_cej + 0.42 * (edge.z - c.buccal_cej) - 0.6;
-  const auto chamber = t.canals(horn_z), neck = t.canals(c.buccal_cej);
+  const auto chamber = t.canals(pulp_top - 1.6), neck = t.canals(c.buccal_cej);
   m.emplace_back("chamber mesiodistal near its top", chamber.front().mesiodistal_mm);
   m.emplace_back("chamber labiolingual near its top", chamber.front().buccolingual_mm);
   m.emplace_back("pulp at the neck, mesiodistal", neck.front().mesiodistal_mm);
