@@ -16,7 +16,7 @@ constexpr Published k_mesial_curve{0.9, 0.2, 0.5, 1.3}, k_distal_curve{0.6, 0.15
 constexpr Published k_root{14.0, 0.9, 12.2, 15.8};
 constexpr Published k_cusp_enamel{1.6, 0.1, 1.4, 1.8}, k_valley_enamel{1.0, 0.06, 0.88, 1.12}, k_wall_enamel{1.2, 0.1, 1.0, 1.4};
 constexpr Published k_fissure{0.5, 0.05, 0.4, 0.6}, k_pit{0.2, 0.03, 0.14, 0.26};
-constexpr Published k_roof{1.1, 0.25, 0.6, 1.6};  // above the cervical line; narrow, so that individuals are of about equal difficulty
+constexpr Published k_tip_to_roof{6.75, 0.2, 6.35, 7.15};  // narrow, so that individuals are of about equal difficulty
 
 struct PremolarMeasures {
   double length, width, height, neck_length, neck_width;
@@ -54,7 +54,7 @@ std::vector<CuspPlan> premolar_cusps(Individual& one, const PremolarMeasures& m)
 
 PulpPlan premolar_pulp(Individual& one, const PremolarMeasures& m, const std::vector<CuspPlan>& cusps) {
   PulpPlan q;
-  q.roof_z_mm = one.draw(k_roof);
+  q.roof_z_mm = m.height - one.draw(k_tip_to_roof, 0.75);
   q.floor_z_mm = -one.between(1.0, 1.6);
   q.middle_x_mm = 0.0;
   q.middle_y_mm = 0.0;
@@ -79,7 +79,7 @@ ToothPlan premolar_plan(std::uint64_t seed) {
   PremolarMeasures m{};
   m.length = one.draw(k_crown_length, 0.7);
   m.width = one.draw(k_crown_width, 0.7);
-  m.height = one.draw(k_crown_height, 0.5);
+  m.height = one.draw(k_crown_height, 0.75);
   m.neck_length = one.draw(k_neck_length, 0.7);
   m.neck_width = one.draw(k_neck_width, 0.7);
   const double h = m.height, x = m.length / 6.7, y = m.width / 9.3;

@@ -163,12 +163,13 @@ std::map<std::string, std::pair<double, double>> published_ranges(const std::str
 TYPED_TEST(GrownTeeth, HaveTheMeasuresThatArePublished) {
   const auto ranges = published_ranges(TypeParam::k_heading);
   ASSERT_GE(ranges.size(), 20u);
-  // CAVUM_ALL_TEETH=1 measures the fifty of the page and prints its two columns; without it, one that is drawn.
+  // CAVUM_ALL_TEETH=1 measures the fifty of the page and prints its two last columns; without it, one of them that is drawn.
   const bool all = std::getenv("CAVUM_ALL_TEETH") != nullptr;
+  const std::uint64_t first = all ? 1 : drawn<TypeParam>() % 50 + 1, last = all ? 50 : first;
   std::vector<std::string> names;
   std::map<std::string, std::vector<double>> values;
-  for (std::uint64_t seed = all ? 1 : drawn<TypeParam>(); seed <= (all ? 50 : drawn<TypeParam>()); ++seed) {
-    const auto measures = TypeParam::measure(all ? TypeParam::grow({seed, k_coarse_leaf, 1.0}) : drawn_tooth<TypeParam>());
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
+    const auto measures = TypeParam::measure(TypeParam::grow({seed, k_coarse_leaf, 1.0}));
     EXPECT_EQ(measures.size(), ranges.size()) << "seed " << seed;
     for (const auto& [name, value] : measures) {
       if (values[name].empty()) names.push_back(name);
