@@ -393,6 +393,8 @@ TEST_F(CommandLine, TeethThatCannotBeBuiltAreRefusedAndNothingIsWritten) {
   expect_refused("tooth make cube --edge-mm 0" + out, {"cube", "--edge-mm"});
   expect_refused("tooth make block --size-mm 1,1,1 --layers $(printf 'ena\\377mel'):1" + out, {"--layers", "UTF-8"});
   expect_refused("tooth make cube --tissue $(printf 'a\\033b')" + out, {"cube", "control character"});
+  expect_refused("tooth make molar --seed 7 --canals 4" + out, {"--canals", "--seed"});
+  expect_refused("tooth make incisor --seed -7" + out, {"--seed"});
   EXPECT_FALSE(fs::exists(path("t.cvt")));
 }
 

@@ -17,6 +17,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/force/force_model.h"
+#include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_incisor.h"
 #include "engine/tooth/make/make_molar.h"
@@ -146,18 +147,30 @@ void make_tooth(const MakeArgs& c, const Maker& maker) {
   finish(with_lesion(maker(), c.lesion), c.out, c.json);
 }
 
+/// `--seed`: another individual of the kind. What the plain tooth lets choose is drawn then, so the two do not go together.
+std::shared_ptr<std::optional<std::uint64_t>> add_seed(CLI::App* app, const std::vector<CLI::Option*>& drawn) {
+  auto seed = std::make_shared<std::optional<std::uint64_t>>();
+  auto* option = app->add_option("--seed", *seed, "Draw an individual with measures of its own (docs/teeth.md); without it, the tooth that ships")
+                     ->check([](const std::string& text) { return std::string(text.starts_with('-') ? "--seed is a whole number, 0 or more" : ""); });
+  for (auto* other : drawn) option->excludes(other);
+  return seed;
+}
+
 void add_make_molar(CLI::App& make) {
   auto* molar = make.add_subcommand("molar", "A parametric lower first molar");
   auto shape = std::make_shared<MolarShape>();
   auto args = add_make_args(molar);
   molar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
-  molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str();
   molar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
-  molar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the central fossa, mm")->capture_default_str();
-  molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
-  molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
-  molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str();
-  molar->callback([=] { make_tooth(*args, [&] { return make_molar(*shape); }); });
+  const auto seed = add_seed(
+      molar, {molar->add_option("--canals", shape->canals, "Root canals, 2 to 4")->capture_default_str(),
+              molar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the central fossa, mm")->capture_default_str(),
+              molar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str(),
+              molar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str(),
+              molar->add_option("--chamber-height-mm", shape->chamber_height_mm, "Height of the pulp chamber, mm")->capture_default_str()});
+  molar->callback([=] {
+    make_tooth(*args, [&] { return seed->has_value() ? grow_molar({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_molar(*shape); });
+  });
 }
 
 void add_make_premolar(CLI::App& make) {
@@ -166,10 +179,13 @@ void add_make_premolar(CLI::App& make) {
   auto args = add_make_args(premolar);
   premolar->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   premolar->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
-  premolar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str();
-  premolar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str();
-  premolar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str();
-  premolar->callback([=] { make_tooth(*args, [&] { return make_premolar(*shape); }); });
+  const auto seed = add_seed(
+      premolar, {premolar->add_option("--occlusal-enamel-mm", shape->occlusal_enamel_mm, "Enamel below the fissure, mm")->capture_default_str(),
+                 premolar->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the walls, mm")->capture_default_str(),
+                 premolar->add_option("--chamber-roof-mm", shape->chamber_roof_mm, "z of the pulp chamber's roof, mm")->capture_default_str()});
+  premolar->callback([=] {
+    make_tooth(*args, [&] { return seed->has_value() ? grow_premolar({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_premolar(*shape); });
+  });
 }
 
 void add_make_incisor(CLI::App& make) {
@@ -178,10 +194,13 @@ void add_make_incisor(CLI::App& make) {
   auto args = add_make_args(incisor);
   incisor->add_option("--leaf-mm", shape->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   incisor->add_option("--periodontium-mm", shape->periodontium_mm, "Supporting tissue around the root, mm; 0 = none")->capture_default_str();
-  incisor->add_option("--incisal-enamel-mm", shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str();
-  incisor->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str();
-  incisor->add_option("--chamber-top-mm", shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str();
-  incisor->callback([=] { make_tooth(*args, [&] { return make_incisor(*shape); }); });
+  const auto seed = add_seed(
+      incisor, {incisor->add_option("--incisal-enamel-mm", shape->incisal_enamel_mm, "Enamel at the edge, mm")->capture_default_str(),
+                incisor->add_option("--lateral-enamel-mm", shape->lateral_enamel_mm, "Enamel of the faces, mm")->capture_default_str(),
+                incisor->add_option("--chamber-top-mm", shape->chamber_top_mm, "z of the pulp chamber's incisal end, mm")->capture_default_str()});
+  incisor->callback([=] {
+    make_tooth(*args, [&] { return seed->has_value() ? grow_incisor({**seed, shape->leaf_mm, shape->periodontium_mm}) : make_incisor(*shape); });
+  });
 }
 
 struct BlockArgs {

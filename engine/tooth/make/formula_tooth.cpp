@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/make/periodontium.h"
@@ -23,6 +26,37 @@ TissueGrid formula_grid(const FormulaBox& box, double leaf_mm, double periodonti
   check_lattice(high - low, leaf_mm, name);
   grid.allocate(high - low, leaf_mm, Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm);
   return grid;
+}
+
+void join_tissues(TissueGrid& grid, std::vector<float>& field) {
+  std::vector<std::uint8_t> seen(grid.count());
+  const auto nx = static_cast<std::size_t>(grid.size.x), nxy = nx * static_cast<std::size_t>(grid.size.y);
+  // Four leaves of air lie around, so a neighbour's index is always one of the grid's.
+  const auto body_from = [&](std::size_t first, std::vector<std::size_t>& body) {
+    body.assign(1, first);
+    seen[first] = 1;
+    for (std::size_t next = 0; next < body.size(); ++next)
+      for (const std::size_t beside : {body[next] - 1, body[next] + 1, body[next] - nx, body[next] + nx, body[next] - nxy, body[next] + nxy})
+        if (!seen[beside] && grid.tissue[beside] == grid.tissue[first]) {
+          seen[beside] = 1;
+          body.push_back(beside);
+        }
+  };
+  for (const auto& [tissue, around] : {std::pair{k_pulp, k_dentin}, std::pair{k_enamel, k_dentin}, std::pair{k_dentin, k_enamel}}) {
+    std::vector<std::size_t> largest, body;
+    const auto give = [&, to = around](const std::vector<std::size_t>& leaves) {
+      for (const std::size_t i : leaves) {
+        grid.tissue[i] = to;
+        field[i] = std::min(field[i], -1e-12f);
+      }
+    };
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i] || grid.tissue[i] != tissue) continue;
+      body_from(i, body);
+      if (body.size() > largest.size()) std::swap(body, largest);
+      give(body);
+    }
+  }
 }
 
 Tooth finish_formula_tooth(TissueGrid& grid, const std::vector<float>& field, const std::function<double(Vec3)>& solid, double periodontium_mm,
