@@ -7,6 +7,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_tip_to_edge_mm = 1.2;  // a cusp's tip lies on the table's edge, give or take the scales
+constexpr double k_as_low_mm = 0.03;
 constexpr std::size_t k_thin = 3;
 constexpr int k_passes = 8;
 
@@ -19,6 +20,16 @@ std::vector<std::size_t> arc(std::size_t from, std::size_t to, std::size_t n) {
 
 std::size_t lowest(const Polyline& edge, const std::vector<std::size_t>& places) {
   return *std::min_element(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return edge[a].z < edge[b].z; });
+}
+
+/// The middle of the stretch around the lowest place that is as low: a level crest has its lowest place anywhere.
+std::size_t lowest_middle(const Polyline& edge, const std::vector<std::size_t>& places) {
+  const auto low = std::find(places.begin(), places.end(), lowest(edge, places));
+  const auto as_low = [&](std::size_t p) { return edge[p].z <= edge[*low].z + k_as_low_mm; };
+  auto from = low, to = low;
+  while (from != places.begin() && as_low(*(from - 1))) --from;
+  while (to + 1 != places.end() && as_low(*(to + 1))) ++to;
+  return *(from + (to - from) / 2);
 }
 
 bool is_buccal(const CuspTip& c) { return c.name.find("buccal") != std::string::npos || c.name == "distal"; }
@@ -35,7 +46,7 @@ MarginalRidge ridge_of(const Polyline& edge, std::size_t from, std::size_t to, b
   for (const auto p : places) ridge.crest_mm.push_back(edge[p]);
   if (turn) std::reverse(ridge.crest_mm.begin(), ridge.crest_mm.end());
   ridge.crest_mm = thinned(ridge.crest_mm, k_thin, false);
-  ridge.lowest_mm = edge[lowest(edge, places)];
+  ridge.lowest_mm = edge[lowest_middle(edge, places)];
   return ridge;
 }
 

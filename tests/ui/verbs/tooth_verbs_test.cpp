@@ -35,8 +35,8 @@ TEST_F(ToothVerbs, LandmarksArePrintedDrawnPutAndTakenBack) {
 TEST_F(ToothVerbs, LandmarksThatCannotBePutAreRefused) {
   make();
   const std::string verb = "tooth landmarks " + path("m.cvt") + " ", out = " --out-tooth " + path("x.cvt");
-  for (const std::string bad : {"--set nose=0,0,0" + out, "--set central_pit=0,0" + out, "--set central_pit=a,b,c" + out, "--set cusp_9=0,0,0" + out,
-                                "--unset central_pit" + out, std::string("--set central_pit=0,0,0"), out}) {
+  for (const std::string& bad : {"--set nose=0,0,0" + out, "--set central_pit=0,0" + out, "--set central_pit=a,b,c" + out, "--set cusp_9=0,0,0" + out,
+                                 "--unset central_pit" + out, std::string("--set central_pit=0,0,0"), out}) {
     const auto r = run(verb + bad);
     EXPECT_EQ(r.exit_code, 2) << bad;
     EXPECT_FALSE(std::filesystem::exists(path("x.cvt"))) << bad;
