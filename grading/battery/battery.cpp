@@ -23,7 +23,8 @@
 namespace cavum::grading {
 namespace {
 
-constexpr unsigned k_most_threads = 4;  // each holds a tooth of its own
+constexpr std::int64_t k_most_wait_ticks = 600 * k_ticks_per_second;  // 60 MB of ticks
+constexpr unsigned k_most_threads = 4;                                // each holds a tooth of its own
 
 /// Calls `work(i)` for each of 0..n-1, on some threads. What one throws is thrown when all have ended.
 void for_each_at_once(std::size_t n, const std::function<void(std::size_t)>& work) {
@@ -182,7 +183,7 @@ struct Bench {
 class BatteryRun {
  public:
   BatteryRun(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look)
-      : scenario_(scenario), fine_(scenario, tooth, zones), limit_(scenarios::exam_limit_ticks(scenario)) {
+      : scenario_(scenario), fine_(scenario, tooth, zones), limit_(std::min(scenarios::exam_limit_ticks(scenario), k_most_wait_ticks)) {
     constexpr double k_fine_leaf_mm = 0.07;  // what is wider is quick as it is
     if (look == Look::full || tooth.octree.leaf_mm() > k_fine_leaf_mm) return;
     coarse_tooth_ = coarse_tooth(tooth);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_works = 6;
 constexpr std::uint64_t k_seed = 20261125;
-constexpr std::size_t k_most_balls = 200;
+constexpr std::size_t k_most_pillars = 200, k_most_bites = 60;  // where a target or what lies around it holds less
 
 /// A ball drawn out along the way in: downwards where it is left standing, upwards where it was removed.
 struct Rod {
@@ -28,7 +28,7 @@ double up_mm(Vec3 q, Rod rod) { return length(q - Vec3{rod.at.x, rod.at.y, std::
 std::vector<Rod> pillars(const TargetField& f, double share, Random& random) {
   std::vector<Rod> rods;
   std::vector<std::uint8_t> left(f.leaves().size(), 0);
-  for (std::size_t count = 0; static_cast<double>(count) < share * static_cast<double>(left.size()) && rods.size() < k_most_balls;) {
+  for (std::size_t count = 0; static_cast<double>(count) < share * static_cast<double>(left.size()) && rods.size() < k_most_pillars;) {
     rods.push_back({f.leaves()[random.below(f.leaves().size())].at, random.uniform(0.3, 0.9)});
     for (std::size_t i = 0; i < left.size(); ++i)
       if (left[i] == 0 && down_mm(f.leaves()[i].at, rods.back()) < 0) {
@@ -45,7 +45,7 @@ std::vector<Rod> bites(const TargetField& f, double share, Random& random) {
   const double leaf = tree.leaf_mm(), wanted = share * static_cast<double>(f.leaves().size());
   std::vector<Rod> rods;
   double count = 0;
-  while (count < wanted && rods.size() < k_most_balls) {
+  while (count < wanted && rods.size() < k_most_bites) {
     const double angle_x = random.normal(), angle_y = random.normal();
     const Vec3 way = normalized({angle_x, angle_y, 0}, {1, 0, 0});
     Rod rod{f.leaves()[random.below(f.leaves().size())].at, random.uniform(0.4, 1.0)};

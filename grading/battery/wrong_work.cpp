@@ -118,7 +118,7 @@ Cut Works::middle_of(double share) const {
 
 void Works::nothing() {
   add("hands_in_at_once", "nothing; hands in at once", Mistake::nothing_done, {});
-  add("does_nothing", "nothing; waits until time is up", Mistake::nothing_done, {});
+  add("does_nothing", "nothing; waits until time is up, at most ten minutes", Mistake::nothing_done, {});
   list_.back().waits = true;
   const double beside = 2.5, level = f_.low_mm().z;
   add("everything_in_reach", fmt::format("everything down to the target's floor, {} mm around it", plain_number(beside)), Mistake::torn_down,

@@ -28,7 +28,8 @@ const char k_cavity[] =
     "kind = \"level\", z_mm = -1.6 }\n";
 
 std::string criterion(const std::string& id, const std::string& metric, double full, double zero, double points, const std::string& more = "") {
-  return fmt::format("[[rubric.criteria]]\nid = \"{}\"\nmetric = \"{}\"\nfull = {}\nzero = {}\npoints = {}\n{}\n", id, metric, full, zero, points, more);
+  return fmt::format("[[rubric.criteria]]\nid = \"{}\"\nmetric = \"{}\"\nfull = {}\nzero = {}\npoints = {}\n{}\n", id, metric, full, zero, points,
+                     more);
 }
 const std::string k_removed = criterion("removed", "target_removed_percent", 95, 60, 40, "critical_below = 90");
 const std::string k_sides = criterion("sides", "side_walls_max_over_mm", 0.3, 0.8, 20, "critical_above = 0.8");
@@ -70,7 +71,8 @@ TEST(Battery, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
 }
 
 TEST(Battery, RubricThatLooksAtNothingIsToldOfEveryWrongPieceOfWork) {
-  const std::string text = scenario_with(criterion("time", "time_s", 5, 10, 10), "pass_percent = 0\nborderline_percent = 0\nopen_step_passes = true\n");
+  const std::string text =
+      scenario_with(criterion("time", "time_s", 5, 10, 10), "pass_percent = 0\nborderline_percent = 0\nopen_step_passes = true\n");
   const Battery b = battery_of(text, chambered_block(0.1));
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("[rubric]")), '\n');
   for (const auto& row : b.rows) {
@@ -99,7 +101,8 @@ TEST_P(BlindRubric, LetsThatPassAndIsToldSo) {
   for (const auto& name : GetParam().passes) {
     EXPECT_TRUE(passes.contains(name)) << name;
     EXPECT_TRUE(named(b, name)) << name;
-    const auto p = std::find_if(b.problems.begin(), b.problems.end(), [&](const auto& one) { return one.what.find("'" + name + "'") != std::string::npos; });
+    const auto p =
+        std::find_if(b.problems.begin(), b.problems.end(), [&](const auto& one) { return one.what.find("'" + name + "'") != std::string::npos; });
     ASSERT_NE(p, b.problems.end());
     EXPECT_NE(p->what_to_do.find(GetParam().advice), std::string::npos) << p->text();
   }
@@ -107,15 +110,22 @@ TEST_P(BlindRubric, LetsThatPassAndIsToldSo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, BlindRubric,
-    ::testing::Values(Blind{"depth", k_removed + k_sides + k_pulp, {"too_deep_by_0.8_mm"}, "add a criterion on floor_max_over_mm with a critical_above below"},
-                      Blind{"width", k_removed + k_floor + k_pulp, {"too_wide_by_1_mm", "shank_at_the_entrance", "bites_1", "everything_in_reach"}, "critical_above below"},
-                      Blind{"what_is_left", k_sides + k_floor + k_pulp, {"stops_at_70_percent_by_length", "stops_at_85_percent_by_depth", "half_as_deep", "pillars_1"}, "critical_below above"},
-                      Blind{"the_pulp", k_removed + k_sides, {"opens_pulp", "opens_narrowly_pulp"}, "add a criterion on perforated with a critical_above below"},
-                      Blind{"the_middle",
-                            criterion("length", "outline_length_error_mm", 0.2, 1, 40) + criterion("width", "outline_width_error_mm", 0.2, 1, 40) +
-                                criterion("depth", "depth_error_mm", 0.2, 1, 20),
-                            {"holes_where_marks_are"},
-                            "add a criterion on target_removed_percent with a critical_below above"}),
+    ::testing::Values(
+        Blind{"depth", k_removed + k_sides + k_pulp, {"too_deep_by_0.8_mm"}, "add a criterion on floor_max_over_mm with a critical_above below"},
+        Blind{"width",
+              k_removed + k_floor + k_pulp,
+              {"too_wide_by_1_mm", "shank_at_the_entrance", "bites_1", "everything_in_reach"},
+              "critical_above below"},
+        Blind{"what_is_left",
+              k_sides + k_floor + k_pulp,
+              {"stops_at_70_percent_by_length", "stops_at_85_percent_by_depth", "half_as_deep", "pillars_1"},
+              "critical_below above"},
+        Blind{"the_pulp", k_removed + k_sides, {"opens_pulp", "opens_narrowly_pulp"}, "add a criterion on perforated with a critical_above below"},
+        Blind{"the_middle",
+              criterion("length", "outline_length_error_mm", 0.2, 1, 40) + criterion("width", "outline_width_error_mm", 0.2, 1, 40) +
+                  criterion("depth", "depth_error_mm", 0.2, 1, 20),
+              {"holes_where_marks_are"},
+              "add a criterion on target_removed_percent with a critical_below above"}),
     [](const auto& test) { return test.param.to; });
 
 TEST(Battery, AccessTaskHasTheRoofLeftAndHoldsOnlyWhatApplies) {
@@ -133,8 +143,8 @@ TEST(Battery, AccessTaskHasTheRoofLeftAndHoldsOnlyWhatApplies) {
 }
 
 TEST(Battery, SaysWhenExactlyTheTargetDoesNotPass) {
-  const Battery b = battery_of(scenario_with(criterion("removed", "target_removed_percent", 95, 60, 10) + criterion("much", "removed_mm3", 30, 12, 90)),
-                               chambered_block(0.1));
+  const Battery b = battery_of(
+      scenario_with(criterion("removed", "target_removed_percent", 95, 60, 10) + criterion("much", "removed_mm3", 30, 12, 90)), chambered_block(0.1));
   ASSERT_FALSE(b.problems.empty());
   EXPECT_NE(b.problems[0].what.find("who removes exactly the target gets 10.0 of 100.0 points"), std::string::npos) << b.problems[0].text();
   EXPECT_NE(b.problems[0].what_to_do.find("'much'"), std::string::npos) << b.problems[0].text();
@@ -142,9 +152,11 @@ TEST(Battery, SaysWhenExactlyTheTargetDoesNotPass) {
 
 TEST(Battery, MoreOfAnErrorThatGainsPointsIsFoundWithTheCriterion) {
   // the author thinks that a wide cavity is a good one
-  const Battery b = battery_of(scenario_with(k_removed + k_floor + k_pulp + criterion("generous", "container_sides_mm3", 6, 0, 40)), chambered_block(0.1));
-  const auto p = std::find_if(b.problems.begin(), b.problems.end(),
-                              [](const auto& one) { return one.what.find("more of an error gains points (all walls too far)") != std::string::npos; });
+  const Battery b =
+      battery_of(scenario_with(k_removed + k_floor + k_pulp + criterion("generous", "container_sides_mm3", 6, 0, 40)), chambered_block(0.1));
+  const auto p = std::find_if(b.problems.begin(), b.problems.end(), [](const auto& one) {
+    return one.what.find("more of an error gains points (all walls too far)") != std::string::npos;
+  });
   ASSERT_NE(p, b.problems.end());
   EXPECT_TRUE(p->warning);
   EXPECT_NE(p->what_to_do.find("'generous'"), std::string::npos) << p->text();
@@ -169,13 +181,17 @@ TEST(GrowingErrors, RiseWithinTheBoundIsNoneAndPassingAfterFailingIsAMistake) {
   s.path = "s.toml";
   const Ladder ladder{"deeper", "the floor too deep", "mm", {0.1, 0.5, 1}, {}};
   const Result honest = with(100, Verdict::pass, false);
-  EXPECT_TRUE(judge_growth(s, ladder, honest, {with(90, Verdict::pass, false), with(50, Verdict::fail, true), with(20, Verdict::fail, true)}).empty());
-  EXPECT_TRUE(judge_growth(s, ladder, honest, {with(50, Verdict::fail, true), with(52, Verdict::fail, true, 3), with(20, Verdict::fail, true)}).empty());
-  const auto rises = judge_growth(s, ladder, honest, {with(50, Verdict::fail, true), with(54, Verdict::fail, true, 3), with(20, Verdict::fail, true)});
+  EXPECT_TRUE(
+      judge_growth(s, ladder, honest, {with(90, Verdict::pass, false), with(50, Verdict::fail, true), with(20, Verdict::fail, true)}).empty());
+  EXPECT_TRUE(
+      judge_growth(s, ladder, honest, {with(50, Verdict::fail, true), with(52, Verdict::fail, true, 3), with(20, Verdict::fail, true)}).empty());
+  const auto rises =
+      judge_growth(s, ladder, honest, {with(50, Verdict::fail, true), with(54, Verdict::fail, true, 3), with(20, Verdict::fail, true)});
   ASSERT_EQ(rises.size(), 1u);
   EXPECT_TRUE(rises[0].warning);
   EXPECT_NE(rises[0].what.find("0.1 mm gets 50.0, 0.5 mm gets 54.0"), std::string::npos) << rises[0].text();
-  const auto passes = judge_growth(s, ladder, honest, {with(80, Verdict::fail, true), with(70, Verdict::pass, false), with(70, Verdict::pass, false)});
+  const auto passes =
+      judge_growth(s, ladder, honest, {with(80, Verdict::fail, true), with(70, Verdict::pass, false), with(70, Verdict::pass, false)});
   ASSERT_EQ(passes.size(), 1u);
   EXPECT_FALSE(passes[0].warning);
   EXPECT_NE(passes[0].what.find("0.1 mm fails, 0.5 mm passes"), std::string::npos) << passes[0].text();
@@ -207,7 +223,8 @@ TEST(Battery, NoWrongWorkPassesATaskThatShips) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   Random random(testing_basics::drawn_seed("Battery.NoWrongWorkPassesATaskThatShips"));
-  while (std::getenv("CAVUM_DEEP") == nullptr && files.size() > 2) files.erase(files.begin() + static_cast<std::ptrdiff_t>(random.below(files.size())));
+  while (std::getenv("CAVUM_DEEP") == nullptr && files.size() > 2)
+    files.erase(files.begin() + static_cast<std::ptrdiff_t>(random.below(files.size())));
   for (const auto& file : files) {
     const scenarios::Scenario scenario = scenarios::load_scenario(file);
     const Tooth tooth = load_tooth_file(scenarios::find_tooth_file(scenario));

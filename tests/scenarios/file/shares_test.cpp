@@ -19,9 +19,10 @@ TEST(Shares, TwoThatCountTheSameAreWarnedOfUnlessOneNamesTheOther) {
   const auto problems = twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3"));
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_TRUE(problems[0].warning);
-  EXPECT_EQ(problems[0].text(),
-            "r.toml:12:10: warning: 'guarded' charges what 'elsewhere' charges, too: protected_mm3 and outside_mm3 both count protected tissue; take one "
-            "of them out, or say that it is meant: shares_with = [\"elsewhere\"]");
+  EXPECT_EQ(
+      problems[0].text(),
+      "r.toml:12:10: warning: 'guarded' charges what 'elsewhere' charges, too: protected_mm3 and outside_mm3 both count protected tissue; take one "
+      "of them out, or say that it is meant: shares_with = [\"elsewhere\"]");
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "shares_with = [\"elsewhere\"]")).empty());
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3", "shares_with = [\"guarded\"]") + criterion("guarded", "protected_mm3")).empty());
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "critical_above = 0.5", 0)).empty())
@@ -39,7 +40,8 @@ TEST(Shares, WallsFloorAndVolumesAreToldApart) {
 TEST(Shares, IdThatIsNoOtherCriterionIsAMistake) {
   for (const char* wrong : {"walls", "itself"}) {
     try {
-      static_cast<void>(twice(criterion("wall", "container_sides_mm3") + criterion("itself", "outside_mm3", fmt::format("shares_with = [\"{}\"]", wrong))));
+      static_cast<void>(
+          twice(criterion("wall", "container_sides_mm3") + criterion("itself", "outside_mm3", fmt::format("shares_with = [\"{}\"]", wrong))));
       ADD_FAILURE() << wrong;
     } catch (const ProblemsError& e) {
       EXPECT_NE(std::string(e.what()).find("'itself' shares with"), std::string::npos) << e.what();
