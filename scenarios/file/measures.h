@@ -55,9 +55,9 @@ struct Measure {
   const Most* most = nullptr;  ///< where its values end, from 0 on; null: nothing is known of that
   Needs needs = Needs::nothing;
   unsigned counts = k_counts_nothing;  ///< bits of Counts
-  bool counts_faults = false;     ///< it answers whether something was opened that must not be
-  bool counts_protected = false;  ///< it counts what is removed of what is protected
-  bool of_floor = false;          ///< it speaks of the cavity's floor alone
+  bool counts_faults = false;          ///< it answers whether something was opened that must not be
+  bool counts_protected = false;       ///< it counts what is removed of what is protected
+  bool of_floor = false;               ///< it speaks of the cavity's floor alone
 
   // Members of a family
   const char* family = nullptr;           ///< its key; null: a measure by itself

@@ -20,8 +20,8 @@ struct LaidScenario {
 };
 
 struct CheckedScenario {
-  std::vector<Problem> problems;     ///< mistakes and warnings, in the order of the file
-  std::optional<double> expert_s;    ///< what the built-in expert needs, about; none with mistakes
+  std::vector<Problem> problems;                  ///< mistakes and warnings, in the order of the file
+  std::optional<double> expert_s;                 ///< what the built-in expert needs, about; none with mistakes
   std::shared_ptr<const LaidScenario> laid = {};  ///< what was checked; none with mistakes, or without its tooth
   [[nodiscard]] bool sound() const;               ///< no mistakes; warnings may be
 };
