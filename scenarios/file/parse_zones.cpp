@@ -37,7 +37,8 @@ double area_mm2(const std::vector<Vec3>& p) {
 void check_outline(CheckedTable& t, const OutlineSpec& o, const ProblemList& problems) {
   using Kind = OutlineSpec::Kind;
   if (!problems.strict()) return;
-  if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) || ((o.kind == Kind::stroke || o.kind == Kind::fissure) && 0.5 * o.width_mm + o.offset_mm <= 0))
+  if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) ||
+      ((o.kind == Kind::stroke || o.kind == Kind::fissure) && 0.5 * o.width_mm + o.offset_mm <= 0))
     t.problem("offset_mm", "'offset_mm' leaves nothing of the outline", "move it inwards by less than half its width");
   if (o.kind != Kind::polygon || o.points_mm.size() < 3) return;
   if (crosses_itself(o.points_mm))
@@ -94,7 +95,8 @@ BottomSpec read_bottom(const toml::table& table, const std::string& name, Proble
   using Kind = BottomSpec::Kind;
   CheckedTable t(table, name + " bottom", problems);
   BottomSpec b;
-  const std::size_t kind = t.word("kind", {"level", "below_surface", "below_lowest", "below_mean", "tissue_roof", "tissue_floor", "below_border"}, 0, true);
+  const std::size_t kind =
+      t.word("kind", {"level", "below_surface", "below_lowest", "below_mean", "tissue_roof", "tissue_floor", "below_border"}, 0, true);
   if (kind == CheckedTable::k_wrong) return b;
   b.kind = static_cast<Kind>(kind);
   switch (b.kind) {
@@ -242,7 +244,8 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   s.column = static_cast<int>(table.source().begin.column);
   places[at] = {s.line, s.column};
   for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, fmt::format("{}/{}", at, key));
-  const std::size_t kind = t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone", "proximal_box"}, 0, true);
+  const std::size_t kind =
+      t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone", "proximal_box"}, 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
   s.kind = static_cast<ShapeSpec::Kind>(kind);

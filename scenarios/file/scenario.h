@@ -34,11 +34,11 @@ struct OutlineSpec {
   double width_mm = 0.0;        ///< of a stroke, and along a fissure
   std::string tissue = "pulp";  ///< projection: seen from above, the shadow of this tissue
   TissuePart part = TissuePart::all;
-  double offset_mm = 0.0;    ///< moves the outline outwards (negative: inwards)
-  double rounding_mm = 0.0;  ///< projection: no notch and no corner sharper than this radius
-  double ridge_mm = 0.0;     ///< fissure: of each marginal ridge that stays, from its crest to the outline
-  bool branches = false;     ///< fissure: its branches, too
-  int through = 0;           ///< fissure: goes on through the mesial (+1) or distal (-1) ridge
+  double offset_mm = 0.0;                   ///< moves the outline outwards (negative: inwards)
+  double rounding_mm = 0.0;                 ///< projection: no notch and no corner sharper than this radius
+  double ridge_mm = 0.0;                    ///< fissure: of each marginal ridge that stays, from its crest to the outline
+  bool branches = false;                    ///< fissure: its branches, too
+  int through = 0;                          ///< fissure: goes on through the mesial (+1) or distal (-1) ridge
   std::vector<std::vector<Vec3>> paths_mm;  ///< fissure: its lines on the tooth, once it was placed there ...
   std::vector<Vec3> bottom_line_mm;         ///< ... and the bottom of the central one between the ridges, z at the surface
 };

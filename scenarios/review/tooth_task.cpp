@@ -16,8 +16,8 @@
 namespace cavum::scenarios {
 namespace {
 
-// Preparation guides: the isthmus about a quarter of the distance between cusps, 1.2 to 1.5 mm; 1.5 to 2 mm deep from the fissure, 0.2 to 0.5 mm of it
-// in dentin; 1.6 mm of each marginal ridge stays, less on a small tooth; the box's axial wall 1.2 to 1.5 mm from the surface, its floor half a
+// Preparation guides: the isthmus about a quarter of the distance between cusps, 1.2 to 1.5 mm; 1.5 to 2 mm deep from the fissure, 0.2 to 0.5 mm of
+// it in dentin; 1.6 mm of each marginal ridge stays, less on a small tooth; the box's axial wall 1.2 to 1.5 mm from the surface, its floor half a
 // millimetre below the contact and clear of the neck (Sturdevant's Art and Science of Operative Dentistry, amalgam classes I and II).
 constexpr double k_isthmus_share = 0.25, k_narrowest_mm = 1.2, k_widest_mm = 1.5;
 constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm = 4.0;
@@ -41,9 +41,8 @@ struct ToothTask {
 };
 
 bool has_tissue(const Tooth& tooth, const char* name) {
-  return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [&](const Tissue& t) {
-    return t.name == name && tooth.octree.count_leaves()[t.id] > 0;
-  });
+  return std::any_of(tooth.tissues.begin(), tooth.tissues.end(),
+                     [&](const Tissue& t) { return t.name == name && tooth.octree.count_leaves()[t.id] > 0; });
 }
 
 std::string guard_text(double offset_mm) {
@@ -107,11 +106,13 @@ std::vector<Choice> class_1(const Tooth& tooth, const Landmarks& l) {
   const std::string width = isthmus_mm(l);
   for (const Floor& floor : floors(tooth, l))
     for (const char* ridge : {"1.6", "1.2", "0.8"})
-      list.push_back({fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
-                                  "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
-                                  width, ridge, floor.toml),
-                      guard_text(0.5), fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; leave both marginal ridges.", width, floor.words),
-                      fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge)});
+      list.push_back(
+          {fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
+                       "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
+                       width, ridge, floor.toml),
+           guard_text(0.5),
+           fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; leave both marginal ridges.", width, floor.words),
+           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge)});
   return list;
 }
 
@@ -138,14 +139,18 @@ std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool w
         const std::string level = fixed(above + more, 1);
         std::string zones;
         if (with_step)
-          zones = fmt::format("# The occlusal step along the fissure, through the {} ridge ...\n[[zones.target]]\nshape = \"column\"\n"
-                              "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = 1.2, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact area.\n",
-                              word, isthmus, word, floor.toml);
+          zones = fmt::format(
+              "# The occlusal step along the fissure, through the {} ridge ...\n[[zones.target]]\nshape = \"column\"\n"
+              "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = 1.2, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact "
+              "area.\n",
+              word, isthmus, word, floor.toml);
         else
           zones = "# A box at the contact area, open to the neighbouring tooth.\n";
-        zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word, width, axial, level);
-        const std::string box_words = fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width,
-                                                  word, axial, level);
+        zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word,
+                             width, axial, level);
+        const std::string box_words =
+            fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width, word,
+                        axial, level);
         list.push_back({zones, guard_text(0.5),
                         with_step ? fmt::format("An occlusal step along the fissure, {} mm wide, floor {}, and {}.", isthmus, floor.words, box_words)
                                   : fmt::format("Cut {}.", box_words),
@@ -157,19 +162,25 @@ std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool w
 std::vector<Choice> access(const Tooth&, const Landmarks&) {
   std::vector<Choice> list;
   for (const char* rounding : {"0.55", "0.5"})
-    list.push_back({fmt::format("# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canals begin.\n[[zones.target]]\n"
-                                "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1, rounding_mm = {} }}\n"
-                                "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
-                                rounding),
-                    "", "Remove the whole roof of the pulp chamber with its horns; leave walls and floor.", "the chamber's shadow, corners of " + std::string(rounding) + " mm"});
+    list.push_back(
+        {fmt::format(
+             "# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canals "
+             "begin.\n[[zones.target]]\n"
+             "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1, rounding_mm = {} }}\n"
+             "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
+             rounding),
+         "", "Remove the whole roof of the pulp chamber with its horns; leave walls and floor.",
+         "the chamber's shadow, corners of " + std::string(rounding) + " mm"});
   return list;
 }
 
 std::vector<Choice> lesion(const Tooth&, const Landmarks&) {
-  return {{"# The lesion itself ...\n[[zones.target]]\nshape = \"tissue\"\ntissue = \"lesion\"\n\n# ... and the way to it: its shadow, down to its roof.\n"
-           "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"lesion\", rounding_mm = 0.55 }\n"
-           "bottom = { kind = \"tissue_roof\", tissue = \"lesion\" }\n",
-           guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
+  return {
+      {"# The lesion itself ...\n[[zones.target]]\nshape = \"tissue\"\ntissue = \"lesion\"\n\n# ... and the way to it: its shadow, down to its "
+       "roof.\n"
+       "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"lesion\", rounding_mm = 0.55 }\n"
+       "bottom = { kind = \"tissue_roof\", tissue = \"lesion\" }\n",
+       guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
 }
 
 constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
@@ -196,15 +207,20 @@ const std::vector<ToothTask>& tasks() {
       {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true)},
       {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false)},
       {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false)},
-      {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])", R"(["periodontium"])",
+      {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
+       R"(["periodontium"])",
        [](const Tooth& tooth, const Landmarks& l) -> std::string {
          if (!has_tissue(tooth, "pulp")) return "it has no pulp";
-         if (!l.incisal_edge_mm.empty()) return "it is a front tooth: its access leans, and is drawn by hand (data/scenarios/incisor_access.toml shows how)";
+         if (!l.incisal_edge_mm.empty())
+           return "it is a front tooth: its access leans, and is drawn by hand (data/scenarios/incisor_access.toml shows how)";
          return l.chamber_roof_mm ? "" : "no pulp chamber is found in it";
        },
        access},
       {"lesion", "Removal of a hidden lesion", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
-       [](const Tooth& tooth, const Landmarks&) -> std::string { return has_tissue(tooth, "lesion") ? "" : "it has no lesion: `cavum tooth lesion` grows one"; }, lesion}};
+       [](const Tooth& tooth, const Landmarks&) -> std::string {
+         return has_tissue(tooth, "lesion") ? "" : "it has no lesion: `cavum tooth lesion` grows one";
+       },
+       lesion}};
   return k_tasks;
 }
 
@@ -242,7 +258,8 @@ std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& land
   return list;
 }
 
-WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, const std::string& tooth_file, const std::string& path, const std::string& task) {
+WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, const std::string& tooth_file, const std::string& path,
+                             const std::string& task) {
   const ToothTask* asked = nullptr;
   std::string words;
   for (const auto& t : tasks()) {
@@ -251,7 +268,8 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   }
   if (asked == nullptr) throw Error("--task " + task, "there is no such task", "choose one of " + words);
   if (const std::string why = asked->why_not(tooth, landmarks); !why.empty())
-    throw Error("--task " + task, fmt::format("'{}' is not fit for it: {}", tooth.name, why), "see `cavum tooth landmarks`, or choose another of " + words);
+    throw Error("--task " + task, fmt::format("'{}' is not fit for it: {}", tooth.name, why),
+                "see `cavum tooth landmarks`, or choose another of " + words);
 
   WrittenTask best;
   std::string refused;
@@ -282,7 +300,8 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     if (fewest == 0 || (fewest < k_none && ++tried >= k_most_tried)) return best;
     if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
   }
-  if (fewest == k_none) throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
+  if (fewest == k_none)
+    throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
   return best;
 }
 

@@ -12,8 +12,8 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr double k_line_mm = 0.03;    // a line is known so well with fewer points
-constexpr double k_beyond_mm = 3.0;   // out of the tooth
+constexpr double k_line_mm = 0.03;   // a line is known so well with fewer points
+constexpr double k_beyond_mm = 3.0;  // out of the tooth
 constexpr std::size_t k_fewest = 2;  // points of a line
 
 Vec3 flat(Vec3 p) { return {p.x, p.y, 0}; }
@@ -84,7 +84,8 @@ const Vec3* furthest(const Polyline& line, int side) {
 
 OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const std::string& where) {
   if (landmarks.central_fissure_mm.size() < k_fewest)
-    throw Error(where, "no central fissure is found on this tooth", "look at `cavum tooth landmarks`, set its pits there, or draw the outline yourself");
+    throw Error(where, "no central fissure is found on this tooth",
+                "look at `cavum tooth landmarks`, set its pits there, or draw the outline yourself");
   OutlineSpec placed = spec;
   const double away_mm = spec.ridge_mm + 0.5 * spec.width_mm;
   Polyline line = begun_at_ridge(landmarks.central_fissure_mm, landmarks.mesial_ridge, away_mm, spec.through > 0);
@@ -104,11 +105,13 @@ ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const La
   const std::string_view side = spec.side > 0 ? "mesial" : "distal";
   const Vec3 *contact = furthest(landmarks.height_of_contour_mm, spec.side), *neck = furthest(landmarks.neck_mm, spec.side);
   if (contact == nullptr || neck == nullptr)
-    throw Error(where, fmt::format("no {} contact area or no neck is found on this tooth", side), "look at `cavum tooth landmarks`, or place the box yourself");
+    throw Error(where, fmt::format("no {} contact area or no neck is found on this tooth", side),
+                "look at `cavum tooth landmarks`, or place the box yourself");
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm(), floor_mm = neck->z + spec.above_neck_mm;
   if (floor_mm > contact->z + 1.0)
-    throw Error(where, fmt::format("the box's floor lies {} mm above the {} contact", fixed(floor_mm - contact->z, 2), side), "make 'above_neck_mm' smaller");
+    throw Error(where, fmt::format("the box's floor lies {} mm above the {} contact", fixed(floor_mm - contact->z, 2), side),
+                "make 'above_neck_mm' smaller");
   // the outer surface just above the floor, coming from outside
   const double beyond_mm = tree.origin_mm().x + (spec.side > 0 ? static_cast<double>(tree.size().x) * leaf : 0.0);
   double surface_mm = beyond_mm;

@@ -25,7 +25,8 @@ void grow(const LesionArgs& a) {
   Tooth tooth = load_tooth_file(a.file);
   const LesionShape shape = place_lesion(tooth, find_landmarks(tooth), a.site);
   tooth = plant_lesion(std::move(tooth), shape);
-  const std::string what = fmt::format("{} lesion, {} mm wide, {} mm into dentin", a.site.surface, fixed(a.site.width_mm, 1), fixed(a.site.depth_mm, 1));
+  const std::string what =
+      fmt::format("{} lesion, {} mm wide, {} mm into dentin", a.site.surface, fixed(a.site.width_mm, 1), fixed(a.site.depth_mm, 1));
   tooth.name += ", " + what;
   tooth.source += fmt::format("; {} at [{}, {}, {}] mm", what, fixed(shape.centre_mm.x, 2), fixed(shape.centre_mm.y, 2), fixed(shape.centre_mm.z, 2));
   save_tooth_file(tooth, a.out);
@@ -33,11 +34,12 @@ void grow(const LesionArgs& a) {
   const double leaf = tooth.octree.leaf_mm(), mm3 = static_cast<double>(leaves) * leaf * leaf * leaf;
   const Vec3 c = shape.centre_mm, r = shape.radii_mm;
   if (a.json) {
-    print_json(nlohmann::ordered_json{{"tooth", a.out}, {"site", a.site.surface}, {"centre_mm", {c.x, c.y, c.z}}, {"radii_mm", {r.x, r.y, r.z}}, {"lesion_mm3", mm3}});
+    print_json(nlohmann::ordered_json{
+        {"tooth", a.out}, {"site", a.site.surface}, {"centre_mm", {c.x, c.y, c.z}}, {"radii_mm", {r.x, r.y, r.z}}, {"lesion_mm3", mm3}});
     return;
   }
-  std::printf("%s: %s, %.2f mm3, around [%.2f, %.2f, %.2f] mm\nnext: cavum scenario new --tooth %s --task lesion --out F.toml\n", a.out.c_str(), what.c_str(), mm3,
-              c.x, c.y, c.z, a.out.c_str());
+  std::printf("%s: %s, %.2f mm3, around [%.2f, %.2f, %.2f] mm\nnext: cavum scenario new --tooth %s --task lesion --out F.toml\n", a.out.c_str(),
+              what.c_str(), mm3, c.x, c.y, c.z, a.out.c_str());
 }
 
 }  // namespace

@@ -105,7 +105,8 @@ void add_scenario_new(CLI::App& scenario, int& exit_code) {
   for (const auto& c : scenarios::template_choices()) known += fmt::format("{}{} {}", known.empty() ? "" : ", ", c.tooth, c.task);
   for (const auto& w : scenarios::tooth_task_words()) words += (words.empty() ? "" : ", ") + w;
   news->add_option("--tooth", o->tooth,
-                   fmt::format("kind of tooth, with the task one of: {}; or a tooth file (.cvt), whose landmarks the zones follow, with one of: {}", known, words))
+                   fmt::format("kind of tooth, with the task one of: {}; or a tooth file (.cvt), whose landmarks the zones follow, with one of: {}",
+                               known, words))
       ->capture_default_str();
   news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
   news->add_option("--out", o->out, "file to write");

@@ -9,7 +9,7 @@ namespace {
 constexpr double k_tip_to_edge_mm = 1.2;  // a cusp's tip lies on the table's edge, give or take the scales
 constexpr double k_as_low_mm = 0.03;
 constexpr std::size_t k_thin = 3;
-constexpr int k_passes = 8;
+constexpr int k_crest_passes = 8;
 
 /// Places of a closed line from one to another, both included, in its own direction.
 std::vector<std::size_t> arc(std::size_t from, std::size_t to, std::size_t n) {
@@ -53,7 +53,7 @@ MarginalRidge ridge_of(const Polyline& edge, std::size_t from, std::size_t to, b
 }  // namespace
 
 void find_ridges(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks) {
-  const Polyline edge = line_of(maps.fissures, table.edge, true, k_passes);
+  const Polyline edge = line_of(maps.fissures, table.edge, true, k_crest_passes);
   if (edge.size() < 12) return;
   marks.table = thinned(edge, k_thin, true);
   std::vector<OnEdge> tips;

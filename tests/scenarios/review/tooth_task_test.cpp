@@ -13,8 +13,8 @@ namespace {
 std::string file_of(const char* tooth) { return testing_basics::data_path(std::string("teeth/") + tooth); }
 
 TEST(ToothTask, AFrontToothAndABlockAreOfferedWhatMakesSense) {
-  for (const auto& [file, least, most] : {std::tuple("lower_molar.cvt", 6, 6), std::tuple("upper_premolar.cvt", 6, 6), std::tuple("upper_incisor.cvt", 0, 0),
-                                         std::tuple("block.cvt", 0, 1)}) {
+  for (const auto& [file, least, most] : {std::tuple("lower_molar.cvt", 6, 6), std::tuple("upper_premolar.cvt", 6, 6),
+                                          std::tuple("upper_incisor.cvt", 0, 0), std::tuple("block.cvt", 0, 1)}) {
     const Tooth tooth = load_tooth_file(file_of(file));
     int offered = 0;
     for (const auto& t : offered_tasks(tooth, find_landmarks(tooth))) offered += t.why_not.empty() ? 1 : 0;

@@ -87,10 +87,11 @@ TEST(PlacedFissure, OnTheMolarThatShipsAFloorLiesInDentinByWhatIsAsked) {
   const Tooth molar = load_tooth_file(testing_basics::data_path("teeth/lower_molar.cvt"));
   const Landmarks l = find_landmarks(molar);
   ASSERT_GE(l.central_fissure_mm.size(), 2u);
-  const ZoneMap zones = build_zones(parse_scenario(scenario_text("[[zones.target]]\nshape = \"column\"\noutline = { kind = \"fissure\", width_mm = 1.4 }\n"
-                                                                 "bottom = { kind = \"below_border\", depth_mm = 0.3 }\n"),
-                                                   "s.toml"),
-                                    molar);
+  const ZoneMap zones =
+      build_zones(parse_scenario(scenario_text("[[zones.target]]\nshape = \"column\"\noutline = { kind = \"fissure\", width_mm = 1.4 }\n"
+                                               "bottom = { kind = \"below_border\", depth_mm = 0.3 }\n"),
+                                 "s.toml"),
+                  molar);
   double border_mm = 1e9;  // enamel's lowest leaf under the line, counted leaf by leaf
   int beside = 0;
   for (const Vec3& p : l.central_fissure_mm) {
@@ -99,7 +100,7 @@ TEST(PlacedFissure, OnTheMolarThatShipsAFloorLiesInDentinByWhatIsAsked) {
     border_mm = std::min(border_mm, at.z);
     beside += zones.zone(molar.octree.leaf_at({p.x, p.y, p.z - 0.3})) == Zone::target ? 0 : 1;
   }
-  EXPECT_NEAR(zones.target_low_mm().z, border_mm - 0.3, 0.11);  // a leaf each, and the relief is smoothed
+  EXPECT_NEAR(zones.target_low_mm().z, border_mm - 0.3, 0.11);           // a leaf each, and the relief is smoothed
   EXPECT_LT(beside, static_cast<int>(l.central_fissure_mm.size()) / 2);  // its ends stay with the ridges
 }
 
