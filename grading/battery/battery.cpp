@@ -19,6 +19,7 @@
 #include "scenarios/exam/runner.h"
 #include "scenarios/file/measures.h"
 #include "scenarios/file/rubric_check.h"
+#include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
 namespace {
@@ -187,7 +188,9 @@ class BatteryRun {
     constexpr double k_fine_leaf_mm = 0.07;  // what is wider is quick as it is
     if (look == Look::full || tooth.octree.leaf_mm() > k_fine_leaf_mm) return;
     coarse_tooth_ = coarse_tooth(tooth);
-    coarse_zones_ = scenarios::build_zones(scenario, coarse_tooth_);
+    // in coarse leaves a fissure may not be found, or lie elsewhere
+    coarse_zones_ = scenarios::follows_landmarks(scenario.zones) ? scenarios::build_zones(scenario, coarse_tooth_, find_landmarks(tooth))
+                                                                 : scenarios::build_zones(scenario, coarse_tooth_);
     coarse_.emplace(scenario, coarse_tooth_, coarse_zones_);
   }
 

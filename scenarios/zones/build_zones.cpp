@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/leaf_parts.h"
+#include "scenarios/zones/placed.h"
 #include "scenarios/zones/shape.h"
 #include "scenarios/zones/target_surface.h"
 #include "scenarios/zones/zone_map.h"
@@ -83,7 +84,7 @@ Zone zone_at(double distance_mm, bool bottom, const ZoneSpec& spec) {
 /// Makes a map step by step, each from what the ones before it found.
 class ZoneBuilder {
  public:
-  ZoneBuilder(const Scenario& scenario, const Tooth& tooth);
+  ZoneBuilder(const Scenario& scenario, const Tooth& tooth, std::optional<Landmarks> landmarks);
   ZoneMap build();
 
  private:
@@ -109,11 +110,11 @@ class ZoneBuilder {
   std::vector<std::uint8_t> tissue_;  // of the leaves of the map's box
 };
 
-ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth)
+ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth, std::optional<Landmarks> landmarks)
     : tree_(tooth.octree),
       spec_(scenario.zones),
       tooth_(tooth),
-      maker_(tooth, scenario.path),
+      maker_(tooth, scenario.path, std::move(landmarks)),
       target_(maker_.make(spec_.target)),
       where_(spec_.target.empty() ? scenario.path : place_text(scenario.path, spec_.target[0])) {}
 
@@ -279,6 +280,10 @@ void ZoneBuilder::lay_shares() {
   });
 }
 
-ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) { return ZoneBuilder(scenario, tooth).build(); }
+ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) { return ZoneBuilder(scenario, tooth, {}).build(); }
+
+ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth, const Landmarks& landmarks) {
+  return ZoneBuilder(scenario, tooth, landmarks).build();
+}
 
 }  // namespace cavum::scenarios

@@ -82,6 +82,12 @@ const Vec3* furthest(const Polyline& line, int side) {
 
 }  // namespace
 
+bool follows_landmarks(const ZoneSpec& zones) noexcept {
+  const auto does = [](const ShapeSpec& s) { return s.kind == ShapeSpec::Kind::proximal_box || s.outline.kind == OutlineSpec::Kind::fissure; };
+  return std::any_of(zones.target.begin(), zones.target.end(), does) ||
+         std::any_of(zones.protected_shapes.begin(), zones.protected_shapes.end(), does);
+}
+
 OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const std::string& where) {
   if (landmarks.central_fissure_mm.size() < k_fewest)
     throw Error(where, "no central fissure is found on this tooth",

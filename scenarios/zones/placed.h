@@ -5,8 +5,15 @@
 
 #include "engine/tooth/anatomy/landmarks.h"
 #include "scenarios/file/scenario.h"
+#include "scenarios/zones/zone_map.h"
 
 namespace cavum::scenarios {
+
+/// Whether a body of the target or of what is protected is told by landmarks.
+[[nodiscard]] bool follows_landmarks(const ZoneSpec& zones) noexcept;
+
+/// `build_zones` (zone_map.h) by landmarks that are known already: those of the same tooth in finer leaves, say.
+[[nodiscard]] ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth, const Landmarks& landmarks);
 
 /// A fissure's outline with its lines (`paths_mm`) on the tooth: the central fissure from ridge to ridge, as far as `ridge_mm` lets it, and the
 /// branches when they are asked for. Every line is known to 0.03 mm. Throws Error when the tooth has no central fissure, or nothing of it is left.

@@ -300,8 +300,10 @@ struct ShapeMaker::Cache {
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
 };
 
-ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where)
-    : tooth_(tooth), where_(std::move(where)), work_(where_), cache_(std::make_unique<Cache>()) {}
+ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where, std::optional<Landmarks> landmarks)
+    : tooth_(tooth), where_(std::move(where)), work_(where_), cache_(std::make_unique<Cache>()) {
+  cache_->landmarks = std::move(landmarks);
+}
 ShapeMaker::~ShapeMaker() = default;
 
 const ColumnMap& ShapeMaker::surface() {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/tooth/anatomy/landmarks.h"
@@ -39,8 +40,8 @@ struct ShapeFrame {
 /// Makes bodies for one tooth; keeps what they have in common (surface, pulp chamber).
 class ShapeMaker {
  public:
-  /// `where` names the scenario in errors.
-  ShapeMaker(const Tooth& tooth, std::string where);
+  /// `where` names the scenario in errors. `landmarks`: those of the tooth, where they are known already.
+  ShapeMaker(const Tooth& tooth, std::string where, std::optional<Landmarks> landmarks = {});
   ~ShapeMaker();
   /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to, and beyond a limit of zone_work.h.
   [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);

@@ -78,6 +78,7 @@ def resimulated(s, change):
             c["seq"] = i
         for i, e in enumerate(r.events):
             e["seq"], e["chunk"] = i, e["chunk"] - 1
+        r.result = re.sub(r'(,\s*)?"the recording was interrupted [^"]*"', "", r.result)  # a result says so
     s.write(as_hand(r, s.station(), 90), "m.cavum")
     return s.add("m.cavum")
 
