@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -414,8 +415,13 @@ std::string scenario_text(const TaskText& task) {
   s += task.zones;
   s += k_margins;
   s += task.guard;
-  s += k_rubric;
-  return s;
+  std::string rubric(k_rubric);
+  if (task.walls_limit_mm3 > 0) {
+    const std::size_t walls = rubric.find("id = \"walls\""), points = rubric.find("points = ", walls), end = rubric.find('\n', points) + 1;
+    rubric.insert(end, line(fmt::format("critical_above = {}", fixed(task.walls_limit_mm3, 1)),
+                            "a quarter of the cavity: bites that leave its floor and its furthest places alone"));
+  }
+  return s + rubric;
 }
 
 }  // namespace cavum::scenarios
