@@ -24,7 +24,7 @@ constexpr double k_isthmus_share = 0.25, k_narrowest_mm = 1.2, k_widest_mm = 1.5
 constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm = 4.0;
 constexpr double k_below_contact_mm = 0.5, k_least_above_neck_mm = 0.8;
 constexpr double k_in_dentin_mm = 0.2;
-constexpr double k_no_points_mm3 = 3.0;  // `zero` of the template's criterion on walls
+constexpr double k_least_walls_mm3 = 0.6;  // twice what the template's criterion on walls gives full marks for
 
 /// Looked at once one is sound, in the hope of one without a warning.
 constexpr std::size_t k_most_tried = 4, k_none = 1000;
@@ -246,11 +246,11 @@ std::string present(const Tooth& tooth, const std::string& list) {
 /// Whole minutes, at least five: two and a half times what the expert needs.
 double time_limit_s(const std::optional<double>& expert_s) { return 60.0 * std::max(5.0, std::ceil(2.5 * expert_s.value_or(0) / 60.0)); }
 
-/// A quarter of the target's volume, but no less than where the criterion on walls gives no points any more.
+/// A quarter of the target's volume.
 double wall_limit_mm3(const std::string& text, const std::string& path, const Tooth& tooth) {
   const ZoneMap zones = build_zones(parse_scenario(text, path), tooth);
   const double target_mm3 = static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * zones.leaf_volume_mm3();
-  return std::max(k_no_points_mm3, 0.25 * target_mm3);
+  return std::max(k_least_walls_mm3, 0.25 * target_mm3);
 }
 
 }  // namespace
