@@ -24,8 +24,8 @@
 namespace cavum::grading {
 namespace {
 
-constexpr std::int64_t k_most_wait_ticks = 600 * k_ticks_per_second;  // 60 MB of ticks
-constexpr unsigned k_most_threads = 4;                                // each holds a tooth of its own
+constexpr std::int64_t k_most_wait_ticks = std::int64_t{600} * k_ticks_per_second;  // 60 MB of ticks
+constexpr unsigned k_most_threads = 4;                                              // each holds a tooth of its own
 
 /// Calls `work(i)` for each of 0..n-1, on some threads. What one throws is thrown when all have ended.
 void for_each_at_once(std::size_t n, const std::function<void(std::size_t)>& work) {
