@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/tooth/anatomy/polylines.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/check.h"
 #include "scenarios/zones/relief.h"
@@ -118,22 +119,18 @@ std::vector<Choice> class_1(const Tooth& tooth, const Landmarks& l) {
   return list;
 }
 
-const Vec3* furthest(const Polyline& line, int side) {
-  const Vec3* most = nullptr;
-  for (const Vec3& p : line)
-    if (most == nullptr || p.x * side > most->x * side) most = &p;
-  return most;
-}
-
 std::string no_contact(const Landmarks& l, int side) {
-  return furthest(l.height_of_contour_mm, side) == nullptr || furthest(l.neck_mm, side) == nullptr ? "its contact area or its neck is not found" : "";
+  return furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0}) == nullptr || furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0}) == nullptr
+             ? "its contact area or its neck is not found"
+             : "";
 }
 
 std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
   std::vector<Choice> list;
   const std::string_view word = side > 0 ? "mesial" : "distal";
   const std::string width = fixed(std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), 1), isthmus = isthmus_mm(l);
-  const double above = std::max(k_least_above_neck_mm, furthest(l.height_of_contour_mm, side)->z - furthest(l.neck_mm, side)->z - k_below_contact_mm);
+  const double above = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
+                                                           furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
   const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
     for (const Floor& floor : all)

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/tooth/anatomy/polylines.h"
 #include "scenarios/zones/outline.h"
 
 namespace cavum::scenarios {
@@ -72,14 +73,6 @@ Polyline begun_at_ridge(Polyline line, const MarginalRidge& ridge, double away_m
   return line;
 }
 
-/// The place of a closed line furthest to one side along x.
-const Vec3* furthest(const Polyline& line, int side) {
-  const Vec3* most = nullptr;
-  for (const Vec3& p : line)
-    if (most == nullptr || p.x * side > most->x * side) most = &p;
-  return most;
-}
-
 }  // namespace
 
 bool follows_landmarks(const ZoneSpec& zones) noexcept {
@@ -109,7 +102,8 @@ OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, c
 
 ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const Landmarks& landmarks, const std::string& where) {
   const std::string_view side = spec.side > 0 ? "mesial" : "distal";
-  const Vec3 *contact = furthest(landmarks.height_of_contour_mm, spec.side), *neck = furthest(landmarks.neck_mm, spec.side);
+  const Vec3 *contact = furthest_along(landmarks.height_of_contour_mm, Vec3{1.0 * spec.side, 0, 0}),
+             *neck = furthest_along(landmarks.neck_mm, Vec3{1.0 * spec.side, 0, 0});
   if (contact == nullptr || neck == nullptr)
     throw Error(where, fmt::format("no {} contact area or no neck is found on this tooth", side),
                 "look at `cavum tooth landmarks`, or place the box yourself");

@@ -38,4 +38,12 @@ namespace cavum {
   return sum;
 }
 
+/// The point of a line that lies furthest along a way; null of an empty line.
+[[nodiscard]] inline const Vec3* furthest_along(const Polyline& line, Vec3 way) noexcept {
+  const Vec3* most = nullptr;
+  for (const Vec3& p : line)
+    if (most == nullptr || dot(p, way) > dot(*most, way)) most = &p;
+  return most;
+}
+
 }  // namespace cavum

@@ -3,17 +3,10 @@
 #include <fmt/core.h>
 
 #include "engine/base/error.h"
+#include "engine/tooth/anatomy/polylines.h"
 
 namespace cavum {
 namespace {
-
-/// The place of a closed line furthest along a way.
-const Vec3* furthest(const Polyline& line, Vec3 way) {
-  const Vec3* most = nullptr;
-  for (const Vec3& p : line)
-    if (most == nullptr || dot(p, way) > dot(*most, way)) most = &p;
-  return most;
-}
 
 /// Where a lesion of that surface begins, and the way inwards.
 struct Start {
@@ -31,7 +24,7 @@ Start start_of(const Landmarks& l, const std::string& surface) {
                    : surface == "lingual" ? Vec3{0, -1, 0}
                                           : Vec3{};
   if (length(out) == 0) throw Error("--site " + surface, "there is no such surface", "choose occlusal, mesial, distal, buccal or lingual");
-  const Vec3* at = furthest(l.height_of_contour_mm, out);
+  const Vec3* at = furthest_along(l.height_of_contour_mm, out);
   if (at == nullptr) throw Error("--site " + surface, "no height of contour is found on this tooth", "look at `cavum tooth landmarks`");
   return {*at, -out};
 }
