@@ -138,8 +138,11 @@ void Works::short_of_it() {
 }
 
 void Works::wrong_place() {
-  const std::array<std::pair<const char*, Vec3>, 4> ways{
-      {{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {"buccal", {0, 1, 0}}, {"lingual", {0, -1, 0}}}};
+  // from a side, y of the frame of the way in runs along the crown
+  const scenarios::Facing facing = task_.zones.facing();
+  const char *up = facing.lateral() ? facing.side > 0 ? "gingival" : "occlusal" : "buccal",
+             *down = facing.lateral() ? facing.side > 0 ? "occlusal" : "gingival" : "lingual";
+  const std::array<std::pair<const char*, Vec3>, 4> ways{{{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {up, {0, 1, 0}}, {down, {0, -1, 0}}}};
   for (const auto& [side, way] : ways)
     for (const double mm : {1.0, 2.0})
       add(fmt::format("shifted_{}_mm_{}", plain_number(mm), side), fmt::format("the target {} mm too far to {}", plain_number(mm), side),
@@ -154,9 +157,15 @@ void Works::wrong_place() {
     return f.open_mm(f.local({-p.x, p.y, p.z}));
   });
   list_.back().may_be_right = true;
-  add("mirrored_buccal_lingual", "the target as in a mirror, buccal for lingual", Mistake::misplaced, [&f = f_](Vec3 p) {
-    return f.open_mm(f.local({p.x, -p.y, p.z}));
-  });
+  if (facing.lateral())
+    add("mirrored_occlusal_gingival", "the target as in a mirror, occlusal for gingival", Mistake::misplaced, [&f = f_, m = middle_](Vec3 p) {
+      const Vec3 q = f.local(p);
+      return f.open_mm({q.x, 2 * m.y - q.y, q.z});
+    });
+  else
+    add("mirrored_buccal_lingual", "the target as in a mirror, buccal for lingual", Mistake::misplaced, [&f = f_](Vec3 p) {
+      return f.open_mm(f.local({p.x, -p.y, p.z}));
+    });
   list_.back().may_be_right = true;
 }
 

@@ -182,6 +182,7 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   const double leaf = zones.leaf_mm();
+  const scenarios::Facing facing = zones.facing();
   double up = 0, across = 0;
   std::vector<WallHeight> walls(scenarios::k_walls + 1);
   zones.for_each_target_leaf([&](IVec3 at) {
@@ -191,12 +192,13 @@ void measure_target_taper(const GradeInput& input, AccessMeasures& m) {
     if (!at_wall) return;
     const Vec3 p = zones.centre_mm(at);
     const auto slope = [&](Vec3 step) { return zones.distance_mm(p + step * leaf) - zones.distance_mm(p - step * leaf); };
-    const Vec3 inwards = normalized(-Vec3{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})});
+    const Vec3 inwards = facing.local(normalized(-Vec3{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})}));
+    const double height = facing.local(p).z;
     if (std::fabs(inwards.z) >= k_cos_45) return;
     WallHeight& wall = walls[static_cast<std::size_t>(zones.wall(at))];
     wall.places += 1;
-    wall.low_mm = std::min(wall.low_mm, p.z);
-    wall.high_mm = std::max(wall.high_mm, p.z);
+    wall.low_mm = std::min(wall.low_mm, height);
+    wall.high_mm = std::max(wall.high_mm, height);
     up += inwards.z;
     across += std::sqrt(inwards.x * inwards.x + inwards.y * inwards.y);
   });

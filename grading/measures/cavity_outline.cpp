@@ -1,6 +1,7 @@
 #include "grading/measures/cavity_outline.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "grading/measures/solid_surface.h"
 #include "scenarios/zones/relief.h"
@@ -64,10 +65,36 @@ Extent extent_of(const TopArea& area) {
   return e;
 }
 
+/// The outermost solid leaf of a column, its place in it negative without tooth: from above by the relief, from a side by going in.
+class Tops {
+ public:
+  explicit Tops(const GradeInput& input) : tree_(input.before.octree), facing_(input.zones.facing()) {
+    if (!facing_.lateral()) surface_ = scenarios::surface_relief(input.before);
+  }
+  /// In the tooth's leaves, of a column as `Facing::local` has it.
+  [[nodiscard]] std::optional<IVec3> at(int x, int y) const {
+    if (!facing_.lateral()) {
+      const int z = scenarios::top_leaf(surface_, tree_, x, y);
+      return z < 0 ? std::optional<IVec3>() : IVec3{x, y, z};
+    }
+    const int n = tree_.size().y;
+    for (int i = 0; i < n; ++i)
+      if (const IVec3 leaf{x, facing_.side > 0 ? n - 1 - i : i, y}; tree_.is_solid(tree_.tissue(leaf))) return leaf;
+    return {};
+  }
+
+ private:
+  const Octree& tree_;
+  scenarios::Facing facing_;
+  scenarios::ColumnMap surface_;
+};
+
 /// The columns over all of the cut and all of the target, and one more on each side; each holds nothing yet.
 TopArea area_around(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+  const scenarios::Facing facing = input.zones.facing();
   IVec3 low{1 << 20, 1 << 20, 0}, high{-1, -1, 0};
-  const auto hold = [&](IVec3 leaf) {
+  const auto hold = [&](IVec3 in_tooth) {
+    const IVec3 leaf = facing.local(in_tooth);
     low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), 0};
     high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), 0};
   };
@@ -79,20 +106,20 @@ TopArea area_around(const GradeInput& input, const RemovedMap& removed, std::int
 }  // namespace
 
 Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
-  const scenarios::ColumnMap surface = scenarios::surface_relief(input.before);
+  const Tops tops(input);
   TopArea cut = area_around(input, removed, last_tick);
   TopArea target = cut, common = cut, either = cut;
   for (int y = 0; y < cut.ny; ++y)
     for (int x = 0; x < cut.nx; ++x) {
-      const int top = scenarios::top_leaf(surface, input.before.octree, cut.x0 + x, cut.y0 + y);
-      const IVec3 leaf{cut.x0 + x, cut.y0 + y, top};
-      const double in_cut = top < 0 ? -1.0 : removed.has(leaf) ? gone_by(input.after, leaf) : -stays_by(input.after, leaf);
-      const double in_target = top < 0 ? -1.0 : -input.zones.distance_mm(leaf) / input.zones.leaf_mm();
+      const std::optional<IVec3> top = tops.at(cut.x0 + x, cut.y0 + y);
+      const IVec3 leaf = top.value_or(IVec3{});
+      const double in_cut = !top ? -1.0 : removed.has(leaf) ? gone_by(input.after, leaf) : -stays_by(input.after, leaf);
+      const double in_target = !top ? -1.0 : -input.zones.distance_mm(leaf) / input.zones.leaf_mm();
       cut.inside.push_back(in_cut);
       target.inside.push_back(in_target);
       common.inside.push_back(std::min(in_cut, in_target));
       either.inside.push_back(std::max(in_cut, in_target));
-      cut.tooth.push_back(top < 0 ? 0 : 1);
+      cut.tooth.push_back(top ? 1 : 0);
     }
   target.tooth = common.tooth = either.tooth = cut.tooth;
   return {extent_of(cut), extent_of(target), extent_of(common), extent_of(either)};

@@ -81,6 +81,7 @@ struct WallSurface {
 WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
+  const scenarios::Facing facing = zones.facing();
   WallSurface surface;
   Octree::Cursor cursor;
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
@@ -94,7 +95,8 @@ WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std
     surface.count(wall, walls_around(zones, where), deviation);
     if (wall == scenarios::Wall::opening) return;
     surface.samples[static_cast<std::size_t>(wall)].push_back({deviation, r.tick, place});
-    if (wall != scenarios::Wall::floor && std::fabs(normal.z) < 0.70710678118654752440) surface.lean(wall, place, normal);
+    const Vec3 leans = facing.local(normal);
+    if (wall != scenarios::Wall::floor && std::fabs(leans.z) < 0.70710678118654752440) surface.lean(wall, facing.local(place), leans);
   });
   return surface;
 }
@@ -134,10 +136,12 @@ struct Deepest {
 Deepest deepest_cut(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   Deepest deepest;
   const Octree& after = input.after;
+  const scenarios::Facing facing = input.zones.facing();
+  const IVec3 inwards = facing.in_tooth({0, 0, -1});
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
-    const IVec3 leaf = r.leaf.leaf(), under = leaf + IVec3{0, 0, -1};
+    const IVec3 leaf = r.leaf.leaf(), under = leaf + inwards;
     const double down = after.is_solid(after.tissue(under)) ? gone_by(after, leaf) / (gone_by(after, leaf) + stays_by(after, under)) : 0.5;
-    const double bottom = input.zones.centre_mm(leaf).z - down * input.zones.leaf_mm();
+    const double bottom = facing.local(input.zones.centre_mm(leaf)).z - down * input.zones.leaf_mm();
     deepest.anywhere_mm = std::min(deepest.anywhere_mm, bottom);
     if (input.zones.zone(leaf) == scenarios::Zone::target) deepest.in_target_mm = std::min(deepest.in_target_mm, bottom);
   });
@@ -145,11 +149,13 @@ Deepest deepest_cut(const GradeInput& input, const RemovedMap& removed, std::int
 }
 
 double target_bottom_mm(const scenarios::ZoneMap& zones) {
-  double bottom = zones.target_high_mm().z;
+  const scenarios::Facing facing = zones.facing();
+  const IVec3 inwards = facing.in_tooth({0, 0, -1});
+  double bottom = zones.top_level_mm();
   zones.for_each_target_leaf([&](IVec3 leaf) {
-    const double inside = std::max(-zones.distance_mm(leaf), 0.01 * zones.leaf_mm()), below = zones.distance_mm(leaf + IVec3{0, 0, -1});
+    const double inside = std::max(-zones.distance_mm(leaf), 0.01 * zones.leaf_mm()), below = zones.distance_mm(leaf + inwards);
     const double down = below < 0 ? 1.0 : inside / (inside + below);
-    bottom = std::min(bottom, zones.centre_mm(leaf).z - down * zones.leaf_mm());
+    bottom = std::min(bottom, facing.local(zones.centre_mm(leaf)).z - down * zones.leaf_mm());
   });
   return bottom;
 }
@@ -174,7 +180,7 @@ void put_depth(ShapeMeasures& m, const scenarios::ZoneMap& zones, const Deepest&
   const double target_bottom = target_bottom_mm(zones), opening = zones.opening_z_mm();
   m.target_depth_mm = opening - target_bottom;
   if (anything_removed) m.depth_mm = opening - cut.anywhere_mm;
-  if (cut.in_target_mm < zones.target_high_mm().z)
+  if (cut.in_target_mm < zones.top_level_mm())
     m.depth_error_mm = std::max(target_bottom, std::min(opening, cut.in_target_mm)) - std::min(cut.anywhere_mm, target_bottom);
 }
 
@@ -183,6 +189,7 @@ void put_depth(ShapeMeasures& m, const scenarios::ZoneMap& zones, const Deepest&
 ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   const double leaf_mm = input.zones.leaf_mm();
   ShapeMeasures m;
+  m.facing = input.zones.facing();
   m.bound_mm = leaf_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
   WallSurface surface = sample_walls(input, removed, last_tick);
   m.wall = wall_measures(surface, furthest_removed(input, removed, last_tick), m.bound_mm);

@@ -12,11 +12,11 @@ namespace cavum::grading {
 
 std::string when(const Trace& t) { return fmt::format("{} s (tick {})", fixed(t.t_s(), 2), t.tick); }
 std::string place(Vec3 p) { return fmt::format("[{}, {}, {}] mm", fixed(p.x, 2), fixed(p.y, 2), fixed(p.z, 2)); }
-std::string wall_text(std::size_t wall) {
-  return wall == static_cast<std::size_t>(scenarios::Wall::opening) ? "the occlusal side"
+std::string wall_text(std::size_t wall, scenarios::Facing facing) {
+  return wall == static_cast<std::size_t>(scenarios::Wall::opening) ? (facing.lateral() ? "the opening" : "the occlusal side")
          : wall == static_cast<std::size_t>(scenarios::Wall::floor)
-             ? "the floor"
-             : fmt::format("the {} wall", scenarios::wall_name(static_cast<scenarios::Wall>(wall)));
+             ? (facing.lateral() ? "the axial wall" : "the floor")
+             : fmt::format("the {} wall", scenarios::wall_name(static_cast<scenarios::Wall>(wall), facing));
 }
 
 std::string amount_text(double value, double bound, int digits, const std::string& unit) {
@@ -33,7 +33,7 @@ Loss missed(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
   const Trace& last = r.volumes.target_last[w];
   return {fmt::format("{} of the target left standing, most of it towards {} ({} mm3), where {}",
-                      amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3"), wall_text(w),
+                      amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3"), wall_text(w, r.shape.facing),
                       fixed(r.volumes.missed_by_wall_mm3[w], 2), last.tick < 0 ? "nothing of it was cut" : "it was cut last at " + when(last)),
           last};
 }
@@ -54,8 +54,8 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
   loss.text = fmt::format("most of it {} at {} ({} mm3)",
-                          worst == scenarios::Zone::none ? "outside all zones" : fmt::format("in {}", scenarios::zone_name(worst)), wall_text(wall),
-                          fixed(most, 2));
+                          worst == scenarios::Zone::none ? "outside all zones" : fmt::format("in {}", scenarios::zone_name(worst)),
+                          wall_text(wall, r.shape.facing), fixed(most, 2));
   if (loss.first.tick >= 0) loss.text += fmt::format(", beginning at {} at {}", when(loss.first), place(loss.first.site_mm));
   return loss;
 }
@@ -122,11 +122,11 @@ Loss at_walls(const Result& r, const Asked& a) {
   const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   Loss loss{{}, t};
   if (over)
-    loss.text = fmt::format("{} overcut by up to {} mm", wall_text(worst), fixed(m.max_over_mm, 2));
+    loss.text = fmt::format("{} overcut by up to {} mm", wall_text(worst, r.shape.facing), fixed(m.max_over_mm, 2));
   else if (under)
-    loss.text = fmt::format("{} left up to {} mm thick", wall_text(worst), fixed(m.max_under_mm, 2));
+    loss.text = fmt::format("{} left up to {} mm thick", wall_text(worst, r.shape.facing), fixed(m.max_under_mm, 2));
   else
-    loss.text = wall_text(worst) +
+    loss.text = wall_text(worst, r.shape.facing) +
                 (p95 ? ", 95 % of whose places lie no further out than that; the furthest " : ", in the mean of its places; the furthest ") +
                 (&t == &m.worst_under ? fixed(m.max_under_mm, 2) + " mm thick" : fixed(m.max_over_mm, 2) + " mm beyond the target");
   if (t.tick >= 0) loss.text += fmt::format(", at {}, cut at {}", place(t.site_mm), when(t));

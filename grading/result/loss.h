@@ -44,6 +44,6 @@ namespace reason {
 /// "12.34 s (tick 12340)", "[1.00, 0.00, -2.00] mm", "the mesial wall".
 [[nodiscard]] std::string when(const Trace& t);
 [[nodiscard]] std::string place(Vec3 p);
-[[nodiscard]] std::string wall_text(std::size_t wall);
+[[nodiscard]] std::string wall_text(std::size_t wall, scenarios::Facing facing);
 
 }  // namespace cavum::grading

@@ -63,6 +63,7 @@ struct WallMeasures {
 };
 
 struct ShapeMeasures {
+  scenarios::Facing facing;  ///< how the walls are called, and which way is down
   std::array<WallMeasures, scenarios::k_walls> wall;
   double bound_mm = 0.0;                                           ///< of every place on a surface, and so of a distance between two
   std::optional<double> length_mm, width_mm, depth_mm, taper_deg;  ///< none without a cut surface

@@ -278,7 +278,7 @@ std::string walls_text(const Result& r) {
       fmt::format("\nwalls, mm (+ = overcut)                       mean            p95   over  under (± {})\n", fixed(r.shape.bound_mm, 2));
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    s += "  " + padded(scenarios::wall_name(static_cast<scenarios::Wall>(w)), 34);
+    s += "  " + padded(scenarios::wall_name(static_cast<scenarios::Wall>(w), r.shape.facing), 34);
     if (m.samples == 0)
       s += "not cut\n";
     else

@@ -112,7 +112,7 @@ void LossFinder::missed(double points) {
     if (!(mm3 > 0)) continue;
     const Part& p = parts[w];
     const Trace& last = r_.volumes.target_last[w];
-    std::string what = "of the target left towards " + wall_text(w);
+    std::string what = "of the target left towards " + wall_text(w, r_.shape.facing);
     if (p.sum > 0) what += ", its middle at " + place(p.middle / p.sum);
     what += last.tick >= 0 ? "; the target was last cut there at " + when(last) : "; nothing of the target was cut there";
     fact(what, mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
@@ -130,15 +130,16 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenari
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
-      fact(wall_text(w) + ": nothing was cut there");
+      fact(wall_text(w, r_.shape.facing) + ": nothing was cut there");
       continue;
     }
-    fact(fmt::format("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall_text(w), amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm"),
-                     amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm"), m.samples));
+    fact(fmt::format("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall_text(w, r_.shape.facing),
+                     amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm"), amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm"), m.samples));
     if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
-      fact(wall_text(w) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
+      fact(wall_text(w, r_.shape.facing) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
     if (m.worst_under.tick >= 0 && !over && m.max_under_mm > full)
-      fact(wall_text(w) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
+      fact(wall_text(w, r_.shape.facing) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under,
+           r_.shape.bound_mm);
   }
   if (under) return;
   // by parts of leaves, as zones are counted: a wall's part is never more than the zone's whole

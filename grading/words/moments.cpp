@@ -22,7 +22,7 @@ struct Moment {
   IVec3 at;
 };
 
-std::string text_of(const Moment& m) {
+std::string text_of(const Moment& m, scenarios::Facing facing) {
   const auto wall = static_cast<std::size_t>(std::max_element(m.by_wall.begin(), m.by_wall.end()) - m.by_wall.begin());
   std::vector<std::size_t> zones;
   for (std::size_t z = 0; z < scenarios::k_zones; ++z)
@@ -35,7 +35,7 @@ std::string text_of(const Moment& m) {
                                  : fmt::format("in {}", scenarios::zone_name(static_cast<scenarios::Zone>(zones[i])));
     text += (i == 0 ? " " : ", ") + (zones.size() > 1 ? fixed(m.by_zone[zones[i]], 3) + " mm3 " : "") + name;
   }
-  text += ", most of it at " + wall_text(wall);
+  text += ", most of it at " + wall_text(wall, facing);
   if (m.furthest_mm > 0) text += fmt::format(", at the furthest {} mm beyond the target", fixed(m.furthest_mm, 2));
   return text;
 }
@@ -67,7 +67,7 @@ std::vector<WhyItem> removal_moments(const scenarios::ZoneMap& zones, std::vecto
     item.amount = m.sum;
     item.bound = m.bound;
     item.unit = "mm3";
-    item.what = text_of(m);
+    item.what = text_of(m, zones.facing());
     items.push_back(std::move(item));
   }
   return items;

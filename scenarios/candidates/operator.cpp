@@ -93,7 +93,7 @@ Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::u
   }
   for (auto& w : way_) {
     if (!w.cut) continue;
-    w.tip_mm += skill_.offset_mm;
+    w.tip_mm += approach_.z >= 0.5 ? skill_.offset_mm : cavum::rotation(rotation()) * skill_.offset_mm;
     w.tip_mm += approach_ * std::max(0.0, bottom + skill_.stops_short * (top - bottom) - dot(w.tip_mm, approach_));
   }
   memory_.resize(static_cast<std::size_t>(skill_.reaction_s / k_tick_s) + 1);
@@ -233,7 +233,7 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
     ReachMap map = reach_map(room, zones, tooth, tray[i]);
     chosen.covers.push_back(coverage(room, map, tray[i]));
     // a head shorter than the target is deep leaves ledges that hold up its neck
-    const double depth = zones.target_high_mm().z - zones.target_low_mm().z;
+    const double depth = zones.top_level_mm() - zones.floor_level_mm();
     if (const double blunt = bluntness(tray[i].point); chosen.covers.back() > 0 && blunt > best_bluntness * 1.01) {
       best_bluntness = blunt;
       chosen.blunt = i;

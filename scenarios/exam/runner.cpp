@@ -193,7 +193,7 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
     ++state.ticks;
     return;
   }
-  if (output.contact) state.depth_mm = std::max(state.depth_mm, zones_.opening_z_mm() - output.proxy_mm.z);
+  if (output.contact) state.depth_mm = std::max(state.depth_mm, zones_.below_opening_mm(output.proxy_mm));
   state.peak_force_n = std::max(state.peak_force_n, length(output.rendered_force_n));
   if (input.point != state.last_point && !allowed_[input.point]) emit(state, ExamEventKind::point_not_allowed, input.point);
   state.last_point = input.point;

@@ -174,6 +174,12 @@ void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, Problem
   s.taper_deg = t.number("taper_deg", -30, 45, 0);
   if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
   if (const auto* b = t.table("bottom", true)) s.bottom = read_bottom(*b, name, problems);
+  s.leans = t.word("lean", {"none", "lingual"}, 0) == 1;
+  const bool follows = s.outline.kind == OutlineSpec::Kind::projection &&
+                       (s.bottom.kind == BottomSpec::Kind::tissue_roof || s.bottom.kind == BottomSpec::Kind::tissue_floor);
+  if (s.leans && !follows)
+    t.problem("lean", "a leaning column follows a tissue with its outline and its bottom",
+              "use an outline of kind projection and a bottom of kind tissue_roof or tissue_floor, or a prism with an axis");
 }
 
 void read_tissue(CheckedTable& t, ShapeSpec& s) {
@@ -210,6 +216,23 @@ void read_proximal_box(CheckedTable& t, ShapeSpec& s) {
   s.above_neck_mm = t.number("above_neck_mm", 0, 6, 1, true);
 }
 
+void read_side_cavity(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
+  s.side = t.word("side", {"buccal", "lingual"}, 0, true) == 1 ? -1 : 1;
+  s.depth_mm = t.number("depth_mm", 0.1, 5, 1.2, true);
+  s.level = t.word("heights", {"neck", "level"}, 0) == 1;
+  if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
+  using Kind = OutlineSpec::Kind;
+  if (s.outline.kind == Kind::projection || s.outline.kind == Kind::fissure || s.outline.from_chamber)
+    t.problem("outline", "a cavity in a side has an outline of its own", "use a circle, a polygon or a stroke, counted from the neck's middle");
+}
+
+void read_crown(CheckedTable& t, ShapeSpec& s) {
+  s.above_neck_mm = t.number("above_neck_mm", 0, 4, 0.5, true);
+  s.depth_mm = t.number("depth_mm", 0.3, 3, 1, true);
+  s.taper_deg = t.number("taper_deg", 0, 20, 5, true);
+  s.occlusal_mm = t.number("occlusal_mm", 0.3, 4, 1.5, true);
+}
+
 /// What a body of its kind needs.
 void read_body(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
   using Kind = ShapeSpec::Kind;
@@ -234,6 +257,10 @@ void read_body(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemLi
       return read_canal_cone(t, s);
     case Kind::proximal_box:
       return read_proximal_box(t, s);
+    case Kind::side_cavity:
+      return read_side_cavity(t, s, name, problems);
+    case Kind::crown:
+      return read_crown(t, s);
   }
 }
 
@@ -245,7 +272,8 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   places[at] = {s.line, s.column};
   for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, fmt::format("{}/{}", at, key));
   const std::size_t kind =
-      t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone", "proximal_box"}, 0, true);
+      t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone", "proximal_box", "side_cavity", "crown"},
+             0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
   s.kind = static_cast<ShapeSpec::Kind>(kind);

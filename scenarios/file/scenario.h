@@ -56,7 +56,7 @@ struct BottomSpec {
 
 /// A body in the tooth frame, or one relative to a tissue. Bodies of a list are combined in their order.
 struct ShapeSpec {
-  enum class Kind { box, cylinder, cone, ball, prism, column, tissue, stl, canal_cone, proximal_box };
+  enum class Kind { box, cylinder, cone, ball, prism, column, tissue, stl, canal_cone, proximal_box, side_cavity, crown };
   enum class Combine { add, subtract, intersect };
   Kind kind = Kind::box;
   Combine combine = Combine::add;
@@ -65,9 +65,10 @@ struct ShapeSpec {
   double turn_deg = 0.0;                                         ///< about the axis
   Vec3 size_mm;                                                  ///< box
   double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;  ///< canal_cone: radius at the mouth, 0 = the mouth's own
-  OutlineSpec outline;                                           ///< prism, column
+  OutlineSpec outline;                                           ///< prism, column, side_cavity
   BottomSpec bottom;                                             ///< column
   double taper_deg = 0.0;                                        ///< column, canal_cone: its walls open by this angle towards the occlusal side
+  bool leans = false;                                            ///< column: along the way in from lingual of a front tooth (leaning_column.h)
   std::string tissue = "pulp";                                   ///< tissue: the leaves of this tissue ...
   TissuePart part = TissuePart::all;
   double offset_mm = 0.0;                       ///< ... grown by this much
@@ -76,11 +77,13 @@ struct ShapeSpec {
   std::shared_ptr<const TriangleMesh> surface;  ///< stl: what the file holds, tooth frame; null until read_surfaces (surface_files.h)
   int canals_x = 0, canals_y = 0;               ///< canal_cone: only canals on this side of the chamber's middle, +1 mesial / buccal; 0 = either
   double deeper_mm = 0.0;                       ///< canal_cone: begins this far below the canal's mouth
-  int side = 1;                                 ///< proximal_box: at the mesial (+1) or distal (-1) surface
+  int side = 1;                                 ///< proximal_box: at the mesial (+1) or distal (-1) surface; side_cavity: buccal or lingual
   double width_mm = 0.0;                        ///< proximal_box: from buccal to lingual
-  double depth_mm = 0.0;                        ///< proximal_box: from the outer surface at its floor to its axial wall
-  double above_neck_mm = 0.0;                   ///< proximal_box: of its floor above the cemento-enamel junction
-  int line = 0, column = 0;                     ///< in the scenario file, for messages
+  double depth_mm = 0.0;       ///< proximal_box: from the outer surface at its floor to its axial wall; side_cavity, crown: from the surface inwards
+  double above_neck_mm = 0.0;  ///< proximal_box, crown: of its floor or finish line above the cemento-enamel junction
+  bool level = false;          ///< side_cavity: heights count from the neck's middle, else from the neck below each place
+  double occlusal_mm = 0.0;    ///< crown: of what is taken off the occlusal surface or the incisal edge
+  int line = 0, column = 0;    ///< in the scenario file, for messages
 };
 
 /// Width of a zone beside and below the target, mm, measured from the target's surface.

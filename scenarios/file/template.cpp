@@ -241,10 +241,12 @@ constexpr std::string_view k_shapes = R"(
 #   cylinder at_mm (middle of the lower face), radius_mm, height_mm, axis
 #   cone     the same, and top_radius_mm
 #   prism    at_mm, height_mm, axis, turn_deg, outline
-#   column   outline, bottom, taper_deg: from the occlusal surface down to the bottom
+#   column   outline, bottom, taper_deg: from the occlusal surface down to the bottom; lean = "lingual": into a front tooth, from lingual
 #   tissue   tissue, part, offset_mm: the leaves of a tissue, grown
 #   canal_cone  canals = "all" or "mesial", "distobuccal" ..., radius_mm (else the mouth's own), taper_deg, deeper_mm, axis: on the canals' mouths
 #   proximal_box  side = "mesial" or "distal", width_mm, depth_mm (from the outer surface), above_neck_mm: a box at the contact area
+#   side_cavity  side = "buccal" or "lingual", outline (x mesial, y above the neck), depth_mm (below the surface), heights = "neck" or "level"
+#   crown    above_neck_mm (of the finish line), depth_mm (chamfer), taper_deg (each wall), occlusal_mm: all outside a crown's stump
 #   stl      file = "zone.stl": a closed surface in mm, in the tooth's frame, beside this file
 # outline = { kind = "circle", radius_mm } | { kind = "polygon", points_mm } | { kind = "stroke", points_mm, width_mm }
 #         | { kind = "projection", tissue, part = "all" or "chamber", rounding_mm }; all with offset_mm, the first three
@@ -408,7 +410,7 @@ std::string scenario_text(const TaskText& task) {
   s += line(fmt::format("time_limit_s = {}", static_cast<int>(task.time_limit_s)), "to the tick of 1 ms; what is done later does not count");
   s += line("force_limit_n = 2.5", "pressing harder is counted; 0 = no limit");
   s += k_frame;
-  s += task.access ? k_access_steps : k_cavity_steps;
+  s += task.steps.empty() ? std::string(task.access ? k_access_steps : k_cavity_steps) : task.steps;
   s += fmt::format("\n[perforation]\n{}{}", line(fmt::format("aims = {}", task.aims), "tissues that are to be opened"),
                    line(fmt::format("faults = {}", task.faults), "tissues that must not be"));
   s += k_shapes;
@@ -421,6 +423,7 @@ std::string scenario_text(const TaskText& task) {
     rubric.insert(end, line(fmt::format("critical_above = {}", fixed(task.walls_limit_mm3, 1)),
                             "a quarter of the cavity: bites that leave its floor and its furthest places alone"));
   }
+  if (!task.criteria.empty()) rubric.insert(rubric.find("# What the task exists to catch"), task.criteria + "\n");
   return s + rubric;
 }
 

@@ -130,6 +130,7 @@ void Adviser::leeway() {
 
 /// Walls that end in the air before the leeway does.
 void Adviser::walls() {
+  const Facing facing = zones_.facing();
   const ColumnMap surface = surface_relief(tooth_);
   const Octree& tree = tooth_.octree;
   const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope
@@ -143,13 +144,21 @@ void Adviser::walls() {
     }
     return false;
   };
+  const auto near_surface = [&](IVec3 at) {
+    if (!facing.lateral()) return surface.value[surface.index(at.x, at.y)] - zones_.centre_mm(at).z < rim_mm;
+    const IVec3 out = facing.in_tooth({0, 0, 1});
+    for (double far = 0; far < rim_mm; far += leaf, at = at + out)
+      if (!tree.is_solid(tree.tissue(at))) return true;
+    return false;
+  };
   zones_.for_each_target_leaf([&](IVec3 at) {
     const IVec3 n = tree.size();
     if (at.x < 0 || at.y < 0 || at.x >= n.x || at.y >= n.y) return;
-    if (air_within(at, {0, 0, -1}, s_.zones.leeway.bottom_mm)) ++thin[static_cast<std::size_t>(Wall::floor)];
-    if (surface.value[surface.index(at.x, at.y)] - zones_.centre_mm(at).z < rim_mm) return;
+    if (air_within(at, facing.in_tooth({0, 0, -1}), s_.zones.leeway.bottom_mm)) ++thin[static_cast<std::size_t>(Wall::floor)];
+    if (near_surface(at)) return;
     for (const IVec3 way : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
-      if (air_within(at, way, s_.zones.leeway.sides_mm)) ++thin[static_cast<std::size_t>(wall_of({double(way.x), double(way.y), 0}))];
+      if (air_within(at, facing.in_tooth(way), s_.zones.leeway.sides_mm))
+        ++thin[static_cast<std::size_t>(wall_of({double(way.x), double(way.y), 0}))];
   });
   for (std::size_t w = 0; w < k_walls; ++w) {
     const double mm2 = static_cast<double>(thin[w]) * leaf * leaf;
@@ -157,7 +166,7 @@ void Adviser::walls() {
     const bool floor = static_cast<Wall>(w) == Wall::floor;
     warn("zones/leeway",
          fmt::format("the leeway is wider than the {}{} of the tooth over {} mm2: it leads out into the air",
-                     floor ? "floor" : wall_name(static_cast<Wall>(w)), floor ? "" : " wall", fixed(mm2, 1)),
+                     floor ? "floor" : wall_name(static_cast<Wall>(w), facing), floor ? "" : " wall", fixed(mm2, 1)),
          "make the leeway narrower, or move the target inwards");
   }
 }
@@ -324,7 +333,7 @@ void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::a
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
   const auto wall = static_cast<Wall>(measure.first_wall);
   warn(fmt::format("rubric/criteria/{}/metric", i),
-       fmt::format("the cavity has no {}{} in this tooth: {}", wall_name(wall), wall == Wall::floor ? "" : " wall",
+       fmt::format("the cavity has no {}{} in this tooth: {}", wall_name(wall, zones_.facing()), wall == Wall::floor ? "" : " wall",
                    measure.figure == WallFigure::max_over ? "nobody can lose these points" : "nobody can win these points"),
        "take the criterion out, or measure a wall that stays");
 }

@@ -12,6 +12,7 @@
 #include "engine/tooth/anatomy/polylines.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/check.h"
+#include "scenarios/review/tooth_task_parts.h"
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/zone_map.h"
 
@@ -30,29 +31,18 @@ constexpr double k_least_walls_mm3 = 0.6;  // twice what the template's criterio
 /// Looked at once one is sound, in the hope of one without a warning.
 constexpr std::size_t k_most_tried = 4, k_none = 1000;
 
-/// What there is to choose from, best first; the first that fits is taken.
-struct Choice {
-  std::string zones, guard, what, chosen;
-};
-
 struct ToothTask {
   const char *word, *title, *points;
   bool access;
   const char *aims, *faults;
   std::function<std::string(const Tooth&, const Landmarks&)> why_not;
-  std::function<std::vector<Choice>(const Tooth&, const Landmarks&)> choices;
+  std::function<std::vector<TaskChoice>(const Tooth&, const Landmarks&)> choices;
+  std::string steps{}, criteria{};  // of its own; else as all cavities or accesses have them
 };
 
 bool has_tissue(const Tooth& tooth, const char* name) {
   return std::any_of(tooth.tissues.begin(), tooth.tissues.end(),
                      [&](const Tissue& t) { return t.name == name && tooth.octree.count_leaves()[t.id] > 0; });
-}
-
-std::string guard_text(double offset_mm) {
-  return fmt::format(
-      "[[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out\n"
-      "shape = \"tissue\"\ntissue = \"pulp\"\noffset_mm = {}\n",
-      fixed(offset_mm, 1));
 }
 
 /// From the buccal to the lingual cusps, mm: of the two tips furthest apart across the tooth.
@@ -104,8 +94,8 @@ std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
 
 std::string no_fissure(const Tooth&, const Landmarks& l) { return l.central_fissure_mm.size() < 2 ? "no central fissure is found on it" : ""; }
 
-std::vector<Choice> class_1(const Tooth& tooth, const Landmarks& l) {
-  std::vector<Choice> list;
+std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
+  std::vector<TaskChoice> list;
   const std::string width = isthmus_mm(l);
   for (const Floor& floor : floors(tooth, l))
     for (const char* ridge : {"1.6", "1.2", "0.8"})
@@ -113,7 +103,7 @@ std::vector<Choice> class_1(const Tooth& tooth, const Landmarks& l) {
           {fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
                        "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
                        width, ridge, floor.toml),
-           guard_text(0.5),
+           pulp_guard_text(0.5),
            fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; leave both marginal ridges.", width, floor.words),
            fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge)});
   return list;
@@ -125,8 +115,8 @@ std::string no_contact(const Landmarks& l, int side) {
              : "";
 }
 
-std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
-  std::vector<Choice> list;
+std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
+  std::vector<TaskChoice> list;
   const std::string_view word = side > 0 ? "mesial" : "distal";
   const std::string width = fixed(std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), 1), isthmus = isthmus_mm(l);
   const double above = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
@@ -150,7 +140,7 @@ std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool w
         const std::string box_words =
             fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width, word,
                         axial, level);
-        list.push_back({zones, guard_text(0.5),
+        list.push_back({zones, pulp_guard_text(0.5),
                         with_step ? fmt::format("An occlusal step along the fissure, {} mm wide, floor {}, and {}.", isthmus, floor.words, box_words)
                                   : fmt::format("Cut {}.", box_words),
                         with_step ? fmt::format("isthmus {} mm, floor {}, {}", isthmus, floor.words, box_words) : box_words});
@@ -158,8 +148,9 @@ std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool w
   return list;
 }
 
-std::vector<Choice> access(const Tooth&, const Landmarks&) {
-  std::vector<Choice> list;
+std::vector<TaskChoice> access(const Tooth& tooth, const Landmarks& l) {
+  if (!l.incisal_edge_mm.empty()) return front_access(tooth, l);
+  std::vector<TaskChoice> list;
   for (const char* rounding : {"0.55", "0.5"})
     list.push_back(
         {fmt::format(
@@ -173,13 +164,13 @@ std::vector<Choice> access(const Tooth&, const Landmarks&) {
   return list;
 }
 
-std::vector<Choice> lesion(const Tooth&, const Landmarks&) {
+std::vector<TaskChoice> lesion(const Tooth&, const Landmarks&) {
   return {
       {"# The lesion itself ...\n[[zones.target]]\nshape = \"tissue\"\ntissue = \"lesion\"\n\n# ... and the way to it: its shadow, down to its "
        "roof.\n"
        "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"lesion\", rounding_mm = 0.55 }\n"
        "bottom = { kind = \"tissue_roof\", tissue = \"lesion\" }\n",
-       guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
+       pulp_guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
 }
 
 constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
@@ -200,6 +191,7 @@ const std::vector<ToothTask>& tasks() {
   const auto boxes = [](int side, bool with_step) {
     return [side, with_step](const Tooth& tooth, const Landmarks& l) { return box(tooth, l, side, with_step); };
   };
+  const auto shapes = [](DexterityShape shape) { return [shape](const Tooth&, const Landmarks& l) { return dexterity(l, shape); }; };
   static const std::vector<ToothTask> k_tasks{
       {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_fissure, class_1},
       {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true)},
@@ -210,8 +202,7 @@ const std::vector<ToothTask>& tasks() {
        R"(["periodontium"])",
        [](const Tooth& tooth, const Landmarks& l) -> std::string {
          if (!has_tissue(tooth, "pulp")) return "it has no pulp";
-         if (!l.incisal_edge_mm.empty())
-           return "it is a front tooth: its access leans, and is drawn by hand (data/scenarios/incisor_access.toml shows how)";
+         if (!l.incisal_edge_mm.empty()) return why_no_front_access(tooth, l);
          return l.chamber_roof_mm ? "" : "no pulp chamber is found in it";
        },
        access},
@@ -219,7 +210,16 @@ const std::vector<ToothTask>& tasks() {
        [](const Tooth& tooth, const Landmarks&) -> std::string {
          return has_tissue(tooth, "lesion") ? "" : "it has no lesion: `cavum tooth lesion` grows one";
        },
-       lesion}};
+       lesion},
+      {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5},
+      {"crown", "Preparation for a full crown", R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
+       why_no_crown, crown_preparation, crown_steps_text(), crown_criteria_text()},
+      {"dexterity_groove", "Dexterity: a straight groove", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+       shapes(DexterityShape::groove)},
+      {"dexterity_circle", "Dexterity: a round pocket", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+       shapes(DexterityShape::circle)},
+      {"dexterity_cross", "Dexterity: a cross", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+       shapes(DexterityShape::cross)}};
   return k_tasks;
 }
 
@@ -280,7 +280,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   WrittenTask best;
   std::string refused;
   std::size_t fewest = k_none, tried = 0;
-  for (const Choice& choice : asked->choices(tooth, landmarks)) {
+  for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
     TaskText text{.id = id_of(tooth_file, task),
                   .title = asked->title,
                   .what = choice.what,
@@ -292,7 +292,9 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .aims = asked->aims,
                   .faults = present(tooth, asked->faults),
                   .zones = choice.zones,
-                  .guard = choice.guard};
+                  .guard = choice.guard,
+                  .steps = asked->steps,
+                  .criteria = asked->criteria};
     CheckedScenario checked = check_whole(scenario_text(text), path);
     if (checked.sound()) {
       text.time_limit_s = time_limit_s(checked.expert_s);

@@ -65,11 +65,17 @@ double margin_mm(const ZoneSpec& spec) {
   return std::max({spec.leeway.sides_mm, spec.leeway.bottom_mm, spec.container.sides_mm, spec.container.bottom_mm}) + 0.25;
 }
 
-/// The axis of the target's first body where a handpiece comes in that way; else +z.
-Vec3 approach_of(const ZoneSpec& spec) {
+/// The axis of the target's first body where a handpiece comes in that way; from the side, of a cavity in it; else +z.
+Vec3 approach_of(const ZoneSpec& spec, ShapeMaker& maker) {
   constexpr double k_steep = 0.5;  // cosine: flatter ways in are no way for a handpiece
-  const Vec3 axis = spec.target.empty() ? Vec3{0, 0, 1} : spec.target[0].axis;
+  if (spec.target.empty()) return {0, 0, 1};
+  const Vec3 axis = maker.way_in(spec.target[0]);
+  if (spec.target[0].kind == ShapeSpec::Kind::side_cavity) return axis;
   return axis.z >= k_steep ? axis : Vec3{0, 0, 1};
+}
+
+Facing facing_of(const ZoneSpec& spec) {
+  return {!spec.target.empty() && spec.target[0].kind == ShapeSpec::Kind::side_cavity ? spec.target[0].side : 0};
 }
 
 /// Of a leaf outside the target that is not protected: by its distance, towards the sides or the bottom.
@@ -96,6 +102,8 @@ class ZoneBuilder {
   void lay_zones(const ShapeField& shape);
   void require_target() const;
   void measure_target(const ShapeField& shape);
+  [[nodiscard]] std::optional<double> surface_above(IVec3 at, std::size_t i);
+  [[nodiscard]] std::optional<double> surface_beside(IVec3 at) const;
   void lay_guard_beyond();
   void lay_shares();
   [[nodiscard]] bool guarded(IVec3 leaf) const { return guard_ != nullptr && guard_->distance_mm(map_.centre_mm(leaf)) < 0; }
@@ -137,7 +145,8 @@ void ZoneBuilder::place_box() {
   const TargetBox box = find_target(*target_, tooth_, where_, maker_.work());
   map_.leaf_mm_ = tree_.leaf_mm();
   map_.origin_mm_ = tree_.origin_mm();
-  map_.approach_ = approach_of(spec_);
+  map_.approach_ = approach_of(spec_, maker_);
+  map_.facing_ = facing_of(spec_);
   const int margin = static_cast<int>(margin_mm(spec_) / map_.leaf_mm_) + 2;
   const IVec3 n = tree_.size();
   const IVec3 high{std::min(n.x, box.high.x + margin), std::min(n.y, box.high.y + margin), std::min(n.z, box.high.z + margin)};
@@ -170,7 +179,7 @@ ShapeField ZoneBuilder::shape_field() const {
 
 /// True distances to the target's surface, and the wall that each leaf belongs to.
 void ZoneBuilder::lay_distances(const ShapeField& shape) {
-  const std::vector<NearestPlace> nearest = nearest_places(shape);
+  const std::vector<NearestPlace> nearest = nearest_places(shape, map_.facing_);
   map_.wall_.assign(nearest.size(), 0);
   map_.distance_mm_.assign(nearest.size(), 0);
   for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
@@ -179,7 +188,7 @@ void ZoneBuilder::lay_distances(const ShapeField& shape) {
     const Vec3 way = Vec3{double(cell.x), double(cell.y), double(cell.z)} - near.at();
     const double d = near.found ? length(way) * map_.leaf_mm_ : margin_mm(spec_);
     map_.distance_mm_[i] = static_cast<float>(in ? -d : d);
-    map_.wall_[i] = static_cast<std::uint8_t>(!near.found || length(way) < 1.5 ? near.wall : wall_of(in ? -way : way));
+    map_.wall_[i] = static_cast<std::uint8_t>(!near.found || length(way) < 1.5 ? near.wall : wall_of(map_.facing_.local(in ? -way : way)));
   });
 }
 
@@ -235,15 +244,30 @@ void ZoneBuilder::measure_target(const ShapeField& shape) {
     };
     if (ends_along(cell.x, size.x, 1) || ends_along(cell.y, size.y, row) || ends_along(cell.z, size.z, layer)) ++map_.target_border_;
     for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || tree_.tissue(at + step) == k_air;
-    if (cell.z + 1 != size.z && tissue_[i + layer] != k_air) return;
-    const double surface = maker_.surface().value[maker_.surface().index(at.x, at.y)];
-    if (std::fabs(surface - map_.centre_mm(at).z) > map_.leaf_mm_) return;
-    opening_sum += surface;
+    const auto surface = map_.facing_.lateral() ? surface_beside(at) : surface_above(at, i);
+    if (!surface) return;
+    opening_sum += *surface;
     ++openings;
   });
   map_.target_low_mm_ = map_.centre_mm(first) - Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
   map_.target_high_mm_ = map_.centre_mm(last) + Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
-  map_.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map_.target_high_mm_.z;
+  map_.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map_.top_level_mm();
+}
+
+/// Height of the tooth's surface over a target leaf that lies right under it.
+std::optional<double> ZoneBuilder::surface_above(IVec3 at, std::size_t i) {
+  const std::size_t layer = static_cast<std::size_t>(map_.size_.x) * static_cast<std::size_t>(map_.size_.y);
+  if (at.z - map_.low_.z + 1 != map_.size_.z && tissue_[i + layer] != k_air) return {};
+  const double surface = maker_.surface().value[maker_.surface().index(at.x, at.y)];
+  if (std::fabs(surface - map_.centre_mm(at).z) > map_.leaf_mm_) return {};
+  return surface;
+}
+
+/// The same, seen from a side.
+std::optional<double> ZoneBuilder::surface_beside(IVec3 at) const {
+  if (tree_.is_solid(tree_.tissue(at + map_.facing_.in_tooth({0, 0, 1})))) return {};
+  const double beyond = std::clamp(-decode_distance(tree_.distance_code(at)), 0.02, 0.98);
+  return map_.facing_.local(map_.centre_mm(at)).z + beyond * map_.leaf_mm_;
 }
 
 /// What is protected beyond the box, anywhere in the tooth.

@@ -13,18 +13,16 @@
 #include "engine/base/text.h"
 #include "engine/tooth/distance_transform.h"
 #include "engine/tooth/octree_edit.h"
+#include "scenarios/zones/column.h"
+#include "scenarios/zones/crown_shell.h"
+#include "scenarios/zones/leaning_column.h"
 #include "scenarios/zones/mesh_body.h"
 #include "scenarios/zones/outline.h"
 #include "scenarios/zones/placed.h"
+#include "scenarios/zones/side_cavity.h"
 
 namespace cavum::scenarios {
 namespace {
-
-/// Distance of a body that is the meeting of two independent directions.
-double meet(double a, double b) noexcept {
-  if (a > 0 && b > 0) return std::sqrt(a * a + b * b);
-  return std::max(a, b);
-}
 
 class Box final : public Shape {
  public:
@@ -86,41 +84,6 @@ class Prism final : public Shape {
   ShapeFrame frame_;
   double height_;
   std::unique_ptr<Outline> outline_;
-};
-
-/// An outline dropped from above; it has no upper end, for the occlusal opening is no wall.
-class Column final : public Shape {
- public:
-  /// `bottom` has the tooth's columns. The outline's distance is the same all the way down, so it is taken once for each of them.
-  Column(std::unique_ptr<Outline> outline, ColumnMap bottom, double taper_deg, double outline_z)
-      : outline_(std::move(outline)), bottom_(std::move(bottom)), outline_z_(outline_z) {
-    at_centre_.reserve(bottom_.value.size());
-    for (int y = 0; y < bottom_.ny; ++y)
-      for (int x = 0; x < bottom_.nx; ++x)
-        at_centre_.push_back(outline_->distance_mm(centre(bottom_.origin_mm.x, x), centre(bottom_.origin_mm.y, y)));
-    const SinCos a = det_sincos(taper_deg * k_pi / 180);
-    tan_ = a.sin / a.cos;
-    cos_ = a.cos;
-  }
-  double distance_mm(Vec3 p) const noexcept override {
-    const double side = (outline_mm(p.x, p.y) - tan_ * (p.z - outline_z_)) * cos_;
-    return meet(side, bottom_.at(p.x, p.y) - p.z);
-  }
-
- private:
-  [[nodiscard]] double centre(double origin, int i) const noexcept { return origin + (i + 0.5) * bottom_.leaf_mm; }
-  [[nodiscard]] double outline_mm(double x_mm, double y_mm) const noexcept {
-    const double qx = (x_mm - bottom_.origin_mm.x) / bottom_.leaf_mm, qy = (y_mm - bottom_.origin_mm.y) / bottom_.leaf_mm;
-    if (qx >= 0 && qy >= 0 && qx < bottom_.nx && qy < bottom_.ny) {
-      const int x = static_cast<int>(qx), y = static_cast<int>(qy);
-      if (centre(bottom_.origin_mm.x, x) == x_mm && centre(bottom_.origin_mm.y, y) == y_mm) return at_centre_[bottom_.index(x, y)];
-    }
-    return outline_->distance_mm(x_mm, y_mm);
-  }
-  std::unique_ptr<Outline> outline_;
-  ColumnMap bottom_;
-  std::vector<double> at_centre_;  // by ColumnMap::index of the tooth's columns
-  double outline_z_, tan_ = 0.0, cos_ = 1.0;
 };
 
 /// Leaves of a tissue, grown: a dense distance around them.
@@ -298,6 +261,7 @@ struct ShapeMaker::Cache {
   std::optional<ColumnMap> surface;
   std::optional<Landmarks> landmarks;
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
+  std::map<std::pair<int, int>, Vec3> side_way;  // of side cavities, by their place in the file
 };
 
 ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where, std::optional<Landmarks> landmarks)
@@ -314,6 +278,12 @@ const ColumnMap& ShapeMaker::surface() {
 const Landmarks& ShapeMaker::landmarks() {
   if (!cache_->landmarks) cache_->landmarks = find_landmarks(tooth_);
   return *cache_->landmarks;
+}
+
+Vec3 ShapeMaker::way_in(const ShapeSpec& spec) {
+  if (spec.leans) return lingual_way(tooth_, landmarks(), place_text(where_, spec)).z;
+  if (spec.kind == ShapeSpec::Kind::side_cavity) return cache_->side_way.at({spec.line, spec.column});
+  return spec.axis;
 }
 
 std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
@@ -355,13 +325,24 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
       return canal_cones(tooth_, spec, relief(spec.tissue, TissuePart::chamber, where).middle_mm, where);
     case ShapeSpec::Kind::proximal_box:
       return std::make_unique<Box>(place_proximal_box(spec, tooth_, landmarks(), where));
+    case ShapeSpec::Kind::side_cavity:
+      return make_side_cavity(spec, where);
+    case ShapeSpec::Kind::crown:
+      return crown_shell(tooth_, spec, landmarks(), surface(), where, work_);
     case ShapeSpec::Kind::column:
       break;
   }
   return make_column(spec, where);
 }
 
+std::unique_ptr<Shape> ShapeMaker::make_side_cavity(const ShapeSpec& spec, const std::string& where) {
+  PlacedSideCavity placed = side_cavity(tooth_, spec, landmarks(), where, work_);
+  cache_->side_way[{spec.line, spec.column}] = placed.way;
+  return std::move(placed.body);
+}
+
 std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std::string& where) {
+  if (spec.leans) return leaning_column(tooth_, spec, lingual_way(tooth_, landmarks(), where), where, work_);
   const OutlineSpec o = spec.outline.kind == OutlineSpec::Kind::fissure ? place_fissure(spec.outline, landmarks(), where) : spec.outline;
   Vec3 centre = o.centre_mm;
   if (o.from_chamber) {

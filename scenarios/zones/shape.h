@@ -48,6 +48,9 @@ class ShapeMaker {
   [[nodiscard]] const ColumnMap& surface();
   /// Where the tooth's cusps, fissures and ridges are; found when they are first asked for.
   [[nodiscard]] const Landmarks& landmarks();
+  /// The way in that a body of the list tells, unit, out of the tooth: its axis, or what it takes from landmarks (leaning_column.h, side_cavity.h).
+  /// The body has been made.
+  [[nodiscard]] Vec3 way_in(const ShapeSpec& spec);
   [[nodiscard]] ZoneWork& work() noexcept { return work_; }
 
  private:
@@ -57,6 +60,7 @@ class ShapeMaker {
     double outline_z_mm = 0.0;
   };
   [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
+  [[nodiscard]] std::unique_ptr<Shape> make_side_cavity(const ShapeSpec& spec, const std::string& where);
   [[nodiscard]] std::unique_ptr<Shape> make_column(const ShapeSpec& spec, const std::string& where);
   [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const OutlineSpec& placed, const std::string& where);
   [[nodiscard]] double lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const std::string& where);

@@ -43,7 +43,7 @@ OnSurface on_surface(const ShapeField& shape, Vec3 from) {
 }
 
 /// Of a leaf at `here`, inside the target or not, when the nearest leaf across the surface lies at `across`.
-NearestPlace place_towards(const ShapeField& shape, Vec3 here, Vec3 across, bool inside) {
+NearestPlace place_towards(const ShapeField& shape, Facing facing, Vec3 here, Vec3 across, bool inside) {
   OnSurface place = on_surface(shape, across);
   if (!place.found) place.at = across;
   const OnSurface foot = on_surface(shape, here - place.normal * dot(here - place.at, place.normal));
@@ -51,11 +51,11 @@ NearestPlace place_towards(const ShapeField& shape, Vec3 here, Vec3 across, bool
   const OnSurface own = dot(across - here, across - here) < 4 ? on_surface(shape, here) : OnSurface{};
   if (own.found && length(here - own.at) < length(here - place.at)) place = own;
   const Vec3 normal = length(place.normal) > 0.5 ? place.normal : inside ? across - here : here - across;
-  return {static_cast<float>(place.at.x), static_cast<float>(place.at.y), static_cast<float>(place.at.z), wall_of(normal), true};
+  return {static_cast<float>(place.at.x), static_cast<float>(place.at.y), static_cast<float>(place.at.z), wall_of(facing.local(normal)), true};
 }
 
 /// Each leaf by itself, from the nearest leaf on the other side of the surface.
-std::vector<NearestPlace> places_across(const ShapeField& shape) {
+std::vector<NearestPlace> places_across(const ShapeField& shape, Facing facing) {
   std::vector<std::uint8_t> outside(shape.inside.size());
   std::transform(shape.inside.begin(), shape.inside.end(), outside.begin(), [](std::uint8_t in) { return in != 0 ? 0 : 1; });
   const auto to_inside = nearest_seed(shape.size, shape.inside), to_outside = nearest_seed(shape.size, outside);
@@ -67,7 +67,7 @@ std::vector<NearestPlace> places_across(const ShapeField& shape) {
     const auto o = static_cast<std::size_t>(other);
     const Vec3 across{static_cast<double>(o % shape.row()), static_cast<double>(o % shape.layer() / shape.row()),
                       static_cast<double>(o / shape.layer())};
-    nearest[i] = place_towards(shape, centre_of(cell), across, inside);
+    nearest[i] = place_towards(shape, facing, centre_of(cell), across, inside);
   });
   return nearest;
 }
@@ -102,8 +102,8 @@ void pass_on(const ShapeField& shape, std::vector<NearestPlace>& nearest) {
 
 }  // namespace
 
-std::vector<NearestPlace> nearest_places(const ShapeField& shape) {
-  std::vector<NearestPlace> nearest = places_across(shape);
+std::vector<NearestPlace> nearest_places(const ShapeField& shape, Facing facing) {
+  std::vector<NearestPlace> nearest = places_across(shape, facing);
   pass_on(shape, nearest);
   return nearest;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
-#include "scenarios/file/wall.h"
+#include "scenarios/file/facing.h"
 
 namespace cavum::scenarios {
 
@@ -43,6 +43,7 @@ struct NearestPlace {
 
 /// For every leaf of the box. Two places are tried and the nearer one counts: that of the nearest leaf across the surface, and the foot of the
 /// perpendicular on the surface's tangent there. Both are put on the surface by the shape's own value, so neither is a leaf's raster.
-[[nodiscard]] std::vector<NearestPlace> nearest_places(const ShapeField& shape);
+/// Walls are told as seen from `facing`.
+[[nodiscard]] std::vector<NearestPlace> nearest_places(const ShapeField& shape, Facing facing = {});
 
 }  // namespace cavum::scenarios

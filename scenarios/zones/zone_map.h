@@ -3,18 +3,20 @@
 //
 // Rules. A leaf belongs to the target when its centre lies inside the target's shape. Any other leaf
 // belongs to the *bottom* when the line from the nearest point of the target's surface to the leaf runs
-// within 45° of straight down, otherwise to the *sides*; within the leeway's width there it is leeway,
+// within 45° of straight down (of straight in, where the cavity is looked at from a side: facing.h), otherwise to the *sides*;
+// within the leeway's width there it is leeway,
 // within the container's container, beyond it none. What is protected is so wherever it lies in the tooth, also beyond the
 // container and where the other zones' shapes reach: it is taken out of the target. Only leaves that hold tissue have a zone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "engine/tooth/tooth.h"
+#include "scenarios/file/facing.h"
 #include "scenarios/file/scenario.h"
-#include "scenarios/file/wall.h"
 
 namespace cavum::scenarios {
 
@@ -22,7 +24,8 @@ enum class Zone : std::uint8_t { none, target, leeway_sides, leeway_bottom, cont
 inline constexpr std::size_t k_zones = 7;
 [[nodiscard]] const char* zone_name(Zone zone) noexcept;
 
-/// Wall that a surface facing out of the target along `direction` belongs to.
+/// Wall that a surface facing out of the target along `direction` belongs to; of a cavity looked at from a side, the direction as Facing::local has
+/// it.
 [[nodiscard]] Wall wall_of(Vec3 direction) noexcept;
 
 /// How far a distance to the target's surface may be from the true one, in leaves (shape given exactly): half a leaf off faces, measured at up to
@@ -72,11 +75,18 @@ class ZoneMap {
   /// Corners of the box of all target leaves, mm.
   [[nodiscard]] Vec3 target_low_mm() const noexcept { return target_low_mm_; }
   [[nodiscard]] Vec3 target_high_mm() const noexcept { return target_high_mm_; }
-  /// Mean height of the tooth's surface over the target: the level of the occlusal opening.
+  /// Mean height of the tooth's surface over the target: the level of the opening, along `facing`'s way out (z; from a side ±y).
   [[nodiscard]] double opening_z_mm() const noexcept { return opening_z_mm_; }
+  /// How far below the opening a place of the tooth frame lies, mm.
+  [[nodiscard]] double below_opening_mm(Vec3 p) const noexcept { return opening_z_mm_ - facing_.local(p).z; }
+  /// Levels between which the target's leaves lie, along `facing`'s way out.
+  [[nodiscard]] double floor_level_mm() const noexcept { return std::min(facing_.local(target_low_mm_).z, facing_.local(target_high_mm_).z); }
+  [[nodiscard]] double top_level_mm() const noexcept { return std::max(facing_.local(target_low_mm_).z, facing_.local(target_high_mm_).z); }
   /// The way in, pointing out of the tooth, unit: the axis of the target's first body where the scenario turns it (an incisor is entered
-  /// from its lingual side), within 60° of occlusal; else +z.
+  /// from its lingual side), within 60° of occlusal; from a side, square to the surface, where that body is a cavity in it; else +z.
   [[nodiscard]] Vec3 approach() const noexcept { return approach_; }
+  /// From a side where the target's first body is a cavity in it, else from occlusal.
+  [[nodiscard]] Facing facing() const noexcept { return facing_; }
   /// Calls `visit(leaf)` for every target leaf, z slowest.
   template <class Visit>
   void for_each_target_leaf(const Visit& visit) const {
@@ -125,6 +135,7 @@ class ZoneMap {
   Vec3 target_low_mm_, target_high_mm_;
   double opening_z_mm_ = 0.0;
   Vec3 approach_{0, 0, 1};
+  Facing facing_;
 };
 
 /// Lays the zones into a tooth (the whole one, before the exam). Throws Error when the target is empty or

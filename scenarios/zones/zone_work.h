@@ -11,9 +11,9 @@
 
 namespace cavum::scenarios {
 
-/// Leaves of the box around the target with its leeway and container, all in the tooth: 1000 mm3 at 0.05 mm. The shipped tasks have at most 3
-/// million.
-inline constexpr std::uint64_t k_most_zone_leaves = 6'000'000;
+/// Leaves of the box around the target with its leeway and container, all in the tooth: 2000 mm3 at 0.05 mm. The shipped tasks have at most 3
+/// million, a crown on a molar 13 million.
+inline constexpr std::uint64_t k_most_zone_leaves = 16'000'000;
 /// Leaves of the boxes of all bodies that are a tissue or a surface; a molar's periodontium has 16 million.
 inline constexpr std::uint64_t k_most_body_leaves = 20'000'000;
 /// Distances to single pieces (sides of an outline, walls of a cone, triangles) that are taken in all, some 6 ns each.

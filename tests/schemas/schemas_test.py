@@ -38,6 +38,10 @@ SHAPES = [
     {"shape": "column", "outline": {"kind": "fissure", "width_mm": 1.2, "ridge_mm": 1.5, "branches": "all", "through": "mesial", "offset_mm": 0},
      "bottom": {"kind": "below_border", "depth_mm": 0.2}},
     {"shape": "proximal_box", "side": "distal", "width_mm": 3, "depth_mm": 1.2, "above_neck_mm": 1},
+    {"shape": "column", "lean": "lingual", "outline": {"kind": "projection", "tissue": "pulp"}, "bottom": {"kind": "tissue_floor", "tissue": "pulp"}},
+    {"shape": "side_cavity", "side": "lingual", "depth_mm": 1, "heights": "level",
+     "outline": {"kind": "circle", "radius_mm": 1, "centre_mm": [0, 4], "from": "tooth", "offset_mm": 0}},
+    {"shape": "crown", "above_neck_mm": 0.5, "depth_mm": 1, "taper_deg": 6, "occlusal_mm": 1.5},
 ]
 
 

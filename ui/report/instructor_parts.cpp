@@ -58,7 +58,7 @@ void add_walls(Document& d, const grading::Result& r) {
     const auto cell = [&](double v, double bound) {
       return TableCell{m.samples == 0 ? k_dash : fmt::format("{} ± {}", fixed(v, 2), fixed(bound, 2))};
     };
-    t.rows.push_back({{{scenarios::wall_name(static_cast<scenarios::Wall>(w))},
+    t.rows.push_back({{{scenarios::wall_name(static_cast<scenarios::Wall>(w), r.shape.facing)},
                        cell(m.mean_mm, m.mean_bound_mm),
                        cell(m.p95_mm, m.p95_bound_mm),
                        cell(m.max_over_mm, r.shape.bound_mm),

@@ -10,8 +10,8 @@ namespace {
 
 using Kind = scenarios::ShapeSpec::Kind;
 
-constexpr std::array<const char*, 10> k_shape_names{"box",    "cylinder", "cone",     "ball",       "prism",
-                                                    "column", "tissue",   "STL file", "canal cone", "proximal box"};
+constexpr std::array<const char*, 12> k_shape_names{
+    "box", "cylinder", "cone", "ball", "prism", "column", "tissue", "STL file", "canal cone", "proximal box", "cavity in a side", "crown"};
 
 void add_bottom(AuthorZone& zone, const scenarios::BottomSpec& b, const std::string& at) {
   switch (b.kind) {
@@ -88,6 +88,15 @@ AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double 
       number("width", "width_mm", s.width_mm, 0.5, 10);
       number("axial depth", "depth_mm", s.depth_mm, 0.2, 5);
       number("floor above the neck", "above_neck_mm", s.above_neck_mm, 0, 6);
+      break;
+    case Kind::side_cavity:
+      number("depth below the surface", "depth_mm", s.depth_mm, 0.1, 5);
+      break;
+    case Kind::crown:
+      number("finish line above the neck", "above_neck_mm", s.above_neck_mm, 0, 4);
+      number("depth of the chamfer", "depth_mm", s.depth_mm, 0.3, 3);
+      number("taper of each wall", "taper_deg", s.taper_deg, 0, 20, "deg");
+      number("occlusal reduction", "occlusal_mm", s.occlusal_mm, 0.3, 4);
       break;
     case Kind::box:
       zone.numbers.push_back({"size along x", at + "/size_mm/0", s.size_mm.x, 0.05, 100});

@@ -66,8 +66,8 @@ void show_gauges(const Theme& t, const scenarios::ExamSetup& setup, const TickOu
     bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);
   }
   if (shown.depth) {
-    const double opening_mm = setup.zones.opening_z_mm(), floor_mm = opening_mm - setup.zones.target_low_mm().z;
-    depth_gauge(t, opening_mm - now.proxy_mm.z, deepest_mm, std::ceil(floor_mm + 1.0), t.px(120));
+    const double floor_mm = setup.zones.opening_z_mm() - setup.zones.floor_level_mm();
+    depth_gauge(t, setup.zones.below_opening_mm(now.proxy_mm), deepest_mm, std::ceil(floor_mm + 1.0), t.px(120));
   }
 }
 

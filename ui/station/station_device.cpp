@@ -55,7 +55,9 @@ class Mouse final : public StationDevice {
     constexpr double k_above_mm = 4.0;
     const scenarios::ZoneMap& zones = setup.zones;
     const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
-    first_.tip_mm = Vec3{middle.x, middle.y, zones.opening_z_mm()} + zones.approach() * k_above_mm;
+    const Vec3 opening =
+        zones.facing().lateral() ? middle + zones.approach() * zones.below_opening_mm(middle) : Vec3{middle.x, middle.y, zones.opening_z_mm()};
+    first_.tip_mm = opening + zones.approach() * k_above_mm;
     first_.rotation = rotation_between({0, 0, 1}, zones.approach());
     stylus_ = std::make_unique<PointerStylus>(pointer_omni(), HandModel{}, k_tick_s, first_);
   }

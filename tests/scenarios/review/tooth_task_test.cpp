@@ -13,8 +13,8 @@ namespace {
 std::string file_of(const char* tooth) { return testing_basics::data_path(std::string("teeth/") + tooth); }
 
 TEST(ToothTask, AFrontToothAndABlockAreOfferedWhatMakesSense) {
-  for (const auto& [file, least, most] : {std::tuple("lower_molar.cvt", 6, 6), std::tuple("upper_premolar.cvt", 6, 6),
-                                          std::tuple("upper_incisor.cvt", 0, 0), std::tuple("block.cvt", 0, 1)}) {
+  for (const auto& [file, least, most] : {std::tuple("lower_molar.cvt", 11, 11), std::tuple("upper_premolar.cvt", 11, 11),
+                                          std::tuple("upper_incisor.cvt", 6, 6), std::tuple("block.cvt", 0, 1)}) {
     const Tooth tooth = load_tooth_file(file_of(file));
     int offered = 0;
     for (const auto& t : offered_tasks(tooth, find_landmarks(tooth))) offered += t.why_not.empty() ? 1 : 0;
@@ -25,7 +25,10 @@ TEST(ToothTask, AFrontToothAndABlockAreOfferedWhatMakesSense) {
 
 TEST(ToothTask, WhatIsWrittenIsSoundAndFollowsTheLandmarks) {
   for (const auto& [file, task, relation] : {std::tuple("lower_molar.cvt", "class_1", "kind = \"fissure\", width_mm = 1.4"),
-                                             std::tuple("upper_premolar.cvt", "slot_mesial", "shape = \"proximal_box\"\nside")}) {
+                                             std::tuple("upper_premolar.cvt", "slot_mesial", "shape = \"proximal_box\"\nside"),
+                                             std::tuple("upper_incisor.cvt", "access", "lean = \"lingual\""),
+                                             std::tuple("upper_premolar.cvt", "class_5", "shape = \"side_cavity\"\nside = \"buccal\""),
+                                             std::tuple("upper_incisor.cvt", "dexterity_cross", "heights = \"level\"")}) {
     const Tooth tooth = load_tooth_file(file_of(file));
     const WrittenTask written = write_tooth_task(tooth, find_landmarks(tooth), file_of(file), "here.toml", task);
     EXPECT_TRUE(check_whole(written.text, "here.toml").sound()) << file << " " << task;

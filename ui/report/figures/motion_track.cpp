@@ -38,7 +38,7 @@ MotionTrack make_motion_track(const grading::GradeInput& input, std::size_t most
     t.axis_y.push_back(whole<std::int8_t>(axis.y * 127));
     t.axis_z.push_back(whole<std::int8_t>(axis.z * 127));
     t.force_cn.push_back(whole<std::uint16_t>(force * 100));
-    t.depth_um.push_back(whole<std::int16_t>((input.zones.opening_z_mm() - tip.z) * 1e3));
+    t.depth_um.push_back(whole<std::int16_t>(input.zones.below_opening_mm(tip) * 1e3));
     t.rpm10.push_back(whole<std::uint16_t>(input.records[first].rpm * 0.1));
     const std::size_t next = std::min(end, ticks - 1);
     const double way_mm = length(input.inputs[next].tip_mm() - tip), time_s = static_cast<double>(next - first) * k_tick_s;

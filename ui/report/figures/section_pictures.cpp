@@ -52,8 +52,9 @@ std::optional<Worst> worst(const grading::Result& r, double grading::WallMeasure
 }
 
 /// The section in which the deviation of a wall shows.
-scenarios::View view_of(std::size_t wall) {
+scenarios::View view_of(std::size_t wall, scenarios::Facing facing) {
   const auto w = static_cast<scenarios::Wall>(wall);
+  if (facing.lateral() && w == scenarios::Wall::floor) return scenarios::View::bucco_lingual;
   return w == scenarios::Wall::buccal || w == scenarios::Wall::lingual ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;
 }
 scenarios::View other(scenarios::View v) {
@@ -68,10 +69,10 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
                          {scenarios::View::horizontal, middle, through}};
   const auto over = worst(r, &grading::WallMeasures::max_over_mm, &grading::WallMeasures::worst_over);
   const auto under = worst(r, &grading::WallMeasures::max_under_mm, &grading::WallMeasures::worst_under);
-  const auto named = [](const char* what, const Worst& w) {
+  const auto named = [&](const char* what, const Worst& w) {
     return fmt::format("worst {}, {} mm at the {}{}", what, fixed(w.mm, 2),
                        w.wall == static_cast<std::size_t>(scenarios::Wall::floor) ? "" : "wall towards ",
-                       scenarios::wall_name(static_cast<scenarios::Wall>(w.wall)));
+                       scenarios::wall_name(static_cast<scenarios::Wall>(w.wall), r.shape.facing));
   };
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
@@ -82,12 +83,12 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
         for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
           list.push_back({v, e.site_mm, "breakthrough in the force here"});
   if (over) {
-    list.push_back({view_of(over->wall), over->site_mm, named("overcut", *over)});
-    list.push_back({other(view_of(over->wall)), over->site_mm, named("overcut", *over)});
+    list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named("overcut", *over)});
+    list.push_back({other(view_of(over->wall, r.shape.facing)), over->site_mm, named("overcut", *over)});
   }
   if (under) {
-    list.push_back({view_of(under->wall), under->site_mm, named("undercut", *under)});
-    list.push_back({other(view_of(under->wall)), under->site_mm, named("undercut", *under)});
+    list.push_back({view_of(under->wall, r.shape.facing), under->site_mm, named("undercut", *under)});
+    list.push_back({other(view_of(under->wall, r.shape.facing)), under->site_mm, named("undercut", *under)});
   }
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {
