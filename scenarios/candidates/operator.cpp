@@ -24,6 +24,8 @@ constexpr double k_turning_s = 0.06;  // in which a push changes its direction
 constexpr double k_intention_s = 0.025;
 constexpr double k_gentle_bend = 0.7;  // cosine between two pieces of the way
 constexpr double k_give_up_s = 1.5;    // without getting nearer
+constexpr double k_upright = 0.5;      // cosine: flatter, the tooth is entered from its side
+constexpr double k_curved_spacing_mm = 0.15;
 
 /// 0..100 of "student-LEVEL", else -1.
 int level_in(const std::string& name) {
@@ -93,7 +95,7 @@ Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::u
   }
   for (auto& w : way_) {
     if (!w.cut) continue;
-    w.tip_mm += approach_.z >= 0.5 ? skill_.offset_mm : cavum::rotation(rotation()) * skill_.offset_mm;
+    w.tip_mm += approach_.z >= k_upright ? skill_.offset_mm : cavum::rotation(rotation()) * skill_.offset_mm;
     w.tip_mm += approach_ * std::max(0.0, bottom + skill_.stops_short * (top - bottom) - dot(w.tip_mm, approach_));
   }
   memory_.resize(static_cast<std::size_t>(skill_.reaction_s / k_tick_s) + 1);
@@ -251,7 +253,10 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
 
 std::vector<Waypoint> plan_work(const ChosenPoint& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
                                 const std::vector<std::string>& aims) {
-  std::vector<Waypoint> cut = plan_cut(chosen.map, tooth, PlanOptions{});
+  PlanOptions options;
+  // from a side the floor is curved, as the surface is: wide loops would leave ridges
+  if ((chosen.map.tool * Vec3{0, 0, 1}).z < k_upright) options.finish_spacing_mm = k_curved_spacing_mm;
+  std::vector<Waypoint> cut = plan_cut(chosen.map, tooth, options);
   if (cut.empty()) return cut;
   for (auto& w : cut) w.point = static_cast<std::uint8_t>(chosen.index);
   std::vector<Waypoint> way = plan_pilot(chosen.blunt_map, tooth, tray[chosen.blunt].point.head_radius_mm, aims);

@@ -421,7 +421,7 @@ std::string scenario_text(const TaskText& task) {
   if (task.walls_limit_mm3 > 0) {
     const std::size_t walls = rubric.find("id = \"walls\""), points = rubric.find("points = ", walls), end = rubric.find('\n', points) + 1;
     rubric.insert(end, line(fmt::format("critical_above = {}", fixed(task.walls_limit_mm3, 1)),
-                            "a quarter of the cavity: bites that leave its floor and its furthest places alone"));
+                            task.walls_limit_of + ": bites that leave its floor and its furthest places alone"));
   }
   if (!task.criteria.empty()) rubric.insert(rubric.find("# What the task exists to catch"), task.criteria + "\n");
   return s + rubric;

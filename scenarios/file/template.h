@@ -12,12 +12,13 @@ struct TaskText {
   std::string tooth_file, about;  ///< `about` the tooth, a comment
   std::string points;             ///< the tray, as a TOML list
   double time_limit_s = 600.0;
-  bool access = false;           ///< opens a pulp chamber: its steps ask for that
-  std::string aims, faults;      ///< TOML lists of tissues
-  double walls_limit_mm3 = 0.0;  ///< of wall cut beyond the leeway the exam is failed; 0: no such limit
-  std::string zones, guard;      ///< [[zones.target]] and [[zones.protected]] with comments
-  std::string steps = {};        ///< [[steps]]; empty: those of all cavities, or of all accesses
-  std::string criteria = {};     ///< further [[rubric.criteria]]
+  bool access = false;                                     ///< opens a pulp chamber: its steps ask for that
+  std::string aims, faults;                                ///< TOML lists of tissues
+  double walls_limit_mm3 = 0.0;                            ///< of wall cut beyond the leeway the exam is failed; 0: no such limit
+  std::string zones, guard;                                ///< [[zones.target]] and [[zones.protected]] with comments
+  std::string steps = {};                                  ///< [[steps]]; empty: those of all cavities, or of all accesses
+  std::string criteria = {};                               ///< further [[rubric.criteria]]
+  std::string walls_limit_of = "a quarter of the cavity";  ///< what `walls_limit_mm3` is, in words
 };
 /// A whole scenario with comments.
 [[nodiscard]] std::string scenario_text(const TaskText& task);

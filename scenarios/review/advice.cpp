@@ -131,6 +131,9 @@ void Adviser::leeway() {
 /// Walls that end in the air before the leeway does.
 void Adviser::walls() {
   const Facing facing = zones_.facing();
+  // a finish line lies on the outer surface, so a crown's floor ends in the air
+  const bool has_finish_line =
+      std::any_of(s_.zones.target.begin(), s_.zones.target.end(), [](const ShapeSpec& s) { return s.kind == ShapeSpec::Kind::crown; });
   const ColumnMap surface = surface_relief(tooth_);
   const Octree& tree = tooth_.octree;
   const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope
@@ -154,7 +157,7 @@ void Adviser::walls() {
   zones_.for_each_target_leaf([&](IVec3 at) {
     const IVec3 n = tree.size();
     if (at.x < 0 || at.y < 0 || at.x >= n.x || at.y >= n.y) return;
-    if (air_within(at, facing.in_tooth({0, 0, -1}), s_.zones.leeway.bottom_mm)) ++thin[static_cast<std::size_t>(Wall::floor)];
+    if (!has_finish_line && air_within(at, facing.in_tooth({0, 0, -1}), s_.zones.leeway.bottom_mm)) ++thin[static_cast<std::size_t>(Wall::floor)];
     if (near_surface(at)) return;
     for (const IVec3 way : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
       if (air_within(at, facing.in_tooth(way), s_.zones.leeway.sides_mm))

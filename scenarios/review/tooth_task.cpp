@@ -26,7 +26,8 @@ constexpr double k_isthmus_share = 0.25, k_narrowest_mm = 1.2, k_widest_mm = 1.5
 constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm = 4.0;
 constexpr double k_below_contact_mm = 0.5, k_least_above_neck_mm = 0.8;
 constexpr double k_in_dentin_mm = 0.2;
-constexpr double k_least_walls_mm3 = 0.6;  // twice what the template's criterion on walls gives full marks for
+constexpr double k_crown_walls_share = 0.1;  // a crown's shell is large: a quarter of it is more than its container holds
+constexpr double k_least_walls_mm3 = 0.6;    // twice what the template's criterion on walls gives full marks for
 
 /// Looked at once one is sound, in the hope of one without a warning.
 constexpr std::size_t k_most_tried = 4, k_none = 1000;
@@ -38,6 +39,7 @@ struct ToothTask {
   std::function<std::string(const Tooth&, const Landmarks&)> why_not;
   std::function<std::vector<TaskChoice>(const Tooth&, const Landmarks&)> choices;
   std::string steps{}, criteria{};  // of its own; else as all cavities or accesses have them
+  double walls_share = 0.25;        // of the target's volume: so much sound wall cut fails
 };
 
 bool has_tissue(const Tooth& tooth, const char* name) {
@@ -213,7 +215,7 @@ const std::vector<ToothTask>& tasks() {
        lesion},
       {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5},
       {"crown", "Preparation for a full crown", R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
-       why_no_crown, crown_preparation, crown_steps_text(), crown_criteria_text()},
+       why_no_crown, crown_preparation, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
       {"dexterity_groove", "Dexterity: a straight groove", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::groove)},
       {"dexterity_circle", "Dexterity: a round pocket", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
@@ -243,11 +245,11 @@ std::string present(const Tooth& tooth, const std::string& list) {
 /// Whole minutes, at least five: two and a half times what the expert needs.
 double time_limit_s(const std::optional<double>& expert_s) { return 60.0 * std::max(5.0, std::ceil(2.5 * expert_s.value_or(0) / 60.0)); }
 
-/// A quarter of the target's volume.
-double wall_limit_mm3(const std::string& text, const std::string& path, const Tooth& tooth) {
+/// A share of the target's volume.
+double wall_limit_mm3(const std::string& text, const std::string& path, const Tooth& tooth, double share) {
   const ZoneMap zones = build_zones(parse_scenario(text, path), tooth);
   const double target_mm3 = static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * zones.leaf_volume_mm3();
-  return std::max(k_least_walls_mm3, 0.25 * target_mm3);
+  return std::max(k_least_walls_mm3, share * target_mm3);
 }
 
 }  // namespace
@@ -294,11 +296,12 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .zones = choice.zones,
                   .guard = choice.guard,
                   .steps = asked->steps,
-                  .criteria = asked->criteria};
+                  .criteria = asked->criteria,
+                  .walls_limit_of = asked->walls_share == 0.25 ? "a quarter of the cavity" : "a tenth of what is taken off"};
     CheckedScenario checked = check_whole(scenario_text(text), path);
     if (checked.sound()) {
       text.time_limit_s = time_limit_s(checked.expert_s);
-      text.walls_limit_mm3 = wall_limit_mm3(scenario_text(text), path, tooth);
+      text.walls_limit_mm3 = wall_limit_mm3(scenario_text(text), path, tooth, asked->walls_share);
       const std::string written = scenario_text(text);
       checked = check_whole(written, path);
       if (checked.sound() && checked.problems.size() < fewest) {

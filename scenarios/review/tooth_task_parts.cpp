@@ -151,16 +151,16 @@ std::vector<TaskChoice> dexterity(const Landmarks& l, DexterityShape shape) {
     std::string zones = "# In the buccal surface, heights from the neck's middle; one depth below the surface.\n", words;
     switch (shape) {
       case DexterityShape::groove:
-        zones += cavity(stroke(1.2, 0), depth);
-        words = "a straight groove, 3.8 mm long and 1.4 mm wide";
+        zones += cavity(stroke(1.0, 0), depth);
+        words = "a straight groove, 3.4 mm long and 1.4 mm wide";
         break;
       case DexterityShape::circle:
         zones += cavity(fmt::format("{{ kind = \"circle\", radius_mm = 1.4, centre_mm = {} }}", pair_text(0, up)), depth);
         words = "a round pocket, 2.8 mm wide";
         break;
       case DexterityShape::cross:
-        zones += cavity(stroke(1.2, 0), depth) + "\n" + cavity(stroke(0, 1.2), depth);
-        words = "a cross of two grooves, each 3.8 mm long and 1.4 mm wide";
+        zones += cavity(stroke(1.0, 0), depth) + "\n" + cavity(stroke(0, 1.0), depth);
+        words = "a cross of two grooves, each 3.4 mm long and 1.4 mm wide";
         break;
     }
     list.push_back({zones, pulp_guard_text(0.5), fmt::format("Cut {} into the buccal surface, {} mm deep all over.", words, depth),
