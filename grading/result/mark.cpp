@@ -91,14 +91,15 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
     }
     out.first = loss.first;
     const int digits = digits_for(*v.value, c.full);
-    out.reason = fmt::format("{} where {} gives full marks{}", amount_text(*v.value, v.bound, digits, out.unit),
-                             amount_text(c.full, 0, digits, out.unit), loss.text.empty() ? "" : ": " + loss.text);
+    out.reason = fmt::format("{} where {} gives full marks{}", value_text(a.measure, *v.value, v.bound, digits),
+                             value_text(a.measure, c.full, 0, digits), loss.text.empty() ? "" : ": " + loss.text);
   }
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   if (out.critical_failed) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
     const auto& limit = above ? c.critical_above : c.critical_below;
-    out.reason += fmt::format("; critical {}{}", above ? "above " : "below ", fixed(*limit, 2));
+    out.reason += "; critical";
+    if (a.measure.reads != scenarios::Reads::yes_no) out.reason += fmt::format(" {}{}", above ? "above " : "below ", fixed(*limit, 2));
     if (near(limit)) out.reason += ", which lies within the bound of the figure";
     out.reason += "; this alone fails the exam";
   } else if (near(c.critical_above) || near(c.critical_below)) {

@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 4;
+inline constexpr int k_grading_version = 5;
 
 /// When and where something happened; tick -1 = never.
 struct Trace {
@@ -59,7 +59,7 @@ struct WallMeasures {
   double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
   /// Of the mean and the 95th percentile; of the largest it is ShapeMeasures::bound_mm.
   double mean_bound_mm = 0.0, p95_bound_mm = 0.0;
-  Trace worst_over, worst_under;
+  Trace worst_over, worst_under;  ///< worst_under without a tick where the thickest place was never cut
 };
 
 struct ShapeMeasures {

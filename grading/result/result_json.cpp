@@ -69,7 +69,7 @@ Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
   figures["samples"] = w.samples;
   figures["max_over_site_mm"] = place_of(w.worst_over);
   figures["max_over_tick"] = tick_of(w.worst_over);
-  figures["max_under_site_mm"] = place_of(w.worst_under);
+  figures["max_under_site_mm"] = w.max_under_mm > 0 ? point(w.worst_under.site_mm) : Json(nullptr);
   figures["max_under_tick"] = tick_of(w.worst_under);
   return figures;
 }
@@ -253,7 +253,8 @@ std::string criteria_text(const Result& r) {
   std::string s = "\n";
   for (const auto& c : r.criteria)
     s += fmt::format("  {}{}{}{}\n", padded(one_line(c.id) + " ", 16), padded(fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)), 14),
-                     padded("± " + fixed(c.points_bound, 1), 9), one_line(c.reason));
+                     padded("± " + fixed(c.points_bound, 1), 9),
+                     c.critical_failed && !r.verdict_reasons.empty() ? "critical: see above" : one_line(c.reason));
   return s;
 }
 
