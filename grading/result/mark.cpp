@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "grading/result/bands.h"
 #include "grading/result/loss.h"
 #include "grading/result/measure_marking.h"
 
@@ -147,8 +148,11 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.compensatory = rubric.compensatory;
   r.pass_percent = rubric.pass_percent;
   r.borderline_percent = rubric.borderline_percent;
+  r.bands.clear();
+  for (const auto& b : rubric.bands) r.bands.push_back({b.name, b.most});
   for (const auto& c : rubric.criteria) {
     r.criteria.push_back(mark_one(r, c));
+    put_in_band(r, c, r.criteria.back());
     r.points += r.criteria.back().points;
     r.points_bound += r.criteria.back().points_bound;
     r.max_points += r.criteria.back().max;
@@ -158,6 +162,10 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     if (!c.critical_failed) continue;
     critical = true;
     r.verdict_reasons.push_back(fmt::format("critical criterion {}: {}", c.id, c.reason));
+  }
+  for (auto& text : count_bands(r)) {
+    critical = true;
+    r.verdict_reasons.push_back(std::move(text));
   }
   const Standing standing = standing_of(r);
   const double beyond = standing.percent - rubric.pass_percent;

@@ -208,7 +208,15 @@ struct CriterionResult {
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
   std::string work_text;      ///< that in words; empty when all of them count
   bool critical_failed = false;
-  Trace first;  ///< where the loss began
+  std::optional<std::size_t> band;  ///< that it lies in, of Result::bands
+  Trace first;                      ///< where the loss began
+};
+
+/// A band of the rubric, and the criteria that lie in it.
+struct BandResult {
+  std::string name;
+  std::optional<int> most;  ///< criteria that may lie in it or in a worse one
+  std::size_t criteria = 0;
 };
 
 enum class Verdict { pass, fail, review };
@@ -222,6 +230,7 @@ struct Result {
   double points_bound = 0.0;  ///< the sum of the criteria's
   bool compensatory = true;
   double pass_percent = 0.0, borderline_percent = 0.0;
+  std::vector<BandResult> bands;  ///< best first; empty: the rubric has none
   std::vector<CriterionResult> criteria;
   VolumeMeasures volumes;
   ShapeMeasures shape;
