@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/shipped.h"
+#include "engine/base/text.h"
 #include "engine/base/toml_limits.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"

@@ -37,7 +37,7 @@ scenarios::RubricSpec rubric(int most_marginal, const std::string& bands_of_wall
 /// Cut to the floor, `mesial` and `distal` beyond the target's walls.
 Result cut(double mesial, double distal, const scenarios::RubricSpec& by, double depth = 2) {
   Carved c(scenario_text(k_target), dentin_block(4, 4, 0.05));
-  c.carve(box_hole(-1.5 - mesial, 1.5 + distal, -1, 1, -depth), 0);
+  c.carve(box_hole(-1.5 - distal, 1.5 + mesial, -1, 1, -depth), 0);
   return grade(c.input(), by);
 }
 std::string band(const Result& r, std::size_t criterion) { return r.bands.at(r.criteria.at(criterion).band.value()).name; }
