@@ -128,6 +128,25 @@ std::map<std::string, const json*> criteria_of(const json& result) {
   return by_id;
 }
 
+/// What another version of grading makes of the marks: "verdict fail as before; 71.5 points, now 73.0; criterion walls 9.0, now 10.5; 12 other parts
+/// differ".
+std::string marks_then_and_now(const json& sealed, const json& marked, std::size_t parts_differ) {
+  std::size_t told = 0;
+  const auto told_of = [&](const std::string& what, const std::string& was, const std::string& is) {
+    if (was == is) return what + " " + was + " as before";
+    ++told;
+    return what + " " + was + ", now " + is;
+  };
+  const auto points = [](const json& of) { return member_of(of, "points").is_number() ? fixed(member_of(of, "points").get<double>(), 1) : "none"; };
+  std::string text = told_of("verdict", text_in(sealed, "verdict"), text_in(marked, "verdict")) + "; " +
+                     told_of("points", points(member_of(sealed, "score")), points(member_of(marked, "score")));
+  const auto was = criteria_of(sealed), is = criteria_of(marked);
+  for (const auto& [id, c] : is)
+    if (const auto found = was.find(id); found != was.end() && points(*found->second) != points(*c))
+      text += "; " + told_of("criterion " + one_line(id), points(*found->second), points(*c));
+  return text + fmt::format("; {} {}parts of the result differ", parts_differ - std::min(told, parts_differ), told > 0 ? "other " : "");
+}
+
 }  // namespace
 
 std::vector<std::string> result_differences(const json& sealed, const json& marked) {
@@ -209,8 +228,8 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
                     "another one. Sealed {}",
                     version, all));
   else
-    out.remarks.push_back(fmt::format("the sealed result comes from grading version {}, and the school's mark by version {} counts. Sealed {}",
-                                      version, k_grading_version, all));
+    out.remarks.push_back(fmt::format("the sealed result comes from grading version {}, and the school's mark by version {} counts: {}", version,
+                                      k_grading_version, marks_then_and_now(sealed, out.result, differ.size())));
   return out;
 }
 

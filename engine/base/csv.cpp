@@ -34,7 +34,13 @@ char separator_of(std::string_view heading, bool quotes) {
 
 }  // namespace
 
+void refuse_utf16(std::string_view text, const std::string& where) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw Error(where, "is in UTF-16, as spreadsheets write 'Unicode text'", "save it as CSV in UTF-8");
+}
+
 CsvReader::CsvReader(std::string_view text, std::string where, const CsvForm& form) : text_(text), where_(std::move(where)), form_(form) {
+  refuse_utf16(text_, where_);
   if (text_.starts_with(k_byte_order_mark)) text_.remove_prefix(k_byte_order_mark.size());
 }
 

@@ -19,6 +19,9 @@ struct CsvForm {
   bool plain_text = true;             ///< refuses fields that are no UTF-8, or hold a control character
 };
 
+/// Throws Error(where, ...) for a text that begins as UTF-16 does.
+void refuse_utf16(std::string_view text, const std::string& where);
+
 /// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon and tab parts the fields of
 /// all rows, and each row has as many fields.
 class CsvReader {

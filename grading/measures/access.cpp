@@ -122,37 +122,57 @@ void measure_overhang(const GradeInput& input, const RemovedMap& removed, std::i
   std::stable_sort(m.overhang_pieces.begin(), m.overhang_pieces.end(), [](const Piece& a, const Piece& b) { return a.part > b.part; });
 }
 
+/// How far a share may be off, percent: `covered` and `open` mouths, of which so many lie on a mouth's rim, where half a leaf more or less belongs to
+/// it, and `edge` ones where half a leaf more or less may be covered. Rims alone tell nothing when all mouths are covered, or all open.
+double covered_bound_percent(double covered, double open, double covered_rim, double open_rim, double edge) {
+  const auto share = [](double a, double b) { return a > 0 ? a / (a + std::max(0.0, b)) : 0.0; };
+  const double now = share(covered, open), high = share(covered + 0.5 * (covered_rim + edge), open - 0.5 * (open_rim + edge)),
+               low = share(covered - 0.5 * (covered_rim + edge), open + 0.5 * (open_rim + edge));
+  return 100.0 * std::max(high - now, now - low);
+}
+
 void measure_canals(const GradeInput& input, const AimLeaves& aim, AccessMeasures& m) {
   constexpr std::uint8_t k_open = 1, k_covered = 2;
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& tree = input.before.octree;
   const Vec3 up = zones.approach() * (0.5 * zones.leaf_mm());
+  const auto covered_from = [&](IVec3 leaf) {  // its straight line out meets hard tissue
+    Vec3 p = zones.centre_mm(leaf);
+    for (; zones.in_box(leaf); p += up, leaf = tree.leaf_at(p))
+      if (input.after.is_solid(input.after.tissue(leaf))) return true;
+    return false;
+  };
   Marks<std::uint8_t> mouth(zones);
   std::vector<IVec3> mouths;
-  double covered = 0, border = 0;
+  double covered = 0;
   Vec3 sum;
   zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone zone) {
     if (zone == scenarios::Zone::target || aim.at(leaf) == 0 || zones.wall(leaf) != scenarios::Wall::floor) return;
-    Vec3 p = zones.centre_mm(leaf);
-    if (zones.zone(tree.leaf_at(p + up * 2.0)) != scenarios::Zone::target) return;
-    bool blocked = false;
-    for (IVec3 above = leaf; zones.in_box(above) && !blocked; p += up, above = tree.leaf_at(p))
-      blocked = input.after.is_solid(input.after.tissue(above));
+    if (zones.zone(tree.leaf_at(zones.centre_mm(leaf) + up * 2.0)) != scenarios::Zone::target) return;
+    const bool blocked = covered_from(leaf);
     mouth.set(leaf, blocked ? k_covered : k_open);
     mouths.push_back(leaf);
     covered += blocked ? 1 : 0;
     if (blocked) sum += zones.centre_mm(leaf);
   });
   if (mouths.empty()) return;
-  for (const IVec3 leaf : mouths)
-    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
-      if (mouth.at(leaf + step) != mouth.at(leaf)) {
-        border += 1;
-        break;
-      }
+  double covered_rim = 0, open_rim = 0, edge = 0;
+  for (const IVec3 leaf : mouths) {
+    const bool blocked = mouth.at(leaf) == k_covered;
+    bool at_rim = false, at_edge = false;
+    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}}) {
+      const std::uint8_t beside = mouth.at(leaf + step);
+      at_rim = at_rim || beside == 0;
+      // beside a mouth the floor is hard: what covers lies above it
+      const bool blocked_beside = beside == 0 ? covered_from(tree.leaf_at(zones.centre_mm(leaf + step) + up * 2.0)) : beside == k_covered;
+      at_edge = at_edge || blocked_beside != blocked;
+    }
+    (blocked ? covered_rim : open_rim) += at_rim ? 1 : 0;
+    edge += at_edge ? 1 : 0;
+  }
   const auto all = static_cast<double>(mouths.size());
   m.canals_covered_percent = 100.0 * covered / all;
-  m.canals_bound_percent = 50.0 * border / all;
+  m.canals_bound_percent = covered_bound_percent(covered, all - covered, covered_rim, open_rim, edge);
   if (covered > 0) m.canals_covered_mm = sum / covered;
   m.canal_mouths = pieces_of(mouth, mouths, zones, [](Piece& piece, std::uint8_t mark) {
     piece.part += mark == k_covered ? 1 : 0;

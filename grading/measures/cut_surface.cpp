@@ -114,17 +114,39 @@ std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input,
   return furthest;
 }
 
+/// The hard leaf of the target still standing that lies deepest inside it, from each wall. The cut surface alone does not show it: an island left in
+/// the middle covers the places around it.
+std::array<Sample, scenarios::k_walls> thickest_left(const GradeInput& input, const RemovedMap& removed) {
+  const scenarios::ZoneMap& zones = input.zones;
+  const Octree& before = input.before.octree;
+  std::array<Sample, scenarios::k_walls> thickest{};
+  zones.for_each_target_leaf([&](IVec3 leaf) {
+    const scenarios::Wall from = zones.wall(leaf);
+    if (from == scenarios::Wall::opening || removed.has(leaf)) return;
+    Sample& best = thickest[static_cast<std::size_t>(from)];
+    const double deviation = zones.distance_mm(leaf);
+    if (deviation < best.deviation_mm && before.is_solid(before.tissue(leaf))) best = {deviation, -1, zones.centre_mm(leaf)};
+  });
+  return thickest;
+}
+
 std::array<WallMeasures, scenarios::k_walls> wall_measures(WallSurface& surface, const std::array<Sample, scenarios::k_walls>& furthest,
-                                                           double bound_mm) {
+                                                           const std::array<Sample, scenarios::k_walls>& thickest, double bound_mm) {
   std::array<WallMeasures, scenarios::k_walls> walls;
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     walls[w] = summary(surface.samples[w]);
-    walls[w].mean_bound_mm = bound_mm + mean_bound(surface.values[w]);
+    walls[w].mean_bound_mm = 0.5 * bound_mm + mean_bound(surface.values[w]);
     walls[w].p95_bound_mm = bound_mm + p95_bound(surface.values[w]);
     // where the whole wall is gone, no surface is left to tell how far it went
-    if (furthest[w].deviation_mm <= walls[w].max_over_mm) continue;
-    walls[w].max_over_mm = furthest[w].deviation_mm;
-    walls[w].worst_over = {furthest[w].tick, furthest[w].place};
+    if (furthest[w].deviation_mm > walls[w].max_over_mm) {
+      walls[w].max_over_mm = furthest[w].deviation_mm;
+      walls[w].worst_over = {furthest[w].tick, furthest[w].place};
+    }
+    // a wall without a cut has no value
+    if (walls[w].samples > 0 && -thickest[w].deviation_mm > walls[w].max_under_mm) {
+      walls[w].max_under_mm = -thickest[w].deviation_mm;
+      walls[w].worst_under = {thickest[w].tick, thickest[w].place};
+    }
   }
   return walls;
 }
@@ -192,7 +214,7 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   m.facing = input.zones.facing();
   m.bound_mm = leaf_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
   WallSurface surface = sample_walls(input, removed, last_tick);
-  m.wall = wall_measures(surface, furthest_removed(input, removed, last_tick), m.bound_mm);
+  m.wall = wall_measures(surface, furthest_removed(input, removed, last_tick), thickest_left(input, removed), m.bound_mm);
   put_outline(m, cavity_outlines(input, removed, last_tick), leaf_mm);
   put_depth(m, input.zones, deepest_cut(input, removed, last_tick), removed.count() > 0);
   if (surface.across > 0) m.taper_deg = atan_deg(surface.up / surface.across);

@@ -73,9 +73,9 @@ double sum_of_both(const Share& a, const Share& b) {
 }
 
 /// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes
-/// of known cavities at 80 poses are true to 0.01 of a leaf at each (tests/grading/known_geometry_test.cpp), and five times that is promised; but
-/// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a half is promised.
-constexpr double k_whole = 0.5, k_by_parts = 0.05, k_two_borders = 0.5;
+/// of known cavities at 80 poses are true to 0.008 of a leaf at each (tests/grading/known_geometry_test.cpp), and four times that is promised; but
+/// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
+constexpr double k_whole = 0.5, k_by_parts = 0.03, k_two_borders = 0.25;
 
 /// Leaves, as a sum of shares, and how many of them are not known.
 struct Count {

@@ -35,6 +35,12 @@ void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::Criteri
   if (!same(a.full, b.full)) say("full marks at", number(a.full), number(b.full));
   if (!same(a.zero, b.zero)) say("no marks at", number(a.zero), number(b.zero));
   if (!same(a.points, b.points)) say("points", number(a.points), number(b.points));
+  const auto list = [](const std::vector<double>& limits) {
+    std::string text;
+    for (const double limit : limits) text += (text.empty() ? "" : ", ") + plain_number(limit);
+    return limits.empty() ? std::string("none") : text;
+  };
+  if (a.band_limits != b.band_limits) say("limits of bands", list(a.band_limits), list(b.band_limits));
   if (!same(a.critical_above, b.critical_above)) say("critical above", number(a.critical_above), number(b.critical_above));
   if (!same(a.critical_below, b.critical_below)) say("critical below", number(a.critical_below), number(b.critical_below));
 }
@@ -87,6 +93,12 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
        new_rubric.open_step_passes ? "may pass" : "is reviewed");
   rule("borderline band, %", plain_number(old_rubric.borderline_percent), plain_number(new_rubric.borderline_percent));
   rule("rule", old_rubric.compensatory ? "compensatory" : "non-compensatory", new_rubric.compensatory ? "compensatory" : "non-compensatory");
+  const auto bands = [](const scenarios::RubricSpec& of) {
+    std::string text;
+    for (const auto& b : of.bands) text += (text.empty() ? "" : ", ") + b.name + (b.most ? fmt::format(" (at most {})", *b.most) : "");
+    return of.bands.empty() ? std::string("none") : text;
+  };
+  rule("bands", bands(old_rubric), bands(new_rubric));
   const bool same_version = sealed.grading_version == k_grading_version;
   c.tampered = same_version && (sealed.verdict != verdict_name(again.verdict) || !same(sealed.points, again.points));
   for (const auto& n : now.criteria) {

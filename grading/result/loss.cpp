@@ -23,6 +23,12 @@ std::string amount_text(double value, double bound, int digits, const std::strin
   return fixed(value, digits) + (bound > 0 ? " ± " + fixed(bound, digits) : "") + (unit.empty() ? "" : " " + unit);
 }
 
+std::string value_text(const scenarios::Measure& measure, double value, double bound, int digits) {
+  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return value == 1 ? "yes" : "no";
+  if (measure.reads == scenarios::Reads::count && bound == 0) return plain_number(value);
+  return amount_text(value, bound, digits, measure.unit);
+}
+
 namespace {
 
 std::size_t largest(const std::array<double, scenarios::k_walls + 1>& by_wall) {
@@ -130,6 +136,7 @@ Loss at_walls(const Result& r, const Asked& a) {
                 (p95 ? ", 95 % of whose places lie no further out than that; the furthest " : ", in the mean of its places; the furthest ") +
                 (&t == &m.worst_under ? fixed(m.max_under_mm, 2) + " mm thick" : fixed(m.max_over_mm, 2) + " mm beyond the target");
   if (t.tick >= 0) loss.text += fmt::format(", at {}, cut at {}", place(t.site_mm), when(t));
+  if (&t == &m.worst_under && t.tick < 0 && m.max_under_mm > 0) loss.text += fmt::format(", at {}, where nothing was cut", place(t.site_mm));
   return loss;
 }
 

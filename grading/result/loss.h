@@ -4,6 +4,7 @@
 #include <string>
 
 #include "grading/result/result.h"
+#include "scenarios/file/measures.h"
 
 namespace cavum::grading {
 
@@ -41,6 +42,8 @@ namespace reason {
 
 /// "0.30 ± 0.04 mm3"; a figure that is known exactly has no bound.
 [[nodiscard]] std::string amount_text(double value, double bound, int digits, const std::string& unit);
+/// The same of a measure's value, as people read it: "yes", "no", "3", "0.25 ± 0.05 mm".
+[[nodiscard]] std::string value_text(const scenarios::Measure& measure, double value, double bound, int digits);
 /// "12.34 s (tick 12340)", "[1.00, 0.00, -2.00] mm", "the mesial wall".
 [[nodiscard]] std::string when(const Trace& t);
 [[nodiscard]] std::string place(Vec3 p);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "grading/result/bands.h"
 #include "grading/result/loss.h"
 #include "grading/result/measure_marking.h"
 
@@ -91,14 +92,15 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
     }
     out.first = loss.first;
     const int digits = digits_for(*v.value, c.full);
-    out.reason = fmt::format("{} where {} gives full marks{}", amount_text(*v.value, v.bound, digits, out.unit),
-                             amount_text(c.full, 0, digits, out.unit), loss.text.empty() ? "" : ": " + loss.text);
+    out.reason = fmt::format("{} where {} gives full marks{}", value_text(a.measure, *v.value, v.bound, digits),
+                             value_text(a.measure, c.full, 0, digits), loss.text.empty() ? "" : ": " + loss.text);
   }
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   if (out.critical_failed) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
     const auto& limit = above ? c.critical_above : c.critical_below;
-    out.reason += fmt::format("; critical {}{}", above ? "above " : "below ", fixed(*limit, 2));
+    out.reason += "; critical";
+    if (a.measure.reads != scenarios::Reads::yes_no) out.reason += fmt::format(" {}{}", above ? "above " : "below ", fixed(*limit, 2));
     if (near(limit)) out.reason += ", which lies within the bound of the figure";
     out.reason += "; this alone fails the exam";
   } else if (near(c.critical_above) || near(c.critical_below)) {
@@ -146,8 +148,11 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.compensatory = rubric.compensatory;
   r.pass_percent = rubric.pass_percent;
   r.borderline_percent = rubric.borderline_percent;
+  r.bands.clear();
+  for (const auto& b : rubric.bands) r.bands.push_back({b.name, b.most});
   for (const auto& c : rubric.criteria) {
     r.criteria.push_back(mark_one(r, c));
+    put_in_band(r, c, r.criteria.back());
     r.points += r.criteria.back().points;
     r.points_bound += r.criteria.back().points_bound;
     r.max_points += r.criteria.back().max;
@@ -157,6 +162,10 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     if (!c.critical_failed) continue;
     critical = true;
     r.verdict_reasons.push_back(fmt::format("critical criterion {}: {}", c.id, c.reason));
+  }
+  for (auto& text : count_bands(r)) {
+    critical = true;
+    r.verdict_reasons.push_back(std::move(text));
   }
   const Standing standing = standing_of(r);
   const double beyond = standing.percent - rubric.pass_percent;

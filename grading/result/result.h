@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 4;
+inline constexpr int k_grading_version = 5;
 
 /// When and where something happened; tick -1 = never.
 struct Trace {
@@ -59,7 +59,7 @@ struct WallMeasures {
   double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
   /// Of the mean and the 95th percentile; of the largest it is ShapeMeasures::bound_mm.
   double mean_bound_mm = 0.0, p95_bound_mm = 0.0;
-  Trace worst_over, worst_under;
+  Trace worst_over, worst_under;  ///< worst_under without a tick where the thickest place was never cut
 };
 
 struct ShapeMeasures {
@@ -209,7 +209,15 @@ struct CriterionResult {
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
   std::string work_text;      ///< that in words; empty when all of them count
   bool critical_failed = false;
-  Trace first;  ///< where the loss began
+  std::optional<std::size_t> band;  ///< that it lies in, of Result::bands
+  Trace first;                      ///< where the loss began
+};
+
+/// A band of the rubric, and the criteria that lie in it.
+struct BandResult {
+  std::string name;
+  std::optional<int> most;  ///< criteria that may lie in it or in a worse one
+  std::size_t criteria = 0;
 };
 
 enum class Verdict { pass, fail, review };
@@ -223,6 +231,7 @@ struct Result {
   double points_bound = 0.0;  ///< the sum of the criteria's
   bool compensatory = true;
   double pass_percent = 0.0, borderline_percent = 0.0;
+  std::vector<BandResult> bands;  ///< best first; empty: the rubric has none
   std::vector<CriterionResult> criteria;
   VolumeMeasures volumes;
   ShapeMeasures shape;

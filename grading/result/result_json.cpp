@@ -69,7 +69,7 @@ Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
   figures["samples"] = w.samples;
   figures["max_over_site_mm"] = place_of(w.worst_over);
   figures["max_over_tick"] = tick_of(w.worst_over);
-  figures["max_under_site_mm"] = place_of(w.worst_under);
+  figures["max_under_site_mm"] = w.max_under_mm > 0 ? point(w.worst_under.site_mm) : Json(nullptr);
   figures["max_under_tick"] = tick_of(w.worst_under);
   return figures;
 }
@@ -93,12 +93,16 @@ void put_bounds(Json& j, const Result& r, const std::string& object) {
 }
 
 Json score_json(const Result& r) {
-  return {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
-          {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
-          {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
+  Json j = {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
+            {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
+            {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
+  if (r.bands.empty()) return j;
+  j["bands"] = Json::array();
+  for (const auto& b : r.bands) j["bands"].push_back({{"name", b.name}, {"criteria", b.criteria}, {"most", b.most ? Json(*b.most) : Json(nullptr)}});
+  return j;
 }
 
-Json criterion_json(const CriterionResult& c) {
+Json criterion_json(const Result& r, const CriterionResult& c) {
   Json j = {{"id", c.id},
             {"title", c.title},
             {"metric", c.metric},
@@ -112,6 +116,7 @@ Json criterion_json(const CriterionResult& c) {
             {"reason", c.reason},
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
+  if (c.band) j["band"] = r.bands[*c.band].name;
   if (c.work_share < 1) j["work_share"] = rounded(c.work_share);
   return j;
 }
@@ -219,7 +224,7 @@ Json to_json(const Result& r) {
   j["verdict_reasons"] = r.verdict_reasons;
   j["score"] = score_json(r);
   j["criteria"] = Json::array();
-  for (const auto& c : r.criteria) j["criteria"].push_back(criterion_json(c));
+  for (const auto& c : r.criteria) j["criteria"].push_back(criterion_json(r, c));
   put_volumes(j, r);
   put_shape(j, r);
   put_access(j, r);
@@ -253,7 +258,8 @@ std::string criteria_text(const Result& r) {
   std::string s = "\n";
   for (const auto& c : r.criteria)
     s += fmt::format("  {}{}{}{}\n", padded(one_line(c.id) + " ", 16), padded(fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)), 14),
-                     padded("± " + fixed(c.points_bound, 1), 9), one_line(c.reason));
+                     padded("± " + fixed(c.points_bound, 1), 9),
+                     c.critical_failed && !r.verdict_reasons.empty() ? "critical: see above" : one_line(c.reason));
   return s;
 }
 

@@ -137,9 +137,11 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenari
                      amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm"), amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm"), m.samples));
     if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
       fact(wall_text(w, r_.shape.facing) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
-    if (m.worst_under.tick >= 0 && !over && m.max_under_mm > full)
-      fact(wall_text(w, r_.shape.facing) + ": most left standing, seen from the surface cut here", m.max_under_mm, "mm", m.worst_under,
-           r_.shape.bound_mm);
+    if (over || m.max_under_mm <= full) continue;
+    const bool cut = m.worst_under.tick >= 0;
+    fact(wall_text(w, r_.shape.facing) + ": most left standing" +
+             (cut ? ", seen from the surface cut here" : ", at " + place(m.worst_under.site_mm) + ", where nothing was cut"),
+         m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
   }
   if (under) return;
   // by parts of leaves, as zones are counted: a wall's part is never more than the zone's whole

@@ -185,6 +185,32 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
   return list;
 }
 
+std::vector<double> CheckedTable::numbers(std::string_view key, double low, double high) {
+  const auto* node = ask(key, false);
+  std::vector<double> list;
+  if (node == nullptr) return list;
+  const auto* array = node->as_array();
+  if (array == nullptr) {
+    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a list of numbers, [0.2, 0.5]");
+    return list;
+  }
+  if (too_many(key, array->size(), k_most_items)) return list;
+  for (const auto& item : *array) {
+    const auto value = item.is_number() ? item.value<double>() : std::nullopt;
+    if (!value) {
+      problems_.add(item.source(), fmt::format("'{}' holds {}", key, kind_of(item)), "write a number");
+      return {};
+    }
+    if (!(*value >= low && *value <= high)) {
+      problems_.add(item.source(), fmt::format("'{}' holds {}", key, plain_number(*value)),
+                    fmt::format("write numbers from {} to {}", plain_number(low), plain_number(high)));
+      return {};
+    }
+    list.push_back(*value);
+  }
+  return list;
+}
+
 namespace {
 
 bool read_vector(const toml::node& node, std::size_t count, Vec3& out) {

@@ -54,6 +54,8 @@ class CheckedTable {
   /// Index of one of `words`; `fallback` when absent, k_wrong (a problem) for any other word or when absent though `required`.
   std::size_t word(std::string_view key, const std::vector<std::string>& words, std::size_t fallback, bool required = false);
   std::vector<std::string> texts(std::string_view key, bool required = false);
+  /// A list of numbers within [low, high]; empty when absent or wrong.
+  std::vector<double> numbers(std::string_view key, double low, double high);
   /// `count` numbers (2 or 3) as a vector.
   Vec3 vector(std::string_view key, std::size_t count, Vec3 fallback, bool required = false);
   std::vector<Vec3> points(std::string_view key, std::size_t at_least, bool required);

@@ -245,7 +245,8 @@ std::vector<Measure> perforation_measures() {
        .most = &most::fault,
        .needs = Needs::fault,
        .counts = k_counts_faults,
-       .counts_faults = true},
+       .counts_faults = true,
+       .reads = Reads::yes_no},
       {.name = "perforation_volume_mm3",
        .unit = "mm3",
        .words = "removed from the cavity of the tissues under perforation.faults",
@@ -260,15 +261,16 @@ std::vector<Measure> perforation_measures() {
        .words = "faulty breakthroughs seen in the force and confirmed by the tissue",
        .most = &most::no_end,
        .counts = k_counts_faults,
-       .counts_faults = true},
+       .counts_faults = true,
+       .reads = Reads::count},
   };
 }
 
 std::vector<Measure> progress_measures() {
   return {
-      {.name = "steps_completed", .words = "steps done", .better = Better::more, .judges = Judges::work, .most = &most::steps},
-      {.name = "steps_failed", .words = "steps failed", .most = &most::steps},
-      {.name = "violations", .words = "a point that is not allowed, or a speed above max_rpm", .most = &most::no_end},
+      {.name = "steps_completed", .words = "steps done", .better = Better::more, .judges = Judges::work, .most = &most::steps, .reads = Reads::count},
+      {.name = "steps_failed", .words = "steps failed", .most = &most::steps, .reads = Reads::count},
+      {.name = "violations", .words = "a point that is not allowed, or a speed above max_rpm", .most = &most::no_end, .reads = Reads::count},
   };
 }
 

@@ -46,6 +46,9 @@ inline constexpr char k_wall_family[] = "WALL_FIGURE";
 inline constexpr char k_tissue_family[] = "touched_TISSUE_mm3";
 
 /// What is left out does not apply.
+/// How people read a value: with digits, as a number of things, or as yes (1) and no (0).
+enum class Reads : std::uint8_t { figure, count, yes_no };
+
 struct Measure {
   std::string name;
   const char* unit = "";
@@ -58,6 +61,7 @@ struct Measure {
   bool counts_faults = false;          ///< it answers whether something was opened that must not be
   bool counts_protected = false;       ///< it counts what is removed of what is protected
   bool of_floor = false;               ///< it speaks of the cavity's floor alone
+  Reads reads = Reads::figure;
 
   // Members of a family
   const char* family = nullptr;           ///< its key; null: a measure by itself

@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/shipped.h"
+#include "engine/base/text.h"
 #include "engine/base/toml_limits.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"
@@ -59,9 +60,59 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
     c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
   else
     t.number("critical_below", 0, 0, 0);
+  c.band_limits = t.numbers("bands", -1e9, 1e9);
+  t.note(places, "bands", fmt::format("{}/bands", at));
+  const double worse = c.zero > c.full ? 1 : -1;
+  for (std::size_t i = 0; i < c.band_limits.size(); ++i)
+    if (worse * (c.band_limits[i] - (i == 0 ? c.full : c.band_limits[i - 1])) <= (i == 0 ? -1e-12 : 0)) {
+      t.problem(
+          "bands",
+          fmt::format("the limit {} does not lie beyond {}", plain_number(c.band_limits[i]), plain_number(i == 0 ? c.full : c.band_limits[i - 1])),
+          "list where the bands end, best first: from 'full' towards 'zero'");
+      break;
+    }
   c.shares_with = t.texts("shares_with");
   t.finish();
   return c;
+}
+
+/// The bands of a rubric, best first.
+std::vector<BandSpec> read_bands(CheckedTable& t, ProblemList& problems) {
+  constexpr std::size_t k_most_bands = 6;
+  std::vector<BandSpec> bands;
+  for (const auto* table : t.tables("bands")) {
+    CheckedTable b(*table, "[[rubric.bands]]", problems);
+    BandSpec band;
+    band.name = b.text("name", "", true);
+    if (b.has("most"))
+      band.most = b.whole("most", 0, 100, 0);
+    else
+      b.whole("most", 0, 0, 0);
+    if (bands.empty() && band.most) b.problem("most", "the best band has a 'most'", "take it out: nobody fails for what is good");
+    for (const auto& other : bands)
+      if (other.name == band.name) b.problem("name", fmt::format("two bands are called '{}'", band.name), "give each its own name");
+    b.finish();
+    bands.push_back(std::move(band));
+  }
+  if (bands.empty()) return bands;
+  if (bands.size() < 2 || bands.size() > k_most_bands)
+    t.problem("bands", fmt::format("there are {} bands", bands.size()), fmt::format("write 2 to {}, best first", k_most_bands));
+  if (std::none_of(bands.begin(), bands.end(), [](const BandSpec& b) { return b.most.has_value(); }))
+    t.problem("bands", "the bands fail nobody", "say how many criteria may lie in a band: most = 0 for the worst");
+  return bands;
+}
+
+void check_band_limits(const RubricSpec& r, ProblemList& problems) {
+  bool any = false;
+  for (const auto& c : r.criteria) {
+    any = any || !c.band_limits.empty();
+    if (!c.band_limits.empty() && c.band_limits.size() + 1 != r.bands.size())
+      problems.add(c.metric_at, fmt::format("'{}' has {} limits of bands, and the rubric {} bands", c.id, c.band_limits.size(), r.bands.size()),
+                   r.bands.empty() ? "list the bands under [[rubric.bands]]" : fmt::format("write {}: the last band has no end", r.bands.size() - 1));
+  }
+  if (!any && !r.bands.empty() && !r.criteria.empty())
+    problems.add(r.criteria[0].metric_at, "the rubric has bands, and no criterion has limits of them",
+                 "give criteria bands = [...], or take [[rubric.bands]] out");
 }
 
 /// Each id under `shares_with` is that of another criterion.
@@ -83,6 +134,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
   r.pass_percent = t.number("pass_percent", 0, 100, 60, true);
   r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
   r.open_step_passes = t.truth("open_step_passes", false);
+  r.bands = read_bands(t, problems);
   double sum = 0;
   for (const auto* c : t.tables("criteria", true)) {
     r.criteria.push_back(read_criterion(*c, fmt::format("rubric/criteria/{}", r.criteria.size()), places, problems));
@@ -92,6 +144,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
         problems.add(c->source(), fmt::format("two criteria are called '{}'", r.criteria[i].id), "give each its own id");
   }
   check_shares(r, problems);
+  check_band_limits(r, problems);
   if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", "no criterion gives any points", "give at least one some points");
   t.finish();
   return r;

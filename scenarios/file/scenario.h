@@ -121,15 +121,23 @@ struct CriterionSpec {
   double full = 0.0, zero = 0.0;  ///< metric value for full and for no points; linear between
   double points = 0.0;
   std::optional<double> critical_above, critical_below;  ///< beyond it the exam is failed whatever the sum
+  std::vector<double> band_limits = {};                  ///< where each of the rubric's bands but the last ends, from `full` on; empty: in no band
   std::vector<std::string> shares_with = {};             ///< ids of criteria that charge the same mistakes, and are meant to
   Place metric_at = {}, zero_at = {};                    ///< in the rubric's file
 };
 
+/// A grade in words, as licensing boards give one to each criterion.
+struct BandSpec {
+  std::string name;
+  std::optional<int> most = {};  ///< criteria that may lie in it or in a worse one: one more fails the exam; none: any number
+};
+
 struct RubricSpec {
-  bool compensatory = true;         ///< points of one criterion may make up for another
-  double pass_percent = 60.0;       ///< of all points (non-compensatory: of each criterion's)
-  double borderline_percent = 0.0;  ///< this close to the pass mark a person decides
-  bool open_step_passes = false;    ///< an exam whose last step is open may pass by its points; else a person decides
+  bool compensatory = true;          ///< points of one criterion may make up for another
+  double pass_percent = 60.0;        ///< of all points (non-compensatory: of each criterion's)
+  double borderline_percent = 0.0;   ///< this close to the pass mark a person decides
+  bool open_step_passes = false;     ///< an exam whose last step is open may pass by its points; else a person decides
+  std::vector<BandSpec> bands = {};  ///< best first, two at least; empty: points alone decide
   std::vector<CriterionSpec> criteria;
   std::string path;  ///< file it was read from
 };

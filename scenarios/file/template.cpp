@@ -272,6 +272,8 @@ constexpr std::string_view k_rubric = R"(
 rule = "compensatory"                # or "non-compensatory": each criterion must reach pass_percent
 pass_percent = 65
 borderline_percent = 3               # this close to the pass mark a person decides
+# Grades in words beside the points, as licensing boards give them: [[rubric.bands]] with a name each, best first, `most` = how many criteria may lie
+# in one or in a worse one; and in a criterion bands = [...], where they end.
 
 # Points run linearly from `full` to `zero`. critical_above or critical_below: beyond it the exam is failed.
 # `cavum scenario check` marks wrong pieces of work by this rubric, and none may pass; two criteria that charge the same say so: shares_with.

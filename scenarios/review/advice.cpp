@@ -347,7 +347,7 @@ void Adviser::criteria() {
   for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
     const CriterionSpec& c = s_.rubric.criteria[i];
     const std::string place = fmt::format("rubric/criteria/{}", i);
-    if (!(c.points > 0) && !c.critical_above && !c.critical_below)
+    if (!(c.points > 0) && !c.critical_above && !c.critical_below && c.band_limits.empty())
       warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
     const Measure measure = known_measure(c.metric);
     if (const auto high = most_of(measure, exam)) criterion(i, c, measure, {0, *high});
@@ -365,7 +365,8 @@ void Adviser::criteria() {
   if (!fault_judged && !s_.perforation.faults.empty())
     warn("rubric/criteria/0/metric", "who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it",
          "add one on perforated, with critical_above = 0.5");
-  if (!(s_.rubric.pass_percent > 0)) warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
+  if (!(s_.rubric.pass_percent > 0) && s_.rubric.bands.empty())
+    warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
 }
 
 }  // namespace

@@ -53,6 +53,23 @@ TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   EXPECT_NEAR(zone_volume(r, scenarios::Zone::leeway_bottom).mm3, under, 0.2 * under);
 }
 
+TEST(Grade, WhatIsLeftInTheMiddleIsAsThickAsItLiesDeepInTheTarget) {
+  // a ring cut out of a round target: the column left in it is seen from a surface 0.9 mm from the wall, its middle lies 1.5 mm from it
+  Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 4, 0.05));
+  c.carve([](Vec3 p) { return std::max(round_hole(0, 0, 1.5, -2)(p), 0.6 - std::hypot(p.x, p.y)); }, 0);
+  const Result r = c.graded();
+  double most = 0;
+  for (const auto& w : r.shape.wall)
+    if (w.samples > 0) most = std::max(most, w.max_under_mm);
+  EXPECT_NEAR(most, 1.5, r.shape.bound_mm);
+  const auto seen = to_json(r);
+  for (const char* side : {"mesial", "distal", "buccal", "lingual"}) {
+    const auto& w = seen["walls"][side];
+    EXPECT_TRUE(w["max_under_tick"].is_null()) << "the middle was never cut";
+    EXPECT_LT(std::hypot(w["max_under_site_mm"][0].get<double>(), w["max_under_site_mm"][1].get<double>()), 0.15);
+  }
+}
+
 TEST(Grade, WallDistancesAreThoseOfTheShapesWithinTheBound) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
   // mesial 0.30 over, distal 0.12 under, buccal 0.07 over, lingual exact, floor 0.22 over

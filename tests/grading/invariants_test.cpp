@@ -99,7 +99,7 @@ Result graded_after(const Motion& where, const std::vector<Ball>& balls, double 
 struct Figure {
   std::string name;
   double value, bound;
-  double quarter_turn = 0.05;  // share of the bound that a quarter turn may cost: places on a surface are found a little differently
+  double quarter_turn = 0.08;  // share of the bound that a quarter turn may cost: places on a surface are found a little differently
 };
 constexpr double k_grazed_mm3 = 0.004;  // four leaves of 0.1 mm: a tissue that is only grazed is hit or missed by whole leaves
 std::vector<Figure> turnable(const Result& r) {

@@ -7,6 +7,7 @@
 
 #include "engine/base/text.h"
 #include "grading/grade.h"
+#include "grading/result/loss.h"
 #include "scenarios/file/measures.h"
 #include "scenarios/review/picture.h"
 #include "ui/report/figures/from_above.h"
@@ -50,6 +51,8 @@ std::vector<std::string> margin(const grading::Result& r) {
 
 /// What gives full marks and what none, and beyond what the exam is failed.
 std::string limits_text(const scenarios::CriterionSpec& c, const std::string& unit) {
+  if (scenarios::known_measure(c.metric).reads == scenarios::Reads::yes_no)
+    return fmt::format("full for {}{}", c.full == 0 ? "no" : "yes", c.critical_above || c.critical_below ? "; failed else" : "");
   std::string s = fmt::format("full {}{}, none {}{}", c.full <= c.zero ? "up to " : "from ", with_unit(plain_number(c.full), unit),
                               c.full <= c.zero ? "from " : "up to ", with_unit(plain_number(c.zero), unit));
   if (c.critical_above) s += "; failed above " + with_unit(plain_number(*c.critical_above), unit);
@@ -79,7 +82,11 @@ void add_criteria(Document& d, const ReportSource& s) {
       {{"Criterion", false, 2.2}, {"Value", true, 1.9}, {"Limits", false, 2.4}, {"Points", true, 1.8}, {"Why", false, 3.8}}, {}, "Criteria"};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
-    const std::string value = c.value ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit) : k_dash;
+    const scenarios::Measure measure = scenarios::known_measure(c.metric);
+    const std::string value = !c.value ? k_dash
+                              : measure.reads == scenarios::Reads::figure
+                                  ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit)
+                                  : grading::value_text(measure, *c.value, c.bound, 2);
     const std::string points =
         fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
     const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";

@@ -13,6 +13,7 @@
 #include "engine/explain/recording/faults.h"
 #include "engine/explain/recording/specimens.h"
 #include "engine/explain/recording/stamps.h"
+#include "engine/explain/recording/stretches.h"
 
 namespace cavum::explain {
 namespace {
@@ -150,7 +151,8 @@ Explanation opened(const Recording& given, const ExplainOptions& options) {
   e.data_faults = data_faults(given);
   const std::optional<Recording> even = e.data_faults.empty() && !given.exact_motion ? with_even_stamps(given) : std::nullopt;
   const Recording& stamped = even ? *even : given;
-  e.recording = std::make_shared<const Recording>(e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
+  const std::optional<Recording> cut = e.data_faults.empty() && !given.exact_motion ? in_stretches(stamped) : std::nullopt;
+  e.recording = std::make_shared<const Recording>(cut ? *cut : e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
   e.notes = e.recording->notes;
   if (options.surrogates == 0)
     e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");

@@ -185,6 +185,7 @@ void split_line(std::string_view line, char separator, std::size_t most, Cells& 
 }
 
 TableForm find_table_form(std::string_view text, const std::string& where) {
+  refuse_utf16(text, where);
   const std::vector<Line> lines = first_lines(text);
   if (lines.empty()) throw Error(where, "is empty", "give a CSV with a header such as session,t_s,x_mm,f_n");
   TableForm out;

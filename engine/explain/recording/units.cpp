@@ -49,7 +49,7 @@ constexpr std::array k_known{
     KnownUnit{Quantity::force, "lbf", k_lbf_n, " lb lbs pound pounds ", true},
     KnownUnit{Quantity::force, "ozf", k_lbf_n / 16.0, " ozf "},
     KnownUnit{Quantity::force, "ozf", k_lbf_n / 16.0, " oz ounce ounces ", true},
-    KnownUnit{Quantity::torque, "N m", 1e3, " Nm "},
+    KnownUnit{Quantity::torque, "N m", 1e3, " Nm nm "},
     KnownUnit{Quantity::torque, "N mm", 1.0, " Nmm "},
     KnownUnit{Quantity::torque, "mN m", 1.0, " mNm "},
     KnownUnit{Quantity::torque, "N cm", 10.0, " Ncm "},

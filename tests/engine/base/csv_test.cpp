@@ -17,6 +17,18 @@ std::string error_in(const std::string& text, const CsvForm& form = {}) {
   return error_of([&] { static_cast<void>(parse_csv(text, "c.csv", form)); });
 }
 
+TEST(Csv, Utf16IsRefusedByName) {
+  using namespace std::string_literals;
+  EXPECT_NE(error_in("\xff\xfe"
+                     "a\0,\0"s)
+                .find("UTF-16"),
+            std::string::npos);
+  EXPECT_NE(error_in("\xfe\xff"
+                     "\0a\0,"s)
+                .find("UTF-16"),
+            std::string::npos);
+}
+
 TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
   const auto rows = parse_csv("\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
   ASSERT_EQ(rows.size(), 3u);

@@ -1,0 +1,53 @@
+#include "grading/result/bands.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "engine/base/text.h"
+#include "grading/result/loss.h"
+
+namespace cavum::grading {
+
+void put_in_band(const Result& r, const scenarios::CriterionSpec& spec, CriterionResult& c) {
+  if (spec.band_limits.empty() || r.bands.empty()) return;
+  const scenarios::Measure measure = scenarios::known_measure(spec.metric);
+  const bool judged = c.value && c.work_share >= 1;
+  const double worse = spec.zero < spec.full ? -1 : 1;
+  std::size_t band = 0;
+  while (band < spec.band_limits.size() && (!judged || worse * (*c.value - spec.band_limits[band]) > 0)) ++band;
+  c.band = band;
+  c.reason += "; " + r.bands[band].name;
+  if (!judged) {
+    c.reason += c.value ? ", for less than half of the work was done" : "";
+    return;
+  }
+  const auto limit = [&](std::size_t i) { return value_text(measure, spec.band_limits[i], 0, 2); };
+  if (band > 0 && measure.reads != scenarios::Reads::yes_no) c.reason += fmt::format(", beyond {}", limit(band - 1));
+  for (std::size_t i = 0; i < spec.band_limits.size(); ++i)
+    if (c.bound > 0 && std::fabs(*c.value - spec.band_limits[i]) <= c.bound)
+      c.reason += fmt::format(" (the limit of {} lies within the bound of the figure)", limit(i));
+}
+
+std::vector<std::string> count_bands(Result& r) {
+  for (auto& b : r.bands) b.criteria = 0;
+  for (const auto& c : r.criteria)
+    if (c.band) ++r.bands[*c.band].criteria;
+  std::vector<std::string> failed;
+  for (std::size_t i = 0; i < r.bands.size(); ++i) {
+    if (!r.bands[i].most) continue;
+    std::string which;
+    int count = 0;
+    for (const auto& c : r.criteria) {
+      if (!c.band || *c.band < i) continue;
+      which += (count == 0 ? "" : ", ") + c.id;
+      ++count;
+    }
+    if (count > *r.bands[i].most)
+      failed.push_back(fmt::format("{} {}{}, and at most {} may be: {}", count, r.bands[i].name, i + 1 < r.bands.size() ? " or worse" : "",
+                                   *r.bands[i].most, which));
+  }
+  return failed;
+}
+
+}  // namespace cavum::grading
