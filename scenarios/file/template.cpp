@@ -421,6 +421,7 @@ std::string scenario_text(const TaskText& task) {
     rubric.insert(end, line(fmt::format("critical_above = {}", fixed(task.walls_limit_mm3, 1)),
                             "a quarter of the cavity: bites that leave its floor and its furthest places alone"));
   }
+  rubric.insert(rubric.find("\n# What the task exists to catch"), task.criteria);
   return s + rubric;
 }
 

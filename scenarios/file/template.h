@@ -16,6 +16,7 @@ struct TaskText {
   std::string aims, faults;      ///< TOML lists of tissues
   double walls_limit_mm3 = 0.0;  ///< of wall cut beyond the leeway the exam is failed; 0: no such limit
   std::string zones, guard;      ///< [[zones.target]] and [[zones.protected]] with comments
+  std::string criteria{};        ///< further [[rubric.criteria]]
 };
 /// A whole scenario with comments.
 [[nodiscard]] std::string scenario_text(const TaskText& task);

@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
 #include "scenarios/file/template.h"
+#include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/zone_map.h"
@@ -41,6 +42,7 @@ struct ToothTask {
   const char *aims, *faults;
   std::function<std::string(const Tooth&, const Landmarks&)> why_not;
   std::function<std::vector<Choice>(const Tooth&, const Landmarks&)> choices;
+  int opens = 0;  ///< the side on which it opens the contact: mesial 1, distal -1
 };
 
 bool has_tissue(const Tooth& tooth, const char* name) {
@@ -128,9 +130,13 @@ std::string no_contact(const Landmarks& l, int side) {
 std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
   std::vector<Choice> list;
   const std::string_view word = side > 0 ? "mesial" : "distal";
-  const std::string width = fixed(std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), 1), isthmus = isthmus_mm(l);
-  const double above = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
-                                                           furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
+  const double above_neck = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
+                                                                furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
+  const ContactBox beside =
+      box_beside(tooth, l, side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck, ""},
+                 k_least_above_neck_mm, k_box_widest_mm);
+  const std::string width = fixed(beside.width_mm, 1), isthmus = isthmus_mm(l);
+  const double above = beside.above_neck_mm;
   const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
     for (const Floor& floor : all)
@@ -146,7 +152,8 @@ std::vector<Choice> box(const Tooth& tooth, const Landmarks& l, int side, bool w
         else
           zones = "# A box at the contact area, open to the neighbouring tooth.\n";
         zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word,
-                             width, axial, level);
+                             width, axial, level) +
+                 beside.shell;
         const std::string box_words =
             fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width, word,
                         axial, level);
@@ -202,10 +209,10 @@ const std::vector<ToothTask>& tasks() {
   };
   static const std::vector<ToothTask> k_tasks{
       {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_fissure, class_1},
-      {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true)},
-      {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true)},
-      {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false)},
-      {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false)},
+      {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
+      {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true), -1},
+      {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
+      {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false), -1},
       {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
        R"(["periodontium"])",
        [](const Tooth& tooth, const Landmarks& l) -> std::string {
@@ -278,6 +285,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                 "see `cavum tooth landmarks`, or choose another of " + words);
 
   WrittenTask best;
+  const std::string criteria = beside_criteria(tooth, asked->opens);
   std::string refused;
   std::size_t fewest = k_none, tried = 0;
   for (const Choice& choice : asked->choices(tooth, landmarks)) {
@@ -292,7 +300,8 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .aims = asked->aims,
                   .faults = present(tooth, asked->faults),
                   .zones = choice.zones,
-                  .guard = choice.guard};
+                  .guard = choice.guard,
+                  .criteria = criteria};
     CheckedScenario checked = check_whole(scenario_text(text), path);
     if (checked.sound()) {
       text.time_limit_s = time_limit_s(checked.expert_s);
