@@ -31,7 +31,7 @@ using TissueSet = std::array<bool, 256>;
 ///     d(p) = min over their solid leaves q of |p - q| + d(q),
 ///
 /// for a ball of radius -d(q) around q lies inside. It is true where some q lies on the normal through p, and too large by e²/2|p - q| where the
-/// nearest is off it by e: on smooth surfaces by 0.02 leaves on average and 0.15 at most, at an edge by half a leaf.
+/// nearest is off it by e: on smooth surfaces by 0.02 leaves on average and 0.15 at most, at an edge by 0.75 of a leaf.
 [[nodiscard]] Octree octree_without(const Octree& tree, const TissueSet& gone);
 
 /// The tooth alone, on the same leaves; a copy where nothing stands beside it. Its table of tissues stays whole.
