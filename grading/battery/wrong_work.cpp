@@ -45,6 +45,11 @@ class Works {
   [[nodiscard]] Cut into_protected(double radius_mm) const;
   /// A ball around the place of a neighbour that is nearest to the target; empty where none is near.
   [[nodiscard]] Cut into_neighbour(double radius_mm) const;
+  /// What is to be taken off lies around what stays: there is nothing beside it but the stump.
+  [[nodiscard]] bool around_stump() const {
+    const auto& target = task_.scenario.zones.target;
+    return !target.empty() && target[0].kind == scenarios::ShapeSpec::Kind::crown;
+  }
   [[nodiscard]] bool longer_in_x() const { return f_.high_mm().x - f_.low_mm().x >= f_.high_mm().y - f_.low_mm().y; }
 
  private:
@@ -80,8 +85,14 @@ Cut Works::deeper(double mm) const {
   return [&f = f_, mm](Vec3 p) { return std::min(f.target_mm(p), f.open_mm(f.local(p) + Vec3{0, 0, mm})); };
 }
 
-/// Beside the target down to the level of its floor, and no deeper.
+/// Beside the target down to the level of its floor, and no deeper; of a stump, its walls.
 Cut Works::wider(double mm) const {
+  if (around_stump())
+    return [&f = f_, &zones = task_.zones, mm](Vec3 p) {
+      const double d = f.target_mm(p);
+      const scenarios::Wall wall = zones.wall(f.tooth().octree.leaf_at(p));
+      return wall == scenarios::Wall::floor || wall == scenarios::Wall::opening ? d : d - mm;
+    };
   return [&f = f_, mm](Vec3 p) {
     const Vec3 q = f.local(p);
     return std::min(f.target_mm(p), std::max(f.open_mm(q) - mm, f.floor_mm(q) - q.z));
@@ -183,7 +194,9 @@ void Works::wrong_depth() {
 }
 
 void Works::too_wide() {
-  add("too_wide_by_1_mm", "the target, 1 mm too wide all round", Mistake::too_wide, wider(1.0));
+  add("too_wide_by_1_mm", around_stump() ? "the target, and 1 mm off the stump's walls" : "the target, 1 mm too wide all round", Mistake::too_wide,
+      wider(1.0));
+  if (around_stump()) return;  // no shank meets a wall where there is none outside
   const double beside = 1.2, deep = 0.8;
   add("shank_at_the_entrance", fmt::format("the target, its entrance {} mm too wide down to {} mm", plain_number(beside), plain_number(deep)),
       Mistake::too_wide, [&f = f_, beside, level = f_.opening_mm() - deep](Vec3 p) {
@@ -248,9 +261,11 @@ void Works::holes() {
 }
 
 void Works::roof() {
-  for (const int percent : {45, 65})
+  for (const int percent : {45, 65}) {
+    if (around_stump()) break;  // its middle stays
     add(fmt::format("opens_the_middle_{}_percent", percent), fmt::format("the target's middle, {} % as wide and as long, to full depth", percent),
         task_.scenario.perforation.aims.empty() ? Mistake::too_little : Mistake::roof_left, middle_of(0.01 * percent));
+  }
   double roof = -1e9;
   for (const auto& leaf : f_.leaves())
     for (const auto& aim : task_.scenario.perforation.aims)

@@ -169,6 +169,19 @@ std::vector<TaskChoice> dexterity(const Landmarks& l, DexterityShape shape) {
   return list;
 }
 
+std::string side_steps_text() {
+  return R"([[steps]]
+id = "entry"
+instruction = "Enter in the middle of the outline, square to the surface, and go to full depth."
+complete_when = "target_removed_percent >= 10"
+
+[[steps]]
+id = "extension"
+instruction = "Extend to the outline; the axial wall follows the surface. Release the pedal and lift off when done."
+complete_when = "target_removed_percent >= 86 && pedal < 0.05 && contact == 0"
+)";
+}
+
 std::string crown_steps_text() {
   return R"([[steps]]
 id = "occlusal"

@@ -1,0 +1,67 @@
+// What is cut, on teeth of known geometry: of a stump, "too wide" is its walls and nothing else; a cavity in a side is displaced along the crown.
+#include "grading/battery/wrong_work.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scenarios/zones/placed.h"
+#include "tests/scenarios/test_crowns.h"
+
+namespace cavum::grading {
+namespace {
+
+constexpr double k_radius_mm = 4;
+
+/// The task with everything that its works refer to.
+struct OnRoundTooth {
+  scenarios::Scenario scenario;
+  Tooth tooth = testing::round_tooth(k_radius_mm, -8, 0.1);
+  scenarios::ZoneMap zones;
+  Task task;
+  TargetField field;
+  std::vector<WrongWork> works;
+  explicit OnRoundTooth(const std::string& target)
+      : scenario(scenarios::parse_scenario(testing::scenario_text(target), "s.toml")),
+        zones(scenarios::build_zones(scenario, tooth, testing::round_landmarks(k_radius_mm, -6))),
+        task(make_task(scenario, tooth, zones)),
+        field(tooth, zones),
+        works(wrong_works(task, field)) {}
+  [[nodiscard]] const WrongWork* find(const std::string& name) const {
+    const auto found = std::find_if(works.begin(), works.end(), [&](const WrongWork& w) { return w.name == name; });
+    return found == works.end() ? nullptr : &*found;
+  }
+};
+
+TEST(WrongWork, OfAStumpTooWideIsItsWallsAlone) {
+  const OnRoundTooth crown("[[zones.target]]\nshape = \"crown\"\nabove_neck_mm = 0.5\ndepth_mm = 1.0\ntaper_deg = 0\nocclusal_mm = 1.5\n");
+  const WrongWork* wide = crown.find("too_wide_by_1_mm");
+  ASSERT_NE(wide, nullptr);
+  // the stump's wall stands at 3 mm, its top at z = -1.5, the finish line at z = -5.5
+  EXPECT_LT(wide->cut({3.4, 0, -3}), 0);    // the shell itself
+  EXPECT_LT(wide->cut({2.3, 0, -3}), 0);    // 0.7 mm inside the wall
+  EXPECT_GT(wide->cut({1.7, 0, -3}), 0);    // 1.3 mm
+  EXPECT_GT(wide->cut({0, 0, -2.0}), 0);    // below the top
+  EXPECT_GT(wide->cut({3.7, 0, -6.0}), 0);  // below the finish line
+  EXPECT_EQ(crown.find("opens_the_middle_65_percent"), nullptr);
+  EXPECT_EQ(crown.find("shank_at_the_entrance"), nullptr);
+}
+
+TEST(WrongWork, FromASideIsShiftedTowardsOcclusalAndGingiva) {
+  const OnRoundTooth cavity(
+      "[[zones.target]]\nshape = \"side_cavity\"\nside = \"buccal\"\ndepth_mm = 1.2\noutline = { kind = \"polygon\", points_mm = [[-2, 1], [2, 1], "
+      "[2, "
+      "3], [-2, 3]] }\n");
+  // the target lies between z = -5 and -3, from radius 2.8 outwards
+  const WrongWork *up = cavity.find("shifted_1_mm_occlusal"), *down = cavity.find("shifted_1_mm_gingival");
+  ASSERT_NE(up, nullptr);
+  ASSERT_NE(down, nullptr);
+  EXPECT_LT(up->cut({0, 3.5, -2.4}), 0);
+  EXPECT_GT(up->cut({0, 3.5, -4.6}), 0);
+  EXPECT_GT(down->cut({0, 3.5, -3.4}), 0);
+  EXPECT_LT(down->cut({0, 3.5, -5.6}), 0);
+  EXPECT_EQ(cavity.find("shifted_1_mm_buccal"), nullptr);
+}
+
+}  // namespace
+}  // namespace cavum::grading
