@@ -220,15 +220,15 @@ const std::vector<ToothTask>& tasks() {
          return has_tissue(tooth, "lesion") ? "" : "it has no lesion: `cavum tooth lesion` grows one";
        },
        lesion},
-      {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, side_steps_text()},
+      {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0, side_steps_text()},
       {"crown", "Preparation for a full crown", R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
        why_no_crown, crown_preparation, 0, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
       {"dexterity_groove", "Dexterity: a straight groove", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
-       shapes(DexterityShape::groove), side_steps_text()},
+       shapes(DexterityShape::groove), 0, side_steps_text()},
       {"dexterity_circle", "Dexterity: a round pocket", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
-       shapes(DexterityShape::circle), side_steps_text()},
+       shapes(DexterityShape::circle), 0, side_steps_text()},
       {"dexterity_cross", "Dexterity: a cross", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
-       shapes(DexterityShape::cross), side_steps_text()}};
+       shapes(DexterityShape::cross), 0, side_steps_text()}};
   return k_tasks;
 }
 

@@ -1,6 +1,7 @@
 """Older copies, witnesses, receipts, signed results, backups and restores; two programs at once."""
 import json
 import os
+import re
 import shutil
 
 import ledger_format as lf
@@ -173,7 +174,9 @@ def results_edited(s):
     del body["signature"]
     seq, better_result = better(lf.Ledger(s.L))
     body["results"][0]["result"] = better_result
-    cases = {"points": line.replace('"points":14', '"points":94'), "a stranger": lf.signed_results(body, s.station("stranger")), "a stranger who says so":
+    more = re.sub(r'"points":\d+', '"points":94', line, count=1)
+    s.must(more != line, "no points to edit in results.json")
+    cases = {"points": more, "a stranger": lf.signed_results(body, s.station("stranger")), "a stranger who says so":
              lf.signed_results(dict(body, public_key=s.station("stranger").hex), s.station("stranger")), "a space": line.replace(",", ", ", 1),
              "key twice": line[:-2].replace('{"checkpoint"', '{"results":[],"checkpoint"', 1) + "}\n", "behind the signature": line.rstrip("\n")[:-1] + ',"results":[]}\n',
              "two lines": line + line, "a second object": line.rstrip("\n") + "{}\n"}
