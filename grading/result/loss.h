@@ -41,6 +41,8 @@ namespace reason {
 
 /// "0.30 ± 0.04 mm3"; a figure that is known exactly has no bound.
 [[nodiscard]] std::string amount_text(double value, double bound, int digits, const std::string& unit);
+/// " at 12.34 s (tick 12340)"; nothing where nobody knows when.
+[[nodiscard]] std::string at_when(const Trace& t);
 /// "12.34 s (tick 12340)", "[1.00, 0.00, -2.00] mm", "the mesial wall".
 [[nodiscard]] std::string when(const Trace& t);
 [[nodiscard]] std::string place(Vec3 p);

@@ -222,7 +222,7 @@ std::vector<Measure> access_measures() {
 }
 
 std::vector<Measure> motion_measures() {
-  return {
+  std::vector<Measure> all{
       {.name = "time_s", .unit = "s", .words = "until the exam ended", .most = &most::limit, .counts = k_counts_time},
       {.name = "handpiece_time_s", .unit = "s", .words = "with the handpiece turning", .most = &most::limit, .counts = k_counts_time},
       {.name = "idle_s", .unit = "s", .words = "neither moving nor cutting", .most = &most::limit, .counts = k_counts_time},
@@ -236,6 +236,8 @@ std::vector<Measure> motion_measures() {
        .counts = k_counts_force},
       {.name = "path_mm", .unit = "mm", .words = "way of the tip", .most = &most::no_end},
   };
+  for (Measure& m : all) m.of_exam = true;
+  return all;
 }
 
 std::vector<Measure> perforation_measures() {
@@ -260,15 +262,16 @@ std::vector<Measure> perforation_measures() {
        .words = "faulty breakthroughs seen in the force and confirmed by the tissue",
        .most = &most::no_end,
        .counts = k_counts_faults,
-       .counts_faults = true},
+       .counts_faults = true,
+       .of_exam = true},
   };
 }
 
 std::vector<Measure> progress_measures() {
   return {
-      {.name = "steps_completed", .words = "steps done", .better = Better::more, .judges = Judges::work, .most = &most::steps},
-      {.name = "steps_failed", .words = "steps failed", .most = &most::steps},
-      {.name = "violations", .words = "a point that is not allowed, or a speed above max_rpm", .most = &most::no_end},
+      {.name = "steps_completed", .words = "steps done", .better = Better::more, .judges = Judges::work, .most = &most::steps, .of_exam = true},
+      {.name = "steps_failed", .words = "steps failed", .most = &most::steps, .of_exam = true},
+      {.name = "violations", .words = "a point that is not allowed, or a speed above max_rpm", .most = &most::no_end, .of_exam = true},
   };
 }
 
