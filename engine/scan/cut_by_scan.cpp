@@ -44,9 +44,24 @@ struct LeafLattice {
     const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
     return low + IVec3{static_cast<std::int32_t>(i % nx), static_cast<std::int32_t>(i / nx % ny), static_cast<std::int32_t>(i / (nx * ny))};
   }
-  /// Calls `visit(index, centre)` for leaves in the box around a triangle, `reach_mm` wider.
+  /// Calls `visit(index, centre)` for leaves about as near to a triangle as `reach_mm`, for some more than once: a large one in parts, whose boxes
+  /// hold less beside it.
   template <class Visit>
   void around(Vec3 a, Vec3 b, Vec3 c, double reach_mm, const Visit& visit) const {
+    constexpr double k_part_mm = 0.4;
+    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+    const int n = static_cast<int>(std::clamp(std::ceil(longest / k_part_mm), 1.0, 1000.0));
+    const auto at = [&](int i, int j) { return a + (b - a) * (double(i) / n) + (c - a) * (double(j) / n); };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j) {
+        in_box(at(i, j), at(i + 1, j), at(i, j + 1), reach_mm, visit);
+        if (i + j + 1 < n) in_box(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), reach_mm, visit);
+      }
+  }
+
+ private:
+  template <class Visit>
+  void in_box(Vec3 a, Vec3 b, Vec3 c, double reach_mm, const Visit& visit) const {
     const auto from = [&](double v, double first) { return static_cast<int>(std::ceil(std::clamp((v - reach_mm - first) / leaf_mm, -1e6, 1e6))); };
     const auto to = [&](double v, double first) { return static_cast<int>(std::floor(std::clamp((v + reach_mm - first) / leaf_mm, -1e6, 1e6))); };
     const IVec3 l{std::max(0, from(std::min({a.x, b.x, c.x}), first_mm.x)), std::max(0, from(std::min({a.y, b.y, c.y}), first_mm.y)),
@@ -97,37 +112,64 @@ std::vector<float> distances_of(const TriangleMesh& scan, const LeafLattice& lat
 }
 
 /// Leaves that a way leads to from outside, not through the scan nor its caps.
-std::vector<std::uint8_t> outside_of(const TriangleMesh& caps, const std::vector<float>& mm, const LeafLattice& lattice) {
-  constexpr std::uint8_t k_capped = 2;
-  std::vector<std::uint8_t> reached(lattice.count(), 0);
-  const double thick = lattice.leaf_mm;
-  for (const auto& t : caps.triangles) {
-    const Vec3 a = caps.vertices_mm[t[0]], b = caps.vertices_mm[t[1]], c = caps.vertices_mm[t[2]];
-    lattice.around(a, b, c, thick, [&](std::size_t i, Vec3 p) {
-      if (length(p - closest_on_triangle(p, a, b, c)) <= thick) reached[i] = k_capped;
-    });
+class Outside {
+ public:
+  Outside(const LeafLattice& lattice, const std::vector<float>& mm) : lattice_(lattice), mm_(mm), state_(lattice.count(), k_inside) {}
+
+  void put_caps(const TriangleMesh& caps) {
+    const double thick = lattice_.leaf_mm;
+    for (const auto& t : caps.triangles) {
+      const Vec3 a = caps.vertices_mm[t[0]], b = caps.vertices_mm[t[1]], c = caps.vertices_mm[t[2]];
+      lattice_.around(a, b, c, thick, [&](std::size_t i, Vec3 p) {
+        if (length(p - closest_on_triangle(p, a, b, c)) <= thick) state_[i] = k_cap;
+      });
+    }
   }
-  std::vector<std::size_t> front;
-  const auto visit = [&](IVec3 leaf) {
-    const std::size_t i = lattice.index(leaf);
-    if (reached[i] != 0 || mm[i] <= 0) return;
-    reached[i] = 1;
-    front.push_back(i);
-  };
-  const IVec3 high = lattice.low + lattice.size - IVec3{1, 1, 1};
-  for (int z = lattice.low.z; z <= high.z; ++z)
-    for (int y = lattice.low.y; y <= high.y; ++y)
-      for (int x = lattice.low.x; x <= high.x; ++x)
-        if (x == lattice.low.x || y == lattice.low.y || z == lattice.low.z || x == high.x || y == high.y || z == high.z) visit({x, y, z});
-  while (!front.empty()) {
-    const IVec3 leaf = lattice.leaf(front.back());
-    front.pop_back();
+  /// A leaf and what is nearer to the surface is a shell that no way leads through, whichever side noise says that a leaf of it lies on; the shell's
+  /// outer side is then added from outside, and leads nowhere.
+  std::vector<std::uint8_t> reached() {
+    const IVec3 high = lattice_.low + lattice_.size - IVec3{1, 1, 1};
+    for (int z = lattice_.low.z; z <= high.z; ++z)
+      for (int y = lattice_.low.y; y <= high.y; ++y)
+        for (int x = lattice_.low.x; x <= high.x; ++x)
+          if (x == lattice_.low.x || y == lattice_.low.y || z == lattice_.low.z || x == high.x || y == high.y || z == high.z) visit({x, y, z});
+    while (!open_.empty()) {
+      const IVec3 leaf = lattice_.leaf(open_.back());
+      open_.pop_back();
+      spread(leaf);
+    }
+    while (!shell_.empty()) {
+      const IVec3 leaf = lattice_.leaf(shell_.back());
+      shell_.pop_back();
+      spread(leaf);
+    }
+    for (auto& s : state_) s = s == k_reached ? 1 : 0;
+    return std::move(state_);
+  }
+
+ private:
+  enum State : std::uint8_t { k_inside, k_reached, k_cap };
+
+  void visit(IVec3 leaf) {
+    const std::size_t i = lattice_.index(leaf);
+    if (state_[i] != k_inside || mm_[i] <= 0) return;
+    const bool in_shell = mm_[i] < lattice_.leaf_mm;
+    if (!in_shell && open_done_) return;
+    state_[i] = k_reached;
+    (in_shell ? shell_ : open_).push_back(i);
+  }
+  void spread(IVec3 leaf) {
+    open_done_ = open_.empty() && mm_[lattice_.index(leaf)] < lattice_.leaf_mm;
     for (const IVec3 step : k_beside)
-      if (lattice.holds(leaf + step)) visit(leaf + step);
+      if (lattice_.holds(leaf + step)) visit(leaf + step);
   }
-  for (auto& r : reached) r = r == 1 ? 1 : 0;
-  return reached;
-}
+
+  const LeafLattice& lattice_;
+  const std::vector<float>& mm_;
+  std::vector<std::uint8_t> state_;
+  std::vector<std::size_t> open_, shell_;
+  bool open_done_ = false;
+};
 
 /// A connected piece of the tooth outside the scan.
 struct Piece {
@@ -254,7 +296,9 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
   const Octree& before = tooth.tooth().octree;
   const LeafLattice lattice(before);
   std::vector<float> mm = distances_of(scan, lattice);
-  const std::vector<std::uint8_t> outside = outside_of(caps, mm, lattice);
+  Outside ways(lattice, mm);
+  ways.put_caps(caps);
+  const std::vector<std::uint8_t> outside = ways.reached();
   for (std::size_t i = 0; i < mm.size(); ++i)
     if (outside[i] == 0 && mm[i] == k_far_off) mm[i] = -k_far_off;
   Pieces pieces(lattice, mm, outside, tooth, noise_mm);

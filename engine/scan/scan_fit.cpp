@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -24,6 +26,32 @@ double median_of(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
+
+/// Signed distances by patches, cells of 0.7 mm: the standard deviation of their means, by the median.
+class Patches {
+ public:
+  void add(Vec3 p, double mm) {
+    const auto cell = [](double v) { return static_cast<int>(std::floor(v / k_patch_mm)); };
+    Sum& s = sums_[{cell(p.x), cell(p.y), cell(p.z)}];
+    s.mm += mm;
+    ++s.count;
+  }
+  [[nodiscard]] std::vector<double> mean_sizes() const {
+    std::vector<double> sizes;
+    for (const auto& [cell, s] : sums_)
+      if (s.count >= k_fewest) sizes.push_back(std::fabs(s.mm / s.count));
+    return sizes;
+  }
+
+ private:
+  static constexpr double k_patch_mm = 0.7;
+  static constexpr int k_fewest = 15;
+  struct Sum {
+    double mm = 0.0;
+    int count = 0;
+  };
+  std::map<std::array<int, 3>, Sum> sums_;
+};
 
 /// Of the tooth's enamel surface, what the scan lies upon.
 double seen_of_crown(const std::vector<SurfacePoint>& scan, const Rigid& to_tooth, const OuterSurface& tooth, double within_mm) {
@@ -53,14 +81,17 @@ ScanFit fit_of(const std::vector<SurfacePoint>& scan, const Rigid& to_tooth, con
   const auto points = drawn_by_area(scan, k_looked_at, random);
   std::vector<Seen> seen;
   std::vector<double> near;
+  Patches patches;
   Octree::Cursor cursor;
   for (const auto& p : points) {
-    const OuterSurface::Distance d = tooth.distance(to_tooth * p.at_mm, cursor);
+    const Vec3 at = to_tooth * p.at_mm;
+    const OuterSurface::Distance d = tooth.distance(at, cursor);
     seen.push_back({d.mm, dot(to_tooth.rotation * p.normal, d.normal) > k_fits_facing});
-    if (seen.back().facing && std::fabs(d.mm) < k_fits_near_mm) near.push_back(std::fabs(d.mm));
+    if (seen.back().facing && std::fabs(d.mm) < k_fits_near_mm) near.push_back(std::fabs(d.mm)), patches.add(at, d.mm);
   }
   ScanFit fit;
   fit.noise_mm = k_sigma_of_median * median_of(near);
+  fit.form_mm = k_sigma_of_median * median_of(patches.mean_sizes());
   fit.within_mm = std::max(k_least_within_mm, 3 * fit.noise_mm);
   double squares = 0;
   const double one = 1.0 / static_cast<double>(seen.size());
@@ -82,12 +113,14 @@ ScanFit fit_of(const std::vector<SurfacePoint>& scan, const Rigid& to_tooth, con
 }
 
 void require_same_tooth(const ScanFit& f, const std::string& where) {
-  constexpr double k_most_noise_mm = 0.06, k_least_agreement = 0.88, k_most_beyond = 0.04, k_least_crown = 0.45;
+  constexpr double k_most_noise_mm = 0.06, k_most_form_mm = 0.018, k_least_agreement = 0.88, k_most_beyond = 0.04, k_least_crown = 0.45;
   const auto percent = [](double share) { return fixed(100 * share, 1) + " %"; };
   const std::string found = fmt::format(
-      "where it fits best, {} of its surface lies within {} mm of the tooth (RMS {} mm), {} outside it and {} just below it; {} of the crown is seen",
-      percent(f.fits), fixed(f.within_mm, 3), fixed(f.rms_mm, 3), percent(f.beyond), percent(f.shallow), percent(f.crown_seen));
-  if (f.noise_mm > k_most_noise_mm || agreement(f) < k_least_agreement || f.beyond > k_most_beyond)
+      "where it fits best, {} of its surface lies within {} mm of the tooth (RMS {} mm, patches of 0.7 mm {} mm), {} outside it and {} just below "
+      "it; {} "
+      "of the crown is seen",
+      percent(f.fits), fixed(f.within_mm, 3), fixed(f.rms_mm, 3), fixed(f.form_mm, 3), percent(f.beyond), percent(f.shallow), percent(f.crown_seen));
+  if (f.noise_mm > k_most_noise_mm || f.form_mm > k_most_form_mm || agreement(f) < k_least_agreement || f.beyond > k_most_beyond)
     throw Error(where, "is not the tooth of this exam: " + found,
                 "give the scan of this very tooth, without its neighbours, or name its tooth with --tooth");
   if (f.crown_seen < k_least_crown) throw Error(where, "shows too little of the crown to be sure: " + found, "scan the whole crown down to its neck");

@@ -13,6 +13,7 @@ namespace cavum {
 struct ScanFit {
   double noise_mm = 0.0;    ///< standard deviation of the distance where it fits, by the median
   double rms_mm = 0.0;      ///< of the distance where it fits
+  double form_mm = 0.0;     ///< the same of the mean distances of patches of 0.7 mm, in which noise averages out: how far the form differs
   double within_mm = 0.0;   ///< up to which a place fits
   double fits = 0.0;        ///< of the scan: on the tooth's surface
   double beyond = 0.0;      ///< of the scan: outside the tooth, where no drill leaves a surface

@@ -102,15 +102,34 @@ Implicit implicit_at(Vec3 at, const Neighbours& neighbours, double radius_mm) {
   return f;
 }
 
+/// The points with the normals of what lies around them, those alike more than others.
+std::vector<SurfacePoint> with_even_normals(std::vector<SurfacePoint> points, double radius_mm) {
+  constexpr double k_alike[] = {1.4, 0.7};  // of unit normals: from which difference on they count less
+  for (const double alike : k_alike) {
+    const Neighbours neighbours(points, radius_mm);
+    for (SurfacePoint& point : points) {
+      Vec3 sum;
+      neighbours.around(point.at_mm, [&](const SurfacePoint& p, Vec3, double r2) {
+        const Vec3 turn = (p.normal - point.normal) / alike;
+        const double left = 1 - r2, c = 1 + dot(turn, turn);
+        sum += p.normal * (p.area_mm2 * left * left * left * left / (c * c));
+      });
+      point.normal = normalized(sum * 1e6, point.normal);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
-TriangleMesh smoothed(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points, double radius_mm) {
+TriangleMesh smoothed(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points, const std::vector<std::uint8_t>& wanted, double radius_mm) {
   constexpr int k_steps = 2;
   TriangleMesh out = mesh;
   if (points.empty()) return out;
-  const Neighbours neighbours(points, radius_mm);
-  for (Vec3& v : out.vertices_mm)
-    for (int step = 0; step < k_steps; ++step) {
+  const Neighbours neighbours(with_even_normals(points, radius_mm), radius_mm);
+  for (std::size_t i = 0; i < out.vertices_mm.size(); ++i)
+    for (int step = 0; step < k_steps && wanted[i] != 0; ++step) {
+      Vec3& v = out.vertices_mm[i];
       const Implicit f = implicit_at(v, neighbours, radius_mm);
       const double steep = dot(f.gradient, f.gradient);
       if (!f.known || !(steep > 0.25)) break;

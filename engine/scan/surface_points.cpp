@@ -3,14 +3,37 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstdint>
+#include <utility>
 
 #include "engine/base/error.h"
 
 namespace cavum {
 namespace {
 
-constexpr double k_most_points = 20e6;
+using Corners = std::array<Vec3, 3>;
+
+/// The triangle in halves, across its longest edge each, until no edge is longer: `visit(corners, halvings)`.
+template <class Visit>
+void halved(const Corners& whole, double longest_mm, const Visit& visit) {
+  constexpr int k_most_halvings = 40;
+  std::vector<std::pair<Corners, int>> open{{whole, 0}};
+  while (!open.empty()) {
+    const auto [t, halvings] = open.back();
+    open.pop_back();
+    std::size_t longest = 0;
+    const auto edge = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
+    for (std::size_t i = 1; i < 3; ++i) longest = edge(i) > edge(longest) ? i : longest;
+    if (edge(longest) <= longest_mm || halvings == k_most_halvings) {
+      visit(t, halvings);
+      continue;
+    }
+    const Vec3 a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3], middle = (a + b) * 0.5;
+    open.push_back({{a, middle, c}, halvings + 1});
+    open.push_back({{middle, b, c}, halvings + 1});
+  }
+}
 
 }  // namespace
 
@@ -18,24 +41,16 @@ std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longes
   std::vector<SurfacePoint> points;
   points.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices_mm[t[0]], ab = mesh.vertices_mm[t[1]] - a, ac = mesh.vertices_mm[t[2]] - a;
-    const Vec3 across = cross(ab, ac);
+    const Corners whole{mesh.vertices_mm[t[0]], mesh.vertices_mm[t[1]], mesh.vertices_mm[t[2]]};
+    const Vec3 across = cross(whole[1] - whole[0], whole[2] - whole[0]);
     const double twice = length(across);
     if (!(twice > 1e-12)) continue;
-    const double parts = std::max(1.0, std::ceil(std::max({length(ab), length(ac), length(ac - ab)}) / longest_mm));
-    if (static_cast<double>(points.size()) + parts * parts > k_most_points)
-      throw Error(where, fmt::format("its triangles cover more than {} places", static_cast<long>(k_most_points)),
-                  "check the unit, and that it is the surface of one tooth");
-    const auto n = static_cast<int>(parts);
-    const SurfacePoint one{{}, across / twice, 0.5 * twice / (parts * parts)};
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; i + j < n; ++j) {
-        points.push_back(one);
-        points.back().at_mm = a + ab * ((i + 1.0 / 3) / n) + ac * ((j + 1.0 / 3) / n);
-        if (i + j + 1 >= n) continue;
-        points.push_back(one);
-        points.back().at_mm = a + ab * ((i + 2.0 / 3) / n) + ac * ((j + 2.0 / 3) / n);
-      }
+    halved(whole, longest_mm, [&](const Corners& part, int halvings) {
+      if (points.size() >= k_most_scan_points)
+        throw Error(where, fmt::format("its triangles cover more than {} places", k_most_scan_points),
+                    "check the unit, and that it is the surface of one tooth");
+      points.push_back({(part[0] + part[1] + part[2]) / 3, across / twice, 0.5 * twice / static_cast<double>(std::uint64_t{1} << halvings)});
+    });
   }
   return points;
 }

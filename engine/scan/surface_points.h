@@ -13,8 +13,11 @@ struct SurfacePoint {
   double area_mm2 = 0.0;
 };
 
-/// Each triangle in equal parts with edges of at most `longest_mm`: their middles. Triangles without area give none. Throws Error(`where`, ...) where
-/// that would be more than 20 million.
+/// Places on one surface.
+inline constexpr std::size_t k_most_scan_points = 6'000'000;
+
+/// Each triangle in parts with edges of at most `longest_mm`, by halving its longest edge: their middles. Triangles without area give none. Throws
+/// Error(`where`, ...) where that would be more than those.
 [[nodiscard]] std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const std::string& where);
 
 /// `count` of them, drawn in proportion to their areas, evenly along the list: the same for the same list.

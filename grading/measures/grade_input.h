@@ -26,7 +26,8 @@ struct GradeInput {
   const SessionSetup* again = nullptr;   ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
   const std::array<bool, 256>* around = nullptr;  ///< by tissue id: it lies around the tooth (breakthrough/exposure.h); nullptr: to be found out
   const NotShown* not_shown = nullptr;            ///< a preparation without its recording; nullptr: a recorded exam
-  double surface_bound_mm = 0.0;                  ///< how far the cut surface of `after` may lie from the true one beside what leaves round
+  double surface_bound_mm = 0.0;       ///< how far a place of the cut surface of `after` may lie from the true one beside what leaves round
+  double surface_mean_bound_mm = 0.0;  ///< and how far the surface as a whole, over which noise averages out
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.

@@ -41,7 +41,7 @@ class Shares {
   /// Leaves went after the end: everything counts whole.
   [[nodiscard]] bool late() const { return late_; }
   /// Of what a zone has in a leaf, what is not known: `share` of it, of `total` that is gone.
-  [[nodiscard]] double unsure(double share, double total) const { return unsure_of(late_, share, total) + input_.surface_bound_mm / leaf_mm_; }
+  [[nodiscard]] double unsure(double share, double total) const { return unsure_of(late_, share, total) + input_.surface_mean_bound_mm / leaf_mm_; }
 
   [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
     const bool gone = removed_.has(leaf);

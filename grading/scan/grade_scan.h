@@ -17,9 +17,11 @@ namespace cavum::grading {
 struct ScanFacts {
   std::size_t triangles = 0;
   ScanPose pose;
+  double second_share = 0.0;  ///< of the scan that fits in the best of the poses elsewhere, 0..1
   ScanFit fit;
-  double smoothed_noise_mm = 0.0;  ///< of the scan's surface once its noise was averaged out
-  double surface_bound_mm = 0.0;   ///< how far the cut surface may lie from the true one; part of every bound
+  double smoothed_noise_mm = 0.0;      ///< of the scan's surface once its noise was averaged out
+  double surface_bound_mm = 0.0;       ///< how far a place of the cut surface may lie from the true one; part of every bound of a place
+  double surface_mean_bound_mm = 0.0;  ///< and how far all of it together; part of the bounds of volumes
   int cavities = 0;
   double unseen_mm3 = 0.0;  ///< of the tooth below where the scan ends
   double left_as_noise_mm3 = 0.0;

@@ -12,8 +12,13 @@ def read_stl(path):
         file.seek(80)
         count = struct.unpack("<I", file.read(4))[0]
         data = np.frombuffer(file.read(count * 50), dtype=np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")]))
-    corners, index = np.unique(data["v"].reshape(-1, 3), axis=0, return_inverse=True)
-    return corners.astype(float), index.reshape(-1, 3)
+    corners = data["v"].reshape(-1, 3)
+    order = np.lexsort(corners.T)
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = (corners[order[1:]] != corners[order[:-1]]).any(axis=1)
+    index = np.empty(len(order), dtype=np.int64)
+    index[order] = np.cumsum(new) - 1
+    return corners[order[new]].astype(float), index.reshape(-1, 3)
 
 
 def write_stl(path, corners, triangles):
