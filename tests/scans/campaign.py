@@ -174,6 +174,41 @@ def others(cavum, folder, count, seed, quick):
     return taken
 
 
+def bad_scans(cavum, folder, seed):
+    """Scans of the right tooth that no mark may be given by, and what must be said of each."""
+    random = np.random.default_rng(seed + 2)
+    corners, triangles = originals(cavum, folder, True)[0][2]
+    whole = scanner.scan(corners, triangles, random, "fine")
+    root = scanner.without_unused(corners, triangles[(corners[:, 2] < -6.0)[triangles].all(axis=1)])
+    bad = [
+        ("in metres", (whole[0] / 1000, whole[1]), "say --units m"),
+        ("in inches", (whole[0] / 25.4, whole[1]), "say --units in"),
+        ("every fifth triangle lost", scanner.without_unused(whole[0], whole[1][random.random(len(whole[1])) > 0.2]), "is open in"),
+        ("a handful of triangles", scanner.without_unused(whole[0], whole[1][:900]), "too few"),
+        ("the root alone", root, "crown"),
+        ("a ball", (corners_of_ball(whole[0], 5.0), whole[1]), ""),
+    ]
+    failed = []
+    path = os.path.join(folder, "bad.stl")
+    for what, surface, words in bad:
+        scanner.write_stl(path, *surface)
+        done = cavum.run("scan", "grade", path, "--scenario", cavum.scenario("class_1"))
+        print("%s: %s" % (what, done.stderr.strip().replace(path, "")), flush=True)
+        if done.returncode != 2 or words not in done.stderr or len(done.stderr.strip().splitlines()) != 1:
+            failed.append("%s: not refused with '%s'" % (what, words))
+    scanner.write_obj(path[:-3] + "obj", *whole)
+    scanner.write_text_stl(path, whole[0] / 25.4, whole[1])
+    marks_of = [json.loads(cavum.must("scan", "grade", *a, "--scenario", cavum.scenario("class_1"), "--json"))["score"]["points"]
+                for a in ((path[:-3] + "obj",), (path, "--units", "in"))]
+    print("as OBJ, and as text STL in inches:", marks_of)
+    return failed + (["formats and units give other points: %s" % marks_of] if abs(marks_of[0] - marks_of[1]) > 0.5 else [])
+
+
+def corners_of_ball(corners, radius_mm):
+    away = corners - corners.mean(axis=0)
+    return radius_mm * away / np.linalg.norm(away, axis=1)[:, None]
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--cavum", required=True)
@@ -187,6 +222,7 @@ def main():
     cavum = Cavum(os.path.abspath(o.cavum), os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
     print("seed", o.seed)
     failed = marks(cavum, o.work, o.poses, o.seed, o.quick) + others(cavum, o.work, o.others, o.seed, o.quick)
+    failed += bad_scans(cavum, o.work, o.seed)
     for f in failed:
         print("FAILED", f)
     return 1 if failed else 0
