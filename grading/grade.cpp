@@ -193,6 +193,10 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
   r.motion.lost_s = lost_s(input.events);
   for (const auto& leaf : input.all_removed()) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
   r.perforation = measure_perforation(input, removed, last_tick);
+  if (input.not_shown != nullptr) {
+    r.not_shown = *input.not_shown;
+    r.perforation.force_known = false;
+  }
   const scenarios::PerforationSpec& spec = input.scenario.perforation;
   for (const auto& [names, truth] : {std::pair(&spec.aims, &r.perforation.aim), std::pair(&spec.faults, &r.perforation.fault)})
     for (const auto& t : r.tissues)

@@ -14,28 +14,6 @@ namespace {
 
 constexpr int k_reach = 3;  // leaves around a surface that may still lie in the band
 
-/// Closest point of triangle abc to p (by Voronoi regions of its corners, edges and face).
-Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const Vec3 bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-  const Vec3 cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  const double sum = va + vb + vc;
-  if (!(sum > 0)) return a;  // a triangle without area: its edges were tried above
-  return a + ab * (vb / sum) + ac * (vc / sum);
-}
-
 /// Squared distance (in leaves) from every leaf to the nearest leaf of the other kind, up to k_reach along
 /// each axis; 255 beyond.
 std::vector<std::uint8_t> squared_to_other_kind(const TissueGrid& grid, const std::vector<std::uint8_t>& solid) {
@@ -65,6 +43,27 @@ std::vector<std::uint8_t> squared_to_other_kind(const TissueGrid& grid, const st
 }
 
 }  // namespace
+
+Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3 bp = p - b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const Vec3 cp = p - c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double sum = va + vb + vc;
+  if (!(sum > 0)) return a;  // a triangle without area: its edges were tried above
+  return a + ab * (vb / sum) + ac * (vc / sum);
+}
 
 void check_lattice(IVec3 size, double leaf_mm, const std::string& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, "the leaf must be larger than 0 mm", "give --leaf-mm 0.05, for example");

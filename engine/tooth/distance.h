@@ -24,6 +24,9 @@ void check_lattice(IVec3 size, double leaf_mm, const std::string& where);
 /// Throws Error(`where`, ...) when a mesh has more leaves near its triangles than above: many that are large and close together.
 void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where);
 
+/// The point of a triangle that is nearest to `p`: by the Voronoi regions of its corners, edges and face.
+[[nodiscard]] Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept;
+
 /// Says whether a surface point counts: `point_mm` on a triangle, `normal` its unit outward normal.
 using AcceptSurface = std::function<bool(Vec3 point_mm, Vec3 normal)>;
 

@@ -69,16 +69,13 @@ double signed_volume_mm3(const TriangleMesh& mesh) {
   return six / 6.0;
 }
 
-TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue) {
-  std::array<bool, 256> wanted{};
-  if (tissue == "solid") {
-    for (const auto& t : tooth.tissues) wanted[t.id] = t.solid;
-  } else {
-    wanted[tooth.tissue_id(tissue)] = true;
-  }
+namespace {
+
+/// The surface around all wanted tissues together; `named` is what they are called.
+TriangleMesh surface_around(const Tooth& tooth, const std::array<bool, 256>& wanted, const std::string& named) {
   const Body body = body_of(tooth.octree, wanted);
   if (body.inside.empty())
-    throw Error(fmt::format("tooth '{}'", tooth.name), "holds no " + tissue, "choose a tissue that `cavum tooth info` shows a volume for");
+    throw Error(fmt::format("tooth '{}'", tooth.name), "holds no " + named, "choose a tissue that `cavum tooth info` shows a volume for");
   const auto fraction = [&](IVec3 a, IVec3 b) {
     const auto ia = body.grid.index(a), ib = body.grid.index(b);
     const double da = body.grid.distance[ia], db = body.grid.distance[ib];
@@ -87,6 +84,50 @@ TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue) {
     return sa > 0 && sb < 0 ? std::clamp(sa / (sa - sb), 0.05, 0.95) : 0.5;
   };
   return march_tetrahedra(body.grid.size, body.grid.centre_mm({0, 0, 0}), body.grid.leaf_mm, body.inside, fraction);
+}
+
+}  // namespace
+
+TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue) {
+  std::array<bool, 256> wanted{};
+  if (tissue == "solid") {
+    for (const auto& t : tooth.tissues) wanted[t.id] = t.solid;
+  } else {
+    wanted[tooth.tissue_id(tissue)] = true;
+  }
+  return surface_around(tooth, wanted, tissue);
+}
+
+bool lies_around(const Octree& tooth, std::uint8_t tissue) {
+  constexpr double k_of_its_wall = 0.45;  // a sheath's outer side
+  constexpr IVec3 k_six[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  std::uint64_t air = 0, hard = 0;
+  tooth.for_each_cube([&](IVec3 at, int edge, std::uint8_t label) {
+    if (label != tissue) return;
+    for (int z = 0; z < edge; ++z)
+      for (int y = 0; y < edge; ++y)
+        for (int x = 0; x < edge; ++x) {
+          if (x > 0 && y > 0 && z > 0 && x < edge - 1 && y < edge - 1 && z < edge - 1) continue;
+          for (const IVec3 step : k_six) {
+            const std::uint8_t beside = tooth.tissue(at + IVec3{x, y, z} + step);
+            air += beside == k_air ? 1 : 0;
+            hard += tooth.is_solid(beside) ? 1 : 0;
+          }
+        }
+  });
+  return air > 0 && static_cast<double>(air) >= k_of_its_wall * static_cast<double>(air + hard);
+}
+
+std::array<bool, 256> tissues_around_tooth(const Tooth& tooth) {
+  std::array<bool, 256> around{};
+  for (const auto& t : tooth.tissues) around[t.id] = !t.solid && lies_around(tooth.octree, t.id);
+  return around;
+}
+
+TriangleMesh outer_surface(const Tooth& tooth, const std::array<bool, 256>& around) {
+  std::array<bool, 256> wanted{};
+  for (const auto& t : tooth.tissues) wanted[t.id] = !around[t.id];
+  return surface_around(tooth, wanted, "tissue");
 }
 
 Bytes to_stl(const TriangleMesh& mesh) {

@@ -28,6 +28,14 @@ struct TriangleMesh {
 /// Throws Error when the tooth has no such tissue or none of it is left.
 [[nodiscard]] TriangleMesh surface_mesh(const Tooth& tooth, const std::string& tissue);
 
+/// By tissue id: it is void and lies around the tooth, as periodontium does: 45 % or more of its wall borders air. Of pulp that reaches the sides of
+/// a block a third does.
+[[nodiscard]] bool lies_around(const Octree& tooth, std::uint8_t tissue);
+[[nodiscard]] std::array<bool, 256> tissues_around_tooth(const Tooth& tooth);
+/// The outside of the tooth as one looks at it: around all of its tissues but `around`, pulp counts as filled. Closed and outward; what drilling
+/// cut off is a part of its own. Throws Error when nothing is left.
+[[nodiscard]] TriangleMesh outer_surface(const Tooth& tooth, const std::array<bool, 256>& around);
+
 /// The mesh as a binary STL (32-bit floats), or as a binary little-endian PLY with shared vertices.
 [[nodiscard]] Bytes to_stl(const TriangleMesh& mesh);
 [[nodiscard]] Bytes to_ply(const TriangleMesh& mesh);

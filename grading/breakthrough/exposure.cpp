@@ -4,34 +4,15 @@
 #include <cmath>
 
 #include "engine/tooth/distance_transform.h"
-#include "engine/tooth/octree_edit.h"
+#include "engine/tooth/surface_mesh.h"
 #include "grading/measures/lattice.h"
 #include "grading/measures/leaf_faces.h"
 
 namespace cavum::grading {
 namespace {
 
-constexpr double k_deep_mm = 0.3;       // a scrape along a root is less
-constexpr double k_lies_around = 0.45;  // of its wall that borders air: a sheath's outer side; of pulp that reaches the sides of a block a third
-constexpr int k_normal_leaves = 2;      // on each side, over which a wall's normal is taken
-
-bool lies_around(const Octree& before, std::uint8_t tissue) {
-  std::uint64_t air = 0, hard = 0;
-  before.for_each_cube([&](IVec3 at, int edge, std::uint8_t label) {
-    if (label != tissue) return;
-    for (int z = 0; z < edge; ++z)
-      for (int y = 0; y < edge; ++y)
-        for (int x = 0; x < edge; ++x) {
-          if (x > 0 && y > 0 && z > 0 && x < edge - 1 && y < edge - 1 && z < edge - 1) continue;
-          for (const IVec3 step : scenarios::k_six_neighbours) {
-            const std::uint8_t beside = before.tissue(at + IVec3{x, y, z} + step);
-            air += beside == k_air ? 1 : 0;
-            hard += before.is_solid(beside) ? 1 : 0;
-          }
-        }
-  });
-  return air > 0 && static_cast<double>(air) >= k_lies_around * static_cast<double>(air + hard);
-}
+constexpr double k_deep_mm = 0.3;   // a scrape along a root is less
+constexpr int k_normal_leaves = 2;  // on each side, over which a wall's normal is taken
 
 /// The hard leaves removed so far: which are joined, and whether those reach deep below the tooth's surface.
 class Cavity {

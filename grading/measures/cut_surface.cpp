@@ -212,7 +212,7 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   const double leaf_mm = input.zones.leaf_mm();
   ShapeMeasures m;
   m.facing = input.zones.facing();
-  m.bound_mm = leaf_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
+  m.bound_mm = leaf_mm + input.surface_bound_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
   WallSurface surface = sample_walls(input, removed, last_tick);
   m.wall = wall_measures(surface, furthest_removed(input, removed, last_tick), thickest_left(input, removed), m.bound_mm);
   put_outline(m, cavity_outlines(input, removed, last_tick), leaf_mm);

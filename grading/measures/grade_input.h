@@ -40,6 +40,9 @@ struct GradeInput {
   [[nodiscard]] const Tooth& seen_before() const noexcept { return beside != nullptr ? beside->before : before; }
   [[nodiscard]] const Octree& seen_after() const noexcept { return beside != nullptr ? beside->after : after; }
   [[nodiscard]] std::span<const RemovedAt> all_removed() const noexcept { return beside != nullptr ? beside->removed : removed; }
+  const NotShown* not_shown = nullptr;  ///< a preparation without its recording; nullptr: a recorded exam
+  double surface_bound_mm = 0.0;        ///< how far a place of the cut surface of `after` may lie from the true one beside what leaves round
+  double surface_mean_bound_mm = 0.0;   ///< and how far the surface as a whole, over which noise averages out
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.

@@ -37,7 +37,7 @@ PlaceBlocks wall_of_pulp(const Octree& before, const std::array<bool, 256>& pulp
 
 OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   OverPulpMeasures m;
-  m.bound_mm = input.zones.leaf_mm();
+  m.bound_mm = input.zones.leaf_mm() + input.surface_bound_mm;
   const Octree& before = input.before.octree;
   const std::array<bool, 256> pulp = pulp_of(input.before);
   const PlaceBlocks wall = wall_of_pulp(before, pulp);

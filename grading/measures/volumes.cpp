@@ -22,6 +22,17 @@ struct Share {
   explicit Share(const scenarios::LeafParts& p) : all_or_nothing(false), parts(p) {}
 };
 
+/// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes
+/// of known cavities at 80 poses are true to 0.008 of a leaf at each (tests/grading/known_geometry_test.cpp), and four times that is promised; but
+/// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
+constexpr double k_whole = 0.5, k_by_parts = 0.03, k_two_borders = 0.25;
+
+/// Of what a zone has in a leaf: `share` of it, of `total` that is gone.
+double unsure_of(bool whole, double share, double total) {
+  if (whole) return k_whole;
+  return total < 1.0 - k_code && share < total - k_code ? k_two_borders : k_by_parts;
+}
+
 /// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
 class Shares {
  public:
@@ -29,6 +40,8 @@ class Shares {
       : input_(input), removed_(removed), leaf_mm_(input.zones.leaf_mm()), late_(late) {}
   /// Leaves went after the end: everything counts whole.
   [[nodiscard]] bool late() const { return late_; }
+  /// Of what a zone has in a leaf, what is not known: `share` of it, of `total` that is gone.
+  [[nodiscard]] double unsure(double share, double total) const { return unsure_of(late_, share, total) + input_.surface_mean_bound_mm / leaf_mm_; }
 
   [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
     const bool gone = removed_.has(leaf);
@@ -72,21 +85,10 @@ double sum_of_both(const Share& a, const Share& b) {
   return s / scenarios::k_parts;
 }
 
-/// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes
-/// of known cavities at 80 poses are true to 0.008 of a leaf at each (tests/grading/known_geometry_test.cpp), and four times that is promised; but
-/// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
-constexpr double k_whole = 0.5, k_by_parts = 0.03, k_two_borders = 0.25;
-
 /// Leaves, as a sum of shares, and how many of them are not known.
 struct Count {
   double leaves = 0, unsure = 0;
 };
-
-/// Of what a zone has in a leaf: `share` of it, of `total` that is gone.
-double unsure_of(bool whole, double share, double total) {
-  if (whole) return k_whole;
-  return total < 1.0 - k_code && share < total - k_code ? k_two_borders : k_by_parts;
-}
 
 /// Gives each zone what of a leaf was removed in it, and what of that is not known where it lies at a border, in leaves; returns the sum.
 template <class Give>
@@ -97,7 +99,7 @@ double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std:
   if (!(total > 0)) return 0;
   const scenarios::Zone own = zones.zone(leaf);
   const auto part = [&](scenarios::Zone z, double share) {
-    if (share > 0) give(z, share, unsure_of(shares.late(), share, total));
+    if (share > 0) give(z, share, shares.unsure(share, total));
   };
   if (shares.late() || !zones.in_box(leaf)) {
     part(own, total);
@@ -197,7 +199,7 @@ RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, s
       if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
     });
     count.all.leaves += total;
-    if (total > 0) count.all.unsure += edge || total < 1 ? unsure_of(shares.late(), total, total) : 0.0;
+    if (total > 0) count.all.unsure += edge || total < 1 ? shares.unsure(total, total) : 0.0;
   });
   return count;
 }
@@ -229,7 +231,7 @@ void for_each_in_target(const GradeInput& input, const RemovedMap& removed, cons
     bool edge = left.leaves < 1;
     for (const IVec3 step : scenarios::k_six_neighbours)
       edge = edge || removed.has(leaf + step) || zones.zone(leaf + step) != scenarios::Zone::target;
-    left.unsure = edge ? unsure_of(shares.late(), left.leaves, share) : 0.0;
+    left.unsure = edge ? shares.unsure(left.leaves, share) : 0.0;
     visit(leaf, share, left);
   });
 }

@@ -11,6 +11,7 @@
 namespace cavum::grading {
 
 std::string when(const Trace& t) { return fmt::format("{} s (tick {})", fixed(t.t_s(), 2), t.tick); }
+std::string at_when(const Trace& t) { return t.timed() ? " at " + when(t) : std::string(); }
 std::string place(Vec3 p) { return fmt::format("[{}, {}, {}] mm", fixed(p.x, 2), fixed(p.y, 2), fixed(p.z, 2)); }
 std::string wall_text(std::size_t wall, scenarios::Facing facing) {
   return wall == static_cast<std::size_t>(scenarios::Wall::opening) ? (facing.lateral() ? "the opening" : "the occlusal side")
@@ -40,7 +41,10 @@ Loss missed(const Result& r) {
   const Trace& last = r.volumes.target_last[w];
   return {fmt::format("{} of the target left standing, most of it towards {} ({} mm3), where {}",
                       amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3"), wall_text(w, r.shape.facing),
-                      fixed(r.volumes.missed_by_wall_mm3[w], 2), last.tick < 0 ? "nothing of it was cut" : "it was cut last at " + when(last)),
+                      fixed(r.volumes.missed_by_wall_mm3[w], 2),
+                      last.tick < 0  ? "nothing of it was cut"
+                      : last.timed() ? "it was cut last at " + when(last)
+                                     : "some of it was cut"),
           last};
 }
 
@@ -62,7 +66,7 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
   loss.text = fmt::format("most of it {} at {} ({} mm3)",
                           worst == scenarios::Zone::none ? "outside all zones" : fmt::format("in {}", scenarios::zone_name(worst)),
                           wall_text(wall, r.shape.facing), fixed(most, 2));
-  if (loss.first.tick >= 0) loss.text += fmt::format(", beginning at {} at {}", when(loss.first), place(loss.first.site_mm));
+  if (loss.first.tick >= 0) loss.text += fmt::format(", beginning{} at {}", at_when(loss.first), place(loss.first.site_mm));
   return loss;
 }
 
@@ -135,7 +139,7 @@ Loss at_walls(const Result& r, const Asked& a) {
     loss.text = wall_text(worst, r.shape.facing) +
                 (p95 ? ", 95 % of whose places lie no further out than that; the furthest " : ", in the mean of its places; the furthest ") +
                 (&t == &m.worst_under ? fixed(m.max_under_mm, 2) + " mm thick" : fixed(m.max_over_mm, 2) + " mm beyond the target");
-  if (t.tick >= 0) loss.text += fmt::format(", at {}, cut at {}", place(t.site_mm), when(t));
+  if (t.tick >= 0) loss.text += fmt::format(", at {}{}{}", place(t.site_mm), t.timed() ? ", cut" : "", at_when(t));
   if (&t == &m.worst_under && t.tick < 0 && m.max_under_mm > 0) loss.text += fmt::format(", at {}, where nothing was cut", place(t.site_mm));
   return loss;
 }
@@ -158,12 +162,14 @@ Loss canals_covered(const Result& r, const Asked&) { return {"hard tissue stands
 
 Loss floor_cut(const Result& r, const Asked&) {
   if (r.access.floor_first.tick < 0) return {"no hard tissue was cut below the target", {}};
-  return {fmt::format("beginning at {} at {}", when(r.access.floor_first), place(r.access.floor_first.site_mm)), r.access.floor_first};
+  return {fmt::format("beginning{} at {}", at_when(r.access.floor_first), place(r.access.floor_first.site_mm)), r.access.floor_first};
 }
 
 Loss dentin_over_pulp(const Result& r, const Asked&) {
   const Trace& at = r.over_pulp.thinnest;
-  return {fmt::format("{}{}, cut at {}", *r.over_pulp.dentin_mm > 0 ? "thinnest at " : "the pulp was opened at ", place(at.site_mm), when(at)), at};
+  return {fmt::format("{}{}{}{}", *r.over_pulp.dentin_mm > 0 ? "thinnest at " : "the pulp was opened at ", place(at.site_mm),
+                      at.timed() ? ", cut" : "", at_when(at)),
+          at};
 }
 
 Loss nick(const Result& r, const Asked&) {
@@ -202,7 +208,7 @@ Loss fault_opened(const Result& r, const Asked&) {
   const PerforationTruth& t = r.perforation.fault;
   if (!t.perforated) return {"no faulty breakthrough", {}};
   const std::string taken = t.volume_mm3 > 0 ? fmt::format("{} mm3 of it removed", fixed(t.volume_mm3, 3)) : "none of it removed";
-  return {fmt::format("{} opened at {} at {}, {} mm2 of its wall in all, {}", t.tissue, when(t.first), place(t.first.site_mm), fixed(t.area_mm2, 3),
+  return {fmt::format("{} opened{} at {}, {} mm2 of its wall in all, {}", t.tissue, at_when(t.first), place(t.first.site_mm), fixed(t.area_mm2, 3),
                       taken),
           t.first};
 }
@@ -210,7 +216,7 @@ Loss fault_opened(const Result& r, const Asked&) {
 Loss swept_outside(const Result& r, const Asked&) {
   const Trace& first = r.perforation.fault.first_outside;
   if (first.tick < 0) return {"none", {}};
-  return {fmt::format("from outside the tooth, first at {} at {}", when(first), place(first.site_mm)), first};
+  return {fmt::format("from outside the tooth, first{} at {}", at_when(first), place(first.site_mm)), first};
 }
 
 Loss fault_felt(const Result& r, const Asked&) {
@@ -223,7 +229,7 @@ Loss fault_felt(const Result& r, const Asked&) {
 Loss tissue_touched(const Result& r, const Asked& a) {
   for (const auto& t : r.tissues)
     if (const Trace& first = r.volumes.tissue_first[t.id]; t.name == a.measure.tissue && first.tick >= 0)
-      return {fmt::format("touched first at {} at {}", when(first), place(first.site_mm)), first};
+      return {fmt::format("touched first{} at {}", at_when(first), place(first.site_mm)), first};
   return {"never touched", {}};
 }
 

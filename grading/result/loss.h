@@ -47,6 +47,8 @@ namespace reason {
 [[nodiscard]] std::string amount_text(double value, double bound, int digits, const std::string& unit);
 /// The same of a measure's value, as people read it: "yes", "no", "3", "0.25 ± 0.05 mm".
 [[nodiscard]] std::string value_text(const scenarios::Measure& measure, double value, double bound, int digits);
+/// " at 12.34 s (tick 12340)"; nothing where nobody knows when.
+[[nodiscard]] std::string at_when(const Trace& t);
 /// "12.34 s (tick 12340)", "[1.00, 0.00, -2.00] mm", "the mesial wall".
 [[nodiscard]] std::string when(const Trace& t);
 [[nodiscard]] std::string place(Vec3 p);

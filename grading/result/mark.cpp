@@ -65,7 +65,13 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   out.metric = c.metric;
   out.unit = a.measure.unit;
   out.max = c.points;
-  const MetricValue v = a.marking->value(r, a);
+  if (not_shown(r, a.measure)) {
+    out.judged = false;
+    out.reason = "not judged: a preparation without its recording does not show it";
+    if (c.critical_above || c.critical_below) out.reason += "; it has a critical limit, so the verdict is no pass";
+    return out;
+  }
+  const MetricValue v = value_of(r, a);
   out.value = v.value;
   out.bound = v.bound;
   if (!v.value) {
@@ -129,10 +135,10 @@ Standing standing_of(const Result& r) {
     double sum = 0;
     for (const auto& c : r.criteria) sum += c.points;
     if (!(r.max_points > 0)) return {0, "the sum"};
-    return {100 * sum / r.max_points, "the sum", 100 * r.points_bound / r.max_points};
+    return {100 * sum / r.max_points, r.unjudged_points > 0 ? "the sum of what could be judged" : "the sum", 100 * r.points_bound / r.max_points};
   }
   for (const auto& c : r.criteria) {
-    if (!(c.max > 0)) continue;
+    if (!(c.max > 0) || !c.judged) continue;
     const double percent = 100 * c.points / c.max;
     if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id, 100 * c.points_bound / c.max};
   }
@@ -141,10 +147,54 @@ Standing standing_of(const Result& r) {
 
 }  // namespace
 
+namespace {
+
+/// The worst and the best that the points could be, percent, whatever the criteria that were not judged are worth.
+struct Reach {
+  double least = 0.0, most = 0.0;
+};
+Reach reach_of(const Result& r, const Standing& judged) {
+  if (!r.compensatory) return {0.0, judged.which.empty() ? 100.0 : judged.percent};
+  const double all = r.max_points + r.unjudged_points;
+  return {100 * r.points / all, 100 * (r.points + r.unjudged_points) / all};
+}
+
+/// What was not judged can make no pass: it is one only when it is one whatever that is worth, and a fail only when nothing could mend it.
+void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standing& standing, bool critical) {
+  std::string open, guarded;
+  for (std::size_t i = 0; i < r.criteria.size(); ++i) {
+    if (r.criteria[i].judged) continue;
+    const scenarios::CriterionSpec& spec = rubric.criteria[i];
+    open += (open.empty() ? "" : ", ") + spec.id;
+    if (spec.critical_above || spec.critical_below) guarded += (guarded.empty() ? "" : ", ") + spec.id;
+  }
+  if (open.empty()) return;
+  r.verdict_reasons.push_back(
+      fmt::format("not judged, for a preparation without its recording does not show it: {} ({} points); the score is of the other {}", open,
+                  fixed(r.unjudged_points, 1), fixed(r.max_points, 1)));
+  if (critical) return;
+  const Reach reach = r.unjudged_points > 0 ? reach_of(r, standing) : Reach{standing.percent, standing.percent};
+  const auto verdict_at = [&](double percent) {
+    const double beyond = percent - rubric.pass_percent;
+    return std::fabs(beyond) < rubric.borderline_percent ? Verdict::review : beyond < 0 ? Verdict::fail : Verdict::pass;
+  };
+  const Verdict worst = verdict_at(reach.least), best = verdict_at(reach.most);
+  r.verdict = worst == best ? worst : Verdict::review;
+  if (r.unjudged_points > 0)
+    r.verdict_reasons.push_back(fmt::format("with all and without any of those points it would be {} to {} % of the whole rubric: {}",
+                                            fixed(reach.least, 1), fixed(reach.most, 1),
+                                            worst == best ? fmt::format("{} either way", verdict_name(worst)) : "a person must decide"));
+  if (r.verdict != Verdict::pass || guarded.empty()) return;
+  r.verdict = Verdict::review;
+  r.verdict_reasons.push_back("what could not be judged has a critical limit: a person must decide about " + guarded);
+}
+
+}  // namespace
+
 void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.criteria.clear();
   r.verdict_reasons.clear();
-  r.points = r.max_points = r.points_bound = 0;
+  r.points = r.max_points = r.points_bound = r.unjudged_points = 0;
   r.compensatory = rubric.compensatory;
   r.pass_percent = rubric.pass_percent;
   r.borderline_percent = rubric.borderline_percent;
@@ -155,7 +205,7 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     put_in_band(r, c, r.criteria.back());
     r.points += r.criteria.back().points;
     r.points_bound += r.criteria.back().points_bound;
-    r.max_points += r.criteria.back().max;
+    (r.criteria.back().judged ? r.max_points : r.unjudged_points) += r.criteria.back().max;
   }
   bool critical = false;
   for (const auto& c : r.criteria) {
@@ -182,8 +232,10 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.verdict_reasons.push_back(text);
   if (!r.compensatory)
     for (const auto& c : r.criteria)
-      if (const double percent = c.max > 0 ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.which != "criterion " + c.id)
+      if (const double percent = c.max > 0 && c.judged ? 100 * c.points / c.max : 100.0;
+          percent < rubric.pass_percent && standing.which != "criterion " + c.id)
         r.verdict_reasons.push_back(fmt::format("criterion {} reaches {} %, below the pass mark, too", c.id, fixed(percent, 1)));
+  weigh_unjudged(r, rubric, standing, critical);
   if (!r.perforation.agree())
     r.verdict_reasons.emplace_back(r.perforation.detected()
                                        ? "the force shows a faulty breakthrough and the tissue none, which costs nothing: the tissue decides"

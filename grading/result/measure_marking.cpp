@@ -407,9 +407,14 @@ double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w, scenario
   return figure == scenarios::WallFigure::mean ? w.mean_bound_mm : figure == scenarios::WallFigure::p95 ? w.p95_bound_mm : shape.bound_mm;
 }
 
-MetricValue metric_value(const Result& r, const std::string& metric) {
-  const Asked a = asked(metric, 0);
-  return a.marking->value(r, a);
+bool not_shown(const Result& r, const scenarios::Measure& measure) {
+  if (!r.not_shown) return false;
+  if (measure.of_exam || measure.name == "soft_tissue_outside_mm3") return true;
+  return std::any_of(r.tissues.begin(), r.tissues.end(), [&](const Tissue& t) { return t.name == measure.tissue && r.not_shown->tissue[t.id]; });
 }
+
+MetricValue value_of(const Result& r, const Asked& a) { return not_shown(r, a.measure) ? MetricValue{} : a.marking->value(r, a); }
+
+MetricValue metric_value(const Result& r, const std::string& metric) { return value_of(r, asked(metric, 0)); }
 
 }  // namespace cavum::grading

@@ -48,6 +48,11 @@ struct MeasureMarking {
 [[nodiscard]] std::string json_place(const scenarios::Measure& measure);
 [[nodiscard]] std::string bound_json_place(const scenarios::Measure& measure);
 
+/// What a measure says of a result, with its bound; no value where it cannot be measured, or where nothing was handed in that shows it.
+[[nodiscard]] MetricValue value_of(const Result& result, const Asked& asked);
+/// A preparation was handed in without its recording, and does not show this.
+[[nodiscard]] bool not_shown(const Result& result, const scenarios::Measure& measure);
+
 /// A figure of a wall, and its bound, mm.
 [[nodiscard]] double wall_figure(const WallMeasures& wall, scenarios::WallFigure figure) noexcept;
 [[nodiscard]] double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& wall, scenarios::WallFigure figure) noexcept;

@@ -17,10 +17,14 @@ namespace cavum::grading {
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
 inline constexpr int k_grading_version = 5;
 
+/// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.
+inline constexpr std::int64_t k_untimed_tick = 0x7fffffff;
+
 /// When and where something happened; tick -1 = never.
 struct Trace {
   std::int64_t tick = -1;
   Vec3 site_mm;
+  [[nodiscard]] bool timed() const noexcept { return tick >= 0 && tick != k_untimed_tick; }
   [[nodiscard]] double t_s() const noexcept { return static_cast<double>(tick) * k_tick_s; }
 };
 
@@ -170,6 +174,7 @@ struct PerforationTruth {
 };
 
 struct PerforationMeasures {
+  bool force_known = true;               ///< false: there is no recording of it
   std::vector<PerforationEvent> events;  ///< in order of time
   PerforationTruth fault, aim;           ///< `aim`: the breakthrough that the task asks for
   bool has_aims = false;                 ///< the task asks for one
@@ -179,9 +184,10 @@ struct PerforationMeasures {
     return false;
   }
   /// Force and tissue tell the same story about faults.
-  [[nodiscard]] bool agree() const noexcept { return detected() == fault.perforated; }
+  [[nodiscard]] bool agree() const noexcept { return !force_known || detected() == fault.perforated; }
   /// The aim was opened, and no event of the force tells of it.
   [[nodiscard]] bool aim_unseen() const noexcept {
+    if (!force_known) return false;
     for (const auto& e : events)
       if (!e.fault) return false;
     return has_aims && aim.perforated;
@@ -219,6 +225,7 @@ struct ProgressMeasures {
 struct CriterionResult {
   std::string id, title, metric, unit, reason;
   std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
+  bool judged = true;           ///< false: what was handed in does not show it. It has no points and takes none from the score
   double bound = 0.0;
   double points = 0.0, max = 0.0;
   double points_bound = 0.0;  ///< by the bounds of the value and of the work's share
@@ -238,13 +245,19 @@ struct BandResult {
 
 enum class Verdict { pass, fail, review };
 
+/// A preparation that was handed in without its recording: nothing is known of time, way and force, nor of these tissues, by their ids.
+struct NotShown {
+  std::array<bool, 256> tissue{};
+};
+
 struct Result {
   std::string scenario_id, scenario_title, tooth_name;
   double leaf_mm = 0.0;
   Verdict verdict = Verdict::fail;
   std::vector<std::string> verdict_reasons;
   double points = 0.0, max_points = 0.0;
-  double points_bound = 0.0;  ///< the sum of the criteria's
+  double points_bound = 0.0;     ///< the sum of the criteria's
+  double unjudged_points = 0.0;  ///< most points of the criteria that could not be judged; no part of `max_points`
   bool compensatory = true;
   double pass_percent = 0.0, borderline_percent = 0.0;
   std::vector<BandResult> bands;  ///< best first; empty: the rubric has none
@@ -263,7 +276,8 @@ struct Result {
   std::vector<PauseMeasure> pauses;
   int pauses_refused = 0;
   LateWork late_work;
-  std::vector<std::string> notes;  ///< what a reader must know: disagreement in the record, late ticks
+  std::vector<std::string> notes;     ///< what a reader must know: disagreement in the record, late ticks
+  std::optional<NotShown> not_shown;  ///< none of a recorded exam
   std::vector<Tissue> tissues;
 };
 

@@ -30,9 +30,9 @@ using Json = nlohmann::ordered_json;
 
 Json optional(const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); }
 Json point(Vec3 p) { return Json::array({rounded(p.x), rounded(p.y), rounded(p.z)}); }
-Json time_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(rounded(t.t_s())); }
+Json time_of(const Trace& t) { return !t.timed() ? Json(nullptr) : Json(rounded(t.t_s())); }
 Json place_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : point(t.site_mm); }
-Json tick_of(const Trace& t) { return t.tick < 0 ? Json(nullptr) : Json(t.tick); }
+Json tick_of(const Trace& t) { return !t.timed() ? Json(nullptr) : Json(t.tick); }
 
 Json drop_json(const std::optional<ForceDrop>& d) {
   if (!d) return nullptr;
@@ -118,12 +118,14 @@ Json criterion_json(const Result& r, const CriterionResult& c) {
             {"first_t_s", time_of(c.first)}};
   if (c.band) j["band"] = r.bands[*c.band].name;
   if (c.work_share < 1) j["work_share"] = rounded(c.work_share);
+  if (!c.judged) j["judged"] = false;
   return j;
 }
 
 void put_volumes(Json& j, const Result& r) {
   Json tissues = Json::object(), bounds = Json::object();
   for (const auto& t : r.tissues) {
+    if (r.not_shown && r.not_shown->tissue[t.id]) continue;
     tissues[t.name] = rounded(r.volumes.tissue[t.id].mm3);
     bounds[t.name] = rounded(r.volumes.tissue[t.id].bound_mm3);
   }
@@ -234,6 +236,7 @@ Json to_json(const Result& r) {
   j["verdict"] = verdict_name(r.verdict);
   j["verdict_reasons"] = r.verdict_reasons;
   j["score"] = score_json(r);
+  if (r.not_shown) j["score"]["not_judged_points"] = rounded(r.unjudged_points);
   j["criteria"] = Json::array();
   for (const auto& c : r.criteria) j["criteria"].push_back(criterion_json(r, c));
   put_volumes(j, r);
@@ -269,8 +272,9 @@ std::string verdict_text(const Result& r) {
 std::string criteria_text(const Result& r) {
   std::string s = "\n";
   for (const auto& c : r.criteria)
-    s += fmt::format("  {}{}{}{}\n", padded(one_line(c.id) + " ", 16), padded(fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)), 14),
-                     padded("± " + fixed(c.points_bound, 1), 9),
+    s += fmt::format("  {}{}{}{}\n", padded(one_line(c.id) + " ", 16),
+                     padded(fmt::format("{} / {}", c.judged ? fixed(c.points, 1) : "-", fixed(c.max, 1)), 14),
+                     padded(c.judged ? "± " + fixed(c.points_bound, 1) : "", 9),
                      c.critical_failed && !r.verdict_reasons.empty() ? "critical: see above" : one_line(c.reason));
   return s;
 }
@@ -320,14 +324,15 @@ std::string cavity_text(const Result& r) {
 
 std::string perforation_text(const Result& r) {
   std::string s = "\nperforation\n";
-  if (r.perforation.events.empty()) s += "  no breakthrough seen in the force\n";
+  if (r.perforation.events.empty() && r.perforation.force_known) s += "  no breakthrough seen in the force\n";
   for (const auto& e : r.perforation.events)
     s += fmt::format("  force: {} at {} s, {} N to {} N, {}\n", e.fault ? "fault" : "aim", fixed(static_cast<double>(e.tick) * k_tick_s, 3),
                      fixed(e.force_before_n, 2), fixed(e.force_after_n, 2), e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue");
   const auto truth = [&](const char* kind, const PerforationTruth& t) {
     s += fmt::format("  tissue: {}", kind);
     if (t.perforated)
-      s += fmt::format(", {} opened first at {} s, {} of its wall lie open, {} removed", t.tissue, fixed(t.first.t_s(), 3),
+      s += fmt::format(", {} opened{}, {} of its wall lie open, {} removed", t.tissue,
+                       t.first.timed() ? fmt::format(" first at {} s", fixed(t.first.t_s(), 3)) : "",
                        amount_text(t.area_mm2, t.area_bound_mm2, 3, "mm2"), amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3"));
     else
       s += " not opened";
@@ -342,6 +347,7 @@ std::string perforation_text(const Result& r) {
 }
 
 std::string motion_text(const Result& r) {
+  if (r.not_shown) return "";
   return fmt::format("\ntime {} s (handpiece {} s, idle {} s), way {} mm, force {} N mean, {} N peak\nsteps {} of {}, violations {}, ended: {}\n",
                      fixed(r.motion.time_s, 1), fixed(r.motion.handpiece_time_s, 1), fixed(r.motion.idle_s, 1), fixed(r.motion.path_mm, 0),
                      fixed(r.motion.force_mean_n, 2), fixed(r.motion.force_peak_n, 2), r.progress.steps_completed, r.progress.steps,

@@ -254,12 +254,13 @@ std::vector<Measure> beside_measures() {
        .words = "tenths of a second in which gum was cut",
        .most = &most::limit,
        .needs = Needs::gum,
-       .counts = k_counts_gum},
+       .counts = k_counts_gum,
+       .of_exam = true},
   };
 }
 
 std::vector<Measure> motion_measures() {
-  return {
+  std::vector<Measure> all{
       {.name = "time_s", .unit = "s", .words = "until the exam ended", .most = &most::limit, .counts = k_counts_time},
       {.name = "handpiece_time_s", .unit = "s", .words = "with the handpiece turning", .most = &most::limit, .counts = k_counts_time},
       {.name = "idle_s", .unit = "s", .words = "neither moving nor cutting", .most = &most::limit, .counts = k_counts_time},
@@ -273,6 +274,8 @@ std::vector<Measure> motion_measures() {
        .counts = k_counts_force},
       {.name = "path_mm", .unit = "mm", .words = "way of the tip", .most = &most::no_end},
   };
+  for (Measure& m : all) m.of_exam = true;
+  return all;
 }
 
 std::vector<Measure> perforation_measures() {
@@ -299,15 +302,26 @@ std::vector<Measure> perforation_measures() {
        .most = &most::no_end,
        .counts = k_counts_faults,
        .counts_faults = true,
+       .of_exam = true,
        .reads = Reads::count},
   };
 }
 
 std::vector<Measure> progress_measures() {
   return {
-      {.name = "steps_completed", .words = "steps done", .better = Better::more, .judges = Judges::work, .most = &most::steps, .reads = Reads::count},
-      {.name = "steps_failed", .words = "steps failed", .most = &most::steps, .reads = Reads::count},
-      {.name = "violations", .words = "a point that is not allowed, or a speed above max_rpm", .most = &most::no_end, .reads = Reads::count},
+      {.name = "steps_completed",
+       .words = "steps done",
+       .better = Better::more,
+       .judges = Judges::work,
+       .most = &most::steps,
+       .of_exam = true,
+       .reads = Reads::count},
+      {.name = "steps_failed", .words = "steps failed", .most = &most::steps, .of_exam = true, .reads = Reads::count},
+      {.name = "violations",
+       .words = "a point that is not allowed, or a speed above max_rpm",
+       .most = &most::no_end,
+       .of_exam = true,
+       .reads = Reads::count},
   };
 }
 

@@ -77,6 +77,7 @@ struct Measure {
   bool counts_faults = false;          ///< it answers whether something was opened that must not be
   bool counts_protected = false;       ///< it counts what is removed of what is protected
   bool of_floor = false;               ///< it speaks of the cavity's floor alone
+  bool of_exam = false;                ///< it speaks of how the work was done: a preparation alone, without its recording, says nothing of it
   Reads reads = Reads::figure;
 
   // Members of a family

@@ -1,4 +1,5 @@
-// A surface from a file: STL from memory, as scenarios read it, and STL, PLY, OBJ and OFF from a file, as `cavum tooth import` does.
+// A surface from a file: STL from memory, as scenarios read it, and STL, PLY, OBJ and OFF from a file, as `cavum tooth import` and, open ones too,
+// `cavum scan` do.
 #include <array>
 #include <fstream>
 
@@ -104,6 +105,7 @@ void fuzz_mesh(Data data) {
     const std::string path = work_folder() + "/surface" + k_kinds[kind];
     std::ofstream(path, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+    static_cast<void>(connected_parts(read_open_mesh(path)));
     static_cast<void>(connected_parts(read_closed_mesh(path).mesh));
   } catch (const Error&) {
   }

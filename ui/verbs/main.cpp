@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   cavum::ui::add_replay_verbs(app, exit_code);
   cavum::ui::add_session_verbs(app, exit_code);
   cavum::ui::add_grade_verbs(app, exit_code);
+  cavum::ui::add_scan_verbs(app, exit_code);
   cavum::ui::add_rig_verbs(app, exit_code);
   cavum::ui::add_explain_verbs(app, exit_code);
   cavum::ui::add_ledger_verbs(app, exit_code);

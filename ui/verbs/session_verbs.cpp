@@ -6,17 +6,20 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/text.h"
 #include "engine/base/write_file.h"
 #include "engine/device/motion_file.h"
+#include "engine/scan/printable.h"
 #include "engine/servo/servo_config.h"
 #include "engine/session/session_reader.h"
+#include "ui/parts/own_places.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {
 namespace {
 
 struct ExportArguments {
-  std::string session, motion;
+  std::string session, motion, stl;
 };
 
 void export_motion(const ExportArguments& o) {
@@ -29,18 +32,39 @@ void export_motion(const ExportArguments& o) {
   std::cout << inputs.size() << " ticks of motion in " << o.motion << "\n";
 }
 
+/// The tooth as it was left, as one closed surface.
+void export_surface(const ExportArguments& o) {
+  require_own_places({{"--stl " + o.stl, o.stl}}, {{"", o.session}});
+  const SessionReader session(o.session);
+  session.require_readable();
+  if (!session.closed())
+    throw Error(o.session, "this exam was not closed, and has no final tooth", "close it with `cavum exam --resume --end --out " + o.session + "`");
+  const Tooth before = load_tooth(session.setup().tooth, o.session + ": tooth"),
+              after = load_tooth(session.final_tooth(), o.session + ": final tooth");
+  const Printable p = printable_surface(after, tissues_around_tooth(before));
+  write_mesh_file(p.mesh, o.stl);
+  std::cout << p.mesh.triangles.size() << " triangles around " << fixed(p.volume_mm3, 3) << " mm3 in " << o.stl << ", mm, tooth frame\n";
+  if (p.left_out > 0)
+    std::cout << p.left_out << (p.left_out == 1 ? " part" : " parts") << " of " << fixed(p.left_out_mm3, 3)
+              << " mm3 beside it left out: crumbs that were cut off\n";
+}
+
 }  // namespace
 
 void add_session_verbs(CLI::App& app, int& exit_code) {
   auto* session = app.add_subcommand("session", "What a recorded exam holds, as files that others can use");
   session->require_subcommand(1);
   auto* v = session->add_subcommand("export",
-                                    "Write the motion of a recorded exam: `cavum exam --motion` with it and the same scenario gives the same marks");
+                                    "Write the motion of a recorded exam (`cavum exam --motion` with it and the same scenario gives the same marks), "
+                                    "or its final tooth to be printed");
   auto o = std::make_shared<ExportArguments>();
   v->add_option("session", o->session, "a recorded exam (.cavum)")->required();
-  v->add_option("--motion", o->motion, "CSV to write: a row for each tick, with point and step of the encoder")->required();
+  v->add_option("--motion", o->motion, "CSV to write: a row for each tick, with point and step of the encoder");
+  v->add_option("--stl", o->stl, "surface of the tooth as it was left to write (.stl or .ply): closed, one part, mm, pulp filled");
   v->callback([o, &exit_code] {
-    export_motion(*o);
+    if (o->motion.empty() && o->stl.empty()) throw Error("session export", "is not told what to write", "give --motion F.csv, --stl F.stl, or both");
+    if (!o->motion.empty()) export_motion(*o);
+    if (!o->stl.empty()) export_surface(*o);
     exit_code = 0;
   });
 }

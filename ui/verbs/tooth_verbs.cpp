@@ -17,6 +17,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/force/force_model.h"
+#include "engine/scan/printable.h"
 #include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_incisor.h"
@@ -417,19 +418,22 @@ void add_info(CLI::App& tooth) {
 }
 
 void add_mesh(CLI::App& tooth) {
-  auto* mesh = tooth.add_subcommand("mesh", "Export the closed surface of a tissue, or of all solid tissues together");
+  auto* mesh =
+      tooth.add_subcommand("mesh", "Export the closed surface of a tissue, of all solid tissues together, or of the whole tooth to be printed");
   struct MeshArgs {
     std::string file, tissue = "solid", out;
     bool json = false;
   };
   auto a = std::make_shared<MeshArgs>();
   mesh->add_option("FILE", a->file, "Tooth file (.cvt)")->required();
-  mesh->add_option("--tissue", a->tissue, "Tissue by name, or solid")->capture_default_str();
+  mesh->add_option("--tissue", a->tissue, "Tissue by name; solid, with the pulp's hollow; or outer: the outside alone, pulp filled")
+      ->capture_default_str();
   mesh->add_option("--out", a->out, "Mesh to write (.stl or .ply), mm")->required();
   mesh->add_flag("--json", a->json, "One JSON object on stdout");
   mesh->callback([=] {
     require_own_places({{"--out " + a->out, a->out}}, {{"", a->file}});
-    const TriangleMesh m = surface_mesh(load_tooth_file(a->file), a->tissue);
+    const Tooth t = load_tooth_file(a->file);
+    const TriangleMesh m = a->tissue == "outer" ? printable_surface(t, tissues_around_tooth(t)).mesh : surface_mesh(t, a->tissue);
     write_mesh_file(m, a->out);
     const double volume = rounded(signed_volume_mm3(m), 1e-6);
     if (a->json) {

@@ -14,6 +14,7 @@ void add_session_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
 /// After the ledger's: `ledger report` is one of them.
 void add_report_verbs(CLI::App& app, int& exit_code);
+void add_scan_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
 void add_device_verbs(CLI::App& app, int& exit_code);
 void add_explain_verbs(CLI::App& app, int& exit_code);

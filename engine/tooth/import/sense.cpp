@@ -13,14 +13,6 @@
 namespace cavum {
 namespace {
 
-struct Unit {
-  const char* name;
-  const char* text;
-  double mm;
-};
-constexpr std::array<Unit, 5> k_units{
-    {{"mm", "millimetres", 1.0}, {"cm", "centimetres", 10.0}, {"m", "metres", 1000.0}, {"um", "micrometres", 0.001}, {"in", "inches", 25.4}}};
-
 constexpr double k_across_cosine = 0.70710678;  // 45 degrees
 constexpr double k_centroids_apart_mm = 1.0;    // nearer ones tell no direction
 constexpr double k_sure = 0.6;                  // a class guessed less surely contradicts nobody
@@ -184,18 +176,12 @@ Vec3 mesial_in_patient(const ToothNumber& number, const std::string& patient_fra
   return patient_frame == "lps" ? lps : Vec3{-lps.x, -lps.y, 0};
 }
 
-double mm_per_unit(const std::string& unit) {
-  for (const auto& u : k_units)
-    if (unit == u.name) return u.mm;
-  throw Error("--units", fmt::format("'{}' is no unit known here", unit), "give mm, cm, m, um or in");
-}
-
 void check_crown_size(Vec3 extent, const SenseOptions& options, const std::string& where, bool of_volume, ToothSense& sense) {
   const double width = std::max(extent.x, extent.y);
   if (is_crown_width(width)) return;
   const double given = options.units.empty() ? 1.0 : mm_per_unit(options.units);
   std::string likely, option;
-  for (const auto& u : k_units)
+  for (const auto& u : k_mesh_units)
     if (u.mm != given && is_crown_width(width / given * u.mm)) {
       likely += fmt::format("{}{} ({:.1f} mm)", likely.empty() ? "" : " or ", u.text, width / given * u.mm);
       option += fmt::format("{}--units {}", option.empty() ? "" : " or ", u.name);

@@ -9,6 +9,7 @@
 #include "engine/base/vec.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/import/frame.h"
+#include "engine/tooth/mesh/mesh_units.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
@@ -31,9 +32,6 @@ struct ToothNumber {
 /// Throws Error(`option`, ...) for what is no permanent tooth.
 [[nodiscard]] ToothNumber from_fdi(int number, const std::string& option);
 [[nodiscard]] ToothNumber from_universal(int number, const std::string& option);
-
-/// Millimetres of a unit by its name: mm, cm, m, um, in. Throws Error("--units", ...) for others.
-[[nodiscard]] double mm_per_unit(const std::string& unit);
 
 /// What the user says about the tooth.
 struct SenseOptions {

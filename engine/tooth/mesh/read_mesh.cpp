@@ -100,9 +100,9 @@ void require_few_at_each(const Polygons& polygons, const std::string& name) {
       if ((at[polygon[i]] += i == 0 ? polygon.size() - 2 : 1) > k_most_at_corner) fail_crowded(name);
 }
 
-/// OpenMesh joins the equal corners of an STL while it reads; a corner that is no number is equal to any other, vanishes in that, and
-/// leaves a hole. So they are looked for in the file itself.
-void require_numbers_in_stl(const Bytes& file, const std::string& name) {
+/// The corners of an STL's facets, three each, in their order. Throws Error when the file is cut off, a corner is no number, or too many meet in one:
+/// OpenMesh joins the equal corners of an STL while it reads; one that is no number is equal to any other, vanishes in that, and leaves a hole.
+std::vector<Corner> stl_corners(const Bytes& file, const std::string& name) {
   require_whole_stl(file, name);
   const auto fail = [&](const std::string& where) { throw Error(name, where + " has a corner that is no number", "export the mesh again, in mm"); };
   constexpr std::size_t k_normal = 12;
@@ -118,7 +118,8 @@ void require_numbers_in_stl(const Bytes& file, const std::string& name) {
         }
         corners.push_back(c);
       }
-    return require_few_at_each(std::move(corners), name);
+    require_few_at_each(corners, name);
+    return corners;
   }
   std::istringstream text(std::string(file.begin(), file.end()));
   std::size_t number = 0;
@@ -139,7 +140,8 @@ void require_numbers_in_stl(const Bytes& file, const std::string& name) {
       corners.push_back(c);
     }
   }
-  require_few_at_each(std::move(corners), name);
+  require_few_at_each(corners, name);
+  return corners;
 }
 
 std::string extension_of(const std::string& path) {
@@ -157,7 +159,7 @@ void quieten_openmesh() {
 
 /// The bytes of an STL as OpenMesh joins them, once they are known to be sound.
 Surface surface_of_stl(const Bytes& file, const std::string& name) {
-  require_numbers_in_stl(file, name);
+  static_cast<void>(stl_corners(file, name));
   quieten_openmesh();
   std::istringstream bytes(std::string(file.begin(), file.end()));
   OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
@@ -201,6 +203,73 @@ Surface load(const std::string& path) {
     surface = surface_of(read_off(file, path), path);
   if (surface.n_faces() == 0) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
   return surface;
+}
+
+constexpr double k_farthest_place = 1e6;
+[[noreturn]] void fail_place(const std::string& path, std::size_t number, Vec3 p) {
+  throw Error(path, fmt::format("vertex {} is not a place: {}", number, place(p)), "export the mesh again, in mm");
+}
+
+/// Facets whose equal corners are one; those that have a corner twice are left out.
+TriangleMesh joined(const std::vector<Corner>& corners) {
+  std::vector<Corner> each = corners;
+  std::sort(each.begin(), each.end());
+  each.erase(std::unique(each.begin(), each.end()), each.end());
+  TriangleMesh mesh;
+  mesh.vertices_mm.reserve(each.size());
+  for (const Corner& c : each) mesh.vertices_mm.push_back({c[0], c[1], c[2]});
+  const auto number = [&](const Corner& c) { return static_cast<std::uint32_t>(std::lower_bound(each.begin(), each.end(), c) - each.begin()); };
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    const std::array<std::uint32_t, 3> t{number(corners[i]), number(corners[i + 1]), number(corners[i + 2])};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
+/// Polygons as fans about their first corners.
+TriangleMesh fans_of(const Polygons& polygons) {
+  TriangleMesh mesh;
+  mesh.vertices_mm = polygons.corners_mm;
+  for (const auto& polygon : polygons.polygons)
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      const std::array<std::uint32_t, 3> t{polygon[0], polygon[i], polygon[i + 1]};
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+    }
+  return mesh;
+}
+
+TriangleMesh without_unused(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> renumbered(mesh.vertices_mm.size(), ~0u);
+  TriangleMesh out;
+  for (auto t : mesh.triangles) {
+    for (auto& corner : t) {
+      if (renumbered[corner] == ~0u) {
+        renumbered[corner] = static_cast<std::uint32_t>(out.vertices_mm.size());
+        out.vertices_mm.push_back(mesh.vertices_mm[corner]);
+      }
+      corner = renumbered[corner];
+    }
+    out.triangles.push_back(t);
+  }
+  return out;
+}
+
+/// Its triangles, without the corners that none has.
+TriangleMesh triangles_of(const Surface& surface) {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> renumbered(surface.n_vertices(), ~0u);
+  for (const auto v : surface.vertices()) {
+    if (surface.is_isolated(v)) continue;
+    renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    mesh.vertices_mm.push_back(point(surface, v));
+  }
+  for (const auto f : surface.faces()) {
+    std::array<std::uint32_t, 3> t{};
+    std::size_t i = 0;
+    for (const auto v : surface.fv_range(f)) t[i++] = renumbered[static_cast<std::size_t>(v.idx())];
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
 }
 
 /// The surface checked, and its faces turned outwards. `path` names it in errors.
@@ -247,16 +316,36 @@ std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
 
 ReadMesh read_closed_mesh(const std::string& path) { return closed(load(path), path); }
 
+TriangleMesh read_open_mesh(const std::string& path) {
+  require_mesh_file(path);
+  const std::string extension = extension_of(path);
+  const Bytes file = read_file(path);
+  TriangleMesh mesh;
+  if (extension == ".stl")
+    mesh = joined(stl_corners(file, path));
+  else if (extension == ".ply")
+    mesh = fans_of(read_ply(file, path));
+  else if (extension == ".obj")
+    mesh = fans_of(read_obj(file, path));
+  else if (extension == ".off")
+    mesh = fans_of(read_off(file, path));
+  if (mesh.triangles.empty()) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
+  if (mesh.triangles.size() > k_most_scan_triangles)
+    throw Error(path, fmt::format("has {} triangles, {} is the most", mesh.triangles.size(), k_most_scan_triangles),
+                "reduce the mesh, or cut out the one tooth");
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
+    if (const Vec3 p = mesh.vertices_mm[i]; !is_finite(p) || length(p) > k_farthest_place) fail_place(path, i, p);
+  return without_unused(mesh);
+}
+
 ReadMesh read_closed_stl(const Bytes& file, const std::string& name) { return closed(surface_of_stl(file, name), name); }
 
 namespace {
 
 ReadMesh closed(const Surface& surface, const std::string& path) {
-  for (const auto v : surface.vertices()) {  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
-    const Vec3 p = point(surface, v);
-    if (!surface.is_isolated(v) && (!is_finite(p) || length(p) > 1e6))
-      throw Error(path, fmt::format("vertex {} is not a place: {}", v.idx(), place(p)), "export the mesh again, in mm");
-  }
+  for (const auto v : surface.vertices())  // first: a vertex that is no place cannot be joined to its neighbours, and would pass for a hole
+    if (const Vec3 p = point(surface, v); !surface.is_isolated(v) && (!is_finite(p) || length(p) > k_farthest_place))
+      fail_place(path, static_cast<std::size_t>(v.idx()), p);
   std::size_t open_edges = 0;
   Vec3 open_at;
   for (const auto e : surface.edges()) {
@@ -269,24 +358,12 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
                 "close the holes in a mesh editor and export again");
 
   ReadMesh out;
-  std::vector<std::uint32_t> renumbered(surface.n_vertices(), ~0u);
-  std::size_t pinched = 0;
-  for (const auto v : surface.vertices()) {
-    if (surface.is_isolated(v)) continue;
-    const Vec3 p = point(surface, v);
-    pinched += !surface.is_manifold(v);
-    renumbered[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(out.mesh.vertices_mm.size());
-    out.mesh.vertices_mm.push_back(p);
-  }
+  out.mesh = triangles_of(surface);
+  const auto pinched = std::count_if(surface.vertices_begin(), surface.vertices_end(),
+                                     [&](const auto v) { return !surface.is_isolated(v) && !surface.is_manifold(v); });
   const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
   if (isolated > 0) out.notes.push_back(fmt::format("{}: {} unused vertices deleted", path, isolated));
   if (pinched > 0) throw Error(path, fmt::format("{} non-manifold vertices", pinched), "repair the mesh in a mesh editor and export again");
-  for (const auto f : surface.faces()) {
-    std::array<std::uint32_t, 3> t{};
-    std::size_t i = 0;
-    for (const auto v : surface.fv_range(f)) t[i++] = renumbered[static_cast<std::size_t>(v.idx())];
-    out.mesh.triangles.push_back(t);
-  }
   out.volume_mm3 = signed_volume_mm3(out.mesh);
   if (!(std::fabs(out.volume_mm3) > 1e-12)) throw Error(path, "the surface encloses no volume", "check the file");
   if (out.volume_mm3 < 0) {

@@ -24,7 +24,14 @@ void require_mesh_file(const std::string& path);
 /// nothing, or is open: then with the number of open edges and the place of one.
 [[nodiscard]] ReadMesh read_closed_mesh(const std::string& path);
 
-/// The same from the bytes of an STL file, text or binary; `name` stands for the file in errors.
+/// Triangles of a surface that may be open and have holes, as a scanner leaves it: at most this many.
+inline constexpr std::size_t k_most_scan_triangles = 3'000'000;
+/// The surface as it stands in the file, equal corners of an STL joined; unused corners and triangles with a corner twice left out. Nothing is
+/// checked of how triangles join. Throws Error naming the file when it is missing or unreadable, holds a coordinate that is not finite, or has more
+/// triangles than above.
+[[nodiscard]] TriangleMesh read_open_mesh(const std::string& path);
+
+/// A closed surface from the bytes of an STL file, text or binary; `name` stands for the file in errors.
 [[nodiscard]] ReadMesh read_closed_stl(const Bytes& file, const std::string& name);
 
 /// The connected parts of a mesh.

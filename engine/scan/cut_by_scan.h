@@ -1,0 +1,28 @@
+// What was drilled away, by the surface that was left: the tooth's leaves that lie outside a prepared scan although they were tissue, and the octree
+// without them, its distances those of the scan.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scan/outer_surface.h"
+
+namespace cavum {
+
+struct ScanCut {
+  Octree after;
+  std::vector<RemovedLeaf> removed;
+  int cavities = 0;                ///< connected pieces that were removed
+  double unseen_mm3 = 0.0;         ///< of the tooth below where the scan ends: it counts as it was
+  double left_as_noise_mm3 = 0.0;  ///< pieces too thin or too small to be told from noise
+  int left_as_noise = 0;
+};
+
+/// Removed is a leaf of the tooth outside the scan, where the scan lies more than `noise_mm` deeper than the tooth's surface did, in a piece that is
+/// somewhere thicker than 0.1 mm and larger than 0.02 mm³. A piece that the scan bounds from above, as a base or a cut through the neck does the
+/// root, is not seen and stays. `scan`: in the tooth's frame, its faces outwards; `caps`: what closes its rims. Throws Error(`where`, ...) where the
+/// cavity runs below the end of the scan, and where no inside is left.
+[[nodiscard]] ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const OuterSurface& tooth, double noise_mm,
+                                  const std::string& where);
+
+}  // namespace cavum

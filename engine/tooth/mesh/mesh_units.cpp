@@ -1,0 +1,15 @@
+#include "engine/tooth/mesh/mesh_units.h"
+
+#include <fmt/core.h>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+
+double mm_per_unit(const std::string& unit) {
+  for (const auto& u : k_mesh_units)
+    if (unit == u.name) return u.mm;
+  throw Error("--units", fmt::format("'{}' is no unit known here", unit), "give mm, cm, m, um or in");
+}
+
+}  // namespace cavum

@@ -1,0 +1,19 @@
+// Units that surfaces come in.
+#pragma once
+
+#include <string>
+
+namespace cavum {
+
+struct MeshUnit {
+  const char* name;  ///< of an option
+  const char* text;
+  double mm;
+};
+inline constexpr MeshUnit k_mesh_units[] = {
+    {"mm", "millimetres", 1.0}, {"cm", "centimetres", 10.0}, {"m", "metres", 1000.0}, {"um", "micrometres", 0.001}, {"in", "inches", 25.4}};
+
+/// Millimetres of a unit by its name: mm, cm, m, um, in. Throws Error("--units", ...) for others.
+[[nodiscard]] double mm_per_unit(const std::string& unit);
+
+}  // namespace cavum

@@ -1,0 +1,176 @@
+#include "grading/scan/grade_scan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/scan/cut_by_scan.h"
+#include "engine/scan/read_scan.h"
+#include "engine/scan/smoothed.h"
+#include "engine/tooth/mesh/mesh_units.h"
+#include "grading/grade.h"
+
+namespace cavum::grading {
+namespace {
+
+/// Root of the mean squared distance from the middle, mm: the size of a surface, whichever way it is turned.
+double radius_of(const std::vector<SurfacePoint>& points) {
+  const double area = area_of(points);
+  Vec3 middle;
+  for (const auto& p : points) middle += p.at_mm * (p.area_mm2 / area);
+  double squares = 0;
+  for (const auto& p : points) squares += p.area_mm2 / area * dot(p.at_mm - middle, p.at_mm - middle);
+  return std::sqrt(squares);
+}
+
+/// Throws Error unless the scan is about as large as the crown alone, or the whole tooth: with the unit that would make it so.
+void require_size(const std::vector<SurfacePoint>& scan, double unit_mm, const OuterSurface& tooth, const std::string& path) {
+  constexpr double k_least = 0.6, k_most = 1.6;
+  const double size = radius_of(scan), least = k_least * radius_of(tooth.crown()), most = k_most * radius_of(tooth.points());
+  if (size >= least && size <= most) return;
+  std::string hint = "scan one tooth, cut out of its neighbours";
+  for (const MeshUnit& unit : k_mesh_units)
+    if (const double so = size / unit_mm * unit.mm; so >= least && so <= most)
+      hint = fmt::format("it is likely in {}: say --units {}", unit.text, unit.name);
+  throw Error(
+      path,
+      fmt::format("is no scan of this tooth by its size: on average its surface lies {} mm from its middle, and the tooth's {} (crown alone {}) mm",
+                  plain_number(size), fixed(radius_of(tooth.points()), 1), fixed(radius_of(tooth.crown()), 1)),
+      hint);
+}
+
+/// Throws Error when another pose fits about as well.
+void require_one_pose(const Registration& r, const std::string& path) {
+  constexpr double k_as_well = 0.95;
+  if (!r.second || r.second->share < k_as_well * r.best.share) return;
+  throw Error(path,
+              fmt::format("can be laid upon the tooth in more than one way: {} % of it fit in one pose, {} % in another",
+                          fixed(100 * r.best.share, 1), fixed(100 * r.second->share, 1)),
+              "scan more of the tooth, so that its shape tells how it lies");
+}
+
+TriangleMesh moved(TriangleMesh mesh, const Rigid& pose) {
+  for (Vec3& v : mesh.vertices_mm) v = pose * v;
+  return mesh;
+}
+
+std::vector<SurfacePoint> moved(std::vector<SurfacePoint> points, const Rigid& pose) {
+  for (auto& p : points) {
+    p.at_mm = pose * p.at_mm;
+    p.normal = pose.rotation * p.normal;
+  }
+  return points;
+}
+
+/// A scan in the tooth's frame, without its noise where something was cut.
+struct Evened {
+  TriangleMesh mesh;
+  std::vector<SurfacePoint> points;  // where it was evened
+};
+
+/// Noise is averaged as wide as it needs, and no wider; elsewhere the surface is the tooth's own, and is known.
+Evened evened(const TriangleMesh& scan, const std::vector<SurfacePoint>& points, double noise_mm, const OuterSurface& tooth,
+              const std::string& path) {
+  constexpr double k_per_noise = 22.0, k_least_mm = 0.15, k_most_mm = 0.35, k_deep_mm = 0.1, k_around_mm = 0.7, k_cell_mm = 0.25, k_point_mm = 0.12;
+  Octree::Cursor cursor;
+  std::vector<SurfacePoint> deep;
+  for (const auto& p : points)
+    if (tooth.distance(p.at_mm, cursor).mm < -k_deep_mm) deep.push_back(p);
+  if (deep.empty()) return {scan, {}};
+  const double radius = std::clamp(k_per_noise * noise_mm, k_least_mm, k_most_mm);
+  const SurfaceIndex index(deep, k_cell_mm, 2.0);
+  const auto near = [&](Vec3 p, double mm) { return length(p - index.near(p).at_mm) < mm; };
+  std::vector<SurfacePoint> around;
+  for (const auto& p : points)
+    if (near(p.at_mm, k_around_mm + 2 * radius + k_cell_mm)) around.push_back(p);
+  std::vector<std::uint8_t> wanted;
+  for (const Vec3 v : scan.vertices_mm) wanted.push_back(near(v, k_around_mm) ? 1 : 0);
+  Evened out{smoothed(scan, around, wanted, radius), {}};
+  TriangleMesh part;
+  part.vertices_mm = out.mesh.vertices_mm;
+  for (const auto& t : out.mesh.triangles)
+    if (wanted[t[0]] != 0 && wanted[t[1]] != 0 && wanted[t[2]] != 0) part.triangles.push_back(t);
+  out.points = surface_points(part, k_point_mm, path);
+  return out;
+}
+
+/// How far the surface may lie from the true one, by what scatters where nothing was cut.
+void put_bounds(const Evened& even, const OuterSurface& tooth, ScanFacts& facts) {
+  constexpr double k_sigmas = 4.0, k_least_mm = 0.03, k_most_mm = 0.1, k_least_mean_mm = 0.003;
+  facts.smoothed_noise_mm = even.points.empty() ? facts.fit.noise_mm : fit_of(even.points, {}, tooth).noise_mm;
+  facts.surface_bound_mm = std::clamp(k_sigmas * facts.smoothed_noise_mm, k_least_mm, k_most_mm);
+  facts.surface_mean_bound_mm = std::max(k_least_mean_mm, facts.smoothed_noise_mm);
+}
+
+NotShown not_shown_by_scan(const OuterSurface& outer) {
+  NotShown n;
+  n.tissue = outer.outside();
+  n.tissue[k_air] = false;
+  return n;
+}
+
+/// Another pose fits nearly as well: a person must look whether this is the right one.
+constexpr double k_nearly_as_well = 0.92;
+
+/// What a reader must know; what is doubtful asks for a person.
+void put_notes(const ScanFacts& f, Result& r) {
+  constexpr double k_sure_agreement = 0.93, k_sure_crown = 0.55, k_sure_form_mm = 0.012;
+  r.notes.insert(r.notes.end(), f.notes.begin(), f.notes.end());
+  if (f.cavities == 0) r.notes.emplace_back("the scan shows nothing that was removed");
+  if (f.cavities > 1) r.notes.push_back(fmt::format("{} separate cavities were found, and all of them count", f.cavities));
+  if (f.second_share > k_nearly_as_well * f.pose.share)
+    r.notes.push_back(fmt::format("the scan fits the tooth nearly as well in another pose ({} % of it, {} % in this one): a person must look at it",
+                                  fixed(100 * f.second_share, 1), fixed(100 * f.pose.share, 1)));
+  if (agreement(f.fit) < k_sure_agreement || f.fit.crown_seen < k_sure_crown || f.fit.form_mm > k_sure_form_mm)
+    r.notes.push_back(fmt::format("the scan fits the tooth doubtfully ({} % of what should fit, {} % of the crown seen): a person must look at it",
+                                  fixed(100 * agreement(f.fit), 1), fixed(100 * f.fit.crown_seen, 1)));
+}
+
+}  // namespace
+
+GradedScan grade_scan(const std::string& path, double unit_mm, const scenarios::Scenario& scenario, const scenarios::RubricSpec& rubric,
+                      const Tooth& tooth, const scenarios::ZoneMap& zones) {
+  const Scan scan = read_scan(path, unit_mm);
+  const OuterSurface outer(tooth);
+  require_size(scan.points, unit_mm, outer, path);
+  const auto registration = register_scan(scan.points, outer);
+  if (!registration) throw Error(path, "cannot be laid upon the tooth anywhere", "check that it is a scan of this tooth, in mm");
+  ScanFacts facts;
+  facts.triangles = scan.mesh.triangles.size();
+  facts.pose = registration->best;
+  facts.fit = fit_of(scan.points, facts.pose.to_tooth, outer);
+  facts.second_share = registration->second ? registration->second->share : 0.0;
+  facts.end_mm = scan.end_mm;
+  facts.holes = scan.holes;
+  facts.notes = scan.notes;
+  require_same_tooth(facts.fit, path);
+  require_one_pose(*registration, path);
+
+  const TriangleMesh mesh = moved(scan.mesh, facts.pose.to_tooth);
+  const Evened even = evened(mesh, moved(scan.points, facts.pose.to_tooth), facts.fit.noise_mm, outer, path);
+  put_bounds(even, outer, facts);
+  ScanCut cut = cut_by_scan(even.mesh, moved(scan.caps, facts.pose.to_tooth), outer, facts.surface_bound_mm, path);
+  facts.cavities = cut.cavities;
+  facts.unseen_mm3 = cut.unseen_mm3;
+  facts.left_as_noise_mm3 = cut.left_as_noise_mm3;
+
+  std::vector<RemovedAt> removed;
+  removed.reserve(cut.removed.size());
+  for (const auto& leaf : cut.removed) removed.push_back({k_untimed_tick, leaf});
+  const NotShown not_shown = not_shown_by_scan(outer);
+  GradeInput input{scenario, tooth, zones, cut.after, {}, {}, removed, {}};
+  input.not_shown = &not_shown;
+  input.surface_bound_mm = facts.surface_bound_mm;
+  input.surface_mean_bound_mm = facts.surface_mean_bound_mm;
+  GradedScan graded{grade(input, rubric), std::move(facts), tooth};
+  graded.after.octree = std::move(cut.after);
+  put_notes(graded.facts, graded.result);
+  graded.result.progress.finish = "scan";
+  mark(graded.result, rubric);
+  return graded;
+}
+
+}  // namespace cavum::grading

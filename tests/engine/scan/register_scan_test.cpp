@@ -1,0 +1,155 @@
+// Registration against poses that are known, and what a scan shows of the tooth.
+#include "engine/scan/register_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/scan/cut_by_scan.h"
+#include "engine/scan/holes.h"
+#include "engine/scan/scan_fit.h"
+#include "engine/tooth/make/make_molar.h"
+#include "engine/tooth/octree_edit.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+using testing_basics::drawn_seed;
+using testing_basics::error_of;
+
+Mat3 any_turn(Random& random) { return rotation(normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()})); }
+
+const Tooth& molar() {
+  static const Tooth k_tooth = make_molar({.leaf_mm = 0.1});
+  return k_tooth;
+}
+const OuterSurface& outside() {
+  static const OuterSurface k_outside(molar());
+  return k_outside;
+}
+
+/// What tells two poses apart: the largest way between them of the corners of a box as large as the tooth.
+double apart_mm(const Rigid& a, const Rigid& b) {
+  double most = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p{(i & 1) != 0 ? 5.0 : -5.0, (i & 2) != 0 ? 5.0 : -5.0, (i & 4) != 0 ? 3.0 : -15.0};
+    most = std::max(most, length(a * p - b * p));
+  }
+  return most;
+}
+
+TEST(Registration, ASmallMotionIsWorkedOutFromPlanesAlone) {
+  Random random(drawn_seed("Registration.ASmallMotion"));
+  const Rigid true_motion{rotation(normalized(Quat{1, 0.001, -0.002, 0.0015})), {0.01, -0.02, 0.03}};
+  PlaneSteps steps({1, 2, 3});
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)},
+        n = normalized(Vec3{random.normal(), random.normal(), random.normal()});
+    steps.add(p, n, dot(p - true_motion * p, n), 1.0);
+  }
+  const auto found = steps.solve();
+  ASSERT_TRUE(found.has_value());
+  EXPECT_LT(apart_mm(*found, true_motion), 2e-4);  // second order of a motion of 0.05 mm
+  EXPECT_FALSE(PlaneSteps({}).solve().has_value());
+}
+
+TEST(Registration, FindsAnyPoseOfANoisyCrownWithACavity) {
+  Random random(drawn_seed("Registration.FindsAnyPose"));
+  Tooth drilled = molar();
+  std::vector<RemovedLeaf> removed;
+  removed.reserve(400000);
+  drilled.octree.reserve_edits(40000);
+  ASSERT_TRUE(drilled.octree.carve(
+      {-3, -2, -1}, {3, 2, 5},
+      [](Vec3 p) {
+        return std::max({std::fabs(p.x) - 2.0, std::fabs(p.y) - 0.8, 0.5 - p.z});
+      },
+      removed));
+  TriangleMesh mesh = outer_surface(drilled, outside().outside());
+  TriangleMesh crown{mesh.vertices_mm, {}};
+  for (const auto& t : mesh.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.vertices_mm[v].z > -3.5; })) crown.triangles.push_back(t);
+  for (Vec3& v : crown.vertices_mm) v += Vec3{random.normal(), random.normal(), random.normal()} * 0.01;
+
+  for (int pose = 0; pose < 4; ++pose) {
+    const Mat3 turn = any_turn(random);
+    const Rigid true_pose{turn, Vec3{random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)}};
+    TriangleMesh scan = crown;  // true_pose carries the scan into the tooth's frame
+    for (Vec3& v : scan.vertices_mm) v = turn.transposed(v - true_pose.shift_mm);
+    const auto points = surface_points(scan, 0.15, "scan");
+    const auto found = register_scan(points, outside());
+    ASSERT_TRUE(found.has_value());
+    double most = 0;
+    for (std::size_t i = 0; i < scan.vertices_mm.size(); i += 997)
+      most = std::max(most, length(found->best.to_tooth * scan.vertices_mm[i] - true_pose * scan.vertices_mm[i]));
+    EXPECT_LT(most, 0.005);
+    if (found->second) {
+      EXPECT_LT(found->second->share, 0.8 * found->best.share);
+    }
+    const ScanFit fit = fit_of(points, found->best.to_tooth, outside());
+    EXPECT_LT(fit.form_mm, 0.006);
+    EXPECT_GT(agreement(fit), 0.96);
+    EXPECT_EQ(error_of([&] { require_same_tooth(fit, "scan.stl"); }), "");
+  }
+}
+
+TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
+  Tooth drilled = molar();
+  std::vector<RemovedLeaf> carved;
+  carved.reserve(400000);
+  drilled.octree.reserve_edits(40000);
+  ASSERT_TRUE(drilled.octree.carve(
+      {-3, -2, -1}, {3, 2, 5},
+      [](Vec3 p) {
+        return std::max({std::fabs(p.x) - 2.03, std::fabs(p.y) - 0.82, 0.47 - p.z});
+      },
+      carved));
+  const TriangleMesh whole = outer_surface(drilled, outside().outside());
+  TriangleMesh crown{whole.vertices_mm, {}};
+  for (const auto& t : whole.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return whole.vertices_mm[v].z > -4.0; })) crown.triangles.push_back(t);
+  for (const TriangleMesh* scan : {&whole, static_cast<const TriangleMesh*>(&crown)}) {
+    const auto rims = rims_of(*scan);
+    const ScanCut cut = cut_by_scan(*scan, caps_over(*scan, rims), outside(), 0.02, "scan.stl");
+    EXPECT_EQ(cut.cavities, 1);
+    // leaves whose centre lies within a hundredth of a millimetre of the surface may go either way, and those in a rim thinner than 0.02 mm stay
+    EXPECT_NEAR(static_cast<double>(cut.removed.size()), static_cast<double>(carved.size()), 0.01 * static_cast<double>(carved.size()));
+    std::size_t wrong = 0;
+    for (const auto& r : cut.removed) wrong += drilled.octree.tissue(r.leaf()) != k_air ? 1 : 0;
+    EXPECT_LT(wrong, carved.size() / 200);
+    // distances of what was left: those of the carve, to a fifth of a leaf
+    double off = 0;
+    int count = 0;
+    for (const auto& r : cut.removed)
+      for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, 0, -1}}) {
+        const IVec3 leaf = r.leaf() + step;
+        if (!drilled.octree.is_solid(drilled.octree.tissue(leaf)) || !cut.after.is_solid(cut.after.tissue(leaf))) continue;
+        off += std::fabs(decode_distance(drilled.octree.distance_code(leaf)) - decode_distance(cut.after.distance_code(leaf)));
+        ++count;
+      }
+    ASSERT_GT(count, 500);
+    EXPECT_LT(off / count, 0.2);
+    if (scan == &crown) {
+      EXPECT_GT(cut.unseen_mm3, 50.0);
+    }
+  }
+}
+
+TEST(Registration, AMirroredToothIsRefusedWithWhatWasFound) {
+  Random random(drawn_seed("Registration.AMirroredTooth"));
+  TriangleMesh mesh = outer_surface(molar(), outside().outside());
+  for (Vec3& v : mesh.vertices_mm) v.x = -v.x;
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  const Mat3 turn = any_turn(random);
+  for (Vec3& v : mesh.vertices_mm) v = turn * v;
+  const auto points = surface_points(mesh, 0.15, "scan");
+  const auto found = register_scan(points, outside());
+  ASSERT_TRUE(found.has_value());
+  const std::string said = error_of([&] { require_same_tooth(fit_of(points, found->best.to_tooth, outside()), "scan.stl"); });
+  EXPECT_NE(said.find("scan.stl: is not the tooth of this exam"), std::string::npos) << said;
+  EXPECT_NE(said.find("RMS"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace cavum
