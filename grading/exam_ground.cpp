@@ -31,6 +31,7 @@ std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& sce
       auto made = std::make_shared<ExamGround>();
       made->tooth = load_tooth(session.tooth, where + ": tooth");
       made->zones = scenarios::build_zones(scenario, made->tooth);
+      made->apart = take_apart(made->tooth);
       kept.ground = std::move(made);
     } catch (...) {
       by_content_.erase(content);

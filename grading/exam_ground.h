@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/session/session.h"
+#include "grading/measures/apart.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
@@ -15,6 +16,7 @@ namespace cavum::grading {
 struct ExamGround {
   Tooth tooth;  ///< before the first tick
   scenarios::ZoneMap zones;
+  std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
 };
 
 /// Keeps the last few grounds that were asked for.

@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "grading/breakthrough/perforation.h"
 #include "grading/measures/access.h"
+#include "grading/measures/beside.h"
 #include "grading/measures/cut_surface.h"
 #include "grading/measures/motion.h"
 #include "grading/measures/over_pulp.h"
@@ -145,17 +146,18 @@ void note_time(const GradeInput& input, Result& r) {
 }
 
 /// The list of removed leaves and the tooth as it was left must tell the same story.
-void compare_with_final_tooth(const GradeInput& input, const RemovedMap& removed, Result& result) {
+void compare_with_final_tooth(const GradeInput& input, std::size_t removed, Result& result) {
   std::size_t wrong = 0;
-  for (const auto& r : input.removed) {
+  const Octree &was = input.seen_before().octree, &is = input.seen_after();
+  for (const auto& r : input.all_removed()) {
     const IVec3 leaf = r.leaf.leaf();
-    wrong += input.after.tissue(leaf) != k_air || input.before.octree.tissue(leaf) != r.leaf.tissue ? 1 : 0;
+    wrong += is.tissue(leaf) != k_air || was.tissue(leaf) != r.leaf.tissue ? 1 : 0;
   }
   std::uint64_t before = 0, after = 0;
-  for (const auto c : input.before.octree.count_leaves()) before += c;
-  for (const auto c : input.after.count_leaves()) after += c;
+  for (const auto c : was.count_leaves()) before += c;
+  for (const auto c : is.count_leaves()) after += c;
   const bool late = result.motion.late_ticks > 0;
-  if (wrong > 0 || (!late && before - after != removed.count()))
+  if (wrong > 0 || (!late && before - after != removed))
     result.notes.push_back("the list of removed leaves and the final tooth disagree: a person must look at this recording");
 }
 
@@ -183,12 +185,13 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
   r.shape = measure_shape(input, removed, last_tick);
   r.access = measure_access(input, removed, last_tick);
   r.over_pulp = measure_over_pulp(input, removed, last_tick);
+  if (input.beside != nullptr) r.beside = measure_beside(input, last_tick, r.volumes);
   r.pauses = find_pauses(input, ticks);
   for (const auto& e : input.events) r.pauses_refused += is_kind(e, scenarios::ExamEventKind::pause_refused) ? 1 : 0;
   r.late_work = find_late_work(input);
   r.motion = measure_motion(input, ticks, r.pauses);
   r.motion.lost_s = lost_s(input.events);
-  for (const auto& leaf : input.removed) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
+  for (const auto& leaf : input.all_removed()) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
   r.perforation = measure_perforation(input, removed, last_tick);
   const scenarios::PerforationSpec& spec = input.scenario.perforation;
   for (const auto& [names, truth] : {std::pair(&spec.aims, &r.perforation.aim), std::pair(&spec.faults, &r.perforation.fault)})
@@ -199,7 +202,7 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
     r.notes.push_back(fmt::format("{} of {} steps were not completed", r.progress.steps - r.progress.steps_completed, r.progress.steps));
   note_steps(input, r);
   note_time(input, r);
-  compare_with_final_tooth(input, removed, r);
+  compare_with_final_tooth(input, input.beside != nullptr ? RemovedMap(input.all_removed(), last_tick).count() : removed.count(), r);
   mark(r, rubric);
   return r;
 }

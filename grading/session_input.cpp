@@ -50,6 +50,10 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->records = reader.records();
   s->removed = reader.removed();
   s->events = reader.events();
+  if (s->apart = ground->apart; s->apart) {
+    s->own = take_apart(*s->apart, s->after.octree, s->removed);
+    s->beside.emplace(GradeBeside{*s->apart, *s->before, s->after.octree, s->removed});
+  }
   s->sealed_result_json = reader.result_json();
   s->notes = setup.notes;
   s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(*s->before), setup.calibration,

@@ -36,8 +36,16 @@ struct GradedSession {
   std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
   std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
   std::optional<SessionSetup> again;                       ///< none when it was recorded under other physics than this program's
+  std::shared_ptr<const ToothApart> apart;                 ///< null: nothing stands beside the tooth
+  WorkApart own;                                           ///< where something does
+  std::optional<GradeBeside> beside;
   [[nodiscard]] GradeInput input() const {
-    return {scenario, *before, *zones, after.octree, inputs, records, removed, events, sat_under_ticks, again ? &*again : nullptr};
+    GradeInput in{scenario, apart ? apart->own : *before,  *zones, apart ? own.after : after.octree, inputs,
+                  records,  apart ? own.removed : removed, events};
+    in.sat_under_ticks = sat_under_ticks;
+    in.again = again ? &*again : nullptr;
+    in.beside = beside ? &*beside : nullptr;
+    return in;
   }
 };
 

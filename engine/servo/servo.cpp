@@ -5,6 +5,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/servo/stages.h"
+#include "engine/tooth/beside.h"
 
 namespace cavum {
 namespace {
@@ -13,6 +14,12 @@ constexpr double k_mm_per_m = 1000.0;
 constexpr std::size_t k_most_points = 255;       // TickInput::point is a byte
 constexpr std::size_t k_edit_room = 1 << 17;     // bricks, 8 million leaves: more than a tooth has at its surface; untouched room costs no memory
 constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick: a ball of 2.5 mm radius at leaves of 0.1 mm, or of 1.2 mm at 0.05
+
+/// A neighbour's enamel is enamel unless the model says otherwise.
+auto material_of(const ForceModel& force, const std::string& tissue) {
+  const auto found = force.materials.find(tissue);
+  return found == force.materials.end() && is_of_neighbour(tissue) ? force.materials.find(tissue.substr(k_neighbour_prefix.size())) : found;
+}
 
 }  // namespace
 
@@ -25,7 +32,7 @@ ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>&
   for (const auto& p : tray) model.tray.push_back(make_contact_tool(p));
   model.voids = VoidMap(tooth.octree);
   for (const auto& t : tooth.tissues) {
-    const auto found = force.materials.find(t.name);
+    const auto found = material_of(force, t.name);
     if (found == force.materials.end()) {
       if (!t.solid) continue;  // a void without entry resists nothing
       throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no material for tissue '{}'", t.name),

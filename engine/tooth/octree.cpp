@@ -243,6 +243,59 @@ TissueGrid Octree::to_grid() const {
   return grid;
 }
 
+Octree Octree::emptied() const {
+  Octree empty;
+  empty.leaf_mm_ = leaf_mm_;
+  empty.leaves_per_mm_ = leaves_per_mm_;
+  empty.origin_mm_ = origin_mm_;
+  empty.size_ = size_;
+  empty.levels_ = levels_;
+  empty.solid_ = solid_;
+  return empty;
+}
+
+Octree Octree::with_leaves(IVec3 low, const TissueGrid& part) const {
+  const int edge = k_brick_edge << levels_;
+  const auto whole = [&](int from, int n) { return from >= 0 && n > 0 && from % k_brick_edge == 0 && n % k_brick_edge == 0 && from + n <= edge; };
+  if (!whole(low.x, part.size.x) || !whole(low.y, part.size.y) || !whole(low.z, part.size.z) || part.tissue.size() != part.count() ||
+      part.distance.size() != part.count())
+    throw Error("tooth", "the part to be replaced is not of whole bricks", "report it with the tooth");
+  Octree copy = *this;
+  copy.root_ = copy.replaced(root_, levels_, {0, 0, 0}, low, part);
+  ++copy.version_;
+  return copy;
+}
+
+std::uint32_t Octree::replaced(std::uint32_t ref, int level, IVec3 low, IVec3 first, const TissueGrid& part) {
+  const int edge = k_brick_edge << level;
+  const IVec3 end = first + part.size;
+  if (low.x >= end.x || low.y >= end.y || low.z >= end.z || low.x + edge <= first.x || low.y + edge <= first.y || low.z + edge <= first.z) return ref;
+  if (level == 0) {
+    if ((ref & k_kind) == k_full_brick) bricks_.release(ref & k_index);
+    if ((ref & k_kind) == k_label_brick) labels_.release(ref & k_index);
+    FullBrick brick;
+    for (int i = 0; i < k_brick_leaves; ++i) {
+      const std::size_t at = part.index(low - first + IVec3{i & 3, i >> 2 & 3, i >> 4});
+      brick.tissue[static_cast<std::size_t>(i)] = part.tissue[at];
+      brick.distance[static_cast<std::size_t>(i)] = part.distance[at];
+    }
+    return canonical(brick);
+  }
+  Node node;
+  const bool split = (ref & k_kind) == k_uniform;
+  if (split)
+    node.child.fill(ref);
+  else
+    node = nodes_.items[ref & k_index];
+  bool equal = true;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    node.child[i] = replaced(node.child[i], level - 1, low_of_child(low, i, edge / 2), first, part);
+    equal = equal && (node.child[i] & k_kind) == k_uniform && node.child[i] == node.child[0];
+  }
+  if (!split) nodes_.release(ref & k_index);
+  return equal ? node.child[0] : k_node | nodes_.add(node);
+}
+
 std::size_t Octree::memory_bytes() const noexcept {
   return nodes_.used() * sizeof(Node) + labels_.used() * sizeof(LabelBrick) + bricks_.used() * sizeof(FullBrick) + marks_.size() * sizeof(marks_[0]);
 }

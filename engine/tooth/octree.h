@@ -148,6 +148,11 @@ class Octree {
   template <class Visit>
   void for_each_cube(const Visit& visit) const;
   [[nodiscard]] TissueGrid to_grid() const;
+  /// The same lattice, all of it air.
+  [[nodiscard]] Octree emptied() const;
+  /// A copy in which the leaves from `low` on are those of `part` (its lattice, leaf and origin are not looked at). Throws Error unless low and size
+  /// are whole bricks within the tree.
+  [[nodiscard]] Octree with_leaves(IVec3 low, const TissueGrid& part) const;
   /// Bytes in use (nodes, bricks), without spare room.
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
@@ -274,6 +279,8 @@ class Octree {
   [[nodiscard]] FullBrick expanded(std::uint32_t ref) const noexcept;
   [[nodiscard]] std::uint8_t tissue_in(std::uint32_t ref, int leaf) const noexcept;
   std::uint32_t build(const TissueGrid& grid, IVec3 low, int level);
+  /// What `ref` becomes when the leaves from `first` on are those of `part`.
+  [[nodiscard]] std::uint32_t replaced(std::uint32_t ref, int level, IVec3 low, IVec3 first, const TissueGrid& part);
   [[nodiscard]] bool clear_in(std::uint32_t ref, int level, IVec3 low, IVec3 box_low, IVec3 box_high, bool air_only) const noexcept;
   template <class Visit>
   void visit_cubes(std::uint32_t ref, int level, IVec3 low, const Visit& visit) const;

@@ -13,6 +13,8 @@ namespace cavum {
 
 /// Tissue labels with fixed numbers; up to 255 in all, further ones are listed in the tooth's table.
 enum TissueId : std::uint8_t { k_air = 0, k_enamel = 1, k_dentin = 2, k_pulp = 3, k_periodontium = 4 };
+/// Of what stands beside a tooth (beside.h), where a tooth's own table leaves these numbers free.
+inline constexpr std::uint8_t k_neighbour_enamel = 12, k_neighbour_dentin = 13, k_gingiva = 14;
 
 /// One tissue of a tooth. A tissue that is not solid (pulp, periodontium) is void to the contact: the
 /// diamond point enters it without resistance, though its touch still counts with its own k and c.

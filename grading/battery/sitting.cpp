@@ -79,8 +79,14 @@ class Sitting {
       const scenarios::ExamEvent& e = state_->events[i];
       events.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, task_.scenario, task_.tooth)});
     }
-    return grade({task_.scenario, task_.tooth, task_.zones, after, inputs_, records_, removed_, events, -1, nullptr, &task_.around},
-                 task_.scenario.rubric);
+    if (!task_.apart)
+      return grade({task_.scenario, task_.tooth, task_.zones, after, inputs_, records_, removed_, events, -1, nullptr, &task_.around},
+                   task_.scenario.rubric);
+    const WorkApart own = take_apart(*task_.apart, after, removed_);
+    const GradeBeside beside{*task_.apart, task_.tooth, after, removed_};
+    return grade(
+        {task_.scenario, task_.apart->own, task_.zones, own.after, inputs_, records_, own.removed, events, -1, nullptr, &task_.around, &beside},
+        task_.scenario.rubric);
   }
 
  private:
@@ -113,7 +119,9 @@ Task make_task(const scenarios::Scenario& scenario, const Tooth& tooth, const sc
   std::array<bool, 256> either{};
   for (const auto* names : {&scenario.perforation.aims, &scenario.perforation.faults})
     for (const auto& t : tooth.tissues) either[t.id] = either[t.id] || std::find(names->begin(), names->end(), t.name) != names->end();
-  return {scenario, tooth, zones, tissues_around(tooth, either)};
+  auto apart = take_apart(tooth);
+  const auto around = tissues_around(apart ? apart->own : tooth, either);
+  return {scenario, tooth, zones, around, std::move(apart)};
 }
 
 Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wait_ticks) {

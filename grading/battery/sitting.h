@@ -22,7 +22,8 @@ struct Task {
   const scenarios::Scenario& scenario;
   const Tooth& tooth;
   const scenarios::ZoneMap& zones;
-  std::array<bool, 256> around = {};  ///< tissues_around of aims and faults
+  std::array<bool, 256> around = {};             ///< tissues_around of aims and faults
+  std::shared_ptr<const ToothApart> apart = {};  ///< null: nothing stands beside the tooth
 };
 /// With what is the same for all work on it.
 [[nodiscard]] Task make_task(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones);

@@ -32,6 +32,7 @@ class Works {
     faults();
     holes();
     roof();
+    beside();
     return std::move(list_);
   }
   // what is cut, as functions of what is wrong
@@ -47,6 +48,8 @@ class Works {
     const auto& target = task_.scenario.zones.target;
     return !target.empty() && target[0].kind == scenarios::ShapeSpec::Kind::crown;
   }
+  /// A ball around the place of a neighbour that is nearest to the target; empty where none is near.
+  [[nodiscard]] Cut into_neighbour(double radius_mm) const;
   [[nodiscard]] bool longer_in_x() const { return f_.high_mm().x - f_.low_mm().x >= f_.high_mm().y - f_.low_mm().y; }
 
  private:
@@ -68,6 +71,9 @@ class Works {
   void faults();
   void holes();
   void roof();
+  void beside();
+  /// Middle of the leaf of some tissues beside the tooth that is nearest to the target; none within `within_mm`.
+  [[nodiscard]] std::optional<Vec3> nearest_beside(const TissueSet& tissues, double within_mm) const;
 
   const Task& task_;
   const TargetField& f_;
@@ -267,6 +273,51 @@ void Works::roof() {
   if (roof > -1e9) add("never_opened", "the target down to 0.2 mm above what it is to open", Mistake::roof_left, down_to(roof + 0.2));
 }
 
+std::optional<Vec3> Works::nearest_beside(const TissueSet& tissues, double within_mm) const {
+  const scenarios::ZoneMap& zones = task_.zones;
+  std::optional<Vec3> nearest;
+  double best = within_mm;
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone) {
+    if (const double d = zones.distance_mm(leaf); d < best && tissues[task_.tooth.octree.tissue(leaf)]) {
+      best = d;
+      nearest = zones.centre_mm(leaf);
+    }
+  });
+  return nearest;
+}
+
+Cut Works::into_neighbour(double radius_mm) const {
+  constexpr double k_near_mm = 0.8;
+  const auto at = task_.apart ? nearest_beside(task_.apart->of_neighbours, k_near_mm) : std::nullopt;
+  if (!at) return {};
+  return [&f = f_, at = *at, radius_mm](Vec3 p) { return std::min(f.target_mm(p), length(p - at) - radius_mm); };
+}
+
+/// Of a tooth that does not stand alone: its neighbour nicked, the contact not opened, the papilla cut.
+void Works::beside() {
+  if (!task_.apart) return;
+  constexpr double k_near_mm = 0.8, k_papilla_near_mm = 2.0, k_nick_mm = 0.5, k_wide_mm = 1.2, k_deep_mm = 0.4, k_wall_mm = 0.8, k_papilla_mm = 1.2;
+  if (const auto at = nearest_beside(task_.apart->of_neighbours, k_near_mm)) {
+    const double side = at->x >= f_.in_tooth(middle_).x ? 1.0 : -1.0;
+    add("nicks_the_neighbour", fmt::format("the target, and a hollow of {} mm radius in the tooth beside it", plain_number(k_nick_mm)),
+        Mistake::neighbour_cut, into_neighbour(k_nick_mm));
+    add("shaves_the_neighbour",
+        fmt::format("the target, and {} mm off the tooth beside it, {} mm wide", plain_number(k_deep_mm), plain_number(2 * k_wide_mm)),
+        Mistake::neighbour_cut, [&f = f_, at = *at, side](Vec3 p) {
+          const double beyond = side * (p.x - at.x);
+          return std::min(f.target_mm(p), std::max({length(p - at) - k_wide_mm, beyond - k_deep_mm, -beyond}));
+        });
+    add("leaves_the_contact", fmt::format("the target, but for {} mm before the tooth beside it", plain_number(k_wall_mm)), Mistake::contact_left,
+        [&f = f_, at = *at, side](Vec3 p) { return std::max(f.target_mm(p), side * (p.x - at.x) + k_wall_mm); });
+  }
+  if (const auto at = nearest_beside(task_.apart->of_gum, k_papilla_near_mm))
+    add("cuts_the_papilla", fmt::format("the target, and the gum within {} mm of the papilla's tip", plain_number(k_papilla_mm)), Mistake::gum_cut,
+        [&f = f_, &tooth = task_.tooth, gum = task_.apart->of_gum, at = *at](Vec3 p) {
+          const double ball = length(p - at) - k_papilla_mm;
+          return std::min(f.target_mm(p), ball < 0 && !gum[tooth.octree.tissue_at(p)] ? 0.01 : ball);
+        });
+}
+
 }  // namespace
 
 const std::vector<std::string>& measures_against(Mistake mistake) {
@@ -286,6 +337,9 @@ const std::vector<std::string>& measures_against(Mistake mistake) {
       {Mistake::fault_opened, {"perforated", "perforation_volume_mm3"}},
       {Mistake::torn_down, {"outside_mm3", "side_walls_max_over_mm", "overcut_mm3", "removed_mm3"}},
       {Mistake::ragged, {"target_removed_percent", "dice", "missed_mm3", "side_walls_max_over_mm", "walls_max_over_mm", "outside_mm3"}},
+      {Mistake::neighbour_cut, {"neighbour_nick_depth_mm", "neighbour_removed_mm3", "neighbour_nick_area_mm2"}},
+      {Mistake::contact_left, {"proximal_clearance_mm", "target_removed_percent", "missed_mm3"}},
+      {Mistake::gum_cut, {"gum_removed_mm3", "gum_touched_s"}},
   };
   return k_by_mistake.at(mistake);
 }
@@ -320,6 +374,9 @@ std::vector<Ladder> ladders(const Task& task, const TargetField& field) {
   if (works.into_protected(0))
     grow("protected", "a ball out of what is protected, its radius", "mm", {0.2, 0.4, 0.7, 1.0, 1.4},
          [&](double mm) { return works.into_protected(mm); });
+  if (works.into_neighbour(0))
+    grow("neighbour", "a ball out of the tooth beside it, its radius", "mm", {0.1, 0.2, 0.4, 0.7, 1.0},
+         [&](double mm) { return works.into_neighbour(mm); });
   return list;
 }
 

@@ -12,17 +12,20 @@ namespace cavum::grading {
 
 /// What of the work is wrong, and so by which measures it should be caught.
 enum class Mistake {
-  nothing_done,  ///< no tissue removed
-  too_little,    ///< a part of the target left standing
-  not_deep,      ///< the floor not reached
-  roof_left,     ///< what is to be opened stays covered
-  too_deep,      ///< below the floor
-  too_wide,      ///< beyond the walls
-  misplaced,     ///< another place or outline
-  lesion_left,   ///< of a tissue that is to be excavated
-  fault_opened,  ///< a tissue that must not be
-  torn_down,     ///< everything in reach gone
-  ragged,        ///< pieces left and pieces too much
+  nothing_done,   ///< no tissue removed
+  too_little,     ///< a part of the target left standing
+  not_deep,       ///< the floor not reached
+  roof_left,      ///< what is to be opened stays covered
+  too_deep,       ///< below the floor
+  too_wide,       ///< beyond the walls
+  misplaced,      ///< another place or outline
+  lesion_left,    ///< of a tissue that is to be excavated
+  fault_opened,   ///< a tissue that must not be
+  torn_down,      ///< everything in reach gone
+  ragged,         ///< pieces left and pieces too much
+  neighbour_cut,  ///< a tooth beside it damaged
+  contact_left,   ///< the contact with the neighbour not opened
+  gum_cut,        ///< the papilla cut
 };
 
 /// Measures that should catch it, the best first.

@@ -6,6 +6,7 @@
 #include "engine/tooth/distance_transform.h"
 #include "engine/tooth/octree_edit.h"
 #include "grading/measures/lattice.h"
+#include "grading/measures/leaf_faces.h"
 
 namespace cavum::grading {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr double k_deep_mm = 0.3;       // a scrape along a root is less
 constexpr double k_lies_around = 0.45;  // of its wall that borders air: a sheath's outer side; of pulp that reaches the sides of a block a third
 constexpr int k_normal_leaves = 2;      // on each side, over which a wall's normal is taken
-constexpr double k_stairs = 0.78539816339744831;  // pi/4: length of a curve over that of the stairs along it, on average over directions
 
 bool lies_around(const Octree& before, std::uint8_t tissue) {
   std::uint64_t air = 0, hard = 0;
@@ -103,21 +103,6 @@ double slant(const Octree& before, const Face& f, std::uint8_t tissue) {
   const double along = std::abs(sum.x * axis.x + sum.y * axis.y + sum.z * axis.z);
   const double all = std::sqrt(static_cast<double>(sum.x) * sum.x + static_cast<double>(sum.y) * sum.y + static_cast<double>(sum.z) * sum.z);
   return all > 0.0 ? along / all : 1.0;
-}
-
-/// Edges of the faces that belong to one of them only.
-std::size_t rim_edges(const std::vector<Face>& faces) {
-  std::vector<std::array<int, 3>> edges;  // middles, in half leaves
-  for (const Face& f : faces) {
-    const IVec3 middle = f.from + f.to + IVec3{1, 1, 1}, axis = f.from - f.to;
-    for (const IVec3 step : scenarios::k_six_neighbours)
-      if (step.x * axis.x + step.y * axis.y + step.z * axis.z == 0) edges.push_back({middle.x + step.x, middle.y + step.y, middle.z + step.z});
-  }
-  std::sort(edges.begin(), edges.end());
-  std::size_t alone = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    alone += (i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]) ? 1 : 0;
-  return alone;
 }
 
 /// Leaves of a tissue around the tooth that were removed through its faces: joined to one of them over other removed ones.

@@ -53,7 +53,7 @@ PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMa
   const auto records = input.records.first(counted);
   if (input.again != nullptr) {
     const auto drop = [&](const std::array<bool, 256>& tissues, const std::vector<std::int64_t>& ticks) {
-      ForceDrop d = find_drop(missing_force(*input.again, input.before, tissues, inputs, records), ticks);
+      ForceDrop d = find_drop(missing_force(*input.again, input.seen_before(), tissues, inputs, records), ticks);
       if (d.from_tick >= 0) d.site_mm = place_of(records[static_cast<std::size_t>(d.from_tick)]);
       return d;
     };

@@ -6,13 +6,23 @@
 
 #include "engine/session/session.h"
 #include "engine/session/session_reader.h"
+#include "grading/measures/apart.h"
 #include "grading/result/result.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::grading {
 
+/// What stands beside the tooth, and all of what was seen, cut and removed.
+struct GradeBeside {
+  const ToothApart& apart;
+  const Tooth& before;
+  const Octree& after;
+  std::span<const RemovedAt> removed;
+};
+
 /// Everything a grade depends on. `inputs` and `records` are of one length; `removed` is in order of ticks.
+/// Where something stands beside the tooth, `before`, `after` and `removed` are of the tooth alone, and `beside` has the whole.
 struct GradeInput {
   const scenarios::Scenario& scenario;
   const Tooth& before;
@@ -25,6 +35,11 @@ struct GradeInput {
   std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
   const SessionSetup* again = nullptr;   ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
   const std::array<bool, 256>* around = nullptr;  ///< by tissue id: it lies around the tooth (breakthrough/exposure.h); nullptr: to be found out
+  const GradeBeside* beside = nullptr;            ///< nullptr: the tooth stands alone
+  /// As the candidate saw it.
+  [[nodiscard]] const Tooth& seen_before() const noexcept { return beside != nullptr ? beside->before : before; }
+  [[nodiscard]] const Octree& seen_after() const noexcept { return beside != nullptr ? beside->after : after; }
+  [[nodiscard]] std::span<const RemovedAt> all_removed() const noexcept { return beside != nullptr ? beside->removed : removed; }
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.

@@ -2,32 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "engine/tooth/octree_edit.h"
+#include "grading/measures/place_blocks.h"
 #include "grading/measures/solid_surface.h"
 
 namespace cavum::grading {
 namespace {
-
-constexpr double k_far_mm = 1e9;
-
-/// Places on the pulp's wall within a cube of leaves.
-struct WallBlock {
-  std::vector<Vec3> places;
-  Vec3 low{k_far_mm, k_far_mm, k_far_mm}, high{-k_far_mm, -k_far_mm, -k_far_mm};
-
-  void add(Vec3 p) {
-    places.push_back(p);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  /// No place in it is nearer.
-  [[nodiscard]] double at_least_mm(Vec3 p) const {
-    const auto outside = [](double v, double from, double to) { return std::max({from - v, v - to, 0.0}); };
-    return length({outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
-  }
-};
 
 std::array<bool, 256> pulp_of(const Tooth& tooth) {
   std::array<bool, 256> pulp{};
@@ -35,10 +16,9 @@ std::array<bool, 256> pulp_of(const Tooth& tooth) {
   return pulp;
 }
 
-/// The pulp's wall, in an order that is the same everywhere.
-std::vector<WallBlock> wall_of_pulp(const Octree& before, const std::array<bool, 256>& pulp) {
-  constexpr int k_block = 16;
-  std::map<std::array<int, 3>, WallBlock> blocks;
+/// The pulp's wall.
+PlaceBlocks wall_of_pulp(const Octree& before, const std::array<bool, 256>& pulp) {
+  PlaceBlocks wall;
   Octree::Cursor cursor;
   before.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
     if (!pulp[tissue]) return;
@@ -47,13 +27,10 @@ std::vector<WallBlock> wall_of_pulp(const Octree& before, const std::array<bool,
         for (int x = 0; x < edge; ++x) {
           const bool at_face = x == 0 || y == 0 || z == 0 || x == edge - 1 || y == edge - 1 || z == edge - 1;
           const IVec3 leaf = at + IVec3{x, y, z};
-          if (at_face && beside_solid(before, leaf))
-            blocks[{leaf.x / k_block, leaf.y / k_block, leaf.z / k_block}].add(surface_by(before, leaf, cursor).at_mm);
+          if (at_face && beside_solid(before, leaf)) wall.add(leaf, surface_by(before, leaf, cursor).at_mm);
         }
   });
-  std::vector<WallBlock> out;
-  for (auto& [at, block] : blocks) out.push_back(std::move(block));
-  return out;
+  return wall;
 }
 
 }  // namespace
@@ -63,7 +40,7 @@ OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& re
   m.bound_mm = input.zones.leaf_mm();
   const Octree& before = input.before.octree;
   const std::array<bool, 256> pulp = pulp_of(input.before);
-  const std::vector<WallBlock> wall = wall_of_pulp(before, pulp);
+  const PlaceBlocks wall = wall_of_pulp(before, pulp);
   if (wall.empty()) return m;
   Octree::Cursor cursor;
   for (const auto& r : input.removed) {
@@ -79,15 +56,10 @@ OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& re
     }
     if (!before.is_solid(r.leaf.tissue) || !beside_solid(input.after, leaf)) continue;
     const Vec3 place = surface_by(input.after, leaf, cursor).at_mm;
-    for (const auto& block : wall) {
-      if (m.dentin_mm && block.at_least_mm(place) >= *m.dentin_mm) continue;
-      for (const Vec3 p : block.places)
-        if (const double d = length(p - place); !m.dentin_mm || d < *m.dentin_mm) {
-          m.dentin_mm = d;
-          m.thinnest = {r.tick, place};
-          m.pulp_mm = p;
-        }
-    }
+    double nearest_mm = m.dentin_mm.value_or(1e9);
+    if (!wall.nearer(place, nearest_mm, m.pulp_mm)) continue;
+    m.dentin_mm = nearest_mm;
+    m.thinnest = {r.tick, place};
   }
   return m;
 }

@@ -166,6 +166,23 @@ Loss dentin_over_pulp(const Result& r, const Asked&) {
   return {fmt::format("{}{}, cut at {}", *r.over_pulp.dentin_mm > 0 ? "thinnest at " : "the pulp was opened at ", place(at.site_mm), when(at)), at};
 }
 
+Loss nick(const Result& r, const Asked&) {
+  const Trace& at = r.beside.deepest;
+  if (at.tick < 0) return {};
+  return {fmt::format("the neighbour is cut deepest at {}, cut at {}", place(at.site_mm), when(at)), r.beside.first_nick};
+}
+
+Loss clearance(const Result& r, const Asked&) {
+  if (!r.beside.clearance_mm) return {"the target opens no contact", {}};
+  return {fmt::format("least between {} and the neighbour's {}", place(r.beside.clearance_from_mm), place(r.beside.clearance_to_mm)), {}};
+}
+
+Loss gum(const Result& r, const Asked&) {
+  const Trace& at = r.beside.first_gum;
+  if (at.tick < 0) return {};
+  return {fmt::format("cut first at {} at {}", place(at.site_mm), when(at)), at};
+}
+
 Loss time_over(const Result& r, const Asked& a) {
   Loss loss{"", clock_at(r, a.full)};
   if (loss.first.tick >= 0) loss.text = "that time was over at " + when(loss.first);

@@ -30,6 +30,9 @@ namespace reason {
 [[nodiscard]] Loss canals_covered(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss floor_cut(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss dentin_over_pulp(const Result& measured, const Asked& asked);  ///< where it is thinnest, and when that was cut
+[[nodiscard]] Loss nick(const Result& measured, const Asked& asked);              ///< where a neighbour was cut deepest, and when
+[[nodiscard]] Loss clearance(const Result& measured, const Asked& asked);         ///< between which places it is least
+[[nodiscard]] Loss gum(const Result& measured, const Asked& asked);               ///< where it was cut first
 [[nodiscard]] Loss time_over(const Result& measured, const Asked& asked);         ///< when the time with full marks was over
 [[nodiscard]] Loss force_peak(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss force_over_limit(const Result& measured, const Asked& asked);

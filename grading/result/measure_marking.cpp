@@ -197,6 +197,49 @@ std::vector<MeasureMarking> access_markings() {
   };
 }
 
+std::vector<MeasureMarking> beside_markings() {
+  return {
+      {.measure = "neighbour_nick_depth_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.beside.nick_depth_mm, r.beside.nick_depth_bound_mm};
+       },
+       .reason = reason::nick,
+       .json = "/beside/",
+       .bound_json = "/beside/bounds/"},
+      {.measure = "neighbour_nick_area_mm2",
+       .value = [](R r, A) -> MetricValue {
+         return {r.beside.nick_area_mm2, r.beside.nick_area_bound_mm2};
+       },
+       .reason = reason::nick,
+       .json = "/beside/",
+       .bound_json = "/beside/bounds/"},
+      {.measure = "neighbour_removed_mm3",
+       .value = [](R r, A) { return of_volume(r.beside.neighbour_removed); },
+       .reason = reason::nick,
+       .json = "/beside/",
+       .bound_json = "/beside/bounds/"},
+      {.measure = "proximal_clearance_mm",
+       .value = [](R r, A) -> MetricValue {
+         return {r.beside.clearance_mm, r.beside.clearance_bound_mm};
+       },
+       .reason = reason::clearance,
+       .json = "/beside/",
+       .bound_json = "/beside/bounds/"},
+      {.measure = "gum_removed_mm3",
+       .value = [](R r, A) { return of_volume(r.beside.gum_removed); },
+       .reason = reason::gum,
+       .json = "/beside/",
+       .bound_json = "/beside/bounds/"},
+      {.measure = "gum_touched_s",
+       .value = [](R r, A) -> MetricValue {
+         return {r.beside.gum_touched_s, r.beside.gum_touched_bound_s};
+       },
+       .reason = reason::gum,
+       .json = "/beside/",
+       .bound_json = "/beside/bounds/"},
+  };
+}
+
 std::vector<MeasureMarking> motion_markings() {
   return {
       {.measure = "time_s",
@@ -320,7 +363,7 @@ std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows) {
 const std::vector<MeasureMarking>& measure_markings() {
   static const std::vector<MeasureMarking> k_rows = [] {
     std::vector<MeasureMarking> all;
-    for (auto* some : {volume_markings, shape_markings, access_markings, motion_markings, conduct_markings})
+    for (auto* some : {volume_markings, shape_markings, access_markings, beside_markings, motion_markings, conduct_markings})
       for (auto& row : some()) all.push_back(std::move(row));
     return checked_markings(std::move(all));
   }();

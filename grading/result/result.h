@@ -108,6 +108,22 @@ struct OverPulpMeasures {
   Vec3 pulp_mm;    ///< nearest place on the pulp's wall
 };
 
+/// What was done to the teeth and the gum beside the tooth; see grading/measures/beside.h. Zeros where nothing stands there.
+struct BesideMeasures {
+  bool neighbours = false, gum = false;  ///< there are any
+  BoundedVolume neighbour_removed;       ///< hard tissue of neighbours
+  double nick_depth_mm = 0.0, nick_depth_bound_mm = 0.0;
+  Trace deepest;  ///< of the nick, on its floor
+  double nick_area_mm2 = 0.0, nick_area_bound_mm2 = 0.0;
+  Trace first_nick;
+  std::optional<double> clearance_mm;  ///< none where the target opens no contact
+  double clearance_bound_mm = 0.0;
+  Vec3 clearance_from_mm, clearance_to_mm;  ///< nearest places: of the tooth, of its neighbour
+  BoundedVolume gum_removed;
+  double gum_touched_s = 0.0, gum_touched_bound_s = 0.0;
+  Trace first_gum;
+};
+
 /// A breakthrough seen in the force.
 struct PerforationEvent {
   std::int64_t tick = 0;       ///< onset of the drop
@@ -237,6 +253,7 @@ struct Result {
   ShapeMeasures shape;
   AccessMeasures access;
   OverPulpMeasures over_pulp;
+  BesideMeasures beside;
   PerforationMeasures perforation;
   MotionMeasures motion;
   ProgressMeasures progress;

@@ -166,6 +166,17 @@ void put_pulp(Json& j, const Result& r) {
   put_bounds(j, r, "/pulp/bounds/");
 }
 
+/// Only where something stands beside the tooth.
+void put_beside(Json& j, const Result& r) {
+  if (!r.beside.neighbours && !r.beside.gum) return;
+  put_values(j, r, {"/beside/"});
+  j["beside"].update({{"neighbours", r.beside.neighbours},
+                      {"gum", r.beside.gum},
+                      {"deepest_site_mm", place_of(r.beside.deepest)},
+                      {"deepest_tick", tick_of(r.beside.deepest)}});
+  put_bounds(j, r, "/beside/bounds/");
+}
+
 Json perforation_json(const PerforationMeasures& p) {
   Json events = Json::array();
   for (const auto& e : p.events)
@@ -229,6 +240,7 @@ Json to_json(const Result& r) {
   put_shape(j, r);
   put_access(j, r);
   put_pulp(j, r);
+  put_beside(j, r);
   j["perforation"] = perforation_json(r.perforation);
   put_values(j, r, {"/", "/force/"});
   j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};

@@ -314,8 +314,8 @@ void LossFinder::taper_error() {
 void LossFinder::floor_cut() {
   removed_moments(whole_leaves([&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
-    return in_.before.octree.is_solid(r.leaf.tissue) && in_.zones.zone(leaf) != scenarios::Zone::target &&
-           in_.zones.wall(leaf) == scenarios::Wall::floor;
+    return in_.before.octree.is_solid(r.leaf.tissue) && in_.before.octree.tissue(leaf) == r.leaf.tissue &&
+           in_.zones.zone(leaf) != scenarios::Zone::target && in_.zones.wall(leaf) == scenarios::Wall::floor;
   }));
 }
 
@@ -323,6 +323,24 @@ void LossFinder::dentin_over_pulp() {
   const OverPulpMeasures& o = r_.over_pulp;
   if (!o.dentin_mm) return;
   fact(*o.dentin_mm > 0 ? "left over the pulp's wall at " + place(o.pulp_mm) : "the pulp was opened", o.dentin_mm, "mm", o.thinnest, o.bound_mm);
+}
+
+void LossFinder::nick() {
+  const BesideMeasures& b = r_.beside;
+  if (b.deepest.tick >= 0) fact("cut deepest into a neighbour here", b.nick_depth_mm, "mm", b.deepest, b.nick_depth_bound_mm);
+  removed_moments(whole_leaves([&](const RemovedAt& r) { return in_.beside != nullptr && in_.beside->apart.of_neighbours[r.leaf.tissue]; }));
+}
+
+void LossFinder::clearance() {
+  const BesideMeasures& b = r_.beside;
+  if (!b.clearance_mm) return;
+  const Trace last = last_cut_near(in_, end_, b.clearance_from_mm);
+  fact(fmt::format("from {} to the neighbour's {}{}", place(b.clearance_from_mm), place(b.clearance_to_mm), last_cut_text(last)), b.clearance_mm,
+       "mm", last, b.clearance_bound_mm);
+}
+
+void LossFinder::gum() {
+  removed_moments(whole_leaves([&](const RemovedAt& r) { return in_.beside != nullptr && in_.beside->apart.of_gum[r.leaf.tissue]; }));
 }
 
 void LossFinder::tissue() {

@@ -33,6 +33,9 @@ class LossFinder {
   void floor_cut();
   void dentin_over_pulp();
   void tissue();
+  void nick();
+  void clearance();
+  void gum();
   void perforation();  ///< by tissue and by force
   void time();
   void handpiece_time();

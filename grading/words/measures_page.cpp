@@ -45,9 +45,13 @@ const char* needs_words(scenarios::Needs needs) {
     case scenarios::Needs::force_limit:
       return "a force limit";
     case scenarios::Needs::pulp:
+      return "a tooth with pulp";
+    case scenarios::Needs::neighbour:
+      return "a neighbouring tooth";
+    case scenarios::Needs::gum:
       break;
   }
-  return "a tooth with pulp";
+  return "gum";
 }
 
 std::string code(const std::string& text) { return text.empty() ? "" : fmt::format("`{}`", text); }

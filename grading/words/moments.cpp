@@ -75,8 +75,8 @@ std::vector<WhyItem> removal_moments(const scenarios::ZoneMap& zones, std::vecto
 
 std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, const std::function<bool(const RemovedAt&)>& counts) {
   std::vector<RemovedShare> shares;
-  const RemovedMap removed(input.removed, end - 1);
-  for (const auto& r : input.removed)
+  const RemovedMap removed(input.all_removed(), end - 1);
+  for (const auto& r : input.all_removed())
     if (const IVec3 leaf = r.leaf.leaf(); r.tick < end && counts(r))
       shares.push_back({leaf, r.leaf.tissue, r.tick, input.zones.zone(leaf), input.zones.leaf_volume_mm3(),
                         on_border(input.zones, removed, leaf) ? 0.5 * input.zones.leaf_volume_mm3() : 0.0});

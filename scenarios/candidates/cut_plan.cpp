@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "engine/tooth/beside.h"
 #include "engine/tooth/distance_transform.h"
 
 namespace cavum::scenarios {
 namespace {
 
+constexpr double k_outermost = 1e9;     // spacing of loops of which there is to be one alone
 constexpr double k_above_mm = 1.0;      // height of the ways through the air over the tooth
 constexpr double k_lift_over_mm = 0.6;  // a longer gap between two loops is crossed in the air
 
@@ -206,6 +208,12 @@ std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth, const Pl
   for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] < ReachMap::k_unreachable;
   const Region all = region_of(map.nx, map.ny, inside);
   for (const auto& loop : loops_of(all, options.finish_spacing_mm / map.step_mm)) way.follow(corners(map, loop, deepest, options.tolerance_mm));
+  // before a neighbour a wall of the target bulges inwards with it: at each height once along all that reaches so deep
+  if (has_beside(tooth))
+    for (double z = deepest; z < top; z += options.layer_mm / 3) {
+      for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] <= z + 0.5 * map.step_mm;
+      for (const auto& loop : loops_of(region_of(map.nx, map.ny, inside), k_outermost)) way.follow(corners(map, loop, z, options.tolerance_mm));
+    }
   way.lift();
   return way.take();
 }

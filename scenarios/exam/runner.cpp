@@ -44,6 +44,7 @@ std::int64_t step_limit_ticks(const Scenario& s, const StepSpec& step) noexcept 
 Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray, int rules)
     : scenario_(scenario),
       zones_(zones),
+      beside_(tissues_beside(tooth)),
       rules_(rules),
       limit_ticks_(exam_limit_ticks(scenario)),
       longest_pause_ticks_(time_in_ticks(scenario.pauses.longest_s, 0)) {
@@ -113,7 +114,8 @@ void Runner::finish(RunnerState& state, Finish how) const noexcept {
 
 void Runner::count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept {
   for (const auto& r : removed) {
-    ++state.removed_in_zone[static_cast<std::size_t>(zones_.zone(r.leaf()))];
+    // what stands beside the tooth is counted by its tissue alone, unless it is protected
+    if (!beside_[r.tissue] || zones_.zone(r.leaf()) == Zone::protected_) ++state.removed_in_zone[static_cast<std::size_t>(zones_.zone(r.leaf()))];
     state.target_shares += zones_.target_share(r.leaf());
     const bool first = state.removed_of_tissue[r.tissue]++ == 0;
     if (!first || role_[r.tissue] == 0) continue;

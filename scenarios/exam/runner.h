@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/servo/tick.h"
-#include "engine/tooth/octree.h"
+#include "engine/tooth/beside.h"
 #include "scenarios/file/expression.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
@@ -114,6 +114,7 @@ class Runner {
 
   const Scenario& scenario_;
   const ZoneMap& zones_;
+  TissueSet beside_;
   int rules_;
   std::vector<std::string> names_;
   std::vector<double> values_;

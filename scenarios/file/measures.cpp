@@ -221,6 +221,43 @@ std::vector<Measure> access_measures() {
   };
 }
 
+std::vector<Measure> beside_measures() {
+  return {
+      {.name = "neighbour_nick_depth_mm",
+       .unit = "mm",
+       .words = "deepest place cut into a neighbouring tooth, from its surface as it was",
+       .most = &most::no_end,
+       .needs = Needs::neighbour,
+       .counts = k_counts_neighbour},
+      {.name = "neighbour_nick_area_mm2",
+       .unit = "mm2",
+       .words = "surface of a neighbouring tooth that was cut away",
+       .most = &most::no_end,
+       .needs = Needs::neighbour,
+       .counts = k_counts_neighbour},
+      {.name = "neighbour_removed_mm3",
+       .unit = "mm3",
+       .words = "hard tissue removed of neighbouring teeth",
+       .most = &most::no_end,
+       .needs = Needs::neighbour,
+       .counts = k_counts_neighbour},
+      {.name = "proximal_clearance_mm",
+       .unit = "mm",
+       .words = "least distance from the neighbour over the part of the contact that the target opens; the contact's own while that stands",
+       .better = Better::more,
+       .judges = Judges::work,
+       .most = &most::no_end,
+       .needs = Needs::neighbour},
+      {.name = "gum_removed_mm3", .unit = "mm3", .words = "gum cut away", .most = &most::no_end, .needs = Needs::gum, .counts = k_counts_gum},
+      {.name = "gum_touched_s",
+       .unit = "s",
+       .words = "tenths of a second in which gum was cut",
+       .most = &most::limit,
+       .needs = Needs::gum,
+       .counts = k_counts_gum},
+  };
+}
+
 std::vector<Measure> motion_measures() {
   return {
       {.name = "time_s", .unit = "s", .words = "until the exam ended", .most = &most::limit, .counts = k_counts_time},
@@ -276,8 +313,8 @@ std::vector<Measure> progress_measures() {
 
 std::vector<Measure> all_measures() {
   std::vector<Measure> all;
-  for (auto* family :
-       {volume_measures, wall_measures, shape_measures, access_measures, motion_measures, perforation_measures, tissue_measures, progress_measures})
+  for (auto* family : {volume_measures, wall_measures, shape_measures, access_measures, beside_measures, motion_measures, perforation_measures,
+                       tissue_measures, progress_measures})
     for (auto& m : family()) {
       if (std::any_of(all.begin(), all.end(), [&](const Measure& other) { return other.name == m.name; }))
         throw std::logic_error("measures: two are called " + m.name);
@@ -304,7 +341,9 @@ std::string counts_text(unsigned counts) {
                                                                  {k_counts_faults, "opened faults"},
                                                                  {k_counts_leeway, "the leeway"},
                                                                  {k_counts_time, "time"},
-                                                                 {k_counts_force, "force"}};
+                                                                 {k_counts_force, "force"},
+                                                                 {k_counts_neighbour, "the teeth beside it"},
+                                                                 {k_counts_gum, "the gum"}};
   std::string text;
   for (const auto& [bit, words] : k_words)
     if ((counts & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(words);

@@ -17,20 +17,36 @@ enum class Better { less, more, by_task };
 /// Work: an untouched tooth does badly in it of itself. Care: it does best in it, so care counts only for as much as was done.
 enum class Judges { care, work };
 /// What an exam must have for a measure to say anything.
-enum class Needs { nothing, protection, leeway_sides, leeway_bottom, container_sides, container_bottom, container, aim, fault, force_limit, pulp };
+enum class Needs {
+  nothing,
+  protection,
+  leeway_sides,
+  leeway_bottom,
+  container_sides,
+  container_bottom,
+  container,
+  aim,
+  fault,
+  force_limit,
+  pulp,
+  neighbour,
+  gum
+};
 
 /// What a measure counts, as bits: two criteria with one in common charge the same tissue, or the same ticks, twice.
 enum Counts : unsigned {
   k_counts_nothing = 0,
-  k_counts_target = 1,      ///< what is left of the target
-  k_counts_sides = 2,       ///< damage beside the target
-  k_counts_bottom = 4,      ///< damage below it
-  k_counts_outside = 8,     ///< removed in no zone
-  k_counts_protected = 16,  ///< removed of what is protected
-  k_counts_faults = 32,     ///< removed of what must not be opened
-  k_counts_leeway = 64,     ///< removed in the leeway
-  k_counts_time = 128,      ///< ticks of the exam
-  k_counts_force = 256,     ///< ticks in which is pressed
+  k_counts_target = 1,       ///< what is left of the target
+  k_counts_sides = 2,        ///< damage beside the target
+  k_counts_bottom = 4,       ///< damage below it
+  k_counts_outside = 8,      ///< removed in no zone
+  k_counts_protected = 16,   ///< removed of what is protected
+  k_counts_faults = 32,      ///< removed of what must not be opened
+  k_counts_leeway = 64,      ///< removed in the leeway
+  k_counts_time = 128,       ///< ticks of the exam
+  k_counts_force = 256,      ///< ticks in which is pressed
+  k_counts_neighbour = 512,  ///< removed of the teeth beside it
+  k_counts_gum = 1024,       ///< removed of the gum
 };
 /// "what is left of the target, damage beside it": how docs/measures.md says it; empty for nothing.
 [[nodiscard]] std::string counts_text(unsigned counts);

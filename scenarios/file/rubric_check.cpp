@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "engine/base/text.h"
+#include "engine/tooth/beside.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"
 
@@ -14,6 +15,10 @@ namespace {
 
 Problem problem_of(const RubricSpec& rubric, Place at, const std::string& what, const std::string& what_to_do) {
   return {fmt::format("{}:{}:{}", rubric.path, at.line, at.column), what, what_to_do, at.line, at.column};
+}
+
+bool any_of(const TissueSet& set) {
+  return std::any_of(set.begin(), set.end(), [](bool in) { return in; });
 }
 
 /// What a measure needs and this exam lacks; empty when nothing.
@@ -43,6 +48,10 @@ std::string lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
       return s.force_limit_n > 0 ? "" : "there is no force limit";
     case Needs::pulp:
       return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [](const Tissue& t) { return t.name == "pulp"; }) ? "" : "the tooth has no pulp";
+    case Needs::neighbour:
+      return any_of(tissues_of_neighbours(tooth)) ? "" : "no tooth stands beside this one";
+    case Needs::gum:
+      return any_of(tissues_of_gum(tooth)) ? "" : "the tooth has no gum";
   }
   throw std::logic_error("rubric_check: a need that nothing is said of");
 }

@@ -425,7 +425,7 @@ std::string scenario_text(const TaskText& task) {
     rubric.insert(end, line(fmt::format("critical_above = {}", fixed(task.walls_limit_mm3, 1)),
                             task.walls_limit_of + ": bites that leave its floor and its furthest places alone"));
   }
-  if (!task.criteria.empty()) rubric.insert(rubric.find("# What the task exists to catch"), task.criteria + "\n");
+  rubric.insert(rubric.find("\n# What the task exists to catch"), task.criteria);
   return s + rubric;
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/base/text.h"
+#include "engine/tooth/beside.h"
 #include "scenarios/candidates/expert_time.h"
 #include "scenarios/candidates/operator.h"
 #include "scenarios/exam/runner.h"
@@ -42,7 +43,12 @@ std::string measures_of_protection() {
 class Adviser {
  public:
   Adviser(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points)
-      : s_(scenario), tooth_(tooth), zones_(zones), points_(points), limit_s_(static_cast<double>(exam_limit_ticks(scenario)) * k_tick_s) {
+      : s_(scenario),
+        tooth_(tooth),
+        own_(own_tooth(tooth)),
+        zones_(zones),
+        points_(points),
+        limit_s_(static_cast<double>(exam_limit_ticks(scenario)) * k_tick_s) {
     for (const auto& t : tooth.tissues) role_[t.id] = among(s_.perforation.aims, t.name) ? 1 : among(s_.perforation.faults, t.name) ? 2 : 0;
   }
 
@@ -74,6 +80,7 @@ class Adviser {
 
   const Scenario& s_;
   const Tooth& tooth_;
+  const Tooth own_;  // without what stands beside it
   const ZoneMap& zones_;
   const std::vector<DiamondPoint>& points_;
   double limit_s_;
@@ -134,16 +141,24 @@ void Adviser::walls() {
   // a finish line lies on the outer surface, so a crown's floor ends in the air
   const bool has_finish_line =
       std::any_of(s_.zones.target.begin(), s_.zones.target.end(), [](const ShapeSpec& s) { return s.kind == ShapeSpec::Kind::crown; });
-  const ColumnMap surface = surface_relief(tooth_);
-  const Octree& tree = tooth_.octree;
+  const ColumnMap surface = surface_relief(own_);
+  const Octree& tree = own_.octree;
   const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope
   std::array<std::uint64_t, k_walls> thin{};
+  // a shell that is left before a neighbour is no wall
+  const TissueSet neighbours = tissues_of_neighbours(tooth_);
+  const auto before_neighbour = [&](IVec3 at, IVec3 way) {
+    constexpr double k_gap_mm = 1.0;
+    for (double far = 0; far <= k_gap_mm; far += leaf, at = at + way)
+      if (neighbours[tooth_.octree.tissue(at)]) return true;
+    return false;
+  };
   const auto air_within = [&](IVec3 from, IVec3 way, double mm) {
     IVec3 at = from + way;
     if (zones_.zone(at) == Zone::target || tree.tissue(at) == k_air) return false;  // no wall there
     for (double far = leaf; far <= mm; far += leaf) {
       at = at + way;
-      if (tree.tissue(at) == k_air) return true;
+      if (tree.tissue(at) == k_air) return !before_neighbour(at, way);
     }
     return false;
   };
@@ -220,7 +235,7 @@ ExamExtent Adviser::extent() const {
   const auto leaves = tooth_.octree.count_leaves();
   for (const auto& t : tooth_.tissues) {
     const double mm3_of = static_cast<double>(leaves[t.id]) * zones_.leaf_volume_mm3();
-    if (t.id != k_air) e.tooth_mm3 += mm3_of;
+    if (t.id != k_air && !stands_beside(t.name)) e.tooth_mm3 += mm3_of;
     e.tissue_mm3[t.name] = mm3_of;
   }
   e.limit_s = limit_s_;
@@ -322,7 +337,7 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& me
 /// Hard tissue that stands beside the target, by wall.
 std::array<double, k_walls> Adviser::wall_mm2() const {
   std::array<double, k_walls> mm2{};
-  const Octree& tree = tooth_.octree;
+  const Octree& tree = own_.octree;
   zones_.for_each_target_leaf([&](IVec3 leaf) {
     for (const IVec3 step : k_six_neighbours)
       if (const IVec3 beside = leaf + step; zones_.zone(beside) != Zone::target && tree.is_solid(tree.tissue(beside)))

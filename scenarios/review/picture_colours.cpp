@@ -13,15 +13,15 @@ namespace cavum::scenarios {
 namespace {
 
 // Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
-constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0", "#56b4e9", "#f0b74d",
-                          "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0", "#c9d6e3", "#b7c2cf", "#efb8b8",
+                          "#56b4e9", "#f0b74d", "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
 // For candidates who need stronger contrasts: light and dark alone tell the tissues apart.
-constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#0047ab", "#ff8c00",
-                           "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
+constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#a9c6ee", "#7f9cc4", "#ff9fb5",
+                           "#0047ab", "#ff8c00", "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
 
 // For what many did: the tissues recede.
-constexpr Palette k_grey{"#f7f7f7", "#e9e9e9", "#cfcfcf", "#dddddd", "#e0e0e0", "#56b4e9", "#f0b74d",
-                         "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+constexpr Palette k_grey{"#f7f7f7", "#e9e9e9", "#cfcfcf", "#dddddd", "#e0e0e0", "#ececec", "#e4e4e4", "#d8d8d8",
+                         "#56b4e9", "#f0b74d", "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
 struct HeatBand {
   double from_percent;
   const char *over, *under;
@@ -83,6 +83,12 @@ const char* tissue_colour(const Palette& colours, std::uint8_t t) {
       return colours.pulp;
     case k_periodontium:
       return colours.periodontium;
+    case k_neighbour_enamel:
+      return colours.neighbour_enamel;
+    case k_neighbour_dentin:
+      return colours.neighbour_dentin;
+    case k_gingiva:
+      return colours.gum;
     default:
       return colours.other;
   }

@@ -10,6 +10,7 @@ namespace cavum::scenarios {
 
 struct Palette {
   const char *enamel, *dentin, *pulp, *periodontium, *other;
+  const char *neighbour_enamel, *neighbour_dentin, *gum;
   const char *removed, *leeway, *overcut;
   const char *target_line, *leeway_line, *container_line, *guard_line;
   double line_px;

@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
 #include "scenarios/file/template.h"
+#include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/tooth_task_parts.h"
 #include "scenarios/zones/relief.h"
@@ -38,6 +39,7 @@ struct ToothTask {
   const char *aims, *faults;
   std::function<std::string(const Tooth&, const Landmarks&)> why_not;
   std::function<std::vector<TaskChoice>(const Tooth&, const Landmarks&)> choices;
+  int opens = 0;                    // the side on which it opens the contact: mesial 1, distal -1
   std::string steps{}, criteria{};  // of its own; else as all cavities or accesses have them
   double walls_share = 0.25;        // of the target's volume: so much sound wall cut fails
 };
@@ -120,9 +122,13 @@ std::string no_contact(const Landmarks& l, int side) {
 std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
   std::vector<TaskChoice> list;
   const std::string_view word = side > 0 ? "mesial" : "distal";
-  const std::string width = fixed(std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), 1), isthmus = isthmus_mm(l);
-  const double above = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
-                                                           furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
+  const double above_neck = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
+                                                                furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
+  const ContactBox beside =
+      box_beside(tooth, l, side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck, ""},
+                 k_least_above_neck_mm, k_box_widest_mm);
+  const std::string width = fixed(beside.width_mm, 1), isthmus = isthmus_mm(l);
+  const double above = beside.above_neck_mm;
   const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
     for (const Floor& floor : all)
@@ -138,7 +144,8 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
         else
           zones = "# A box at the contact area, open to the neighbouring tooth.\n";
         zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word,
-                             width, axial, level);
+                             width, axial, level) +
+                 beside.shell;
         const std::string box_words =
             fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width, word,
                         axial, level);
@@ -196,10 +203,10 @@ const std::vector<ToothTask>& tasks() {
   const auto shapes = [](DexterityShape shape) { return [shape](const Tooth&, const Landmarks& l) { return dexterity(l, shape); }; };
   static const std::vector<ToothTask> k_tasks{
       {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_fissure, class_1},
-      {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true)},
-      {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true)},
-      {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false)},
-      {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false)},
+      {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
+      {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true), -1},
+      {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
+      {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false), -1},
       {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
        R"(["periodontium"])",
        [](const Tooth& tooth, const Landmarks& l) -> std::string {
@@ -215,7 +222,7 @@ const std::vector<ToothTask>& tasks() {
        lesion},
       {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, side_steps_text()},
       {"crown", "Preparation for a full crown", R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
-       why_no_crown, crown_preparation, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
+       why_no_crown, crown_preparation, 0, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
       {"dexterity_groove", "Dexterity: a straight groove", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::groove), side_steps_text()},
       {"dexterity_circle", "Dexterity: a round pocket", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
@@ -280,6 +287,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                 "see `cavum tooth landmarks`, or choose another of " + words);
 
   WrittenTask best;
+  const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + beside_criteria(tooth, asked->opens);
   std::string refused;
   std::size_t fewest = k_none, tried = 0;
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
@@ -296,7 +304,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .zones = choice.zones,
                   .guard = choice.guard,
                   .steps = asked->steps,
-                  .criteria = asked->criteria,
+                  .criteria = criteria,
                   .walls_limit_of = asked->walls_share == 0.25 ? "a quarter of the cavity" : "a tenth of what is taken off"};
     CheckedScenario checked = check_whole(scenario_text(text), path);
     if (checked.sound()) {

@@ -108,12 +108,13 @@ class ZoneBuilder {
   void lay_shares();
   [[nodiscard]] bool guarded(IVec3 leaf) const { return guard_ != nullptr && guard_->distance_mm(map_.centre_mm(leaf)) < 0; }
 
-  const Octree& tree_;
+  const Octree& tree_;  // with all that stands beside the tooth
   const ZoneSpec& spec_;
   const Tooth& tooth_;
   ShapeMaker maker_;
-  std::unique_ptr<Shape> target_, guard_;  // no guard where nothing is protected
-  std::string where_;                      // of the target's first body
+  const Octree& own_;                               // the tooth alone: what has a zone, but for what is protected
+  std::unique_ptr<Shape> target_, guard_, beside_;  // no guard where nothing is protected, nothing beside a tooth that stands alone
+  std::string where_;                               // of the target's first body
   ZoneMap map_;
   std::vector<std::uint8_t> tissue_;  // of the leaves of the map's box
 };
@@ -123,7 +124,9 @@ ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth, std::opti
       spec_(scenario.zones),
       tooth_(tooth),
       maker_(tooth, scenario.path, std::move(landmarks)),
+      own_(maker_.own().octree),
       target_(maker_.make(spec_.target)),
+      beside_(maker_.beside()),
       where_(spec_.target.empty() ? scenario.path : place_text(scenario.path, spec_.target[0])) {}
 
 ZoneMap ZoneBuilder::build() {
@@ -142,7 +145,7 @@ ZoneMap ZoneBuilder::build() {
 
 /// The target's box with its margins, as far as the tooth goes.
 void ZoneBuilder::place_box() {
-  const TargetBox box = find_target(*target_, tooth_, where_, maker_.work());
+  const TargetBox box = find_target(*target_, maker_.own(), where_, maker_.work());
   map_.leaf_mm_ = tree_.leaf_mm();
   map_.origin_mm_ = tree_.origin_mm();
   map_.approach_ = approach_of(spec_, maker_);
@@ -163,7 +166,7 @@ void ZoneBuilder::count_work() {
   if (guard_ != nullptr) maker_.work().steps(cells + leaves_with_tissue(tree_), guard_->pieces());
 }
 
-/// The target at every leaf's centre, without what is protected.
+/// The target at every leaf's centre, without what is protected and what stands beside the tooth.
 ShapeField ZoneBuilder::shape_field() const {
   const std::size_t cells = cells_of(map_.size_);
   ShapeField shape{map_.size_, std::vector<float>(cells), std::vector<std::uint8_t>(cells)};
@@ -171,6 +174,7 @@ ShapeField ZoneBuilder::shape_field() const {
     const Vec3 centre = map_.centre_mm(map_.low_ + cell);
     double d = target_->distance_mm(centre);
     if (guard_ != nullptr) d = std::max(d, -guard_->distance_mm(centre));
+    if (beside_ != nullptr) d = std::max(d, -beside_->distance_mm(centre));
     shape.level_mm[i] = static_cast<float>(d);
     shape.inside[i] = d < 0 ? 1 : 0;
   });
@@ -195,7 +199,7 @@ void ZoneBuilder::lay_distances(const ShapeField& shape) {
 void ZoneBuilder::lay_tissues() {
   tissue_.assign(cells_of(map_.size_), k_air);
   const IVec3 low = map_.low_, high = map_.low_ + map_.size_;
-  tree_.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+  own_.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     const IVec3 a{std::max(at.x, low.x), std::max(at.y, low.y), std::max(at.z, low.z)};
     const IVec3 b{std::min(at.x + edge, high.x), std::min(at.y + edge, high.y), std::min(at.z + edge, high.z)};
     for (int z = a.z; z < b.z; ++z)
@@ -208,15 +212,16 @@ void ZoneBuilder::lay_tissues() {
 void ZoneBuilder::lay_zones(const ShapeField& shape) {
   map_.zone_.assign(tissue_.size(), 0);
   for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
-    if (tissue_[i] == k_air) return;
     const IVec3 at = map_.low_ + cell;
+    // of what stands beside the tooth only that has a zone which is protected
+    if (tissue_[i] == k_air && (beside_ == nullptr || guard_ == nullptr || tree_.tissue(at) == k_air || !guarded(at))) return;
     Zone zone = Zone::target;
     if (shape.inside[i] == 0)
       zone =
           guarded(at) ? Zone::protected_ : zone_at(static_cast<double>(map_.distance_mm_[i]), static_cast<Wall>(map_.wall_[i]) == Wall::floor, spec_);
     map_.zone_[i] = static_cast<std::uint8_t>(zone);
     ++map_.counts_[static_cast<std::size_t>(zone)];
-    if (zone == Zone::protected_ && target_->distance_mm(map_.centre_mm(at)) < 0) ++map_.guarded_in_target_;
+    if (zone == Zone::protected_ && tissue_[i] != k_air && target_->distance_mm(map_.centre_mm(at)) < 0) ++map_.guarded_in_target_;
   });
 }
 
@@ -243,7 +248,7 @@ void ZoneBuilder::measure_target(const ShapeField& shape) {
       return (place > 0 && shape.inside[i - stride] == 0) || (place + 1 < count && shape.inside[i + stride] == 0);
     };
     if (ends_along(cell.x, size.x, 1) || ends_along(cell.y, size.y, row) || ends_along(cell.z, size.z, layer)) ++map_.target_border_;
-    for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || tree_.tissue(at + step) == k_air;
+    for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || own_.tissue(at + step) == k_air;
     const auto surface = map_.facing_.lateral() ? surface_beside(at) : surface_above(at, i);
     if (!surface) return;
     opening_sum += *surface;

@@ -11,6 +11,7 @@
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/tooth/beside.h"
 #include "engine/tooth/distance_transform.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/column.h"
@@ -86,14 +87,14 @@ class Prism final : public Shape {
   std::unique_ptr<Outline> outline_;
 };
 
-/// Leaves of a tissue, grown: a dense distance around them.
+/// Leaves of a tissue or of several, grown: a dense distance around them.
 class TissueBody final : public Shape {
  public:
-  TissueBody(const Tooth& tooth, std::uint8_t id, double lowest_mm, double offset_mm, ZoneWork& work) : offset_mm_(offset_mm) {
+  TissueBody(const Tooth& tooth, const TissueSet& tissues, double lowest_mm, double offset_mm, ZoneWork& work) : offset_mm_(offset_mm) {
     const Octree& tree = tooth.octree;
     leaf_mm_ = tree.leaf_mm();
     IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
-    const auto counts = [&](IVec3 at, int edge, std::uint8_t t) { return t == id && tree.origin_mm().z + (at.z + edge) * leaf_mm_ > lowest_mm; };
+    const auto counts = [&](IVec3 at, int edge, std::uint8_t t) { return tissues[t] && tree.origin_mm().z + (at.z + edge) * leaf_mm_ > lowest_mm; };
     tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
       if (!counts(at, edge, t)) return;
       low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
@@ -150,6 +151,12 @@ class TissueBody final : public Shape {
   Vec3 origin_;
   std::vector<float> value_;
 };
+
+TissueSet only(std::uint8_t tissue) {
+  TissueSet set{};
+  set[tissue] = true;
+  return set;
+}
 
 class Combined final : public Shape {
  public:
@@ -258,6 +265,7 @@ ShapeFrame shape_frame(const ShapeSpec& s) {
 std::string place_text(const std::string& file, const ShapeSpec& spec) { return fmt::format("{}:{}:{}", file, spec.line, spec.column); }
 
 struct ShapeMaker::Cache {
+  std::optional<Tooth> own;  // where something stands beside the tooth
   std::optional<ColumnMap> surface;
   std::optional<Landmarks> landmarks;
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
@@ -270,18 +278,32 @@ ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where, std::optional<Land
 }
 ShapeMaker::~ShapeMaker() = default;
 
+const Tooth& ShapeMaker::own() {
+  if (!has_beside(tooth_)) return tooth_;
+  if (!cache_->own) cache_->own = own_tooth(tooth_);
+  return *cache_->own;
+}
+
+std::unique_ptr<Shape> ShapeMaker::beside() {
+  const TissueSet tissues = tissues_beside(tooth_);
+  const auto counts = tooth_.octree.count_leaves();
+  for (std::size_t t = 0; t < tissues.size(); ++t)
+    if (tissues[t] && counts[t] > 0) return std::make_unique<TissueBody>(tooth_, tissues, -1e9, 0.0, work_);
+  return nullptr;
+}
+
 const ColumnMap& ShapeMaker::surface() {
-  if (!cache_->surface) cache_->surface = surface_relief(tooth_);
+  if (!cache_->surface) cache_->surface = surface_relief(own());
   return *cache_->surface;
 }
 
 const Landmarks& ShapeMaker::landmarks() {
-  if (!cache_->landmarks) cache_->landmarks = find_landmarks(tooth_);
+  if (!cache_->landmarks) cache_->landmarks = find_landmarks(own());
   return *cache_->landmarks;
 }
 
 Vec3 ShapeMaker::way_in(const ShapeSpec& spec) {
-  if (spec.leans) return lingual_way(tooth_, landmarks(), place_text(where_, spec)).z;
+  if (spec.leans) return lingual_way(own(), landmarks(), place_text(where_, spec)).z;
   if (spec.kind == ShapeSpec::Kind::side_cavity) return cache_->side_way.at({spec.line, spec.column});
   return spec.axis;
 }
@@ -314,7 +336,7 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
       return std::make_unique<Prism>(spec);
     case ShapeSpec::Kind::tissue: {
       const TissueRelief& part = relief(spec.tissue, spec.part, where);  // also tells whether the tissue is there at all
-      return std::make_unique<TissueBody>(tooth_, tooth_.tissue_id(spec.tissue), spec.part == TissuePart::chamber ? part.lowest_mm : -1e9,
+      return std::make_unique<TissueBody>(tooth_, only(tooth_.tissue_id(spec.tissue)), spec.part == TissuePart::chamber ? part.lowest_mm : -1e9,
                                           spec.offset_mm, work_);
     }
     case ShapeSpec::Kind::stl:
@@ -324,11 +346,11 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
     case ShapeSpec::Kind::canal_cone:
       return canal_cones(tooth_, spec, relief(spec.tissue, TissuePart::chamber, where).middle_mm, where);
     case ShapeSpec::Kind::proximal_box:
-      return std::make_unique<Box>(place_proximal_box(spec, tooth_, landmarks(), where));
+      return std::make_unique<Box>(place_proximal_box(spec, own(), landmarks(), where));
     case ShapeSpec::Kind::side_cavity:
       return make_side_cavity(spec, where);
     case ShapeSpec::Kind::crown:
-      return crown_shell(tooth_, spec, landmarks(), surface(), where, work_);
+      return crown_shell(own(), spec, landmarks(), surface(), where, work_);
     case ShapeSpec::Kind::column:
       break;
   }
@@ -336,13 +358,13 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
 }
 
 std::unique_ptr<Shape> ShapeMaker::make_side_cavity(const ShapeSpec& spec, const std::string& where) {
-  PlacedSideCavity placed = side_cavity(tooth_, spec, landmarks(), where, work_);
+  PlacedSideCavity placed = side_cavity(own(), spec, landmarks(), where, work_);
   cache_->side_way[{spec.line, spec.column}] = placed.way;
   return std::move(placed.body);
 }
 
 std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std::string& where) {
-  if (spec.leans) return leaning_column(tooth_, spec, lingual_way(tooth_, landmarks(), where), where, work_);
+  if (spec.leans) return leaning_column(own(), spec, lingual_way(own(), landmarks(), where), where, work_);
   const OutlineSpec o = spec.outline.kind == OutlineSpec::Kind::fissure ? place_fissure(spec.outline, landmarks(), where) : spec.outline;
   Vec3 centre = o.centre_mm;
   if (o.from_chamber) {

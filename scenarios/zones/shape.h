@@ -45,6 +45,11 @@ class ShapeMaker {
   ~ShapeMaker();
   /// The bodies of a list combined in their order. Throws Error when the tooth lacks what a body refers to, and beyond a limit of zone_work.h.
   [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);
+  /// The tooth without what stands beside it: columns, landmarks and boxes are laid by it, tissues by the whole.
+  [[nodiscard]] const Tooth& own();
+  /// All that stands beside it, as a body; null where nothing does.
+  [[nodiscard]] std::unique_ptr<Shape> beside();
+  /// Of the tooth alone.
   [[nodiscard]] const ColumnMap& surface();
   /// Where the tooth's cusps, fissures and ridges are; found when they are first asked for.
   [[nodiscard]] const Landmarks& landmarks();

@@ -14,9 +14,9 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr double k_pad_mm = 0.5;      // of the field around the outline
-constexpr double k_beside_mm = 0.02;  // out of the cavity: soft tissue that lies before it
-constexpr double k_most_lean = 0.55;  // tangent of 29 degrees
+constexpr double k_field_pad_mm = 0.5;  // of the field around the outline
+constexpr double k_before_mm = 0.02;    // out of the cavity: soft tissue that lies before it
+constexpr double k_most_lean = 0.55;    // tangent of 29 degrees
 constexpr double k_march_mm = 0.02, k_slope_mm = 0.1, k_grid_mm = 0.2;
 constexpr std::size_t k_fewest_of = 3;  // points of the neck on one side
 
@@ -82,7 +82,7 @@ class SideCavity final : public Shape {
     const Vec3 q = ground_.in_outline(p);
     const double below = depth_.depth_mm(p) - depth_of_it_mm_, behind = ground_.side * (ground_.middle.y - p.y);
     const double open = std::max(meet(outline_->distance_mm(q.x, q.y), below), behind);
-    return open < k_beside_mm && depth_.soft_outside(p) ? k_beside_mm : open;
+    return open < k_before_mm && depth_.soft_outside(p) ? k_before_mm : open;
   }
   std::uint64_t pieces() const noexcept override { return 2 + outline_->pieces(); }
 
@@ -139,7 +139,7 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
     highest = std::max(highest, ground.neck.height_mm(ground.middle.x + x));
   }
   const Octree& tree = tooth.octree;
-  const double pad = spec.depth_mm + k_pad_mm, out = spec.side > 0 ? tree.origin_mm().y + tree.size().y * tree.leaf_mm() : tree.origin_mm().y;
+  const double pad = spec.depth_mm + k_field_pad_mm, out = spec.side > 0 ? tree.origin_mm().y + tree.size().y * tree.leaf_mm() : tree.origin_mm().y;
   const Vec3 low{ground.middle.x + reach.low.x - pad, std::min(ground.middle.y, out), lowest + reach.low.y - pad},
       high{ground.middle.x + reach.high.x + pad, std::max(ground.middle.y, out), highest + reach.high.y + pad};
   DepthField depth(tooth, tree.leaf_at(low), tree.leaf_at(high) + IVec3{1, 1, 1}, work);

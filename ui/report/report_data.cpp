@@ -23,7 +23,7 @@ json cells(IVec3 v) { return {v.x, v.y, v.z}; }
 json site(const std::optional<Vec3>& p) { return p ? point(*p) : json(); }
 
 json grid_json(const ReportSource& s) {
-  const ToothGrid g = make_tooth_grid(s.input.before);
+  const ToothGrid g = make_tooth_grid(s.input.seen_before());
   const ChangedCells c = make_changed_cells(g, s.input);
   json grid = cells_json(g, c);
   grid["first"] = packed_array(c.first);
@@ -105,7 +105,7 @@ json report_data(const ReportSource& s) {
           {"title", report_title(s)},
           {"duration_s", static_cast<double>(s.input.records.size()) * k_tick_s},
           {"high_contrast", s.input.scenario.accommodations.high_contrast},
-          {"tissues", tissues_json(s.input.before, s.input.scenario.accommodations.high_contrast)},
+          {"tissues", tissues_json(s.input.seen_before(), s.input.scenario.accommodations.high_contrast)},
           {"grid", grid_json(s)},
           {"scale_mm", k_colours_end_mm},
           {"motion", motion_json(s)},

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
 
+#include "engine/tooth/beside.h"
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
 #include "ui/station/instrument_mesh.h"
@@ -168,6 +169,12 @@ std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
   table[k_dentin] = high_contrast ? glm::vec3(0.95F, 0.70F, 0.16F) : glm::vec3(0.86F, 0.70F, 0.43F);
   table[k_pulp] = high_contrast ? glm::vec3(0.62F, 0.02F, 0.14F) : glm::vec3(0.70F, 0.20F, 0.20F);
   table[k_periodontium] = glm::vec3(0.80F, 0.55F, 0.55F);
+  for (const Tissue& t : tissues_) {
+    if (t.id >= k_colours) continue;
+    // what stands beside the tooth is cooler and greyer than it, the gum pink
+    if (t.name == k_gum) table[t.id] = high_contrast ? glm::vec3(0.80F, 0.30F, 0.45F) : glm::vec3(0.84F, 0.48F, 0.50F);
+    if (is_of_neighbour(t.name)) table[t.id] = high_contrast ? glm::vec3(0.35F, 0.55F, 0.80F) : glm::vec3(0.62F, 0.70F, 0.78F);
+  }
   for (const Tissue& t : tissues_)
     if (t.name == "lesion" && t.id < k_colours) table[t.id] = high_contrast ? glm::vec3(0.45F, 0.25F, 0.05F) : glm::vec3(0.58F, 0.40F, 0.22F);
   return table;

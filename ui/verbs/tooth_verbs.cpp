@@ -453,6 +453,7 @@ void add_tooth_verbs(CLI::App& app, int& exit_code) {
   add_mesh(*tooth);
   add_landmarks(*tooth);
   add_lesion(*tooth);
+  add_neighbour(*tooth);
   tooth->callback([&exit_code] { exit_code = 0; });
 }
 

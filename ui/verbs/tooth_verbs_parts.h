@@ -17,5 +17,6 @@ namespace cavum::ui {
 void add_landmarks(CLI::App& tooth);
 /// `cavum tooth lesion`.
 void add_lesion(CLI::App& tooth);
+void add_neighbour(CLI::App& tooth);
 
 }  // namespace cavum::ui

@@ -11,6 +11,7 @@
 #include "engine/tooth/anatomy/placed.h"
 #include "engine/tooth/anatomy/pulp_marks.h"
 #include "engine/tooth/anatomy/tooth_class.h"
+#include "engine/tooth/beside.h"
 
 namespace cavum {
 namespace {
@@ -171,7 +172,7 @@ std::string_view name_of(ToothClass kind) noexcept {
 }
 
 Landmarks find_landmarks(const Tooth& tooth) {
-  Landmarks out = found_landmarks(tooth);
+  Landmarks out = has_beside(tooth) ? found_landmarks(own_tooth(tooth)) : found_landmarks(tooth);
   place_landmarks(tooth.placed_landmarks, out);
   return out;
 }

@@ -9,7 +9,7 @@
 namespace cavum::grading {
 namespace {
 
-constexpr double k_radius_mm = 4, k_neck_mm = -5, k_leaf_mm = 0.05;
+constexpr double k_side_radius_mm = 4, k_side_neck_mm = -5, k_side_leaf_mm = 0.05;
 
 /// A cavity 4 mm wide and 2 mm high, 1 mm above the neck, its axial wall at radius 2.8; cut with the axial wall at `radius_mm`, the mesial wall at x
 /// = `mesial_mm` and the gingival one at z = `gingival_mm`.
@@ -18,8 +18,8 @@ Result cut_from_side(double radius_mm, double mesial_mm, double gingival_mm, int
       testing::scenario_text(std::string("[[zones.target]]\nshape = \"side_cavity\"\nside = \"") + (side > 0 ? "buccal" : "lingual") +
                              "\"\ndepth_mm = 1.2\noutline = { kind = \"polygon\", points_mm = [[-2, 1], [2, 1], [2, 3], [-2, 3]] }\n"),
       "s.toml");
-  const Tooth tooth = testing::round_tooth(k_radius_mm, -6, k_leaf_mm);
-  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth, testing::round_landmarks(k_radius_mm, k_neck_mm));
+  const Tooth tooth = testing::round_tooth(k_side_radius_mm, -6, k_side_leaf_mm);
+  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth, testing::round_landmarks(k_side_radius_mm, k_side_neck_mm));
   Octree after = tooth.octree;
   after.reserve_edits(60000);
   std::vector<RemovedLeaf> leaves;
@@ -50,8 +50,8 @@ TEST(SideCavityMarks, ExactlyTheTargetIsExact) {
   EXPECT_NEAR(*r.shape.width_error_mm, 0, 0.06);
   // from the mean of the surface over the cavity (mean of sqrt(16 - x²) for |x| < 2) to the axial wall's deepest place, at its mesial and distal ends
   const double opening = 3.8264, deepest = std::sqrt(2.8 * 2.8 - 4);
-  EXPECT_NEAR(*r.shape.depth_mm, opening - deepest, 2 * k_leaf_mm);
-  EXPECT_NEAR(r.shape.target_depth_mm, opening - deepest, 2 * k_leaf_mm);
+  EXPECT_NEAR(*r.shape.depth_mm, opening - deepest, 2 * k_side_leaf_mm);
+  EXPECT_NEAR(r.shape.target_depth_mm, opening - deepest, 2 * k_side_leaf_mm);
 }
 
 TEST(SideCavityMarks, TooDeepAndTooWideAreFoundAtTheirWalls) {
@@ -66,7 +66,7 @@ TEST(SideCavityMarks, TooDeepAndTooWideAreFoundAtTheirWalls) {
     EXPECT_NEAR(*r.shape.length_mm, 4.2, 0.06) << side;
     EXPECT_NEAR(*r.shape.width_mm, 2.15, 0.06) << side;
     EXPECT_NEAR(*r.shape.length_error_mm, 0.2, 0.06) << side;
-    EXPECT_NEAR(*r.shape.depth_mm - r.shape.target_depth_mm, std::sqrt(2.8 * 2.8 - 4) - std::sqrt(2.5 * 2.5 - 2.2 * 2.2), 3 * k_leaf_mm) << side;
+    EXPECT_NEAR(*r.shape.depth_mm - r.shape.target_depth_mm, std::sqrt(2.8 * 2.8 - 4) - std::sqrt(2.5 * 2.5 - 2.2 * 2.2), 3 * k_side_leaf_mm) << side;
     EXPECT_GT(r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::leeway_bottom)].removed.mm3, 0.5) << side;
     EXPECT_EQ(wall_text(static_cast<std::size_t>(scenarios::Wall::lingual), r.shape.facing), "the gingival wall");
   }

@@ -44,7 +44,12 @@ TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
   Carved c(opening_pulp(k_chamber_target) + asked, chambered_block(0.1));
   c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
-  const Result r = c.graded();
+  Result r = c.graded();
+  r.beside.neighbours = r.beside.gum = true;
+  r.beside.nick_depth_mm = 0.3;
+  r.beside.nick_depth_bound_mm = 0.1;
+  r.beside.clearance_mm = 0.2;
+  r.beside.gum_touched_s = 1.5;
   const auto json = to_json(r);
   std::size_t places = 0, bounds = 0;
   const auto at = [&](const std::string& pointer) {

@@ -59,7 +59,7 @@ void expect_refused(const std::string& zones, const std::string& limit) {
 }
 
 TEST(ZoneWork, ATargetOfTheWholeToothIsRefused) {
-  expect_refused("[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 100\n", "6000000");
+  expect_refused("[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 100\n", "16000000");
 }
 
 TEST(ZoneWork, ManyTissuesGrownAreRefused) {

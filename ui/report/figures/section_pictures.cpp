@@ -109,7 +109,7 @@ std::array<std::string, 3> three_sections(const grading::Result& r, const gradin
   const double across = low.z + 0.35 * (high.z - low.z);
   const auto draw = [&](scenarios::View view, double at_mm, const char* name) {
     return scenarios::section_svg(
-        input.before, &input.after, input.zones,
+        input.seen_before(), &input.seen_after(), input.zones,
         {view, at_mm, k_scale_px_per_mm, fmt::format("{}{} mm", name, fixed(at_mm, 2)), input.scenario.accommodations.high_contrast});
   };
   return {draw(scenarios::View::mesio_distal, at.y, "mesial-distal, y = "), draw(scenarios::View::bucco_lingual, at.x, "buccal-lingual, x = "),
@@ -129,7 +129,7 @@ double svg_px(const std::string& svg, const std::string& key) {
 std::vector<SectionPicture> section_pictures(const grading::Result& r, const grading::GradeInput& input) {
   std::vector<SectionPicture> pictures;
   std::vector<std::pair<scenarios::View, int>> shown;  // by leaf
-  const Octree& tree = input.before.octree;
+  const Octree& tree = input.seen_before().octree;
   for (const Wish& w : wishes(r, input)) {
     if (pictures.size() == k_report_sections) break;
     const IVec3 leaf = tree.leaf_at(w.through_mm);
@@ -139,7 +139,7 @@ std::vector<SectionPicture> section_pictures(const grading::Result& r, const gra
     SectionPicture p{w.view, at_of(w.view, w.through_mm), "", ""};
     const std::string place = place_text(p.view, p.at_mm);
     p.title = fmt::format("{}: {}", place, w.why);
-    p.svg = scenarios::section_svg(input.before, &input.after, input.zones,
+    p.svg = scenarios::section_svg(input.seen_before(), &input.seen_after(), input.zones,
                                    {p.view, p.at_mm, k_scale_px_per_mm, place, input.scenario.accommodations.high_contrast});
     pictures.push_back(std::move(p));
   }

@@ -120,14 +120,14 @@ ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
 }
 
 ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& input) {
-  const Octree& tree = input.before.octree;
+  const Octree& tree = input.seen_before().octree;
   const auto cell_at = [&](Vec3 p) {
     const Vec3 c = (p - g.origin_mm) / g.cell_mm;
     return IVec3{static_cast<int>(std::lround(c.x)), static_cast<int>(std::lround(c.y)), static_cast<int>(std::lround(c.z))};
   };
   const Vec3 around{k_around_target_mm, k_around_target_mm, k_around_target_mm};
   IVec3 low = cell_at(input.zones.target_low_mm() - around), high = cell_at(input.zones.target_high_mm() + around) + IVec3{1, 1, 1};
-  for (const auto& r : input.removed) {
+  for (const auto& r : input.all_removed()) {
     const IVec3 c = g.cell_of(r.leaf.leaf());
     low = min_of(low, c);
     high = max_of(high, c + IVec3{1, 1, 1});
@@ -151,9 +151,9 @@ ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& i
         box.distance[i] = static_cast<std::int8_t>(std::lround(std::clamp(steps, -127.0, 127.0)));
       }
   const auto ticks = static_cast<double>(std::max<std::size_t>(1, input.records.size()));
-  const grading::RemovedMap map(input.removed, std::numeric_limits<std::int64_t>::max());
+  const grading::RemovedMap map(input.all_removed(), std::numeric_limits<std::int64_t>::max());
   grading::RemovedMap::Marks seen = map.marks();
-  for (const auto& r : input.removed) {
+  for (const auto& r : input.all_removed()) {
     const IVec3 leaf = r.leaf.leaf();
     if (!tree.is_solid(r.leaf.tissue) || tree.tissue(leaf) == k_air || !seen.first_time(leaf)) continue;  // listed twice: the first time counts
     const IVec3 c = g.cell_of(leaf) - box.low;

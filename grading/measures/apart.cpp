@@ -1,0 +1,25 @@
+#include "grading/measures/apart.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace cavum::grading {
+
+std::shared_ptr<const ToothApart> take_apart(const Tooth& tooth) {
+  if (!has_beside(tooth)) return nullptr;
+  auto apart = std::make_shared<ToothApart>();
+  apart->own = own_tooth(tooth);
+  apart->neighbours = neighbours_alone(tooth);
+  apart->beside = tissues_beside(tooth);
+  apart->of_neighbours = tissues_of_neighbours(tooth);
+  apart->of_gum = tissues_of_gum(tooth);
+  return apart;
+}
+
+WorkApart take_apart(const ToothApart& tooth, const Octree& after, std::span<const RemovedAt> removed) {
+  WorkApart work{octree_without(after, tooth.beside), {}};
+  std::copy_if(removed.begin(), removed.end(), std::back_inserter(work.removed), [&](const RemovedAt& r) { return !tooth.beside[r.leaf.tissue]; });
+  return work;
+}
+
+}  // namespace cavum::grading

@@ -1,0 +1,54 @@
+// Places on a surface in blocks of space: which is nearest is found without looking at those that cannot be.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+#include "engine/base/vec.h"
+
+namespace cavum::grading {
+
+class PlaceBlocks {
+ public:
+  /// `leaf` says in which block a place is put.
+  void add(IVec3 leaf, Vec3 place_mm) {
+    Block& b = blocks_[{leaf.x / k_edge, leaf.y / k_edge, leaf.z / k_edge}];
+    b.places.push_back(place_mm);
+    b.low = {std::min(b.low.x, place_mm.x), std::min(b.low.y, place_mm.y), std::min(b.low.z, place_mm.z)};
+    b.high = {std::max(b.high.x, place_mm.x), std::max(b.high.y, place_mm.y), std::max(b.high.z, place_mm.z)};
+  }
+  [[nodiscard]] bool empty() const noexcept { return blocks_.empty(); }
+  /// Puts the nearest place that is nearer than `nearest_mm` into both; false when none is. Of equals the first in an order that is the same
+  /// everywhere.
+  bool nearer(Vec3 from_mm, double& nearest_mm, Vec3& place_mm) const {
+    bool found = false;
+    for (const auto& [at, block] : blocks_) {
+      if (block.at_least_mm(from_mm) >= nearest_mm) continue;
+      for (const Vec3 p : block.places)
+        if (const double d = length(p - from_mm); d < nearest_mm) {
+          nearest_mm = d;
+          place_mm = p;
+          found = true;
+        }
+    }
+    return found;
+  }
+
+ private:
+  static constexpr int k_edge = 16;
+  static constexpr double k_far_mm = 1e9;
+  struct Block {
+    std::vector<Vec3> places;
+    Vec3 low{k_far_mm, k_far_mm, k_far_mm}, high{-k_far_mm, -k_far_mm, -k_far_mm};
+    /// No place in it is nearer.
+    [[nodiscard]] double at_least_mm(Vec3 p) const {
+      const auto outside = [](double v, double from, double to) { return std::max({from - v, v - to, 0.0}); };
+      return length({outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
+    }
+  };
+  std::map<std::array<int, 3>, Block> blocks_;
+};
+
+}  // namespace cavum::grading

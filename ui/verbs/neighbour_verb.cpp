@@ -1,0 +1,78 @@
+// `cavum tooth neighbour`: sets teeth beside a tooth, and gum around their necks.
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/tooth/make/set_beside.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/tooth_facts.h"
+#include "ui/verbs/tooth_verbs_parts.h"
+
+namespace cavum::ui {
+namespace {
+
+struct NeighbourArgs {
+  std::string file, mesial, distal, out;
+  BesideSpec spec;
+  bool json = false;
+};
+
+nlohmann::ordered_json facts_json(const std::optional<ContactFacts>& c) {
+  if (!c) return nullptr;
+  return {{"at_mm", {rounded(c->at_mm.x, 1e-3), rounded(c->at_mm.y, 1e-3), rounded(c->at_mm.z, 1e-3)}},
+          {"gap_mm", rounded(c->gap_mm, 1e-4)},
+          {"width_mm", rounded(c->width_mm, 0.01)},
+          {"height_mm", rounded(c->height_mm, 0.01)}};
+}
+
+void print_contact(const char* side, const std::optional<ContactFacts>& c) {
+  if (!c) return;
+  std::printf("  %-7s touches at [%.2f, %.2f, %.2f] mm, %.3f mm apart; nearer than %.2f mm over %.1f x %.1f mm\n", side, c->at_mm.x, c->at_mm.y,
+              c->at_mm.z, c->gap_mm, c->gap_mm + 0.05, c->width_mm, c->height_mm);
+}
+
+void run_neighbour(NeighbourArgs a) {
+  require_own_places({{"--out " + a.out, a.out}}, {{a.file, a.file}, {"--mesial", a.mesial}, {"--distal", a.distal}});
+  const Tooth tooth = load_tooth_file(a.file);
+  std::optional<Tooth> mesial, distal;
+  if (!a.mesial.empty()) a.spec.mesial.tooth = &mesial.emplace(load_tooth_file(a.mesial));
+  if (!a.distal.empty()) a.spec.distal.tooth = &distal.emplace(load_tooth_file(a.distal));
+  const SetBeside done = set_beside(tooth, a.spec, a.file);
+  save_tooth_file(done.tooth, a.out);
+  auto d = describe(done.tooth, std::filesystem::file_size(a.out));
+  if (a.json) {
+    d["out"] = a.out;
+    d["contact"] = {{"mesial", facts_json(done.mesial)}, {"distal", facts_json(done.distal)}};
+    print_json(d);
+    return;
+  }
+  print_tooth(d);
+  print_contact("mesial", done.mesial);
+  print_contact("distal", done.distal);
+  std::printf("  wrote   %s\n", a.out.c_str());
+}
+
+}  // namespace
+
+void add_neighbour(CLI::App& tooth) {
+  auto* verb = tooth.add_subcommand("neighbour", "Set teeth beside a tooth, and gum around their necks");
+  auto a = std::make_shared<NeighbourArgs>();
+  verb->add_option("TOOTH", a->file, "Tooth file (.cvt)")->required();
+  verb->add_option("--mesial", a->mesial, "Tooth file of the mesial neighbour");
+  verb->add_option("--distal", a->distal, "Tooth file of the distal neighbour");
+  verb->add_option("--contact-mm", a->spec.contact_mm, "Least distance at the contact, 0 to 1.5 leaves")->capture_default_str();
+  verb->add_option("--reach-mm", a->spec.reach_mm, "How far beyond the contact a neighbour is kept, 1 to 6")->capture_default_str();
+  verb->add_option("--mesial-turn-deg", a->spec.mesial.turn_deg, "Turns the mesial neighbour about z, from mesial towards buccal")
+      ->capture_default_str();
+  verb->add_option("--distal-turn-deg", a->spec.distal.turn_deg, "Turns the distal neighbour")->capture_default_str();
+  verb->add_flag("--gum", a->spec.gum, "Gum around the necks, with a papilla below each contact");
+  verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
+  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->callback([a] { run_neighbour(*a); });
+}
+
+}  // namespace cavum::ui
