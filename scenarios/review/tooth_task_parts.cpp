@@ -178,7 +178,7 @@ complete_when = "target_removed_percent >= 10"
 [[steps]]
 id = "extension"
 instruction = "Extend to the outline; the axial wall follows the surface. Release the pedal and lift off when done."
-complete_when = "target_removed_percent >= 86 && pedal < 0.05 && contact == 0"
+complete_when = "target_removed_percent >= 87 && pedal < 0.05 && contact == 0"
 )";
 }
 

@@ -11,19 +11,19 @@
 namespace cavum::grading {
 namespace {
 
-constexpr double k_radius_mm = 4;
+constexpr double k_round_radius_mm = 4;
 
 /// The task with everything that its works refer to.
 struct OnRoundTooth {
   scenarios::Scenario scenario;
-  Tooth tooth = testing::round_tooth(k_radius_mm, -8, 0.1);
+  Tooth tooth = testing::round_tooth(k_round_radius_mm, -8, 0.1);
   scenarios::ZoneMap zones;
   Task task;
   TargetField field;
   std::vector<WrongWork> works;
   explicit OnRoundTooth(const std::string& target)
       : scenario(scenarios::parse_scenario(testing::scenario_text(target), "s.toml")),
-        zones(scenarios::build_zones(scenario, tooth, testing::round_landmarks(k_radius_mm, -6))),
+        zones(scenarios::build_zones(scenario, tooth, testing::round_landmarks(k_round_radius_mm, -6))),
         task(make_task(scenario, tooth, zones)),
         field(tooth, zones),
         works(wrong_works(task, field)) {}
