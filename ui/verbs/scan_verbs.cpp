@@ -78,11 +78,11 @@ void run_scan_grade(const ScanArguments& o) {
   if (!o.rubric.empty()) scenarios::require_none(scenarios::not_in_this_exam(rubric, scenario, tooth));
   const grading::GradedScan g = grading::grade_scan(o.scan, unit_mm, scenario, rubric, tooth, scenarios::build_zones(scenario, tooth));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  Json json = grading::to_json(g.result);
-  json["scan"] = facts_json(g.facts, o, seconds);
-  if (!o.out.empty()) write_text_file(o.out, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
+  Json marked = grading::to_json(g.result);
+  marked["scan"] = facts_json(g.facts, o, seconds);
+  if (!o.out.empty()) write_text_file(o.out, marked.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
   if (!o.out_tooth.empty()) save_tooth_file(g.after, o.out_tooth);
-  if (o.json) return print_json(json);
+  if (o.json) return print_json(marked);
   std::cout << grading::to_text(g.result) << facts_text(g.facts, seconds);
 }
 

@@ -17,7 +17,7 @@ using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
 
-constexpr char k_target[] =
+constexpr char k_bands_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
@@ -35,15 +35,15 @@ scenarios::RubricSpec rubric(int most_marginal, const std::string& bands_of_wall
 }
 
 /// Cut to the floor, `mesial` and `distal` beyond the target's walls.
-Result cut(double mesial, double distal, const scenarios::RubricSpec& by, double depth = 2) {
-  Carved c(scenario_text(k_target), dentin_block(4, 4, 0.05));
+Result cut_beyond(double mesial, double distal, const scenarios::RubricSpec& by, double depth = 2) {
+  Carved c(scenario_text(k_bands_target), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.5 - distal, 1.5 + mesial, -1, 1, -depth), 0);
   return grade(c.input(), by);
 }
 std::string band(const Result& r, std::size_t criterion) { return r.bands.at(r.criteria.at(criterion).band.value()).name; }
 
 TEST(Bands, AValueLiesInTheFirstBandWhoseLimitItDoesNotPass) {
-  const Result r = cut(0.35, 0.0, rubric(1));
+  const Result r = cut_beyond(0.35, 0.0, rubric(1));
   EXPECT_EQ(band(r, 0), "marginal");
   EXPECT_EQ(band(r, 1), "acceptable");
   EXPECT_EQ(band(r, 2), "acceptable") << "more is better: 100 % does not pass 95 %";
@@ -56,31 +56,31 @@ TEST(Bands, AValueLiesInTheFirstBandWhoseLimitItDoesNotPass) {
 }
 
 TEST(Bands, OneMoreThanABandMayHoldFailsWhateverThePoints) {
-  EXPECT_EQ(cut(0.35, 0.0, rubric(1)).verdict, Verdict::pass);
-  const Result two = cut(0.35, 0.35, rubric(1));
+  EXPECT_EQ(cut_beyond(0.35, 0.0, rubric(1)).verdict, Verdict::pass);
+  const Result two = cut_beyond(0.35, 0.35, rubric(1));
   EXPECT_EQ(two.verdict, Verdict::fail);
   EXPECT_GT(two.points, 0.5 * two.max_points) << "by points alone it would pass";
   EXPECT_EQ(two.verdict_reasons.at(0), "2 marginal or worse, and at most 1 may be: mesial, distal");
-  EXPECT_EQ(cut(0.35, 0.35, rubric(2)).verdict, Verdict::pass);
-  const Result deficient = cut(0.7, 0.0, rubric(2));
+  EXPECT_EQ(cut_beyond(0.35, 0.35, rubric(2)).verdict, Verdict::pass);
+  const Result deficient = cut_beyond(0.7, 0.0, rubric(2));
   EXPECT_EQ(deficient.verdict, Verdict::fail);
   EXPECT_EQ(deficient.verdict_reasons.at(0), "1 critical, and at most 0 may be: mesial");
 }
 
 TEST(Bands, CareForLessThanHalfOfTheWorkLiesInTheWorst) {
-  const Result r = cut(0.0, 0.0, rubric(3), 0.6);
+  const Result r = cut_beyond(0.0, 0.0, rubric(3), 0.6);
   EXPECT_LT(r.criteria.at(0).work_share, 1);
   EXPECT_EQ(band(r, 0), "critical") << "a wall of 0.6 mm without a fault is no good wall";
   EXPECT_EQ(band(r, 2), "critical") << "30 % removed";
 }
 
 TEST(Bands, ALimitWithinTheFiguresBoundIsSaid) {
-  const Result r = cut(0.21, 0.0, rubric(1));
+  const Result r = cut_beyond(0.21, 0.0, rubric(1));
   EXPECT_NE(r.criteria[0].reason.find("the limit of 0.20 mm lies within the bound of the figure"), std::string::npos) << r.criteria[0].reason;
 }
 
 TEST(Bands, ARubricWithoutThemSaysNothingOfThem) {
-  Carved c(scenario_text(k_target), dentin_block(4, 4, 0.05));
+  Carved c(scenario_text(k_bands_target), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);
   const auto j = to_json(c.graded());
   EXPECT_FALSE(j["score"].contains("bands"));
