@@ -40,7 +40,8 @@ struct View {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> folds;  ///< rows [begin, end) that are left out together; products.folds follows them
 };
 
-/// At most 12 folds: sessions, neighbouring ones together when there are more; five stretches when there is one session, too short to be cut in stretches (stretches.h).
+/// At most 12 folds: sessions, neighbouring ones together when there are more; five stretches when there is one session, too short to be cut in
+/// stretches (stretches.h).
 [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> folds_of(const Recording& recording);
 
 /// The base and `causes` fitted, nothing else. `motion` as estimate_motion gives it. `fixed_n`: forces of a loaded model, [rows]; nullptr = none.
