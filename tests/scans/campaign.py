@@ -16,13 +16,13 @@ import numpy as np
 
 import scanner
 
-# scenario, tooth to make (None: the scenario's), candidates, z of the neck
+# scenario, candidates, z of where a scan of the crown ends: below the cavity, for one that ends in it is refused
 WORK = [
-    ("class_1", None, ["expert", "novice"], -4.0),
-    ("class_2", None, ["expert"], -4.0),
-    ("molar_access", None, ["expert"], -4.0),
-    ("premolar_access", None, ["expert", "novice"], -4.5),
-    ("incisor_access", None, ["expert"], -5.5),
+    ("class_1", ["expert", "novice"], -4.0),
+    ("class_2", ["expert"], -4.0),
+    ("molar_access", ["expert"], -5.5),
+    ("premolar_access", ["expert", "novice"], -6.0),
+    ("incisor_access", ["expert"], -5.5),
 ]
 FIGURES = ("mean_mm", "p95_mm", "max_over_mm", "max_under_mm")
 VOLUMES = ("removed_mm3", "missed_mm3", "outside_mm3", "target_removed_percent", "dice")
@@ -50,7 +50,7 @@ class Cavum:
 def originals(cavum, folder, quick):
     """(name, scenario, surface, marks, neck) of each virtual preparation."""
     made = []
-    for scenario, _, candidates, neck in WORK[:1] if quick else WORK:
+    for scenario, candidates, neck in WORK[:1] if quick else WORK:
         for candidate in candidates[:1] if quick else candidates:
             base = os.path.join(folder, "%s.%s" % (scenario, candidate))
             if not os.path.exists(base + ".stl"):
