@@ -77,6 +77,7 @@ void TargetField::lay_floor() {
       ++columns;
     }
   opening_mm_ = columns > 0 ? sum / static_cast<double>(columns) : high_mm_.z;
+  mean_depth_mm_ = columns > 0 ? leaf_mm_ * static_cast<double>(leaves_.size()) / static_cast<double>(columns) : 0.0;
   // outwards ring by ring: a column without a floor takes the mean of those beside it that have one
   std::vector<std::uint8_t> known = in_;
   for (bool more = columns > 0; more;) {

@@ -39,6 +39,8 @@ class TargetField {
   [[nodiscard]] Vec3 high_mm() const noexcept { return high_mm_; }
   /// Mean height of the target's highest leaves, column by column: the level of the opening, local, mm.
   [[nodiscard]] double opening_mm() const noexcept { return opening_mm_; }
+  /// Mean height of the target over its own floor, column by column, mm.
+  [[nodiscard]] double mean_depth_mm() const noexcept { return mean_depth_mm_; }
   /// Where a tissue lies nearest below the target's floor: the floor there, and the tissue. None within 8 mm.
   struct Below {
     Vec3 floor, tissue;
@@ -60,7 +62,7 @@ class TargetField {
   double leaf_mm_;
   std::vector<TargetLeaf> leaves_;
   Vec3 low_mm_, high_mm_;
-  double opening_mm_ = 0.0;
+  double opening_mm_ = 0.0, mean_depth_mm_ = 0.0;
   Vec3 origin_;  // of the lattice's first cell
   int nx_ = 0, ny_ = 0, nz_ = 0;
   std::vector<float> open_;       // x fastest

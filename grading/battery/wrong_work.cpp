@@ -190,7 +190,14 @@ void Works::wrong_depth() {
   for (const double mm : {0.8, 1.5})
     add(fmt::format("too_deep_by_{}_mm", plain_number(mm)), fmt::format("the target, its floor {} mm too deep", plain_number(mm)), Mistake::too_deep,
         deeper(mm));
-  add("half_as_deep", "the target, half as deep", Mistake::not_deep, down_to(0.5 * (f_.opening_mm() + f_.low_mm().z)));
+  // in a curved side half the depth is no level: it follows the axial wall
+  if (task_.zones.facing().lateral())
+    add("half_as_deep", "the target, half as deep", Mistake::not_deep, [&f = f_, up = 0.5 * f_.mean_depth_mm()](Vec3 p) {
+      const Vec3 q = f.local(p);
+      return std::max(f.target_mm(p), f.floor_mm(q) + up - q.z);
+    });
+  else
+    add("half_as_deep", "the target, half as deep", Mistake::not_deep, down_to(0.5 * (f_.opening_mm() + f_.low_mm().z)));
 }
 
 void Works::too_wide() {

@@ -11,8 +11,9 @@ namespace {
 
 // Class V: the gingival third of the buccal surface, walls that follow neck and surface, half a millimetre into dentin, 1 to 1.25 mm at the gingival
 // wall and up to 1.5 to 1.75 mm at the occlusal one (operative dentistry lab notes, brainscape.com, "Lab 4: Class V"; the same from memory in
-// Sturdevant's Art and Science of Operative Dentistry). One depth is asked for here. Width and height are the house's own: between the line angles.
-constexpr double k_class_5_share = 0.45, k_class_5_narrowest_mm = 2.6, k_class_5_widest_mm = 4.5;
+// Sturdevant's Art and Science of Operative Dentistry). One depth is asked for here. Width and height are the house's own: so wide that one direction
+// of the handpiece reaches the curved axial wall up to its ends.
+constexpr double k_class_5_share = 0.38, k_class_5_narrowest_mm = 2.0, k_class_5_widest_mm = 4.5;
 constexpr double k_class_5_height_mm = 2.0, k_corner_mm = 0.55;
 
 // Dexterity: the house's own. As wide and long as the shapes of data/scenarios, a millimetre deep.
