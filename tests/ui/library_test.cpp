@@ -80,7 +80,10 @@ TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   EXPECT_DOUBLE_EQ(points, 100);
 }
 
-TEST_P(Library, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
+/// Two whole exams each.
+class TakenTask : public Library {};
+
+TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   const auto setup = prepared();
   const grading::Result expert = taken_by("expert", *setup);
   EXPECT_EQ(expert.verdict, grading::Verdict::pass) << text_of(expert);
@@ -114,6 +117,8 @@ TEST_P(Library, AnyPerforationThatIsAFaultIsCritical) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(tasks()), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Tasks, TakenTask, ::testing::ValuesIn(testing_basics::some_of(tasks(), 3, "TakenTask")),
+                         [](const auto& test) { return test.param; });
 
 /// Where nobody would look for a pulp.
 class BlockTask : public Library {};

@@ -11,8 +11,10 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/random.h"
 
 namespace cavum::testing_basics {
 
@@ -23,6 +25,15 @@ inline std::uint64_t drawn_seed(const char* test) {
   const std::uint64_t seed = fixed != nullptr ? std::strtoull(fixed, nullptr, 10) : static_cast<std::uint64_t>(device()) << 32 | device();
   std::printf("%s: CAVUM_TEST_SEED=%llu\n", test, static_cast<unsigned long long>(seed));
   return seed;
+}
+
+/// Of a list whose members each take long: `most` of them, drawn by the seed, in their order; all with CAVUM_DEEP.
+template <class Member>
+std::vector<Member> some_of(std::vector<Member> list, std::size_t most, const char* test) {
+  if (std::getenv("CAVUM_DEEP") != nullptr) return list;
+  Random random(drawn_seed(test));
+  while (list.size() > most) list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));
+  return list;
 }
 
 /// The text of the Error that `action` throws; empty when it throws none.
