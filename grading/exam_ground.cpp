@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
+#include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
 namespace {
@@ -14,6 +15,7 @@ std::string content_of(const SessionSetup& session) {
   ByteWriter all;
   all.put_bytes(sha256(session.scenario_toml));
   all.put_bytes(sha256(session.tooth));
+  all.put_bytes(sha256(session.landmarks_json));
   for (const auto& [name, bytes] : session.attachments) {
     all.put_string(name);
     all.put_bytes(sha256(bytes));
@@ -30,7 +32,7 @@ std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& sce
     try {
       auto made = std::make_shared<ExamGround>();
       made->tooth = load_tooth(session.tooth, where + ": tooth");
-      made->zones = scenarios::build_zones(scenario, made->tooth);
+      made->zones = scenarios::build_zones_of_exam(scenario, made->tooth, session.landmarks_json, where);
       made->apart = take_apart(made->tooth);
       kept.ground = std::move(made);
     } catch (...) {

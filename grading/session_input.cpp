@@ -8,6 +8,7 @@
 #include "scenarios/file/parse.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"
+#include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
 
@@ -56,6 +57,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   }
   s->sealed_result_json = reader.result_json();
   s->notes = setup.notes;
+  s->landmarks_json = setup.landmarks_json;
   s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(*s->before), setup.calibration,
               setup.points_toml, setup.notes};
   if (reader.number("physics_version", 0) == k_physics_version) s->again = std::move(setup);
@@ -70,7 +72,8 @@ void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool ano
   scenarios::require_tissues(scenario, *session.before);
   scenarios::require_same_surfaces(scenario, session.scenario);
   scenario.accommodations = scenarios::granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
-  session.zones = std::make_shared<const scenarios::ZoneMap>(scenarios::build_zones(scenario, *session.before));
+  session.zones = std::make_shared<const scenarios::ZoneMap>(
+      scenarios::build_zones_of_exam(scenario, *session.before, session.landmarks_json, session.facts.session_file));
   session.rubric = scenario.rubric;
   session.scenario = std::move(scenario);
 }

@@ -34,6 +34,7 @@ struct GradedSession {
   ReportFacts facts;
   std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
   std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
+  std::string landmarks_json;                              ///< that the exam's zones were laid by, where they follow any
   std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
   std::optional<SessionSetup> again;                       ///< none when it was recorded under other physics than this program's
   std::shared_ptr<const ToothApart> apart;                 ///< null: nothing stands beside the tooth

@@ -53,6 +53,7 @@ std::vector<Artifact> artifacts_of(const SessionSetup& setup) {
   }
   all.push_back(artifact("force_model.toml", setup.force_model_toml));
   all.push_back(artifact("servo.toml", setup.servo_toml));
+  if (!setup.landmarks_json.empty()) all.push_back(artifact("landmarks.json", setup.landmarks_json));
   for (const auto& [name, bytes] : setup.attachments) all.push_back(artifact("attachment/" + name, bytes));
   return all;
 }

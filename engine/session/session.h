@@ -40,6 +40,7 @@ struct SessionSetup {
   Bytes tooth;                                             ///< compact tooth file before the first tick
   std::array<std::int32_t, 3> first_tip_nm{};              ///< where the servo state starts, tooth frame
   std::vector<std::pair<std::string, std::string>> notes;  ///< further facts by key (operator's seed, room …)
+  std::string landmarks_json;                              ///< of the tooth, where the scenario's zones follow them; empty otherwise
   std::vector<std::pair<std::string, Bytes>> attachments;  ///< files that the scenario names, by name
 
   [[nodiscard]] Vec3 first_tip_mm() const noexcept { return {first_tip_nm[0] * 1e-6, first_tip_nm[1] * 1e-6, first_tip_nm[2] * 1e-6}; }

@@ -193,6 +193,7 @@ SessionSetup SessionReader::setup() const {
   s.rubric_toml = text("rubric.toml");
   s.force_model_toml = text("force_model.toml");
   s.servo_toml = text("servo.toml");
+  s.landmarks_json = text("landmarks.json");
   if (const Artifact* tooth = artifact("start_tooth.cvt")) s.tooth = tooth->bytes;
   s.first_tip_nm = {static_cast<std::int32_t>(number("first_tip_x_nm", 0)), static_cast<std::int32_t>(number("first_tip_y_nm", 0)),
                     static_cast<std::int32_t>(number("first_tip_z_nm", 0))};

@@ -14,6 +14,7 @@
 #include "grading/grade.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/file/surface_files.h"
+#include "scenarios/zones/placed.h"
 
 namespace cavum::cohort {
 
@@ -115,7 +116,7 @@ std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const 
   out->scenario = scenarios::parse_scenario(setup.scenario_toml, most->second.path + ": scenario", scenarios::Reading::recorded);
   scenarios::use_surfaces(out->scenario, setup.attachments);
   out->tooth = load_tooth(setup.tooth, most->second.path + ": tooth");
-  out->zones = scenarios::build_zones(out->scenario, out->tooth);
+  out->zones = scenarios::build_zones_of_exam(out->scenario, out->tooth, setup.landmarks_json, most->second.path);
   out->map = std::make_unique<ClassMap>(out->zones);
   for (const auto& cavity : most->second.cavities) out->map->add(cavity);
   for (const auto& [key, task] : tasks)

@@ -12,6 +12,7 @@
 #include "engine/base/text.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"
+#include "scenarios/zones/placed.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -29,7 +30,10 @@ void fill(ExamSetup& setup, const std::string& scenario_path, const std::string&
         parse_diamond_point(setup.session.points_toml[i], i < point_paths.size() ? point_paths[i] : "diamond point of the session"));
     setup.point_names.push_back(setup.points.back().name);
   }
-  setup.zones = build_zones(setup.scenario, setup.tooth);
+}
+
+void lay_zones(ExamSetup& setup, const std::string& where) {
+  setup.zones = build_zones_of_exam(setup.scenario, setup.tooth, setup.session.landmarks_json, where);
 }
 
 std::vector<fs::path> data_folders(const std::string& folder, const std::string& near_file) {
@@ -169,6 +173,8 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   if (options.continuous_n > 0) config.limits.continuous_n = std::min(config.limits.continuous_n, options.continuous_n);
   s.servo_toml = to_toml(config);
   fill(*setup, scenario_path, tooth_path, point_paths);
+  s.landmarks_json = landmarks_to_keep(setup->scenario, setup->tooth);
+  lay_zones(*setup, scenario_path);
   require_tissues(setup->scenario, setup->tooth);
   if (!options.rubric_file.empty()) require_none(not_in_this_exam(parse_rubric(s.rubric_toml, options.rubric_file), setup->scenario, setup->tooth));
   return setup;
@@ -178,6 +184,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
   auto setup = std::make_unique<ExamSetup>();
   setup->session = session;
   fill(*setup, "scenario of the session", "tooth of the session", {});
+  lay_zones(*setup, "session");
   return setup;
 }
 

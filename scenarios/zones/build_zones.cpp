@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/tooth/anatomy/landmarks_file.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/leaf_parts.h"
 #include "scenarios/zones/placed.h"
@@ -313,6 +314,15 @@ ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) { return ZoneB
 
 ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth, const Landmarks& landmarks) {
   return ZoneBuilder(scenario, tooth, landmarks).build();
+}
+
+std::string landmarks_to_keep(const Scenario& scenario, const Tooth& tooth) {
+  return follows_landmarks(scenario.zones) ? landmarks_text(find_landmarks(tooth)) : "";
+}
+
+ZoneMap build_zones_of_exam(const Scenario& scenario, const Tooth& tooth, const std::string& landmarks_json, const std::string& where) {
+  if (landmarks_json.empty()) return build_zones(scenario, tooth);
+  return build_zones(scenario, tooth, parse_landmarks(landmarks_json, where + ": landmarks.json"));
 }
 
 }  // namespace cavum::scenarios

@@ -1,5 +1,6 @@
-// The small texts that a session holds beside its motion: force model, servo settings and diamond point, by the first byte.
+// The small texts that a session holds beside its motion: force model, servo settings, diamond point and landmarks, by the first byte.
 #include "engine/servo/servo.h"
+#include "engine/tooth/anatomy/landmarks_file.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 
@@ -9,15 +10,18 @@ void fuzz_settings(Data data) {
   if (data.empty()) return;
   const std::string text = text_of(data.subspan(1));
   try {
-    switch (data[0] % 3) {
+    switch (data[0] % 4) {
       case 0:
         static_cast<void>(parse_force_model(text, "force_model.toml"));
         break;
       case 1:
         static_cast<void>(parse_servo_config(text, "servo.toml"));
         break;
-      default:
+      case 2:
         static_cast<void>(parse_diamond_point(text, "point.toml"));
+        break;
+      default:
+        static_cast<void>(parse_landmarks(text, "landmarks.json"));
     }
   } catch (const Error&) {
   }
@@ -25,10 +29,20 @@ void fuzz_settings(Data data) {
 
 std::vector<Bytes> settings_seeds() {
   const auto with = [](char kind, const std::string& text) { return bytes_of(kind + text); };
-  return {with(0, data_text("materials/paper.toml")),          with(0, data_text("materials/consistent.toml")),
-          with(0, data_text("materials/clinical.toml")),       with(1, to_toml(ServoConfig{})),
-          with(2, data_text("points/round-1.0.toml")),         with(2, data_text("points/flame-1.0.toml")),
-          with(2, data_text("points/cylinder-flat-1.0.toml")), with(2, data_text("points/endo-access-1.0.toml"))};
+  Landmarks some;
+  some.cusps = {{"buccal", {0.1, 2, 1}, 0.5}};
+  some.central_fissure_mm = some.neck_mm = {{1, 0, 0}, {-1, 1.0 / 3, 0}};
+  some.canal_mouths = {{{0, 0, -6}, 0.4}};
+  return {with(0, data_text("materials/paper.toml")),
+          with(0, data_text("materials/consistent.toml")),
+          with(0, data_text("materials/clinical.toml")),
+          with(1, to_toml(ServoConfig{})),
+          with(2, data_text("points/round-1.0.toml")),
+          with(2, data_text("points/flame-1.0.toml")),
+          with(2, data_text("points/cylinder-flat-1.0.toml")),
+          with(2, data_text("points/endo-access-1.0.toml")),
+          with(3, landmarks_text({})),
+          with(3, landmarks_text(some))};
 }
 
 }  // namespace cavum::fuzz

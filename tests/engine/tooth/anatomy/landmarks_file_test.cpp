@@ -1,0 +1,73 @@
+// Landmarks that an exam keeps: every bit comes back, and what is anything else is refused.
+#include "engine/tooth/anatomy/landmarks_file.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/tooth/make/make_premolar.h"
+#include "engine/tooth/make/tooth_shapes.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+/// With every kind of field, and doubles that have no short decimal.
+Landmarks kept_landmarks() {
+  PremolarShape shape;
+  shape.leaf_mm = 0.1;
+  Landmarks l = find_landmarks(make_premolar(shape));
+  l.fissure_branches_mm = {{{1.0 / 3, 0.1, -0.2}, {2e-17, -1e-300, 5}}, {}};
+  l.chamber_floor_mm = Vec3{0.1 + 0.2, -0.0, 999.999};
+  l.incisal_edge_mm.clear();
+  l.central_pit_mm.reset();
+  l.moved = {"mesial_pit"};
+  return l;
+}
+
+TEST(LandmarksFile, EveryBitComesBack) {
+  const Landmarks is = kept_landmarks();
+  const Landmarks l = parse_landmarks(landmarks_text(is), "here");
+  EXPECT_EQ(landmarks_text(l), landmarks_text(is));
+  EXPECT_EQ(l.tooth_class.kind, ToothClass::premolar);
+  EXPECT_EQ(l.central_fissure_mm, is.central_fissure_mm);
+  EXPECT_EQ(l.fissure_branches_mm, is.fissure_branches_mm);
+  EXPECT_EQ(l.neck_mm, is.neck_mm);
+  EXPECT_EQ(l.chamber_floor_mm, is.chamber_floor_mm);
+  EXPECT_EQ(l.mesial_ridge.lowest_mm, is.mesial_ridge.lowest_mm);
+  EXPECT_FALSE(l.central_pit_mm);
+  ASSERT_EQ(l.cusps.size(), is.cusps.size());
+  EXPECT_EQ(l.cusps[0].name, is.cusps[0].name);
+  EXPECT_EQ(l.cusps[0].tip_mm, is.cusps[0].tip_mm);
+  EXPECT_EQ(l.canal_mouths.at(0).radius_mm, is.canal_mouths.at(0).radius_mm);
+  EXPECT_EQ(l.long_axis.occlusal, is.long_axis.occlusal);
+  EXPECT_EQ(l.moved, is.moved);
+}
+
+TEST(LandmarksFile, WhatIsAnythingElseIsRefusedByItsKey) {
+  const auto good = nlohmann::json::parse(landmarks_text(kept_landmarks()));
+  const auto refused = [](const nlohmann::json& text) {
+    return testing_basics::error_of([&] { static_cast<void>(parse_landmarks(text.dump(), "kept")); });
+  };
+  EXPECT_EQ(refused(good), "");
+  for (const auto& [key, value] : good.items()) {
+    auto less = good;
+    less.erase(key);
+    EXPECT_NE(refused(less).find("'" + key + "' is missing"), std::string::npos) << key;
+    auto other = good;
+    other[key] = true;
+    EXPECT_NE(refused(other).find("'" + key + "' is no"), std::string::npos) << key;
+  }
+  auto far = good;
+  far["neck_mm"][0][2] = 1000.5;
+  EXPECT_NE(refused(far).find("'neck_mm'"), std::string::npos);
+  far["neck_mm"] = std::vector<std::vector<double>>(20'001, {0, 0, 0});
+  EXPECT_NE(refused(far).find("at most 20000"), std::string::npos) << refused(far);
+  auto cusp = good;
+  cusp["cusps"][0].erase("tip_mm");
+  EXPECT_NE(refused(cusp).find("'tip_mm' is missing"), std::string::npos);
+  for (const char* text : {"", "[]", "7", "{", "{\"neck_mm\":1e999}"}) EXPECT_THROW(static_cast<void>(parse_landmarks(text, "kept")), Error) << text;
+}
+
+}  // namespace
+}  // namespace cavum
