@@ -131,6 +131,14 @@ void put_notes(const ScanFacts& f, Result& r) {
 
 }  // namespace
 
+GradeInput GradedScan::input(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones) const {
+  GradeInput in{scenario, tooth, zones, after.octree, {}, {}, removed, {}};
+  in.not_shown = &not_shown;
+  in.surface_bound_mm = facts.surface_bound_mm;
+  in.surface_mean_bound_mm = facts.surface_mean_bound_mm;
+  return in;
+}
+
 GradedScan grade_scan(const std::string& path, double unit_mm, const scenarios::Scenario& scenario, const scenarios::RubricSpec& rubric,
                       const Tooth& tooth, const scenarios::ZoneMap& zones) {
   const Scan scan = read_scan(path, unit_mm);
@@ -157,16 +165,11 @@ GradedScan grade_scan(const std::string& path, double unit_mm, const scenarios::
   facts.unseen_mm3 = cut.unseen_mm3;
   facts.left_as_noise_mm3 = cut.left_as_noise_mm3;
 
-  std::vector<RemovedAt> removed;
-  removed.reserve(cut.removed.size());
-  for (const auto& leaf : cut.removed) removed.push_back({k_untimed_tick, leaf});
-  const NotShown not_shown = not_shown_by_scan(outer);
-  GradeInput input{scenario, tooth, zones, cut.after, {}, {}, removed, {}};
-  input.not_shown = &not_shown;
-  input.surface_bound_mm = facts.surface_bound_mm;
-  input.surface_mean_bound_mm = facts.surface_mean_bound_mm;
-  GradedScan graded{grade(input, rubric), std::move(facts), tooth};
+  GradedScan graded{{}, std::move(facts), tooth, {}, not_shown_by_scan(outer)};
   graded.after.octree = std::move(cut.after);
+  graded.removed.reserve(cut.removed.size());
+  for (const auto& leaf : cut.removed) graded.removed.push_back({k_untimed_tick, leaf});
+  graded.result = grade(graded.input(scenario, tooth, zones), rubric);
   put_notes(graded.facts, graded.result);
   graded.result.progress.finish = "scan";
   mark(graded.result, rubric);

@@ -7,6 +7,7 @@
 
 #include "engine/scan/register_scan.h"
 #include "engine/scan/scan_fit.h"
+#include "grading/measures/grade_input.h"
 #include "grading/result/mark.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
@@ -34,6 +35,10 @@ struct GradedScan {
   Result result;
   ScanFacts facts;
   Tooth after;
+  std::vector<RemovedAt> removed;  ///< leaves, at k_untimed_tick
+  NotShown not_shown;
+  /// What was marked. Refers to all three and to this.
+  [[nodiscard]] GradeInput input(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones) const;
 };
 
 /// `path`: STL, PLY, OBJ or OFF, open or closed, in units of `unit_mm` millimetres, in any pose. `tooth`: the unprepared one that `zones` were laid

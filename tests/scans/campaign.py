@@ -8,6 +8,7 @@ Makes sessions with the simulated candidates (kept in DIR), exports their teeth,
 import argparse
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -81,6 +82,18 @@ def percentiles(values):
     return "median %.4f  90 %% %.4f  99 %% %.4f  worst %.4f" % (np.median(a), np.percentile(a, 90), np.percentile(a, 99), a.max())
 
 
+def wrong_in_report(path, scanned):
+    """What a scan's report must say, and what it must not have: a time."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    data = json.loads(re.search(r'<script[^>]*id="cavum-data"[^>]*>(.*?)</script>', text, re.S).group(1))
+    wrong = ["%s: lacks '%s'" % (path, words) for words in ["The scan", "not judged", scanned["verdict"], "%.1f of %.1f points" % (
+        scanned["score"]["points"], scanned["score"]["max"])] if words not in text]
+    if data["kind"] != "scan" or "motion" in data or "duration_s" in data:
+        wrong.append("%s: its page holds a motion" % path)
+    return wrong
+
+
 def marks(cavum, folder, poses, seed, quick):
     random = np.random.default_rng(seed)
     work = originals(cavum, folder, quick)
@@ -93,12 +106,15 @@ def marks(cavum, folder, poses, seed, quick):
         kind = kinds[i // len(work) % len(kinds)]
         scanner.write_stl(path, *scanner.scan(corners, triangles, random, kind, neck_mm=neck))
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        done = cavum.run("scan", "grade", path, "--scenario", cavum.scenario(scenario), "--json")
+        report = ["--report", os.path.join(folder, "scan.html"), "--json"] if i == 0 else ["--json"]
+        done = cavum.run("scan", "grade", path, "--scenario", cavum.scenario(scenario), *report)
         used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         if done.returncode != 0:
             refused.append("%s, %s: %s" % (name, kind, done.stderr.strip()))
             continue
         scanned = json.loads(done.stdout)
+        if i == 0:
+            failed += wrong_in_report(report[1], scanned)
         walls, of_volume = compare(scanned, original)
         seconds.append(used)
         verdicts.append((original["verdict"], scanned["verdict"]))

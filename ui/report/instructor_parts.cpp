@@ -5,6 +5,7 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "engine/base/version.h"
 #include "scenarios/file/accommodations.h"
 #include "ui/report/report_document.h"
 
@@ -186,7 +187,38 @@ void add_device(Document& d, const ReportSource& s) {
   d.blocks.push_back(std::move(t));
 }
 
+/// How the scan lay upon the tooth, and how well it is known from it.
+void add_scan_facts(Document& d, const ReportScan& scan) {
+  const grading::ScanFacts& f = scan.facts;
+  d.blocks.push_back(Heading{"The scan"});
+  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "The scan"};
+  const auto row = [&](const char* what, const std::string& text) { t.rows.push_back({{{what}, {text}}}); };
+  const auto percent = [](double share) { return fixed(100 * share, 1) + " %"; };
+  row("file", fmt::format("{}, SHA-256 {}", scan.file, scan.file_sha256));
+  row("surface", fmt::format("{} triangles; {}", f.triangles, f.end_mm > 0 ? "open below" : "closed"));
+  row("laid upon the unprepared tooth", fmt::format("{} mm RMS over {} of its surface; {} of what should fit does", fixed(f.fit.rms_mm, 3),
+                                                    percent(f.fit.fits), percent(agreement(f.fit))));
+  row("crown seen", percent(f.fit.crown_seen));
+  row("the best other pose", fmt::format("fits {} of the scan, this one {}", percent(f.second_share), percent(f.pose.share)));
+  row("noise", fmt::format("{} mm", fixed(f.fit.noise_mm, 3)));
+  row("a place of the cut surface is known to",
+      fmt::format("{} mm, the surface as a whole to {} mm", fixed(f.surface_bound_mm, 3), fixed(f.surface_mean_bound_mm, 3)));
+  row("cavities", std::to_string(f.cavities));
+  row("not seen", fmt::format("{} mm³ of the tooth below the end of the scan", fixed(f.unseen_mm3, 2)));
+  d.blocks.push_back(std::move(t));
+}
+
 }  // namespace
+
+void add_scan_parts(Document& d, const ReportSource& s) {
+  add_volumes(d, s.result);
+  add_walls(d, s.result);
+  add_scan_facts(d, *s.scan);
+  d.footer.push_back(fmt::format("Scan {}, SHA-256 {}…: marked without its recording; time, way and force are not judged", s.scan->file,
+                                 s.scan->file_sha256.substr(0, 16)));
+  d.footer.push_back(fmt::format("Tooth {}, leaf {} mm. Definitions: docs/grading.md and docs/scans.md of Cavum {}.",
+                                 s.facts.tooth_hash.substr(0, 16), fixed(s.result.leaf_mm, 3), version()));
+}
 
 void add_instructor_parts(Document& d, const ReportSource& s) {
   add_volumes(d, s.result);

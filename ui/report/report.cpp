@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/hash.h"
 #include "ui/report/integrity.h"
 #include "ui/report/print/html_writer.h"
 #include "ui/report/print/pdf_writer.h"
@@ -31,6 +32,15 @@ void write_closing_report(const std::string& path, const std::string& session_pa
   const grading::GradeInput input = graded.input();
   ReportSource source = report_source(result, input, graded.facts, graded.rubric);
   source.integrity = read_integrity(session_path, false);
+  write_text_file(path, path.ends_with(".pdf") ? report_pdf(source) : report_html(source));
+}
+
+void write_scan_report(const std::string& path, const std::string& scan_path, const grading::GradedScan& graded, const grading::GradeInput& in,
+                       const scenarios::RubricSpec& rubric) {
+  grading::ReportFacts facts;
+  facts.tooth_hash = tooth_hash(in.before);
+  ReportSource source{.result = graded.result, .input = in, .facts = facts, .rubric = rubric};
+  source.scan = ReportScan{std::filesystem::path(scan_path).filename().string(), to_hex(sha256(read_file(scan_path))), graded.facts};
   write_text_file(path, path.ends_with(".pdf") ? report_pdf(source) : report_html(source));
 }
 

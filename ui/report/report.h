@@ -19,4 +19,8 @@ void require_report_place(const std::string& path, bool overwrite = false);
 void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,
                           const grading::GradedSession& graded);
 
+/// The report of a scan that was marked, as `path` ends: .pdf or else HTML. `in` is what was marked.
+void write_scan_report(const std::string& path, const std::string& scan_path, const grading::GradedScan& graded, const grading::GradeInput& in,
+                       const scenarios::RubricSpec& rubric);
+
 }  // namespace cavum::report

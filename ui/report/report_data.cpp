@@ -26,8 +26,10 @@ json grid_json(const ReportSource& s) {
   const ToothGrid g = make_tooth_grid(s.input.seen_before());
   const ChangedCells c = make_changed_cells(g, s.input);
   json grid = cells_json(g, c);
-  grid["first"] = packed_array(c.first);
-  grid["last"] = packed_array(c.last);
+  if (!s.scan) {
+    grid["first"] = packed_array(c.first);
+    grid["last"] = packed_array(c.last);
+  }
   return grid;
 }
 
@@ -88,6 +90,14 @@ json cells_json(const ToothGrid& g, const ChangedCells& c) {
 }
 
 json report_data(const ReportSource& s) {
+  json data = {{"schema", 1},
+               {"kind", s.scan ? "scan" : "session"},
+               {"title", report_title(s)},
+               {"high_contrast", s.input.scenario.accommodations.high_contrast},
+               {"tissues", tissues_json(s.input.seen_before(), s.input.scenario.accommodations.high_contrast)},
+               {"grid", grid_json(s)},
+               {"scale_mm", k_colours_end_mm}};
+  if (s.scan) return data;
   json events = json::array(), moments = json::array();
   for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", e.kind}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
   for (const auto& w : s.lost)
@@ -100,18 +110,12 @@ json report_data(const ReportSource& s) {
                          {"what", m.what},
                          {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
     }
-  return {{"schema", 1},
-          {"kind", "session"},
-          {"title", report_title(s)},
-          {"duration_s", static_cast<double>(s.input.records.size()) * k_tick_s},
-          {"high_contrast", s.input.scenario.accommodations.high_contrast},
-          {"tissues", tissues_json(s.input.seen_before(), s.input.scenario.accommodations.high_contrast)},
-          {"grid", grid_json(s)},
-          {"scale_mm", k_colours_end_mm},
-          {"motion", motion_json(s)},
-          {"instruments", instruments_json(s)},
-          {"events", std::move(events)},
-          {"moments", std::move(moments)}};
+  data["duration_s"] = static_cast<double>(s.input.records.size()) * k_tick_s;
+  data["motion"] = motion_json(s);
+  data["instruments"] = instruments_json(s);
+  data["events"] = std::move(events);
+  data["moments"] = std::move(moments);
+  return data;
 }
 
 }  // namespace cavum::report

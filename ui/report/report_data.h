@@ -11,7 +11,8 @@
 namespace cavum::report {
 
 /// {"schema":1,"kind":"session","title","duration_s","high_contrast","tissues","grid","scale_mm","motion","instruments","events","moments"}; arrays
-/// are packed (figures/packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack.
+/// are packed (figures/packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack. Of a scan ("kind":"scan") all that needs
+/// time is absent.
 [[nodiscard]] nlohmann::json report_data(const ReportSource& source);
 
 /// Of the page's data: the tissues by id, and the cells before and after, without the times.

@@ -88,9 +88,10 @@ void add_criteria(Document& d, const ReportSource& s) {
                                   ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit)
                                   : grading::value_text(measure, *c.value, c.bound, 2);
     const std::string points =
-        fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
+        !c.judged ? "not judged"
+                  : fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
     const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";
-    t.rows.push_back({{{c.title}, {value}, {limits}, {points}, {c.reason}}, c.max - c.points > 1e-9});
+    t.rows.push_back({{{c.title}, {value}, {limits}, {points}, {c.reason}}, c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
   for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
@@ -136,7 +137,8 @@ void add_pictures(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{"The tooth"});
   d.blocks.push_back(LiveFigure{"tooth-3d",
                                 "The tooth in three dimensions",
-                                "The tooth in three dimensions, and the motion through it, need a browser with scripts and WebGL.",
+                                s.scan ? "The tooth in three dimensions needs a browser with scripts and WebGL."
+                                       : "The tooth in three dimensions, and the motion through it, need a browser with scripts and WebGL.",
                                 {}});
   d.blocks.push_back(Pictures{{picture_from_above(s.input)}});
   d.blocks.push_back(Heading{"Sections: removed against target"});
@@ -221,7 +223,7 @@ void add_regrade(Document& d, const grading::Comparison& c) {
 }  // namespace
 
 TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
-  if (tick < 0) return {k_dash};
+  if (tick < 0 || tick == grading::k_untimed_tick) return {k_dash};
   const double t_s = static_cast<double>(tick) * k_tick_s;
   return {fixed(t_s, 3) + " s", Jump{t_s, site_mm}};
 }
@@ -247,8 +249,11 @@ Document report_document(const ReportSource& s) {
   Document d;
   d.title = report_title(s);
   const bool named = s.filing && s.filing->name && s.filing->released;
-  d.subtitle = fmt::format("{}{} · {} · {} · {}{}", named ? *s.filing->name + ", candidate " : "Candidate ", s.facts.candidate, s.facts.created,
-                           r.tooth_name, s.facts.device, s.reader == ReportReader::instructor ? " · instructor's report" : "");
+  if (s.scan)
+    d.subtitle = fmt::format("Scan of a prepared tooth · {} · {}", s.scan->file, r.tooth_name);
+  else
+    d.subtitle = fmt::format("{}{} · {} · {} · {}{}", named ? *s.filing->name + ", candidate " : "Candidate ", s.facts.candidate, s.facts.created,
+                             r.tooth_name, s.facts.device, s.reader == ReportReader::instructor ? " · instructor's report" : "");
   d.created = s.facts.created;
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
   add_filing_notes(d, s);
@@ -264,6 +269,10 @@ Document report_document(const ReportSource& s) {
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
   add_criteria(d, s);
   add_pictures(d, s);
+  if (s.scan) {
+    add_scan_parts(d, s);
+    return d;
+  }
   add_course(d, s);
   add_moments(d, s);
   if (s.reader == ReportReader::instructor) add_instructor_parts(d, s);

@@ -12,6 +12,9 @@ namespace cavum::report {
 /// The parts that an instructor sees besides: every figure with its bound, perforation, work, device, proof. Appended to `document`.
 void add_instructor_parts(Document& document, const ReportSource& source);
 
+/// Of a scan: volumes and walls, how the scan was laid upon the tooth, and the footer.
+void add_scan_parts(Document& document, const ReportSource& source);
+
 /// What the ledger knows that bears on the result: that a regrade gave it, and when and why; that the session was filed with findings, or is
 /// contested.
 void add_filing_notes(Document& document, const ReportSource& source);

@@ -9,6 +9,7 @@
 
 #include "grading/grade.h"
 #include "grading/result/compare.h"
+#include "grading/scan/grade_scan.h"
 #include "grading/session_input.h"
 #include "grading/words/why.h"
 
@@ -55,6 +56,12 @@ struct ReportFiling {
   std::vector<ReportAttempt> attempts;   ///< of this candidate at this exam, the oldest first
 };
 
+/// A scan of a prepared tooth, where that was marked and no recording.
+struct ReportScan {
+  std::string file, file_sha256;  ///< its name without folder
+  grading::ScanFacts facts;
+};
+
 /// Something that happened, in words.
 struct ReportEvent {
   double t_s = 0;
@@ -71,6 +78,7 @@ struct ReportSource {
   ReportReader reader = ReportReader::instructor;
   ReportIntegrity integrity = {};
   std::optional<ReportFiling> filing = {};
+  std::optional<ReportScan> scan = {};   ///< then there is no motion, and nothing of `integrity`
   scenarios::RubricSpec rubric = {};     ///< that the result was marked by
   std::vector<grading::Why> lost = {};   ///< of each criterion that lost points
   std::vector<ReportEvent> events = {};  ///< in order of time

@@ -18,6 +18,7 @@
 #include "scenarios/zones/zone_map.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/report/report.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {
@@ -26,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ScanArguments {
-  std::string scan, scenario, tooth, rubric, units = "mm", out, out_tooth;
+  std::string scan, scenario, tooth, rubric, units = "mm", out, out_tooth, report;
   bool json = false;
 };
 
@@ -67,8 +68,9 @@ std::string facts_text(const grading::ScanFacts& f, double seconds) {
 void run_scan_grade(const ScanArguments& o) {
   if (!o.out.empty() && std::filesystem::exists(o.out))
     throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
-  require_own_places({{"--out " + o.out, o.out}, {"--out-tooth " + o.out_tooth, o.out_tooth}},
+  require_own_places({{"--out " + o.out, o.out}, {"--out-tooth " + o.out_tooth, o.out_tooth}, {"--report " + o.report, o.report}},
                      {{"", o.scan}, {"", o.scenario}, {"", o.tooth}, {"", o.rubric}});
+  if (!o.report.empty()) report::require_report_place(o.report);
   const double unit_mm = mm_per_unit(o.units);
   const auto begun = std::chrono::steady_clock::now();
   const scenarios::Scenario scenario = scenarios::load_scenario(o.scenario);
@@ -76,14 +78,17 @@ void run_scan_grade(const ScanArguments& o) {
   scenarios::require_tissues(scenario, tooth);
   const scenarios::RubricSpec rubric = o.rubric.empty() ? scenario.rubric : scenarios::parse_rubric(read_text_file(o.rubric), o.rubric);
   if (!o.rubric.empty()) scenarios::require_none(scenarios::not_in_this_exam(rubric, scenario, tooth));
-  const grading::GradedScan g = grading::grade_scan(o.scan, unit_mm, scenario, rubric, tooth, scenarios::build_zones(scenario, tooth));
+  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth);
+  const grading::GradedScan g = grading::grade_scan(o.scan, unit_mm, scenario, rubric, tooth, zones);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   Json marked = grading::to_json(g.result);
   marked["scan"] = facts_json(g.facts, o, seconds);
   if (!o.out.empty()) write_text_file(o.out, marked.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
   if (!o.out_tooth.empty()) save_tooth_file(g.after, o.out_tooth);
+  if (!o.report.empty()) report::write_scan_report(o.report, o.scan, g, g.input(scenario, tooth, zones), rubric);
   if (o.json) return print_json(marked);
   std::cout << grading::to_text(g.result) << facts_text(g.facts, seconds);
+  if (!o.report.empty()) std::cout << "report: " << one_line(o.report) << '\n';
 }
 
 }  // namespace
@@ -101,6 +106,7 @@ void add_scan_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--units", o->units, "unit of the scan: mm, cm, m, um or in")->capture_default_str();
   v->add_option("--out", o->out, "write the JSON to this file too, which must not exist yet");
   v->add_option("--out-tooth", o->out_tooth, "write the tooth as the scan shows it (.cvt)");
+  v->add_option("--report", o->report, "write a report with the tooth in 3D, sections and every figure (.html or .pdf)");
   v->add_flag("--json", o->json, "one JSON object on standard output");
   v->callback([o, &exit_code] {
     run_scan_grade(*o);

@@ -71,7 +71,7 @@ export interface Moment {
 
 export interface ReportData {
   schema: number;
-  kind: "session" | "class";
+  kind: "session" | "scan" | "class";
   title: string;
   duration_s?: number;
   high_contrast?: boolean;
