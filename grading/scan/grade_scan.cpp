@@ -38,7 +38,7 @@ void require_size(const std::vector<SurfacePoint>& scan, double unit_mm, const O
   throw Error(
       path,
       fmt::format("is no scan of this tooth by its size: on average its surface lies {} mm from its middle, and the tooth's {} (crown alone {}) mm",
-                  plain_number(size), fixed(radius_of(tooth.points()), 1), fixed(radius_of(tooth.crown()), 1)),
+                  fmt::format("{:.2g}", size), fixed(radius_of(tooth.points()), 1), fixed(radius_of(tooth.crown()), 1)),
       hint);
 }
 
