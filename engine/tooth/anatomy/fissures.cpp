@@ -11,14 +11,13 @@ namespace {
 
 constexpr double k_pit_mm = 0.012;  // least depth of a pit below the lowest way out of it
 constexpr double k_deep_pit_mm = 0.05, k_elsewhere_mm = 0.6;
-constexpr double k_end_bend = 0.65;           // of the usual curvature: a fissure ends where it has less
-constexpr double k_pit_bend = 0.4;            // of the fissure's usual curvature: a pit has as much
-constexpr double k_pit_per_mm = 0.8;          // least curvature of a pit: a dip of a broad crest is none
-constexpr double k_central_mm = 0.03;         // of the central pit
-constexpr double k_fossa_mm = 0.3;            // of the central pit where no ridge tells the table's ends: the central fossa
-constexpr double k_end_share = 0.32;          // of the table's length: an end's pit lies in it
-constexpr double k_knee_from_crest_mm = 0.1;  // a valley that begins on the crest itself has no end to be told
-constexpr double k_from_crest_mm = 0.2;       // a pit nearer to the ridge's crest is a fault of the crest
+constexpr double k_end_bend = 0.65;      // of the usual curvature: a fissure ends where it has less
+constexpr double k_pit_bend = 0.4;       // of the fissure's usual curvature: a pit has as much
+constexpr double k_pit_per_mm = 0.8;     // least curvature of a pit: a dip of a broad crest is none
+constexpr double k_central_mm = 0.03;    // of the central pit
+constexpr double k_fossa_mm = 0.3;       // of the central pit where no ridge tells the table's ends: the central fossa
+constexpr double k_end_share = 0.32;     // of the table's length: an end's pit lies in it
+constexpr double k_from_crest_mm = 0.2;  // a pit or an end of a valley nearer to the crest is a fault of the crest
 constexpr double k_pits_apart_mm = 1.0;
 constexpr double k_least_branch_mm = 0.8;
 constexpr int k_passes = 4;
@@ -75,7 +74,7 @@ std::optional<int> knee(const Ground& g, const std::vector<int>& way, double usu
   const double valley = k_end_bend * usual;
   for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
     if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
-      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_knee_from_crest_mm ? std::optional(way[i]) : std::nullopt;
+      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_from_crest_mm ? std::optional(way[i]) : std::nullopt;
   return std::nullopt;
 }
 
@@ -108,7 +107,7 @@ int cell_of(const HeightMap& map, Vec3 p) { return map.cell_at(p.x, p.y); }
 
 void find_fissures(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks) {
   const HeightMap& map = maps.fissures;
-  const auto curvature = valley_curvature(map);
+  const auto curvature = curvatures(map).larger;
   Ground ground{map, table.inside, curvature, find_hollows(map, k_pit_mm)};
   std::erase_if(ground.hollows, [&](const Peak& h) { return table.inside[place(h.cell)] == 0; });
   for (const int c : table.edge) {
