@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <numeric>
 #include <queue>
 #include <utility>
 
 namespace cavum {
 namespace {
 
-constexpr int k_unknown = 0, k_outside = 1, k_first_hollow = 2;
+constexpr int k_unknown = 0, k_outside = 1, k_inside = 2;
 constexpr double k_least_table_mm2 = 2.0;
-constexpr double k_shallow_mm = 0.02;           // five times what 20 um of noise on a scan's corners leave in the smoothed heights
-constexpr double k_groove_mm = 1.5;             // shallow hollows so far apart in one groove are a fissure's two ends
-constexpr double k_groove_per_mm = 0.5;         // least curvature across a groove where it is highest ...
-constexpr double k_groove_crest_per_mm = -0.5;  // ... and least along it: a marginal ridge bends more
 /// Eight neighbours, counter-clockwise from +x.
 constexpr std::array<std::array<int, 2>, 8> k_ring{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
@@ -121,81 +115,21 @@ std::vector<int> trace(const HeightMap& map, const std::vector<std::uint8_t>& in
   return edge;
 }
 
-/// Where the catchments of two hollows meet: the lowest such place.
-struct Pass {
-  int a, b, cell;  ///< a < b
-};
-std::vector<Pass> passes_between(const HeightMap& map, const std::vector<int>& label) {
-  std::map<std::pair<int, int>, int> lowest;
-  for (int c = 0; c < map.count(); ++c)
-    for (const int n : {c + 1, c + map.nx}) {
-      if (n >= map.count() || (n == c + 1 && n % map.nx == 0)) continue;
-      const auto [a, b] = std::minmax(label[cell_place(c)], label[cell_place(n)]);
-      if (a == b || a < k_first_hollow) continue;
-      const int higher = map.at(c) > map.at(n) ? c : n;
-      const auto [at, is_new] = lowest.try_emplace({a, b}, higher);
-      if (!is_new && map.at(higher) < map.at(at->second)) at->second = higher;
-    }
-  std::vector<Pass> passes;
-  for (const auto& [pair, cell] : lowest) passes.push_back({pair.first, pair.second, cell});
-  return passes;
-}
-
-/// Whether water that rises in one hollow runs along a groove to the next, not over a ridge.
-bool in_a_groove(const Curvatures& bend, int cell) {
-  return bend.larger[cell_place(cell)] >= k_groove_per_mm && bend.smaller[cell_place(cell)] >= k_groove_crest_per_mm;
-}
-
-/// The hollows of each groove, as places in `hollows`.
-std::vector<std::vector<std::size_t>> grooves(const HeightMap& map, const std::vector<Peak>& hollows, const std::vector<int>& label) {
-  std::vector<std::size_t> first(hollows.size());
-  std::iota(first.begin(), first.end(), std::size_t{0});
-  const Curvatures bend = curvatures(map);
-  for (const Pass& p : passes_between(map, label)) {
-    if (!in_a_groove(bend, p.cell)) continue;
-    const std::size_t a = first[cell_place(p.a - k_first_hollow)], b = first[cell_place(p.b - k_first_hollow)];
-    for (auto& f : first)
-      if (f == std::max(a, b)) f = std::min(a, b);
-  }
-  std::vector<std::vector<std::size_t>> all(hollows.size());
-  for (std::size_t i = 0; i < first.size(); ++i) all[first[i]].push_back(i);
-  std::erase_if(all, [](const auto& g) { return g.empty(); });
-  return all;
-}
-
-/// One that is deep enough, or two so far apart that the groove between them is a fissure.
-bool makes_a_table(const HeightMap& map, const std::vector<Peak>& hollows, const std::vector<std::size_t>& groove, double least_depth_mm) {
-  return std::any_of(groove.begin(), groove.end(), [&](std::size_t a) {
-    return hollows[a].prominence_mm >= least_depth_mm || std::any_of(groove.begin(), groove.end(), [&](std::size_t b) {
-             return length(map.place(hollows[a].cell) - map.place(hollows[b].cell)) >= k_groove_mm;
-           });
-  });
-}
-
 }  // namespace
 
-std::optional<OcclusalTable> occlusal_table(const HeightMap& map, double least_depth_mm) {
-  const auto hollows = find_hollows(map, k_shallow_mm);
-  std::vector<int> outside(map.z.size(), k_unknown);
+std::optional<OcclusalTable> occlusal_table(const HeightMap& map, const std::vector<int>& lowest) {
+  if (lowest.empty()) return std::nullopt;
+  std::vector<int> label(map.z.size(), k_unknown);
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
       bool border = !map.is_on(x, y);
       for (const auto& [dx, dy] : k_ring) border = border || !map.is_on(x + dx, y + dy);
-      if (border) outside[cell_place(map.index(x, y))] = k_outside;
+      if (border) label[cell_place(map.index(x, y))] = k_outside;
     }
-  auto label = outside;
-  for (std::size_t i = 0; i < hollows.size(); ++i) label[cell_place(hollows[i].cell)] = k_first_hollow + static_cast<int>(i);
-  flood(map, label);
-  // a hollow that makes no table of its own drains where its water would run
-  const auto all = grooves(map, hollows, label);
-  label = outside;
-  for (const auto& groove : all)
-    if (makes_a_table(map, hollows, groove, least_depth_mm))
-      for (const auto i : groove) label[cell_place(hollows[i].cell)] = k_first_hollow;
-  if (std::find(label.begin(), label.end(), k_first_hollow) == label.end()) return std::nullopt;
+  for (const int c : lowest) label[cell_place(c)] = k_inside;
   flood(map, label);
   std::vector<std::uint8_t> in(label.size(), 0);
-  for (std::size_t i = 0; i < in.size(); ++i) in[i] = label[i] == k_first_hollow;
+  for (std::size_t i = 0; i < in.size(); ++i) in[i] = label[i] == k_inside;
   OcclusalTable table;
   table.inside = largest_piece(map, in);
   const auto cells = std::count(table.inside.begin(), table.inside.end(), std::uint8_t{1});
@@ -204,8 +138,8 @@ std::optional<OcclusalTable> occlusal_table(const HeightMap& map, double least_d
   return table;
 }
 
-std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t>& allowed, const std::vector<double>& curvature, int from,
-                            const std::vector<int>& to) {
+std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t>& allowed, const std::vector<double>& curvature,
+                            const std::vector<int>& from, const std::vector<int>& to) {
   constexpr double k_floor = 0.15, k_most = 3.0;  // 1/mm
   std::vector<double> cost(map.z.size(), -1.0);
   std::vector<int> before(map.z.size(), -1);
@@ -213,8 +147,10 @@ std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t
   for (const int c : to) goal[cell_place(c)] = 1;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  cost[cell_place(from)] = 0.0;
-  front.push({0.0, from});
+  for (const int c : from) {
+    cost[cell_place(c)] = 0.0;
+    front.push({0.0, c});
+  }
   int end = -1;
   while (!front.empty()) {
     const int c = front.top().second;
