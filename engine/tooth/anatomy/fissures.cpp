@@ -10,15 +10,15 @@ namespace cavum {
 namespace {
 
 constexpr double k_pit_mm = 0.012;  // least depth of a pit below the lowest way out of it
-constexpr double k_deep_pit_mm = 0.05, k_elsewhere_mm = 0.6;
-constexpr double k_end_bend = 0.65;           // of the usual curvature: a fissure ends where it has less
-constexpr double k_pit_bend = 0.4;            // of the fissure's usual curvature: a pit has as much
-constexpr double k_pit_per_mm = 0.8;          // least curvature of a pit: a dip of a broad crest is none
-constexpr double k_central_mm = 0.03;         // of the central pit
-constexpr double k_fossa_mm = 0.3;            // of the central pit where no ridge tells the table's ends: the central fossa
-constexpr double k_end_share = 0.32;          // of the table's length: an end's pit lies in it
-constexpr double k_knee_from_crest_mm = 0.1;  // a valley that begins on the crest itself has no end to be told
-constexpr double k_from_crest_mm = 0.2;       // a pit nearer to the ridge's crest is a fault of the crest
+constexpr double k_deep_pit_mm = 0.03;
+constexpr double k_end_bend = 0.65;            // of the usual curvature: a fissure ends where it has less
+constexpr double k_pit_bend = 0.4;             // of the fissure's usual curvature: a pit has as much
+constexpr double k_pit_per_mm = 0.8;           // least curvature of a pit: a dip of a broad crest is none
+constexpr double k_central_mm = 0.03;          // of the central pit
+constexpr double k_fossa_mm = 0.3;             // of the central pit where no ridge tells the table's ends: the central fossa
+constexpr double k_end_share = 0.32;           // of the table's length: an end's pit lies in it
+constexpr double k_from_crest_mm = 0.35;       // a pit or an end of a valley nearer to the crest is a fault of the crest
+constexpr double k_usual_from_crest_mm = 1.0;  // a pit
 constexpr double k_pits_apart_mm = 1.0;
 constexpr double k_least_branch_mm = 0.8;
 constexpr int k_passes = 4;
@@ -75,19 +75,18 @@ std::optional<int> knee(const Ground& g, const std::vector<int>& way, double usu
   const double valley = k_end_bend * usual;
   for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
     if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
-      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_knee_from_crest_mm ? std::optional(way[i]) : std::nullopt;
+      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_from_crest_mm ? std::optional(way[i]) : std::nullopt;
   return std::nullopt;
 }
 
-std::optional<int> end_pit(const Ground& g, Vec3 crest, Vec3 other_crest, int end) {
-  const auto way = valley_way(g.map, g.inside, g.curvature, g.map.cell_at(crest.x, crest.y), {g.map.cell_at(other_crest.x, other_crest.y)});
+/// `way` is the groove from this end's crest to the other's.
+std::optional<int> end_pit(const Ground& g, Vec3 crest, const std::vector<int>& way, int end) {
   if (way.size() < 12) return std::nullopt;
   const double usual = median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
   const auto bend = knee(g, way, usual, end);
   const auto hollow = end_hollow(g, crest, end, std::max(k_pit_per_mm, k_pit_bend * usual));
-  // a fissure of even depth has its lowest place anywhere: its end tells the pit better, but for a deep hollow that lies elsewhere
-  const bool elsewhere = bend && hollow && flat_distance(g.map.place(*bend), g.map.place(hollow->cell)) > k_elsewhere_mm;
-  if (hollow && (!bend || (elsewhere && hollow->prominence_mm >= k_deep_pit_mm))) return hollow->cell;
+  // what holds water is the pit; a fissure of even depth has its lowest place anywhere, and its end tells the pit better
+  if (hollow && (!bend || hollow->prominence_mm >= k_deep_pit_mm)) return hollow->cell;
   return bend;
 }
 
@@ -104,39 +103,55 @@ std::optional<Vec3> middle_hollow(const Ground& g, double least_mm, const std::v
 
 int cell_of(const HeightMap& map, Vec3 p) { return map.cell_at(p.x, p.y); }
 
+/// Where the fissure begins on the way from a crest inwards: at the pit's height along it, or where no pit is told, as far from the crest as pits
+/// lie.
+std::size_t fissure_begin(const HeightMap& map, const std::vector<int>& way, const std::optional<int>& pit) {
+  std::size_t at = 0;
+  if (pit) {
+    for (std::size_t i = 1; i < way.size(); ++i)
+      if (flat_distance(map.place(way[i]), map.place(*pit)) < flat_distance(map.place(way[at]), map.place(*pit))) at = i;
+  } else {
+    while (at + 1 < way.size() && flat_distance(map.place(way[at]), map.place(way[0])) < k_usual_from_crest_mm) ++at;
+  }
+  return at;
+}
+
 }  // namespace
 
-void find_fissures(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks) {
+void find_fissures(const CrownMaps& maps, const OcclusalTable& table, const std::optional<Groove>& groove, OcclusalMarks& marks) {
   const HeightMap& map = maps.fissures;
-  const auto curvature = valley_curvature(map);
+  const auto curvature = curvatures(map).larger;
   Ground ground{map, table.inside, curvature, find_hollows(map, k_pit_mm)};
   std::erase_if(ground.hollows, [&](const Peak& h) { return table.inside[place(h.cell)] == 0; });
   for (const int c : table.edge) {
     ground.low_x = std::min(ground.low_x, map.place(c).x);
     ground.high_x = std::max(ground.high_x, map.place(c).x);
   }
-  if (!marks.mesial.lowest_mm || !marks.distal.lowest_mm) {
-    marks.notes.emplace_back("no fissures: a marginal ridge is missing to run between");
+  if (!groove || !marks.mesial.lowest_mm || !marks.distal.lowest_mm) {
+    marks.notes.emplace_back("no ridges and fissures: no groove runs from end to end between a buccal and a lingual side");
     marks.central_pit = middle_hollow(ground, k_fossa_mm, {});
     return;
   }
-  const auto mesial = end_pit(ground, *marks.mesial.lowest_mm, *marks.distal.lowest_mm, 1);
-  const auto distal = end_pit(ground, *marks.distal.lowest_mm, *marks.mesial.lowest_mm, -1);
+  const auto place_of = [&](const GrooveEnd& end) { return groove->way.begin() + static_cast<std::ptrdiff_t>(end.place); };
+  const std::vector<int> inwards(place_of(groove->mesial), place_of(groove->distal) + 1), back(inwards.rbegin(), inwards.rend());
+  const auto mesial = end_pit(ground, *marks.mesial.lowest_mm, inwards, 1);
+  const auto distal = end_pit(ground, *marks.distal.lowest_mm, back, -1);
   if (mesial) marks.mesial_pit = map.place(*mesial);
   if (distal) marks.distal_pit = map.place(*distal);
   std::vector<Vec3> pits;
   for (const auto& pit : std::array{marks.mesial_pit, marks.distal_pit})
     if (pit) pits.push_back(*pit);
   marks.central_pit = middle_hollow(ground, k_central_mm, pits);
-  if (!mesial || !distal) {
-    marks.notes.push_back(fmt::format("no central fissure: its {} end cannot be told", mesial ? "distal" : "mesial"));
+  for (const auto& [pit, word] : {std::pair{mesial, "mesial"}, {distal, "distal"}})
+    if (!pit)
+      marks.notes.push_back(
+          fmt::format("no {} pit: the groove runs over the ridge; the fissure is drawn to {:.1f} mm from its crest", word, k_usual_from_crest_mm));
+  const std::size_t first = fissure_begin(map, inwards, mesial), last = inwards.size() - 1 - fissure_begin(map, back, distal);
+  if (first + 8 > last) {
+    marks.notes.emplace_back("no central fissure: its ends lie too near together");
     return;
   }
-  const auto fissure = valley_way(map, table.inside, curvature, *mesial, {*distal});
-  if (fissure.size() < 8 || median_bend(fissure, curvature, 0, fissure.size()) < k_fissure_per_mm) {
-    marks.notes.emplace_back("no central fissure: the valley between the pits is too flat");
-    return;
-  }
+  std::vector<int> fissure(inwards.begin() + static_cast<std::ptrdiff_t>(first), inwards.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   marks.central_fissure = thinned(line_of(map, fissure, false, k_passes), 2, false);
   // a branch runs out between two cusps of one side, over the lowest place of the edge between them
   for (std::size_t i = 0; i + 1 < marks.cusps.size(); ++i) {
@@ -151,7 +166,7 @@ void find_fissures(const CrownMaps& maps, const OcclusalTable& table, OcclusalMa
       for (const Vec3 end : {r.front(), r.back()})
         if (flat_distance(end, a) + flat_distance(end, b) < 1.35 * flat_distance(a, b) + 0.4 && (!notch || end.z < notch->z)) notch = end;
     if (!notch) continue;
-    auto branch = valley_way(map, table.inside, curvature, cell_of(map, *notch), fissure);
+    auto branch = valley_way(map, table.inside, curvature, {cell_of(map, *notch)}, fissure);
     if (branch.size() < 3) continue;
     std::reverse(branch.begin(), branch.end());
     const Polyline line = line_of(map, branch, false, k_passes);

@@ -176,8 +176,8 @@ Vec3 refined_peak(const HeightMap& map, int cell) {
   return p;
 }
 
-std::vector<double> valley_curvature(const HeightMap& map) {
-  std::vector<double> out(map.z.size(), 0.0);
+Curvatures curvatures(const HeightMap& map) {
+  Curvatures out{std::vector<double>(map.z.size(), 0.0), std::vector<double>(map.z.size(), 0.0)};
   constexpr double k_per = 1.0 / (HeightMap::k_cell_mm * HeightMap::k_cell_mm);
   for (int y = 1; y + 1 < map.ny; ++y)
     for (int x = 1; x + 1 < map.nx; ++x) {
@@ -188,8 +188,9 @@ std::vector<double> valley_curvature(const HeightMap& map) {
       const int c = map.index(x, y), n = map.nx;
       const double xx = (map.at(c + 1) - 2 * map.at(c) + map.at(c - 1)) * k_per, yy = (map.at(c + n) - 2 * map.at(c) + map.at(c - n)) * k_per;
       const double xy = 0.25 * (map.at(c + n + 1) - map.at(c + n - 1) - map.at(c - n + 1) + map.at(c - n - 1)) * k_per;
-      const double half = 0.5 * (xx - yy);
-      out[static_cast<std::size_t>(c)] = 0.5 * (xx + yy) + std::sqrt(half * half + xy * xy);
+      const double half = 0.5 * (xx - yy), apart = std::sqrt(half * half + xy * xy);
+      out.larger[static_cast<std::size_t>(c)] = 0.5 * (xx + yy) + apart;
+      out.smaller[static_cast<std::size_t>(c)] = 0.5 * (xx + yy) - apart;
     }
   return out;
 }

@@ -49,7 +49,10 @@ struct Peak {
 /// A peak's place between cells, by the parabola through its neighbours.
 [[nodiscard]] Vec3 refined_peak(const HeightMap& map, int cell);
 
-/// The larger curvature (1/mm; valleys are positive) at each cell, 0 where a neighbour is off.
-[[nodiscard]] std::vector<double> valley_curvature(const HeightMap& map);
+/// Principal curvatures of the heights (1/mm; valleys are positive) at each cell, 0 where a neighbour is off.
+struct Curvatures {
+  std::vector<double> larger, smaller;
+};
+[[nodiscard]] Curvatures curvatures(const HeightMap& map);
 
 }  // namespace cavum

@@ -82,10 +82,12 @@ Landmarks found_landmarks(const Tooth& tooth) {
   maps.fissures = maps.raw.smoothed(k_fissure_scale_mm);
   const CrownWalls walls = crown_walls(tooth, frame);
   const auto contour = contour_rows(walls, ids);
-  auto table = occlusal_table(maps.fissures, k_table_mm);
   const Vec3 low = frame.enamel_low, high = frame.enamel_high;
+  const double least_z = low.z + k_high_share * (high.z - low.z);
+  const auto groove = find_groove(maps.fissures, least_z, k_fissure_per_mm);
+  const auto table = occlusal_table(maps.fissures, lowest_of_table(maps, groove));
   OcclusalMarks marks;
-  marks.cusps = find_cusps(maps, table, low.z + k_high_share * (high.z - low.z), marks.notes);
+  marks.cusps = find_cusps(maps, table, least_z, marks.notes);
   const ClassSigns signs = class_signs(walls, contour, maps.fissures, marks.cusps.size(), table.has_value());
   out.tooth_class = guess_class(signs);
   out.long_axis.occlusal = frame.axes.row_z;
@@ -98,8 +100,8 @@ Landmarks found_landmarks(const Tooth& tooth) {
   }
   const bool front = out.tooth_class.kind == ToothClass::incisor || out.tooth_class.kind == ToothClass::canine;
   if (table && !front) {
-    find_ridges(maps, *table, marks);
-    find_fissures(maps, *table, marks);
+    find_ridges(maps, *table, groove, marks);
+    find_fissures(maps, *table, groove, marks);
     if (out.tooth_class.kind != ToothClass::molar) marks.central_pit.reset();
   } else if (!front) {
     marks.notes.emplace_back("no hollow between the cusps, so no occlusal table and no fissures");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/tooth/anatomy/groove.h"
 #include "engine/tooth/anatomy/height_map.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/anatomy/occlusal_table.h"
@@ -38,11 +39,14 @@ struct OcclusalMarks {
 [[nodiscard]] std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<OcclusalTable>& table, double least_z,
                                               std::vector<std::string>& notes);
 
-/// The table's edge and what lies on it: fills `table`, `cusp_ridges` and the marginal ridges from `marks.cusps`.
-void find_ridges(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks);
+/// Cells of a crown's table that are its lowest: along the groove, clear of the ridges; where there is none, hollows of k_table_mm and more.
+[[nodiscard]] std::vector<int> lowest_of_table(const CrownMaps& maps, const std::optional<Groove>& groove);
+
+/// The table's edge and what lies on it: fills `table`, `cusp_ridges` and, where a groove passes over them, the marginal ridges from `marks.cusps`.
+void find_ridges(const CrownMaps& maps, const OcclusalTable& table, const std::optional<Groove>& groove, OcclusalMarks& marks);
 
 /// Fissures and pits, once the ridges are known.
-void find_fissures(const CrownMaps& maps, const OcclusalTable& table, OcclusalMarks& marks);
+void find_fissures(const CrownMaps& maps, const OcclusalTable& table, const std::optional<Groove>& groove, OcclusalMarks& marks);
 
 /// From mesial to distal along the highest places of a front tooth's edge, down to 0.7 mm below its highest place.
 [[nodiscard]] Polyline find_incisal_edge(const CrownMaps& maps);

@@ -117,9 +117,8 @@ std::vector<int> trace(const HeightMap& map, const std::vector<std::uint8_t>& in
 
 }  // namespace
 
-std::optional<OcclusalTable> occlusal_table(const HeightMap& map, double least_depth_mm) {
-  const auto hollows = find_hollows(map, least_depth_mm);
-  if (hollows.empty()) return std::nullopt;
+std::optional<OcclusalTable> occlusal_table(const HeightMap& map, const std::vector<int>& lowest) {
+  if (lowest.empty()) return std::nullopt;
   std::vector<int> label(map.z.size(), k_unknown);
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
@@ -127,7 +126,7 @@ std::optional<OcclusalTable> occlusal_table(const HeightMap& map, double least_d
       for (const auto& [dx, dy] : k_ring) border = border || !map.is_on(x + dx, y + dy);
       if (border) label[cell_place(map.index(x, y))] = k_outside;
     }
-  for (const auto& h : hollows) label[cell_place(h.cell)] = k_inside;
+  for (const int c : lowest) label[cell_place(c)] = k_inside;
   flood(map, label);
   std::vector<std::uint8_t> in(label.size(), 0);
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = label[i] == k_inside;
@@ -139,8 +138,8 @@ std::optional<OcclusalTable> occlusal_table(const HeightMap& map, double least_d
   return table;
 }
 
-std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t>& allowed, const std::vector<double>& curvature, int from,
-                            const std::vector<int>& to) {
+std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t>& allowed, const std::vector<double>& curvature,
+                            const std::vector<int>& from, const std::vector<int>& to) {
   constexpr double k_floor = 0.15, k_most = 3.0;  // 1/mm
   std::vector<double> cost(map.z.size(), -1.0);
   std::vector<int> before(map.z.size(), -1);
@@ -148,8 +147,10 @@ std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t
   for (const int c : to) goal[cell_place(c)] = 1;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  cost[cell_place(from)] = 0.0;
-  front.push({0.0, from});
+  for (const int c : from) {
+    cost[cell_place(c)] = 0.0;
+    front.push({0.0, c});
+  }
   int end = -1;
   while (!front.empty()) {
     const int c = front.top().second;
