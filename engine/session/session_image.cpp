@@ -5,16 +5,14 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
 #include <optional>
 
 #include "engine/base/file.h"
+#include "engine/base/scratch_folder.h"
 #include "engine/session/sqlite.h"
 
 namespace cavum {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::int64_t k_largest_file = 2'000'000'000;
 constexpr char k_magic[] = "SQLite format 3";  // 16 bytes with its zero
@@ -32,25 +30,9 @@ std::optional<Bytes> read_beside(const std::string& path) {
   return read_file(path);
 }
 
-/// A folder of our own that goes away again.
-struct PrivateFolder {
-  fs::path path;
-  PrivateFolder() {
-    std::string name = (fs::temp_directory_path() / "cavum-read-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "set TMPDIR to a folder that is writable and has room");
-    path = name;
-  }
-  ~PrivateFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-};
-
 Bytes apply(const Bytes& file, const std::optional<Bytes>& log, const std::optional<Bytes>& journal) {
-  const PrivateFolder folder;
-  const std::string copy = (folder.path / "copy").string();
+  const ScratchFolder folder;
+  const std::string copy = folder.file("copy");
   write_file(copy, file);
   if (log) write_file(copy + "-wal", *log);
   if (journal) write_file(copy + "-journal", *journal);

@@ -170,11 +170,15 @@ ReachMap middle_of(ReachMap map, double percent) {
   return map;
 }
 
-double coverage(const FreeRoom& room, const ReachMap& map, const ContactTool& tool) {
+namespace {
+
+/// Calls `visit(column, voxel)` for each place of the columns that the coated head reaches from there, at this or any higher place of the tip; voxels
+/// are numbered as `room.target`.
+template <class Visit>
+void for_each_reached(const FreeRoom& room, const ReachMap& map, const ContactTool& tool, const Visit& visit) {
   const double low_z = map.bottom_mm, dz = room.step_mm;
   const auto columns = map.lowest_mm.size();
   const std::size_t slices = room.target.size() / columns;
-  std::vector<std::uint8_t> covered(columns * slices);
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
       const double tip = map.lowest_mm[map.index(x, y)];
@@ -182,16 +186,37 @@ double coverage(const FreeRoom& room, const ReachMap& map, const ContactTool& to
       for (std::size_t k = 0; k < slices; ++k) {
         const double above = low_z + (static_cast<double>(k) + 0.5) * dz - tip;
         if (above < 0) continue;
-        // what the coated head reaches there, at this or any higher place of the tip
         const double r = tool.point.profile.radius_mm(std::min(above, tool.point.cutting_length_mm)) / map.step_mm;
         const int n = static_cast<int>(r);
         for (int dy = -n; dy <= n; ++dy)
           for (int dx = -n; dx <= n; ++dx) {
             if (dx * dx + dy * dy > r * r || x + dx < 0 || y + dy < 0 || x + dx >= map.nx || y + dy >= map.ny) continue;
-            covered[k * columns + map.index(x + dx, y + dy)] = 1;
+            visit(map.index(x, y), k * columns + map.index(x + dx, y + dy));
           }
       }
     }
+}
+
+}  // namespace
+
+ReachMap without_skimming(const FreeRoom& room, ReachMap map, const ContactTool& tool) {
+  constexpr double k_skims_mm = 0.5;
+  std::vector<float> deepest(room.target.size(), static_cast<float>(ReachMap::k_unreachable));
+  for_each_reached(room, map, tool, [&](std::size_t column, std::size_t voxel) {
+    deepest[voxel] = std::min(deepest[voxel], static_cast<float>(map.lowest_mm[column]));
+  });
+  std::vector<std::uint8_t> needed(map.lowest_mm.size());
+  for_each_reached(room, map, tool, [&](std::size_t column, std::size_t voxel) {
+    if (room.target[voxel] != 0 && map.lowest_mm[column] < deepest[voxel] + k_skims_mm) needed[column] = 1;
+  });
+  for (std::size_t c = 0; c < needed.size(); ++c)
+    if (needed[c] == 0) map.lowest_mm[c] = ReachMap::k_unreachable;
+  return map;
+}
+
+double coverage(const FreeRoom& room, const ReachMap& map, const ContactTool& tool) {
+  std::vector<std::uint8_t> covered(room.target.size());
+  for_each_reached(room, map, tool, [&](std::size_t, std::size_t voxel) { covered[voxel] = 1; });
   double all = 0, reached = 0;
   for (std::size_t i = 0; i < covered.size(); ++i) {
     all += room.target[i];

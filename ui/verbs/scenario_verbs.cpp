@@ -1,11 +1,9 @@
 // `cavum scenario check | show | solve`: authoring help.
 #include <fmt/core.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/scratch_folder.h"
 #include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
 #include "grading/battery/battery_output.h"
@@ -121,26 +120,6 @@ int show(const ScenarioArguments& o) {
   std::cout << "drawn: " << o.out << "\n";
   return 0;
 }
-
-/// Where a session is kept that nobody asked to keep; gone at the end.
-class ScratchSession {
- public:
-  ScratchSession() {
-    std::string name = (std::filesystem::temp_directory_path() / "cavum-solve-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "set TMPDIR to a folder that is writable and has room");
-    folder_ = name;
-  }
-  ~ScratchSession() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  ScratchSession(const ScratchSession&) = delete;
-  ScratchSession& operator=(const ScratchSession&) = delete;
-  [[nodiscard]] std::string file(const std::string& who) const { return (folder_ / (who + ".cavum")).string(); }
-
- private:
-  std::filesystem::path folder_;
-};
 
 /// A simulated candidate takes the exam; the session is sealed with the result.
 grading::Result taken(const scenarios::ExamSetup& setup, scenarios::SimulatedCandidate& candidate, const std::string& session) {
@@ -282,11 +261,11 @@ int solve(const ScenarioArguments& o) {
   if (o.careless && setup->scenario.careless.fails_by.empty())
     throw Error(o.scenario, "the scenario says nothing of a careless candidate",
                 "add [careless] with the mistake it is to catch, or leave out --careless");
-  const ScratchSession scratch;
-  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file("expert") : o.out);
+  const ScratchFolder scratch;
+  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file("expert.cavum") : o.out);
   const bool passed = solved.result && solved.result->verdict == grading::Verdict::pass;
   std::optional<Caught> careless;
-  if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless"));
+  if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless.cavum"));
   std::optional<grading::Battery> battery;
   if (o.battery) battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   const bool wrong_passes =

@@ -1,6 +1,9 @@
 // A simulated class by the commands of the README: it sits, is filed, and its figures and pictures are those of its sessions.
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/ui/program.h"
 
@@ -57,6 +60,52 @@ TEST_F(CohortVerbs, AClassIsReportedInWordsFiguresAndPictures) {
   const auto beyond = run("cohort report " + path("L") + " --exam block_cavity --marks " + path("marks.csv") + " --borderline 5");
   EXPECT_EQ(beyond.exit_code, 2) << beyond.out;
   EXPECT_NE(beyond.err.find("--borderline 5: does not lie within the ratings"), std::string::npos) << beyond.err;
+}
+
+TEST_F(CohortVerbs, AFormThatGivesFewerPointsForTheSameWorkIsTooHard) {
+  const std::string task = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+  const auto changed = [&](const std::string& name, const std::string& what, const std::string& by) {
+    std::string text = read_text_file(task);
+    for (const auto& [from, to] : {std::pair{std::string("block_cavity\""), name + "\""}, std::pair{what, by}})
+      if (const auto at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
+    write_text_file(path(name + ".toml"), text);
+    return path(name + ".toml");
+  };
+  // all else equal: nobody leaves so little of the target
+  const std::string hard = changed("hard", "full = 90\nzero = 60", "full = 100\nzero = 99.9");
+  const std::string forms = task + " " + hard;
+  const auto told = run("cohort difficulty " + forms + " --candidates 10 --out " + path("marks.csv") + " --json");
+  ASSERT_EQ(told.exit_code, 1) << told.err << told.out;
+  const auto j = json::parse(told.out);
+  ASSERT_EQ(j["forms"].size(), 2u);
+  EXPECT_EQ(j["limit_percent"], 2) << "the borderline band of both";
+  EXPECT_EQ(j["forms"][1]["verdict"], "too hard");
+  EXPECT_EQ(j["forms"][0]["verdict"], "too easy");
+
+  std::istringstream rows(read_text_file(path("marks.csv")));
+  std::string line;
+  ASSERT_TRUE(std::getline(rows, line));
+  EXPECT_EQ(line, "student,seed,block_cavity,hard");
+  double own = 0, other = 0;
+  int n = 0;
+  for (; std::getline(rows, line); ++n) {
+    const auto last = line.rfind(','), before = line.rfind(',', last - 1);
+    own += std::stod(line.substr(before + 1)), other += std::stod(line.substr(last + 1));
+    EXPECT_EQ(line.rfind(fmt::format("student-{},", 5 + 10 * n), 0), 0u) << line;
+  }
+  EXPECT_EQ(n, 10);
+  EXPECT_NEAR(j["forms"][0]["mean_percent"].get<double>(), own / n, 1e-3);
+  EXPECT_NEAR(j["forms"][1]["constant_percent"].get<double>(), (own - other) / n / 2, 1e-3) << "half of what lies between two forms";
+
+  const auto one = run("cohort difficulty " + task);
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_NE(one.err.find("needs two forms at least"), std::string::npos) << one.err;
+  const auto twice = run("cohort difficulty " + task + " " + task + " --candidates 10");
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_NE(twice.err.find("is that of another form"), std::string::npos) << twice.err;
+  const auto marks = run("cohort difficulty " + task + " " + changed("other", "pass_percent = 60", "pass_percent = 61") + " --candidates 10");
+  EXPECT_EQ(marks.exit_code, 2);
+  EXPECT_NE(marks.err.find("forms of one exam have one pass mark"), std::string::npos) << marks.err;
 }
 
 }  // namespace

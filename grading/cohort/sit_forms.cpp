@@ -1,0 +1,98 @@
+#include "grading/cohort/sit_forms.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/base/random.h"
+#include "engine/base/scratch_folder.h"
+#include "grading/close_exam.h"
+#include "scenarios/candidates/simulated_exam.h"
+
+namespace cavum::cohort {
+namespace {
+
+grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint64_t seed, const std::string& session) {
+  auto hands = scenarios::make_simulated_candidate(form, fmt::format("student-{}", level), seed, OmniModel{});
+  grading::Result result;
+  {
+    const auto exam = scenarios::Exam::start(form, session, hands.start_mm());
+    scenarios::run_exam(*exam, hands);
+    result = grading::grade_and_close(*exam).result;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(session, ignored);
+  return result;
+}
+
+std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<std::string>& files, FormsSat& sat) {
+  std::vector<std::unique_ptr<scenarios::ExamSetup>> forms;
+  for (const auto& file : files) {
+    scenarios::ExamOptions options;
+    options.candidate = "simulated student";
+    options.device = "simulated Omni";
+    forms.push_back(scenarios::prepare_exam(file, options));
+    const scenarios::Scenario& s = forms.back()->scenario;
+    if (std::find(sat.ids.begin(), sat.ids.end(), s.id) != sat.ids.end())
+      throw Error(file, fmt::format("its id '{}' is that of another form", s.id), "name each form once");
+    const bool first = sat.ids.empty();
+    if (!first && s.rubric.pass_percent != sat.pass_percent)
+      throw Error(file, fmt::format("its pass mark is {} %, that of {} is {} %", s.rubric.pass_percent, sat.ids[0], sat.pass_percent),
+                  "forms of one exam have one pass mark");
+    sat.pass_percent = s.rubric.pass_percent;
+    sat.borderline_percent = first ? s.rubric.borderline_percent : std::min(sat.borderline_percent, s.rubric.borderline_percent);
+    sat.ids.push_back(s.id);
+  }
+  return forms;
+}
+
+}  // namespace
+
+FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& done) {
+  FormsSat sat;
+  const auto forms = prepared(wanted.scenarios, sat);
+  const auto n = static_cast<std::size_t>(wanted.candidates), k = forms.size();
+  Random random(wanted.seed);
+  for (std::size_t i = 0; i < n; ++i) {
+    sat.level.push_back(static_cast<int>((2 * i + 1) * 50 / n));
+    sat.seed.push_back(random.next() >> 1);
+  }
+  sat.percent.assign(n, std::vector<double>(k));
+  sat.passed.assign(k, 0);
+
+  const ScratchFolder scratch;
+  std::mutex one;  // of what follows, and of `sat`
+  std::atomic<std::size_t> next{0};
+  int ended = 0;
+  std::exception_ptr failed;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < n * k; i = next++) {
+      const std::size_t student = i / k, form = i % k;
+      try {
+        const auto r = result_of(*forms[form], sat.level[student], sat.seed[student], scratch.file(fmt::format("{}.cavum", i)));
+        const std::lock_guard lock(one);
+        sat.percent[student][form] = r.max_points > 0 ? 100.0 * r.points / r.max_points : 0.0;
+        sat.passed[form] += r.verdict == grading::Verdict::pass ? 1 : 0;
+        done(++ended);
+      } catch (...) {
+        const std::lock_guard lock(one);
+        if (!failed) failed = std::current_exception();
+        next = n * k;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < std::clamp(wanted.at_once, 1, 16); ++t) threads.emplace_back(work);
+  }
+  if (failed) std::rethrow_exception(failed);
+  return sat;
+}
+
+}  // namespace cavum::cohort
