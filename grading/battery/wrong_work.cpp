@@ -72,7 +72,10 @@ class Works {
   void holes();
   void roof();
   void beside();
-  /// Middle of the leaf of some tissues beside the tooth that is nearest to the target; none within `within_mm`.
+  /// Calls `visit(middle, distance to the target)` for the leaves of some tissues beside the tooth that are nearer to the target, mm.
+  template <class Visit>
+  void for_each_near(const TissueSet& tissues, double within_mm, const Visit& visit) const;
+  /// Middle of the one that is nearest; none within `within_mm`.
   [[nodiscard]] std::optional<Vec3> nearest_beside(const TissueSet& tissues, double within_mm) const;
 
   const Task& task_;
@@ -280,15 +283,21 @@ void Works::roof() {
   if (roof > -1e9) add("never_opened", "the target down to 0.2 mm above what it is to open", Mistake::roof_left, down_to(roof + 0.2));
 }
 
-std::optional<Vec3> Works::nearest_beside(const TissueSet& tissues, double within_mm) const {
+template <class Visit>
+void Works::for_each_near(const TissueSet& tissues, double within_mm, const Visit& visit) const {
   const scenarios::ZoneMap& zones = task_.zones;
+  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone) {
+    if (const double d = zones.distance_mm(leaf); d < within_mm && tissues[task_.tooth.octree.tissue(leaf)]) visit(zones.centre_mm(leaf), d);
+  });
+}
+
+std::optional<Vec3> Works::nearest_beside(const TissueSet& tissues, double within_mm) const {
   std::optional<Vec3> nearest;
   double best = within_mm;
-  zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone) {
-    if (const double d = zones.distance_mm(leaf); d < best && tissues[task_.tooth.octree.tissue(leaf)]) {
-      best = d;
-      nearest = zones.centre_mm(leaf);
-    }
+  for_each_near(tissues, within_mm, [&](Vec3 place, double d) {
+    if (d >= best) return;
+    best = d;
+    nearest = place;
   });
   return nearest;
 }
@@ -314,8 +323,11 @@ void Works::beside() {
           const double beyond = side * (p.x - at.x);
           return std::min(f.target_mm(p), std::max({length(p - at) - k_wide_mm, beyond - k_deep_mm, -beyond}));
         });
+    // what is nearest to the target may lie far above the contact: the teeth touch where the other one bulges most
+    double bulge = 1e9;
+    for_each_near(task_.apart->of_neighbours, k_near_mm, [&](Vec3 p, double) { bulge = std::min(bulge, side * p.x); });
     add("leaves_the_contact", fmt::format("the target, but for {} mm before the tooth beside it", plain_number(k_wall_mm)), Mistake::contact_left,
-        [&f = f_, at = *at, side](Vec3 p) { return std::max(f.target_mm(p), side * (p.x - at.x) + k_wall_mm); });
+        [&f = f_, bulge, side](Vec3 p) { return std::max(f.target_mm(p), side * p.x - bulge + k_wall_mm); });
   }
   if (const auto at = nearest_beside(task_.apart->of_gum, k_papilla_near_mm))
     add("cuts_the_papilla", fmt::format("the target, and the gum within {} mm of the papilla's tip", plain_number(k_papilla_mm)), Mistake::gum_cut,

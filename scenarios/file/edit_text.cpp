@@ -240,6 +240,26 @@ TextChange set_number(const std::string& text, const std::string& path, const st
   return proved(r, path, f.node != nullptr ? replaced(r, *f.node, place, value) : added(r, f, place, written_number(value)), place, {value});
 }
 
+TextChange set_text(const std::string& text, const std::string& path, const std::string& place, const std::string& value) {
+  std::string quoted = "\"";
+  for (const char letter : value) {
+    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f)
+      throw Error(path, fmt::format("'{}' was to be written with a control character", place), "use letters, digits and punctuation");
+    if (letter == '"' || letter == '\\') quoted += '\\';
+    quoted += letter;
+  }
+  quoted += '"';
+  const ReadToml r(text, path);
+  const toml::node& node = r.at(place);
+  if (!node.is_string()) r.fail(node, fmt::format("'{}' is no text", place));
+  if (node.value<std::string>() == value) return {};
+  const std::size_t begin = r.begin_of(node);
+  TextChange change{begin, text.substr(begin, r.end_of(node) - begin), quoted};
+  const std::string changed = with_change(text, change);
+  if (ReadToml(changed, path).at(place).value<std::string>() != value) r.fail(node, fmt::format("'{}' did not become {}", place, quoted));
+  return change;
+}
+
 TextChange set_point(const std::string& text, const std::string& path, const std::string& place, double x_mm, double y_mm) {
   require_number(path, x_mm);
   require_number(path, y_mm);

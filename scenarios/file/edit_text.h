@@ -1,4 +1,4 @@
-// Single numbers of a scenario's text put in place of others, with every other byte left as the author wrote it: comments, order, spacing, line ends.
+// Single values of a scenario's text put in place of others, with every other byte left as the author wrote it: comments, order, spacing, line ends.
 // An edit is a small change that can be taken back exactly; what it makes is read again before it is handed out, and holds what was wanted.
 #pragma once
 
@@ -26,7 +26,9 @@ struct TextChange {
 
 /// Puts a number where one stands, or adds the key at the end of its table, which must be there.
 [[nodiscard]] TextChange set_number(const std::string& text, const std::string& path, const std::string& place, double value);
-/// The same for the first two numbers of a list (x and y); a third stays as it is.
+/// Puts a text in quotes where one stands. Throws Error for one that TOML cannot hold in plain quotes: with a line's end or a control character.
+[[nodiscard]] TextChange set_text(const std::string& text, const std::string& path, const std::string& place, const std::string& value);
+/// The same as set_number for the first two numbers of a list (x and y); a third stays as it is.
 [[nodiscard]] TextChange set_point(const std::string& text, const std::string& path, const std::string& place, double x_mm, double y_mm);
 /// A new point of the list at `place`, before its point `index`, 0 up to as many as there are. The list must hold a point already.
 [[nodiscard]] TextChange insert_point(const std::string& text, const std::string& path, const std::string& place, std::size_t index, double x_mm,

@@ -58,18 +58,38 @@ std::vector<DiamondPoint> read_points(const Scenario& s, std::vector<Problem>& p
   return points;
 }
 
-}  // namespace
-
-bool CheckedScenario::sound() const {
-  return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
+/// Another tooth than the scenario's own. Throws Error when it cannot be read.
+Tooth other_tooth(const Scenario& s, const std::string& tooth_file, std::vector<Problem>& problems) {
+  Tooth tooth = load_tooth_file(tooth_file);
+  const auto name_of = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+  if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
+    problems.push_back(problem_at(s, "tooth",
+                                  fmt::format("the scenario was written for {}, and is checked on {}", name_of(s.tooth_file), name_of(tooth_file)),
+                                  "see where its zones lie: `cavum scenario show --tooth`"));
+    problems.back().warning = true;
+  }
+  return tooth;
 }
 
-void sort_problems(std::vector<Problem>& problems) {
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+/// The scenario's own; none, and a problem, when it cannot be read.
+std::optional<Tooth> own_tooth_of(const Scenario& s, std::vector<Problem>& problems) {
+  if (s.tooth_file.empty()) return std::nullopt;
+  try {
+    const std::string found = find_tooth_file(s);
+    try {
+      return load_tooth_file(found);
+    } catch (const Error& e) {
+      problems.push_back(problem_at(s, "tooth", fmt::format("the tooth cannot be read ({})", e.what()), "name another, or make it again"));
+    }
+  } catch (const Error& e) {
+    problems.push_back(problem_of(e, s, "tooth"));
+  }
+  return std::nullopt;
 }
 
-CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file) {
+/// `tooth_of(scenario, problems)` gives the tooth, if there is one.
+template <class ToothOf>
+CheckedScenario check_with(const std::string& text, const std::string& path, const ToothOf& tooth_of) {
   ReadScenario read = read_scenario(text, path);
   CheckedScenario checked{.problems = std::move(read.problems), .expert_s = {}};
   std::vector<Problem>& problems = checked.problems;
@@ -78,28 +98,7 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
   const Scenario& s = read.scenario;
   const bool names_sound = checked.sound();
   const auto points = names_sound || !s.points.empty() ? read_points(s, problems) : std::vector<DiamondPoint>();
-  std::optional<Tooth> tooth;
-  if (!tooth_file.empty()) {
-    tooth = load_tooth_file(tooth_file);
-    const auto name_of = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
-    if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
-      problems.push_back(problem_at(s, "tooth",
-                                    fmt::format("the scenario was written for {}, and is checked on {}", name_of(s.tooth_file), name_of(tooth_file)),
-                                    "see where its zones lie: `cavum scenario show --tooth`"));
-      problems.back().warning = true;
-    }
-  } else if (!s.tooth_file.empty()) {
-    try {
-      const std::string found = find_tooth_file(s);
-      try {
-        tooth = load_tooth_file(found);
-      } catch (const Error& e) {
-        problems.push_back(problem_at(s, "tooth", fmt::format("the tooth cannot be read ({})", e.what()), "name another, or make it again"));
-      }
-    } catch (const Error& e) {
-      problems.push_back(problem_of(e, s, "tooth"));
-    }
-  }
+  std::optional<Tooth> tooth = tooth_of(s, problems);
   if (tooth) {
     for (auto& p : missing_tissues(s, *tooth)) problems.push_back(std::move(p));
     if (checked.sound()) {
@@ -116,6 +115,27 @@ CheckedScenario check_whole(const std::string& text, const std::string& path, co
   problems.erase(std::unique(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a.text() == b.text(); }),
                  problems.end());
   return checked;
+}
+
+}  // namespace
+
+bool CheckedScenario::sound() const {
+  return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
+}
+
+void sort_problems(std::vector<Problem>& problems) {
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+}
+
+CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file) {
+  return check_with(text, path, [&](const Scenario& s, std::vector<Problem>& problems) -> std::optional<Tooth> {
+    return tooth_file.empty() ? own_tooth_of(s, problems) : other_tooth(s, tooth_file, problems);
+  });
+}
+
+CheckedScenario check_whole_on(const Tooth& tooth, const std::string& text, const std::string& path) {
+  return check_with(text, path, [&](const Scenario&, std::vector<Problem>&) { return std::optional<Tooth>(tooth); });
 }
 
 }  // namespace cavum::scenarios

@@ -30,6 +30,9 @@ struct CheckedScenario {
 /// Not whether wrong work passes: grading/battery tries that.
 [[nodiscard]] CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file = "");
 
+/// The same on the scenario's own tooth as it is in memory: with landmarks that its file does not have yet.
+[[nodiscard]] CheckedScenario check_whole_on(const Tooth& tooth, const std::string& text, const std::string& path);
+
 /// Into the order of the file; what stands at one place keeps its order.
 void sort_problems(std::vector<Problem>& problems);
 

@@ -127,7 +127,6 @@ ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth, std::opti
       maker_(tooth, scenario.path, std::move(landmarks)),
       own_(maker_.own().octree),
       target_(maker_.make(spec_.target)),
-      beside_(maker_.beside()),
       where_(spec_.target.empty() ? scenario.path : place_text(scenario.path, spec_.target[0])) {}
 
 ZoneMap ZoneBuilder::build() {
@@ -162,6 +161,7 @@ void ZoneBuilder::place_box() {
 void ZoneBuilder::count_work() {
   const std::size_t cells = cells_of(map_.size_);
   maker_.work().zone_leaves(cells);
+  beside_ = maker_.beside(map_.low_, map_.low_ + map_.size_);
   if (!spec_.protected_shapes.empty()) guard_ = maker_.make(spec_.protected_shapes);
   maker_.work().steps(cells, target_->pieces());
   if (guard_ != nullptr) maker_.work().steps(cells + leaves_with_tissue(tree_), guard_->pieces());

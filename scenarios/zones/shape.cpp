@@ -87,10 +87,17 @@ class Prism final : public Shape {
   std::unique_ptr<Outline> outline_;
 };
 
-/// Leaves of a tissue or of several, grown: a dense distance around them.
+/// From `low` on, `high` exclusive.
+struct LeafRange {
+  IVec3 low, high;
+};
+constexpr LeafRange k_all_leaves{{-100, -100, -100}, {1 << 20, 1 << 20, 1 << 20}};
+
+/// Leaves of a tissue or of several, grown: a dense distance around them. Within `asked` alone, where one need not know more.
 class TissueBody final : public Shape {
  public:
-  TissueBody(const Tooth& tooth, const TissueSet& tissues, double lowest_mm, double offset_mm, ZoneWork& work) : offset_mm_(offset_mm) {
+  TissueBody(const Tooth& tooth, const TissueSet& tissues, double lowest_mm, double offset_mm, ZoneWork& work, const LeafRange& asked = k_all_leaves)
+      : offset_mm_(offset_mm) {
     const Octree& tree = tooth.octree;
     leaf_mm_ = tree.leaf_mm();
     IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
@@ -105,7 +112,10 @@ class TissueBody final : public Shape {
     const auto padded = [](int v, int n) { return std::clamp(v, -3, n + 3); };
     const IVec3 n = tree.size();
     low = {padded(low.x - pad, n.x), padded(low.y - pad, n.y), padded(low.z - pad, n.z)};
-    size_ = IVec3{padded(high.x + pad, n.x), padded(high.y + pad, n.y), padded(high.z + pad, n.z)} - low;
+    high = {padded(high.x + pad, n.x), padded(high.y + pad, n.y), padded(high.z + pad, n.z)};
+    low = {std::max(low.x, asked.low.x), std::max(low.y, asked.low.y), std::max(low.z, asked.low.z)};
+    high = {std::min(high.x, asked.high.x), std::min(high.y, asked.high.y), std::min(high.z, asked.high.z)};
+    size_ = high - low;
     work.body_leaves(static_cast<std::uint64_t>(size_.x) * static_cast<std::uint64_t>(size_.y) * static_cast<std::uint64_t>(size_.z));
     origin_ = tree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_;
     std::vector<std::uint8_t> in(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0);
@@ -114,7 +124,7 @@ class TissueBody final : public Shape {
       for (int z = 0; z < edge; ++z)
         for (int y = 0; y < edge; ++y)
           for (int x = 0; x < edge; ++x)
-            if (tree.centre_mm(at + IVec3{x, y, z}).z > lowest_mm) in[index(at - low + IVec3{x, y, z})] = 1;
+            if (const IVec3 l = at + IVec3{x, y, z}; within(l, low, high) && tree.centre_mm(l).z > lowest_mm) in[index(l - low)] = 1;
     });
     std::vector<std::uint8_t> out;
     out.reserve(in.size());
@@ -142,6 +152,9 @@ class TissueBody final : public Shape {
   }
 
  private:
+  [[nodiscard]] static bool within(IVec3 l, IVec3 low, IVec3 high) noexcept {
+    return l.x >= low.x && l.y >= low.y && l.z >= low.z && l.x < high.x && l.y < high.y && l.z < high.z;
+  }
   [[nodiscard]] std::size_t index(IVec3 i) const noexcept {
     return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size_.x) +
            static_cast<std::size_t>(i.x);
@@ -151,6 +164,15 @@ class TissueBody final : public Shape {
   Vec3 origin_;
   std::vector<float> value_;
 };
+
+bool any_within(const Octree& tree, const TissueSet& tissues, const LeafRange& asked) {
+  bool any = false;
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    any = any || (tissues[t] && at.x < asked.high.x && at.y < asked.high.y && at.z < asked.high.z && at.x + edge > asked.low.x &&
+                  at.y + edge > asked.low.y && at.z + edge > asked.low.z);
+  });
+  return any;
+}
 
 TissueSet only(std::uint8_t tissue) {
   TissueSet set{};
@@ -284,12 +306,11 @@ const Tooth& ShapeMaker::own() {
   return *cache_->own;
 }
 
-std::unique_ptr<Shape> ShapeMaker::beside() {
+std::unique_ptr<Shape> ShapeMaker::beside(IVec3 low, IVec3 high) {
   const TissueSet tissues = tissues_beside(tooth_);
-  const auto counts = tooth_.octree.count_leaves();
-  for (std::size_t t = 0; t < tissues.size(); ++t)
-    if (tissues[t] && counts[t] > 0) return std::make_unique<TissueBody>(tooth_, tissues, -1e9, 0.0, work_);
-  return nullptr;
+  const LeafRange asked{low, high};
+  if (!any_within(tooth_.octree, tissues, asked)) return nullptr;
+  return std::make_unique<TissueBody>(tooth_, tissues, -1e9, 0.0, work_, asked);
 }
 
 const ColumnMap& ShapeMaker::surface() {

@@ -47,8 +47,8 @@ class ShapeMaker {
   [[nodiscard]] std::unique_ptr<Shape> make(const std::vector<ShapeSpec>& list);
   /// The tooth without what stands beside it: columns, landmarks and boxes are laid by it, tissues by the whole.
   [[nodiscard]] const Tooth& own();
-  /// All that stands beside it, as a body; null where nothing does.
-  [[nodiscard]] std::unique_ptr<Shape> beside();
+  /// What stands beside it, as a body, within a box of leaves (`high` exclusive); null where nothing does. Beyond the box it says nothing.
+  [[nodiscard]] std::unique_ptr<Shape> beside(IVec3 low, IVec3 high);
   /// Of the tooth alone.
   [[nodiscard]] const ColumnMap& surface();
   /// Where the tooth's cusps, fissures and ridges are; found when they are first asked for.

@@ -60,7 +60,8 @@ class Author {
     window_.begin_frame();
     state_.view.stereo = false;  // points are shown for one eye
     const ScreenContext screen{theme_, state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, window_.software() ? 1 : 4, true};
-    const AuthorContext context{screen, document_, author_, zones_, busy() ? mistakes_ : findings_->problems, findings_.get(), busy(), floor_z_mm_};
+    const AuthorContext context{screen,          document_, author_,    zones_, landmarks_, busy() ? mistakes_ : findings_->problems,
+                                findings_.get(), busy(),    floor_z_mm_};
     const AuthorWish wish = author_screen(context);
     window_.end_frame();
     if (std::exchange(author_.shown_differs, false) || chosen_layer() != shown_layer_) show_bodies();
@@ -95,10 +96,11 @@ class Author {
       read_version_ = document_.version();
       changed_ = Clock::now();
       find_zones();
+      find_marks();
     }
     constexpr double k_rest_s = 0.4;
     if (asked_version_ != document_.version() && (asked_version_ == 0 || seconds_since(changed_) > k_rest_s)) {
-      worker_.look_at(document_.version(), document_.text(), document_.path());
+      worker_.look_at({document_.version(), document_.reading(), document_.text(), document_.path(), document_.landmarks()});
       asked_version_ = document_.version();
     }
     state_.screen = busy() ? Screen::author_busy : Screen::author;
@@ -113,22 +115,30 @@ class Author {
     author_.number = std::min(author_.number, chosen.numbers.empty() ? 0 : chosen.numbers.size() - 1);
   }
 
+  /// Where the hand has put them, at once.
+  void find_marks() {
+    landmarks_.clear();
+    if (findings_ && findings_->tooth) landmarks_ = author_landmarks(findings_->tooth->found, document_.landmarks());
+    author_.landmark = std::min(author_.landmark, landmarks_.empty() ? 0 : landmarks_.size() - 1);
+  }
+
   void follow_findings() {
     auto found = worker_.take();
     if (!found) return;
     findings_ = std::move(found);
-    if (findings_->tooth && findings_->tooth_file != shown_tooth_) {
-      scene_ = std::make_unique<Scene>(findings_->tooth->octree, findings_->tooth->tissues, shelf_, nullptr);
-      shown_tooth_ = findings_->tooth_file;
+    if (findings_->tooth && findings_->tooth != shown_tooth_) {
+      shown_tooth_ = findings_->tooth;
+      scene_ = std::make_unique<Scene>(shown_tooth_->tooth.octree, shown_tooth_->tooth.tissues, shelf_, nullptr);
+      bodies_version_ = 0;
     }
+    find_marks();
     const bool laid = !findings_->body[0].indices.empty();
     if (laid) {
-      const bool first = bodies_version_ == 0;
       const Vec3 low = findings_->target_low_mm, high = findings_->target_high_mm;
       opening_z_mm_ = findings_->opening_z_mm;
       chamber_mm_ = findings_->chamber_mm;
       floor_z_mm_ = low.z;
-      if (first)
+      if (!std::exchange(looked_, true))
         state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
                                         static_cast<float>((low.z + high.z) / 2)};
       if (bodies_version_ != findings_->version) {
@@ -159,14 +169,32 @@ class Author {
     scene_->show_bodies(std::move(meshes));
   }
 
+  /// False when the tooth's new name has to be asked for first.
+  bool save(bool close_then) {
+    const bool named = std::exchange(author_.tooth_named, false);
+    const auto suggestion = document_.new_tooth_name();
+    if (suggestion && !named) {
+      author_.tooth_name.fill(0);
+      suggestion->copy(author_.tooth_name.data(), author_.tooth_name.size() - 1);
+      author_.ask_tooth = true;
+      author_.close_then = close_then;
+      author_.message.clear();
+      return false;
+    }
+    author_.ask_tooth = suggestion.has_value();  // and asked again, should the name not do
+    const std::string name = suggestion ? author_.tooth_name.data() : "";
+    document_.save(name);
+    author_.ask_tooth = false;
+    author_.message = suggestion ? "Saved, and the tooth with its landmarks as " + name + "." : "Saved.";
+    return true;
+  }
+
   void grant(AuthorWish wish) {
     try {
       switch (wish) {
         case AuthorWish::save:
         case AuthorWish::save_and_close:
-          document_.save();
-          author_.message = "Saved.";
-          done_ = wish == AuthorWish::save_and_close;
+          done_ = save(wish == AuthorWish::save_and_close) && wish == AuthorWish::save_and_close;
           break;
         case AuthorWish::undo:
           author_.message = document_.undo() ? "" : "There is nothing to take back.";
@@ -197,6 +225,7 @@ class Author {
   scenarios::Scenario scenario_;
   std::vector<scenarios::Problem> mistakes_;  // of the text alone
   std::vector<AuthorZone> zones_;
+  std::vector<AuthorLandmark> landmarks_;
   std::vector<DiamondPoint> shelf_;
   ui::Interrupt interrupt_;
   Window window_;
@@ -206,13 +235,14 @@ class Author {
   Theme theme_;
   double dressed_scale_ = 0.0;
   std::unique_ptr<Scene> scene_;
-  std::string shown_tooth_;
+  std::shared_ptr<const AuthorTooth> shown_tooth_;
   std::unique_ptr<AuthorFindings> findings_;
   std::array<MeshData, k_author_layers> bodies_;
   double opening_z_mm_ = 0.0, floor_z_mm_ = 0.0;
   Vec3 chamber_mm_;
   std::size_t shown_layer_ = 0;
   std::uint64_t read_version_ = 0, asked_version_ = 0, bodies_version_ = 0;
+  bool looked_ = false;  // at the first target
   bool done_ = false, discarded_ = false;
   Clock::time_point start_ = Clock::now(), last_frame_ = start_, changed_ = start_;
   AuthorWorker worker_;

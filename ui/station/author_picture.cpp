@@ -7,56 +7,29 @@
 #include <cmath>
 
 #include "ui/station/author_screen.h"
+#include "ui/station/author_sight.h"
 
 namespace cavum::station {
 namespace {
-
-/// Between the tooth and the picture, both ways.
-struct Sight {
-  glm::mat4 to_picture;
-  ImVec2 at, size;
-
-  [[nodiscard]] ImVec2 pixel(Vec3 p) const {
-    const glm::vec4 c = to_picture * glm::vec4(p.x, p.y, p.z, 1);
-    return {at.x + size.x * (0.5F + 0.5F * c.x / c.w), at.y + size.y * (0.5F - 0.5F * c.y / c.w)};
-  }
-  /// Where the line of sight through a pixel meets a plane; `otherwise` when it runs along it.
-  [[nodiscard]] Vec3 on_plane(ImVec2 pixel, Vec3 through, Vec3 normal, Vec3 otherwise) const {
-    const float x = 2.0F * (pixel.x - at.x) / size.x - 1.0F, y = 1.0F - 2.0F * (pixel.y - at.y) / size.y;
-    const glm::mat4 back = glm::inverse(to_picture);
-    const glm::vec4 a = back * glm::vec4(x, y, -1, 1), b = back * glm::vec4(x, y, 1, 1);
-    const Vec3 from{a.x / a.w, a.y / a.w, a.z / a.w}, way = Vec3{b.x / b.w, b.y / b.w, b.z / b.w} - from;
-    const double steep = dot(way, normal);
-    constexpr double k_least = 0.15;  // seen nearly along the plane, a pixel is millimetres
-    if (std::fabs(steep) < k_least * length(way)) return otherwise;
-    return from + way * (dot(through - from, normal) / steep);
-  }
-};
 
 ImU32 colour_of(AuthorLayer layer, int opacity) {
   const auto c = layer_colour(layer);
   return IM_COL32(c[0], c[1], c[2], opacity);
 }
 
-/// A line that is seen on light and on dark.
-void line(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 colour, float width) {
-  draw.AddLine(a, b, IM_COL32(0, 0, 0, (colour >> IM_COL32_A_SHIFT) * 3 / 4), width + 2.5F);
-  draw.AddLine(a, b, colour, width);
-}
-
-void draw_outline(ImDrawList& draw, const Sight& sight, const AuthorZone& zone, bool chosen, float px) {
+void draw_outline(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& zone, bool chosen, float px) {
   const std::vector<Vec3>& p = zone.points_mm;
   const ImU32 colour = colour_of(zone.layer, chosen ? 255 : 130);
   const float width = chosen ? 2.0F * px : px;
   const auto pixel = [&](Vec3 v) { return sight.pixel(zone.in_tooth(v)); };
   for (std::size_t i = 0; i + (zone.closed ? 0 : 1) < p.size(); ++i) {
     const Vec3 a = p[i], b = p[(i + 1) % p.size()];
-    line(draw, pixel(a), pixel(b), colour, zone.closed ? width : 0.5F * width);
+    author_line(draw, pixel(a), pixel(b), colour, zone.closed ? width : 0.5F * width);
     if (zone.closed || !(zone.half_width_mm > 0)) continue;
     // the sides of a stroke, and round its points
     const Vec3 along = normalized(b - a, {1, 0, 0}), aside = Vec3{-along.y, along.x, 0} * zone.half_width_mm;
-    line(draw, pixel(a + aside), pixel(b + aside), colour, width);
-    line(draw, pixel(a - aside), pixel(b - aside), colour, width);
+    author_line(draw, pixel(a + aside), pixel(b + aside), colour, width);
+    author_line(draw, pixel(a - aside), pixel(b - aside), colour, width);
     constexpr int k_parts = 12;
     for (const bool end : {false, true}) {
       const Vec3 middle = end ? b : a, out = along * (end ? zone.half_width_mm : -zone.half_width_mm);
@@ -64,7 +37,7 @@ void draw_outline(ImDrawList& draw, const Sight& sight, const AuthorZone& zone, 
       for (int k = 1; k <= k_parts; ++k) {
         const double turn = 3.14159265358979 * k / k_parts;
         const ImVec2 now = pixel(middle + aside * std::cos(turn) + out * std::sin(turn));
-        if ((!end && i == 0) || (end && i + 2 == p.size())) line(draw, last, now, colour, width);
+        if ((!end && i == 0) || (end && i + 2 == p.size())) author_line(draw, last, now, colour, width);
         last = now;
       }
     }
@@ -82,21 +55,20 @@ std::pair<Vec3, Vec3> depth_line(const AuthorContext& c, const AuthorZone& zone)
   return {top, {top.x, top.y, floor}};
 }
 
-void draw_depth(ImDrawList& draw, const AuthorContext& c, const Sight& sight, const AuthorZone& zone, float px) {
+void draw_depth(ImDrawList& draw, const AuthorContext& c, const AuthorSight& sight, const AuthorZone& zone, float px) {
   const auto [top, floor] = depth_line(c, zone);
   const ImVec2 a = sight.pixel(top), b = sight.pixel(floor);
-  line(draw, a, b, colour_of(zone.layer, 255), 1.5F * px);
+  author_line(draw, a, b, colour_of(zone.layer, 255), 1.5F * px);
   const float r = 8.0F * px;
   draw.AddQuadFilled({b.x - r, b.y}, {b.x, b.y - r}, {b.x + r, b.y}, {b.x, b.y + r}, IM_COL32(0, 0, 0, 220));
   const float s = r - 2.0F * px;
   draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s}, colour_of(zone.layer, 255));
   if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r) return;  // from above the word would cover the points
   const std::string word = fmt::format("depth {} mm", scenarios::written_number(*zone.depth_mm));
-  draw.AddText({b.x + r + 4, b.y + 1}, IM_COL32(0, 0, 0, 255), word.c_str());
-  draw.AddText({b.x + r + 3, b.y}, IM_COL32(255, 255, 255, 255), word.c_str());
+  author_words(draw, {b.x + r + 3, b.y}, IM_COL32_WHITE, word.c_str());
 }
 
-void draw_points(ImDrawList& draw, const Sight& sight, const AuthorZone& zone, std::size_t chosen, float px) {
+void draw_points(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& zone, std::size_t chosen, float px) {
   for (std::size_t i = 0; i < zone.points_mm.size(); ++i) {
     const ImVec2 at = sight.pixel(zone.in_tooth(zone.points_mm[i]));
     const bool this_one = i == chosen;
@@ -104,20 +76,17 @@ void draw_points(ImDrawList& draw, const Sight& sight, const AuthorZone& zone, s
     draw.AddCircleFilled(at, (this_one ? 6.5F : 4.5F) * px, this_one ? IM_COL32(255, 255, 255, 255) : colour_of(zone.layer, 255));
     if (this_one) draw.AddCircle(at, 12.0F * px, IM_COL32(255, 255, 255, 255), 24, 2.0F * px);
     const std::string number = std::to_string(i + 1);
-    draw.AddText({at.x + 13 * px + 1, at.y - 20 * px + 1}, IM_COL32(0, 0, 0, 255), number.c_str());
-    draw.AddText({at.x + 13 * px, at.y - 20 * px}, IM_COL32(255, 255, 255, 255), number.c_str());
+    author_words(draw, {at.x + 13 * px, at.y - 20 * px}, IM_COL32_WHITE, number.c_str());
   }
 }
 
-double apart(ImVec2 a, ImVec2 b) { return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y)); }
-
-void take_hold(const AuthorContext& c, const Sight& sight, ImVec2 mouse) {
+void take_hold(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
   AuthorState& s = c.state;
   double nearest = 16.0 * c.screen.theme.scale;
   for (std::size_t z = 0; z < c.zones.size(); ++z) {
     const AuthorZone& zone = c.zones[z];
     for (std::size_t i = 0; i < zone.points_mm.size(); ++i)
-      if (const double d = apart(mouse, sight.pixel(zone.in_tooth(zone.points_mm[i]))); d < nearest) {
+      if (const double d = pixels_apart(mouse, sight.pixel(zone.in_tooth(zone.points_mm[i]))); d < nearest) {
         nearest = d;
         if (s.zone != z) s.number = 0;
         s.zone = z;
@@ -126,10 +95,10 @@ void take_hold(const AuthorContext& c, const Sight& sight, ImVec2 mouse) {
       }
   }
   if (s.pulls_point || s.zone >= c.zones.size() || !c.zones[s.zone].depth_mm || c.zones[s.zone].points_mm.empty()) return;
-  s.pulls_depth = apart(mouse, sight.pixel(depth_line(c, c.zones[s.zone]).second)) < nearest;
+  s.pulls_depth = pixels_apart(mouse, sight.pixel(depth_line(c, c.zones[s.zone]).second)) < nearest;
 }
 
-void pull(const AuthorContext& c, const Sight& sight, ImVec2 mouse) {
+void pull(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
   AuthorState& s = c.state;
   const AuthorZone& zone = c.zones[s.zone];
   if (s.pulls_point && s.point < zone.points_mm.size()) {
@@ -153,7 +122,7 @@ void arrows(const AuthorContext& c) {
   AuthorState& s = c.state;
   const ImGuiIO& io = ImGui::GetIO();
   const AuthorZone& zone = c.zones[s.zone];
-  if (zone.points_mm.empty() || io.WantTextInput || io.KeyCtrl) return;
+  if (zone.points_mm.empty()) return;
   const int across = ImGui::IsKeyPressed(GLFW_KEY_RIGHT) - ImGui::IsKeyPressed(GLFW_KEY_LEFT);
   const int upwards = ImGui::IsKeyPressed(GLFW_KEY_UP) - ImGui::IsKeyPressed(GLFW_KEY_DOWN);
   if (across == 0 && upwards == 0) return;
@@ -169,19 +138,11 @@ void arrows(const AuthorContext& c) {
   author_move_point(c, zone, s.point, to, false);
 }
 
-}  // namespace
-
-void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size) {
-  AuthorState& s = c.state;
-  const bool over = tooth_area(c.screen, size);
-  if (c.zones.empty() || s.zone >= c.zones.size()) return;
-  const Camera& camera = c.screen.state.view.camera;
-  const Sight sight{camera.projection(size.x / size.y) * camera.view(), at, size};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
+void draw_zones(const AuthorContext& c, ImDrawList& draw, const AuthorSight& sight) {
+  const AuthorState& s = c.state;
   const float px = c.screen.theme.scale;
-  draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
   for (std::size_t z = 0; z < c.zones.size(); ++z)
-    if (z != s.zone && c.state.shown[static_cast<std::size_t>(c.zones[z].layer)]) {
+    if (z != s.zone && s.shown[static_cast<std::size_t>(c.zones[z].layer)]) {
       draw_outline(draw, sight, c.zones[z], false, px);
       for (const Vec3 p : c.zones[z].points_mm)
         draw.AddCircleFilled(sight.pixel(c.zones[z].in_tooth(p)), 4.0F * px, colour_of(c.zones[z].layer, 200));
@@ -190,17 +151,44 @@ void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   draw_outline(draw, sight, chosen, true, px);
   if (chosen.depth_mm && !chosen.points_mm.empty()) draw_depth(draw, c, sight, chosen, px);
   draw_points(draw, sight, chosen, s.point, px);
+}
+
+}  // namespace
+
+void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size) {
+  AuthorState& s = c.state;
+  const bool over = tooth_area(c.screen, size);
+  const Camera& camera = c.screen.state.view.camera;
+  const AuthorSight sight{camera.projection(size.x / size.y) * camera.view(), at, size};
+  const bool zones = s.zone < c.zones.size();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
+  if (zones) draw_zones(c, draw, sight);
+  draw_landmarks(c, draw, sight);
   draw.PopClipRect();
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) take_hold(c, sight, mouse);
+  if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !(s.by_landmarks && take_landmark(c, sight, mouse))) {
+    if (zones) take_hold(c, sight, mouse);
+    if (s.pulls_point || s.pulls_depth)
+      s.by_landmarks = false;
+    else
+      take_landmark(c, sight, mouse);
+  }
   if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    pull(c, sight, mouse);
-  } else if (s.pulls_point || s.pulls_depth) {
-    s.pulls_point = s.pulls_depth = false;
+    if (s.pulls_landmark)
+      pull_landmark(c, sight, mouse);
+    else if (zones)
+      pull(c, sight, mouse);
+  } else if (s.pulls_point || s.pulls_depth || s.pulls_landmark) {
+    s.pulls_point = s.pulls_depth = s.pulls_landmark = false;
     c.document.rest();
   }
-  arrows(c);
+  if (ImGui::GetIO().WantTextInput || ImGui::GetIO().KeyCtrl) return;
+  if (s.by_landmarks)
+    landmark_arrows(c);
+  else if (zones)
+    arrows(c);
 }
 
 }  // namespace cavum::station

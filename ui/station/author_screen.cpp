@@ -15,15 +15,20 @@ namespace {
 
 /// Runs an edit; what cannot be done is said.
 template <class Edit>
-void change(const AuthorContext& c, const std::string& name, bool pull, const Edit& edit) {
+void attempt(const AuthorContext& c, bool pull, const Edit& edit) {
   if (!pull) c.document.rest();
   try {
-    c.document.make(edit(), name);
+    edit();
     c.state.message.clear();
   } catch (const Error& e) {
     c.state.message = e.what();
   }
   if (!pull) c.document.rest();
+}
+
+template <class Edit>
+void change(const AuthorContext& c, const std::string& name, bool pull, const Edit& edit) {
+  attempt(c, pull, [&] { c.document.make(edit(), name); });
 }
 
 void top_bar(const AuthorContext& c, ImVec2 size, AuthorWish& wish) {
@@ -101,19 +106,33 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   const Theme& t = c.screen.theme;
   AuthorState& s = c.state;
   begin_area(t, "author side", at, size, true);
-  zone_list(c);
-  ImGui::Separator();
-  if (s.zone < c.zones.size()) numbers(c);
+  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  for (const bool landmarks : {false, true}) {
+    if (s.by_landmarks == landmarks) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
+    const bool chosen = s.by_landmarks == landmarks;
+    if (side_button(t, landmarks ? "Landmarks (L)" : "Zones (L)", half)) s.by_landmarks = landmarks;
+    if (chosen) ImGui::PopStyleColor();
+    if (!landmarks) ImGui::SameLine();
+  }
+  if (s.by_landmarks) {
+    s.landmarks_shown = true;
+    landmark_list(c);
+  } else {
+    zone_list(c);
+    ImGui::Separator();
+    if (s.zone < c.zones.size()) numbers(c);
+  }
   ImGui::Separator();
   for (std::size_t i = 0; i < k_author_layers; ++i) {
     const std::string label = fmt::format("{} (F{})", layer_name(static_cast<AuthorLayer>(i)), i + 1);
     s.shown_differs = ImGui::Checkbox(label.c_str(), &s.shown[i]) || s.shown_differs;
     if (i % 2 == 0) ImGui::SameLine(size.x / 2);
   }
-  quiet_text(
-      t,
-      "Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: size, PgUp and PgDn: larger, "
-      "smaller.  C: clear or opaque tooth.  View: 1 to 5, W A S D, + and -, right mouse button.  F5: read the file again.  Esc: close.");
+  if (ImGui::Checkbox("landmarks (F6)", &s.landmarks_shown) && !s.landmarks_shown) s.by_landmarks = false;
+  quiet_text(t, s.by_landmarks ? "Tab: landmark.  Arrows or mouse: move it on the surface, 0.1 mm, with Shift 0.01.  X: back where it was found."
+                               : "Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: "
+                                 "size, PgUp and PgDn: larger, smaller.");
+  quiet_text(t, "C: clear or opaque tooth.  View: 1 to 5, W A S D, + and -, right mouse button.  F5: read the files again.  Esc: close.");
   end_area();
 }
 
@@ -188,10 +207,23 @@ void numbers_by_key(const AuthorContext& c, const AuthorZone& zone) {
   if (larger != 0) author_set_number(c, number, number.value + larger * (ImGui::GetIO().KeyShift ? 0.01 : 0.1), false);
 }
 
+void landmarks_by_key(const AuthorContext& c) {
+  AuthorState& s = c.state;
+  const std::size_t n = c.landmarks.size();
+  if (n == 0) return;
+  if (key_pressed(GLFW_KEY_TAB)) s.landmark = (s.landmark + (ImGui::GetIO().KeyShift ? n - 1 : 1)) % n;
+  if (!key_pressed(GLFW_KEY_X)) return;
+  const AuthorLandmark& mark = c.landmarks[std::min(s.landmark, n - 1)];
+  if (mark.by_person)
+    author_move_landmark(c, mark, std::nullopt, false);
+  else
+    s.message = fmt::format("The {} is where it was found.", mark.title());
+}
+
 void keys(const AuthorContext& c, AuthorWish& wish) {
   AuthorState& s = c.state;
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || s.ask_close) return;
+  if (io.WantTextInput || s.ask_close || s.ask_tooth) return;
   if (io.KeyCtrl) {
     if (ImGui::IsKeyPressed(GLFW_KEY_S, false)) wish = AuthorWish::save;
     if (ImGui::IsKeyPressed(GLFW_KEY_Z)) wish = io.KeyShift ? AuthorWish::redo : AuthorWish::undo;
@@ -203,9 +235,16 @@ void keys(const AuthorContext& c, AuthorWish& wish) {
       s.shown[i] = !s.shown[i];
       s.shown_differs = true;
     }
+  if (key_pressed(GLFW_KEY_F6)) s.landmarks_shown = !s.landmarks_shown;
+  if (key_pressed(GLFW_KEY_L)) s.by_landmarks = s.landmarks_shown = !s.by_landmarks;
+  if (!s.landmarks_shown) s.by_landmarks = false;
   if (key_pressed(GLFW_KEY_C)) c.screen.state.view.clear = !c.screen.state.view.clear;
   if (key_pressed(GLFW_KEY_F5)) wish = AuthorWish::read_again;
   if (key_pressed(GLFW_KEY_ESCAPE)) wish = AuthorWish::close;
+  if (s.by_landmarks) {
+    landmarks_by_key(c);
+    return;
+  }
   if (c.zones.empty()) return;
   if (key_pressed(GLFW_KEY_TAB)) {
     s.zone = (s.zone + (io.KeyShift ? c.zones.size() - 1 : 1)) % c.zones.size();
@@ -231,7 +270,37 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
   end_question(s.ask_close);
 }
 
+void ask_about_tooth(const AuthorContext& c, AuthorWish& wish) {
+  AuthorState& s = c.state;
+  const Theme& t = c.screen.theme;
+  bool fresh = false;
+  if (!begin_question(t, "Tooth?", "The landmarks need a tooth of their own", s.ask_tooth, fresh)) return;
+  ImGui::TextUnformatted("The scenario's tooth ships, or lies in another folder, and stays as it is.");
+  ImGui::TextUnformatted("A copy with your landmarks is written beside the scenario, which then names it. Its name:");
+  if (fresh) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##tooth", s.tooth_name.data(), s.tooth_name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  bad_text(t, s.message);
+  ImGui::Dummy({0, t.px(6)});
+  if (main_button(t, "Save  (Enter)", true, false) || (entered && !fresh)) {
+    s.tooth_named = true;
+    wish = s.close_then ? AuthorWish::save_and_close : AuthorWish::save;
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Back  (Esc)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_tooth = false;
+  if (wish != AuthorWish::none) s.ask_tooth = false;
+  end_question(s.ask_tooth);
+}
+
 }  // namespace
+
+void author_move_landmark(const AuthorContext& c, const AuthorLandmark& landmark, const std::optional<Vec3>& to, bool pull) {
+  attempt(c, pull, [&] {
+    const std::vector<NamedPoint>& now = c.document.landmarks();
+    c.document.put(to ? with_landmark(now, landmark.name, *to) : without_landmark(now, landmark.name, c.findings->tooth->found),
+                   "landmark " + landmark.name);
+  });
+}
 
 void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to, bool pull) {
   const std::string place = fmt::format("{}/{}", zone.points_place, point);
@@ -261,6 +330,7 @@ AuthorWish author_screen(const AuthorContext& c) {
   end_area();
   keys(c, wish);
   ask_about_closing(c, wish);
+  ask_about_tooth(c, wish);
   return wish;
 }
 

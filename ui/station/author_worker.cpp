@@ -4,10 +4,12 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/tooth/anatomy/placed.h"
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
 #include "scenarios/file/surface_files.h"
 #include "scenarios/review/check.h"
+#include "scenarios/zones/placed.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::station {
@@ -76,9 +78,9 @@ std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zone
   return bodies;
 }
 
-void AuthorWorker::look_at(std::uint64_t version, const std::string& text, const std::string& path) {
+void AuthorWorker::look_at(AuthorTask task) {
   const std::lock_guard lock(mutex_);
-  task_ = Task{version, text, path};
+  task_ = std::move(task);
   asked_.notify_one();
 }
 
@@ -95,7 +97,7 @@ void AuthorWorker::publish(AuthorFindings findings) {
 
 void AuthorWorker::work(const std::stop_token& stop) {
   for (;;) {
-    Task task;
+    AuthorTask task;
     {
       std::unique_lock lock(mutex_);
       if (!asked_.wait(lock, stop, [this] { return task_.has_value(); })) return;
@@ -106,37 +108,49 @@ void AuthorWorker::work(const std::stop_token& stop) {
   }
 }
 
-void AuthorWorker::find(const Task& task) {
+std::shared_ptr<const AuthorTooth> AuthorWorker::tooth_of(const scenarios::Scenario& scenario, std::uint64_t reading) {
+  if (scenario.tooth_file.empty()) return nullptr;
+  try {
+    const std::string file = scenarios::find_tooth_file(scenario);
+    if (tooth_ == nullptr || tooth_->file != file || reading_ != reading) tooth_ = std::make_shared<const AuthorTooth>(read_author_tooth(file));
+    reading_ = reading;
+    return tooth_;
+  } catch (const Error&) {
+    return nullptr;  // the check says why
+  }
+}
+
+void AuthorWorker::find(const AuthorTask& task) {
   AuthorFindings f;
   f.version = task.version;
   scenarios::ReadScenario read = scenarios::read_scenario(task.text, task.path);
   scenarios::Scenario& s = read.scenario;
+  f.tooth = tooth_of(s, task.reading);
+  std::optional<Tooth> tooth;
   try {
     scenarios::SurfaceFiles files;
     const bool whole = read.problems.empty() && scenarios::read_surfaces(s, files).empty();
-    if (!s.tooth_file.empty()) {
-      if (const std::string file = scenarios::find_tooth_file(s); file != tooth_file_ || tooth_ == nullptr) {
-        tooth_ = std::make_shared<const Tooth>(load_tooth_file(file));
-        tooth_file_ = file;
-      }
-      f.tooth = tooth_;
-      f.tooth_file = tooth_file_;
+    if (f.tooth) {
+      tooth = f.tooth->tooth;
+      tooth->placed_landmarks = task.landmarks;
     }
-    if (f.tooth && counts_from_chamber(s))
-      f.chamber_mm = scenarios::tissue_relief(*f.tooth, "pulp", scenarios::TissuePart::chamber, task.path).middle_mm;
-    if (whole && f.tooth && scenarios::missing_tissues(s, *f.tooth).empty()) {
-      const scenarios::ZoneMap zones = scenarios::build_zones(s, *f.tooth);
+    if (tooth && counts_from_chamber(s)) f.chamber_mm = scenarios::tissue_relief(*tooth, "pulp", scenarios::TissuePart::chamber, task.path).middle_mm;
+    if (whole && tooth && scenarios::missing_tissues(s, *tooth).empty()) {
+      Landmarks landmarks = f.tooth->found;
+      place_landmarks(task.landmarks, landmarks);
+      const scenarios::ZoneMap zones = scenarios::build_zones(s, *tooth, landmarks);
       f.target_low_mm = zones.target_low_mm();
       f.target_high_mm = zones.target_high_mm();
       f.opening_z_mm = zones.opening_z_mm();
-      f.body = zone_bodies(zones, f.tooth->octree);
+      f.body = zone_bodies(zones, tooth->octree);
       publish(f);
     }
   } catch (const Error&) {
     // why there are no zones is one of the problems that the check finds now
   }
   try {
-    scenarios::CheckedScenario checked = scenarios::check_whole(task.text, task.path);
+    scenarios::CheckedScenario checked =
+        tooth ? scenarios::check_whole_on(*tooth, task.text, task.path) : scenarios::check_whole(task.text, task.path);
     f.problems = std::move(checked.problems);
     f.expert_s = checked.expert_s;
   } catch (const std::exception& e) {

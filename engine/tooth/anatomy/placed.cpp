@@ -83,6 +83,16 @@ void put_ridge(MarginalRidge& ridge, Vec3 at) {
   *near = at;
 }
 
+/// The central fissure ends at its pit: what lies beyond the place nearest to it goes, and the pit takes that place.
+void end_fissure(Polyline& fissure, Vec3 pit, bool distal) {
+  if (fissure.empty()) return;
+  if (distal) std::reverse(fissure.begin(), fissure.end());
+  const auto near = std::min_element(fissure.begin(), fissure.end(), [&](Vec3 a, Vec3 b) { return flat_distance(a, pit) < flat_distance(b, pit); });
+  if (fissure.end() - near > 1) fissure.erase(fissure.begin(), near);  // a line keeps two points
+  fissure.front() = pit;
+  if (distal) std::reverse(fissure.begin(), fissure.end());
+}
+
 bool put(const Name& name, Vec3 at, Landmarks& l) {
   switch (name.kind) {
     case Kind::cusp:
@@ -95,14 +105,14 @@ bool put(const Name& name, Vec3 at, Landmarks& l) {
       return true;
     case Kind::mesial_pit:
       l.mesial_pit_mm = at;
-      if (!l.central_fissure_mm.empty()) l.central_fissure_mm.front() = at;
+      end_fissure(l.central_fissure_mm, at, false);
       return true;
     case Kind::central_pit:
       l.central_pit_mm = at;
       return true;
     case Kind::distal_pit:
       l.distal_pit_mm = at;
-      if (!l.central_fissure_mm.empty()) l.central_fissure_mm.back() = at;
+      end_fissure(l.central_fissure_mm, at, true);
       return true;
     case Kind::pulp_horn:
       return put_point(l.pulp_horns_mm, name.number, at);

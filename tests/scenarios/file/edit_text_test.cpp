@@ -184,6 +184,19 @@ TEST(EditText, PointsComeAndGoInTheLayoutOfTheirList) {
   EXPECT_EQ(comments_of(removed(told, 1)), comments_of(told));
 }
 
+TEST(EditText, PutsATextInPlaceOfAText) {
+  const std::string text = "# tooth = \"a\"\ntooth = 'a.cvt'  # mine\nid = \"tooth\"\n";
+  const TextChange change = set_text(text, "f", "tooth", "b \"2\" \\ \xc3\xa4.cvt");
+  const std::string changed = with_change(text, change);
+  EXPECT_EQ(changed, "# tooth = \"a\"\ntooth = \"b \\\"2\\\" \\\\ \xc3\xa4.cvt\"  # mine\nid = \"tooth\"\n");
+  EXPECT_EQ(read(changed).tooth_file, "b \"2\" \\ \xc3\xa4.cvt");
+  EXPECT_EQ(with_change(changed, inverse(change)), text);
+  EXPECT_TRUE(set_text(text, "f", "tooth", "a.cvt").empty());
+  EXPECT_THROW((void)set_text(text, "f", "tooth", "a\nb"), Error);
+  EXPECT_THROW((void)set_text("tooth = 1", "f", "tooth", "a"), Error);
+  EXPECT_THROW((void)set_text("", "f", "tooth", "a"), Error);
+}
+
 TEST(EditText, RefusesWhatItCannotDoAndNamesThePlace) {
   const auto said = [](const std::function<TextChange()>& edit) -> std::string {
     try {

@@ -1,63 +1,23 @@
 // The authoring view as an author meets it: the real program on a virtual screen, its keys pressed by a script. What counts is the file it leaves
 // behind: the bytes of what was changed, and nothing else.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <thread>
 
 #include "engine/base/error.h"
-#include "engine/base/file.h"
 #include "scenarios/file/parse.h"
-#include "tests/engine/support/basics.h"
 #include "tests/scenarios/test_teeth.h"
-#include "tests/ui/station/virtual_screen.h"
+#include "tests/ui/station/author_window.h"
 #include "ui/station/author_document.h"
 #include "ui/station/author_worker.h"
 #include "ui/station/author_zones.h"
 
 namespace cavum::station {
 namespace {
-
-const std::string k_class_1 = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml";
-
-/// `text` with one part replaced by another; the part must be there once.
-std::string replaced(std::string text, const std::string& part, const std::string& by) {
-  EXPECT_NE(text.find(part), std::string::npos) << part;
-  return text.replace(text.find(part), part.size(), by);
-}
-
-class AuthorWindow : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() { screen_ = std::make_unique<testing_station::VirtualScreen>(); }
-  static void TearDownTestSuite() { screen_.reset(); }
-  void SetUp() override {
-    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
-    ::setenv("CAVUM_DATA", CAVUM_SOURCE_DIR "/data", 1);
-    write_text_file(file(), read_text_file(k_class_1));
-  }
-  void TearDown() override { ::unsetenv("CAVUM_DATA"); }
-
-  [[nodiscard]] std::string file() const { return folder_.file("class_1.toml"); }
-  /// For what does not depend on the tooth: it is laid out in half the time.
-  void on_the_block() const { write_text_file(file(), replaced(read_text_file(k_class_1), "lower_molar.cvt", "block.cvt")); }
-  [[nodiscard]] std::string said() const { return read_text_file(folder_.file("err")); }
-  int run(const std::string& script, const std::string& more = "") const {
-    write_text_file(folder_.file("script"), script);
-    const int status = std::system((CAVUM_BINARY " station --author " + file() + " --script " + folder_.file("script") +
-                                    " --pictures " CAVUM_PICTURES + " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err"))
-                                       .c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-  testing_basics::Folder folder_;
-
- private:
-  static inline std::unique_ptr<testing_station::VirtualScreen> screen_;
-};
 
 TEST_F(AuthorWindow, APointAndTheDepthMovedByKeysAreAllThatDiffersInTheFile) {
   // seen from occlusal with buccal down the picture, mesial lies to the left: the first point (-1.5, 0) goes two steps to the right
@@ -259,7 +219,7 @@ TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
   const auto findings_of = [&](std::uint64_t version, const std::string& of) {
     const auto asked = std::chrono::steady_clock::now();
     const auto so_far_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count(); };
-    worker.look_at(version, of, k_class_1);
+    worker.look_at({version, 1, of, k_class_1, {}});
     for (;;) {
       auto f = worker.take();
       if (f && f->version == version)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "engine/tooth/anatomy/placed.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_incisor.h"
 #include "engine/tooth/make/make_molar.h"
@@ -219,6 +220,22 @@ TEST(Landmarks, OfTheShippedMolarAreTheSameEveryTime) {
   const auto once = named_points(find_landmarks(tooth)), again = named_points(find_landmarks(tooth));
   EXPECT_EQ(once, again);
   EXPECT_EQ(once.size(), 22u);
+}
+
+TEST(PlacedLandmarks, TheFissureEndsWhereAPersonPutsItsPits) {
+  Landmarks l;
+  for (int i = 0; i <= 10; ++i) l.central_fissure_mm.push_back({3.0 - 0.6 * i, 0, 0});  // from mesial, x = 3, to distal, x = -3
+  Landmarks beyond = l, aside = l;
+  place_landmarks({{"mesial_pit", {1.7, 0.3, 0}}, {"distal_pit", {-2.5, 0, 0}}}, l);
+  ASSERT_EQ(l.central_fissure_mm.size(), 8u);
+  EXPECT_EQ(l.central_fissure_mm.front(), (Vec3{1.7, 0.3, 0})) << "what lay beyond it is gone";
+  EXPECT_NEAR(l.central_fissure_mm[1].x, 1.2, 1e-9);
+  EXPECT_EQ(l.central_fissure_mm.back(), (Vec3{-2.5, 0, 0}));
+  place_landmarks({{"mesial_pit", {3.5, 0, 0}}}, beyond);
+  EXPECT_EQ(beyond.central_fissure_mm.size(), 11u);
+  EXPECT_EQ(beyond.central_fissure_mm.front(), (Vec3{3.5, 0, 0}));
+  place_landmarks({{"mesial_pit", {-9, 0, 0}}}, aside);
+  EXPECT_GE(aside.central_fissure_mm.size(), 2u) << "a line stays one";
 }
 
 TEST(PlacedLandmarks, StandInPlaceOfWhatWasFound) {
