@@ -211,7 +211,7 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   for (const auto& c : r.criteria) {
     if (!c.critical_failed) continue;
     critical = true;
-    r.verdict_reasons.push_back(fmt::format("critical criterion {}: {}", c.id, c.reason));
+    r.verdict_reasons.push_back(fmt::format("{}{}: {}", k_critical_reason, c.id, c.reason));
   }
   for (auto& text : count_bands(r)) {
     critical = true;

@@ -21,6 +21,9 @@ struct MetricValue {
 /// do best in) count in proportion until this much of the target was removed; for a wall, of the target towards it.
 inline constexpr double k_care_counts_percent = 50.0;
 
+/// How a reason of the verdict begins that names a criterion beyond its critical limit.
+inline constexpr char k_critical_reason[] = "critical criterion ";
+
 /// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
 void mark(Result& result, const scenarios::RubricSpec& rubric);
 

@@ -40,6 +40,7 @@ void write_scan_report(const std::string& path, const std::string& scan_path, co
   grading::ReportFacts facts;
   facts.tooth_hash = tooth_hash(in.before);
   ReportSource source{.result = graded.result, .input = in, .facts = facts, .rubric = rubric};
+  source.lessons = grading::lessons(in, graded.result);
   source.scan = ReportScan{std::filesystem::path(scan_path).filename().string(), to_hex(sha256(read_file(scan_path))), graded.facts};
   write_text_file(path, path.ends_with(".pdf") ? report_pdf(source) : report_html(source));
 }

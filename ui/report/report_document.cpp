@@ -18,6 +18,7 @@ namespace cavum::report {
 namespace {
 
 const std::string k_dash = "–";
+constexpr double k_no_points = 0.005;  // reads 0.00
 
 std::string with_unit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit_text(unit));
@@ -60,6 +61,14 @@ std::string limits_text(const scenarios::CriterionSpec& c, const std::string& un
   return s;
 }
 
+/// A criterion's value as its table shows it.
+std::string shown_value(const grading::CriterionResult& c) {
+  if (!c.value) return k_dash;
+  const scenarios::Measure measure = scenarios::known_measure(c.metric);
+  if (measure.reads != scenarios::Reads::figure) return grading::value_text(measure, *c.value, c.bound, 2);
+  return with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit);
+}
+
 /// What a reader of the criteria would else have to guess.
 std::vector<std::string> how_to_read(const grading::Result& r) {
   std::vector<std::string> words{
@@ -82,19 +91,43 @@ void add_criteria(Document& d, const ReportSource& s) {
       {{"Criterion", false, 2.2}, {"Value", true, 1.9}, {"Limits", false, 2.4}, {"Points", true, 1.8}, {"Why", false, 3.8}}, {}, "Criteria"};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
-    const scenarios::Measure measure = scenarios::known_measure(c.metric);
-    const std::string value = !c.value ? k_dash
-                              : measure.reads == scenarios::Reads::figure
-                                  ? with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit)
-                                  : grading::value_text(measure, *c.value, c.bound, 2);
     const std::string points =
         !c.judged ? "not judged"
                   : fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
     const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";
-    t.rows.push_back({{{c.title}, {value}, {limits}, {points}, {c.reason}}, c.judged && c.max - c.points > 1e-9});
+    t.rows.push_back({{{c.title}, {shown_value(c)}, {limits}, {points}, {c.reason}}, c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
   for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
+}
+
+/// The three mistakes that cost most, in words of the clinic.
+void add_lessons(Document& d, const ReportSource& s) {
+  constexpr std::size_t k_most = 3;
+  if (s.lessons.empty()) return;
+  d.blocks.push_back(Heading{"What to work on"});
+  LessonList list;
+  for (const auto& l : s.lessons) {
+    if (list.items.size() == k_most) break;
+    LessonList::Item item{fmt::format("{} points{}", fixed(l.points, 1), l.fails_exam ? "; this alone fails the exam" : ""), l.what, l.instead};
+    if (l.where.timed()) item.jump = Jump{l.where.t_s(), l.where.site_mm};
+    list.items.push_back(std::move(item));
+  }
+  d.blocks.push_back(std::move(list));
+}
+
+/// Why the verdict is what it is, for a student: a failed limit by its title and figures, without places in mm and ticks.
+std::vector<std::string> reasons_for(const ReportSource& s) {
+  if (s.reader == ReportReader::instructor) return s.result.verdict_reasons;
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < s.result.criteria.size() && i < s.rubric.criteria.size(); ++i) {
+    const grading::CriterionResult& c = s.result.criteria[i];
+    if (!c.critical_failed) continue;
+    out.push_back(fmt::format("{}: {} ({}); this alone fails the exam", c.title, shown_value(c), limits_text(s.rubric.criteria[i], c.unit)));
+  }
+  for (const auto& reason : s.result.verdict_reasons)
+    if (!reason.starts_with(grading::k_critical_reason)) out.push_back(reason);
+  return out;
 }
 
 /// A row of a moment: time, place, what, how much, points.
@@ -120,7 +153,10 @@ void add_moments(Document& d, const ReportSource& s) {
     ReportTable t{{{"Time", true, 1.2}, {"Place x, y, z, mm", true, 2}, {"What", false, 6}, {"How much", true, 1.7}, {"Points lost", true, 1.2}},
                   {},
                   "Moments behind " + c.title};
-    for (const auto& m : w.items) t.rows.push_back(moment_row(m));
+    for (const auto& m : w.items) {
+      const bool cost_nothing = m.points_lost && *m.points_lost < k_no_points;
+      if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m));
+    }
     if (w.left_out > 0)
       t.rows.push_back({{{k_dash},
                          {""},
@@ -258,7 +294,7 @@ Document report_document(const ReportSource& s) {
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
   add_filing_notes(d, s);
   d.blocks.push_back(VerdictBox{grading::verdict_name(r.verdict), fmt::format("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)),
-                                margin(r), r.verdict_reasons});
+                                margin(r), reasons_for(s)});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
@@ -266,6 +302,7 @@ Document report_document(const ReportSource& s) {
         Paragraph{fmt::format("{} was opened at {} s, which this task asks to spare: {} mm² of its wall lie open, {} mm³ of it were removed",
                               p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
                   "Perforation", Paragraph::Kind::note});
+  add_lessons(d, s);
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
   add_criteria(d, s);
   add_pictures(d, s);

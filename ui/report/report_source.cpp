@@ -83,6 +83,7 @@ ReportSource report_source(const grading::Result& result, const grading::GradeIn
   constexpr double k_nothing = 1e-9;
   for (const auto& c : result.criteria)
     if (c.max - c.points > k_nothing) s.lost.push_back(grading::why(input, result, rubric, c.id));
+  s.lessons = grading::lessons(input, result);
   s.events = report_events(result, input, facts.points_toml);
   return s;
 }

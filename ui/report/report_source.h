@@ -11,6 +11,7 @@
 #include "grading/result/compare.h"
 #include "grading/scan/grade_scan.h"
 #include "grading/session_input.h"
+#include "grading/words/lessons.h"
 #include "grading/words/why.h"
 
 namespace cavum::report {
@@ -78,13 +79,14 @@ struct ReportSource {
   ReportReader reader = ReportReader::instructor;
   ReportIntegrity integrity = {};
   std::optional<ReportFiling> filing = {};
-  std::optional<ReportScan> scan = {};   ///< then there is no motion, and nothing of `integrity`
-  scenarios::RubricSpec rubric = {};     ///< that the result was marked by
-  std::vector<grading::Why> lost = {};   ///< of each criterion that lost points
+  std::optional<ReportScan> scan = {};  ///< then there is no motion, and nothing of `integrity`
+  scenarios::RubricSpec rubric = {};    ///< that the result was marked by
+  std::vector<grading::Why> lost = {};  ///< of each criterion that lost points
+  std::vector<grading::Lesson> lessons = {};
   std::vector<ReportEvent> events = {};  ///< in order of time
 };
 
-/// With what follows from the result: `lost` and `events`. The references must outlive it.
+/// With what follows from the result: `lost`, `lessons` and `events`. The references must outlive it.
 [[nodiscard]] ReportSource report_source(const grading::Result& result, const grading::GradeInput& input, const grading::ReportFacts& facts,
                                          const scenarios::RubricSpec& rubric);
 

@@ -57,6 +57,13 @@ scenarios::View view_of(std::size_t wall, scenarios::Facing facing) {
   if (facing.lateral() && w == scenarios::Wall::floor) return scenarios::View::bucco_lingual;
   return w == scenarios::Wall::buccal || w == scenarios::Wall::lingual ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;
 }
+/// A place halfway through what was cut beyond a wall (`side` -1: back from the furthest place), or through what was left before it (+1): a section
+/// along the wall itself shows nothing there.
+Vec3 halfway(const Worst& w, scenarios::Facing facing, double side) {
+  constexpr IVec3 k_out[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}};
+  const IVec3 out = facing.in_tooth(k_out[w.wall]);
+  return w.site_mm + Vec3{static_cast<double>(out.x), static_cast<double>(out.y), static_cast<double>(out.z)} * (0.5 * side * w.mm);
+}
 scenarios::View other(scenarios::View v) {
   return v == scenarios::View::mesio_distal ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;
 }
@@ -84,11 +91,11 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
           list.push_back({v, e.site_mm, "breakthrough in the force here"});
   if (over) {
     list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named("overcut", *over)});
-    list.push_back({other(view_of(over->wall, r.shape.facing)), over->site_mm, named("overcut", *over)});
+    list.push_back({other(view_of(over->wall, r.shape.facing)), halfway(*over, r.shape.facing, -1), named("overcut", *over)});
   }
   if (under) {
     list.push_back({view_of(under->wall, r.shape.facing), under->site_mm, named("undercut", *under)});
-    list.push_back({other(view_of(under->wall, r.shape.facing)), under->site_mm, named("undercut", *under)});
+    list.push_back({other(view_of(under->wall, r.shape.facing)), halfway(*under, r.shape.facing, 1), named("undercut", *under)});
   }
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {

@@ -76,7 +76,17 @@ struct LiveFigure {
   std::vector<Picture> on_paper;
 };
 
-using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure>;
+/// What cost most, and what to do instead.
+struct LessonList {
+  struct Item {
+    std::string weight;  ///< "9.0 points"
+    std::string what, instead;
+    std::optional<Jump> jump = {};
+  };
+  std::vector<Item> items;
+};
+
+using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure, LessonList>;
 
 struct Document {
   std::string title;

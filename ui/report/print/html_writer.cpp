@@ -72,13 +72,29 @@ class Writer {
     h_ += fmt::format("<section id='{}' aria-label='{}'><p class='fallback'>{}</p></section>\n", b.id, xml_text(b.title), xml_text(b.fallback));
   }
 
+  void operator()(const LessonList& b) {
+    h_ += "<ol class='lessons'>\n";
+    for (const auto& i : b.items) {
+      h_ += fmt::format("<li><p><b>{}</b> {}</p><p class='small'>{}", xml_text(i.what), xml_text(i.instead), xml_text(i.weight));
+      if (i.jump) {
+        h_ += " · ";
+        button(*i.jump, "show it");
+      }
+      h_ += "</p></li>\n";
+    }
+    h_ += "</ol>\n";
+  }
+
  private:
+  void button(const Jump& to, const std::string& text) {
+    h_ += fmt::format("<button class='jump' type='button' data-t='{}'", exact(to.t_s));
+    if (const auto& p = to.site_mm) h_ += fmt::format(" data-x='{}' data-y='{}' data-z='{}'", exact(p->x), exact(p->y), exact(p->z));
+    h_ += fmt::format(">{}</button>", xml_text(text));
+  }
   void cell(const TableCell& c, bool number) {
     h_ += number ? "<td class='n'>" : "<td>";
     if (c.jump) {
-      h_ += fmt::format("<button class='jump' type='button' data-t='{}'", exact(c.jump->t_s));
-      if (const auto& p = c.jump->site_mm) h_ += fmt::format(" data-x='{}' data-y='{}' data-z='{}'", exact(p->x), exact(p->y), exact(p->z));
-      h_ += fmt::format(">{}</button>", xml_text(c.text));
+      button(*c.jump, c.text);
     } else {
       h_ += xml_text(c.text);
     }

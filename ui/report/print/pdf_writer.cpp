@@ -1,5 +1,7 @@
 #include "ui/report/print/pdf_writer.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,6 +65,16 @@ class Printer {
     for (const auto& item : b.items) {
       s_.lines({"• " + item, b.small ? k_small_pt : k_text_pt, false}, s_.width_pt());
       s_.space(1);
+    }
+    s_.space(k_gap_pt / 2);
+  }
+  void operator()(const LessonList& b) {
+    int number = 0;
+    for (const auto& i : b.items) {
+      PdfText text{fmt::format("{} ({}{})", i.instead, i.weight, i.jump ? ", at " + fixed(i.jump->t_s, 1) + " s" : ""), k_text_pt, false};
+      text.lead = fmt::format("{}. {}", ++number, i.what.ends_with('.') ? i.what.substr(0, i.what.size() - 1) : i.what);
+      s_.lines(text, s_.width_pt());
+      s_.space(k_gap_pt / 2);
     }
     s_.space(k_gap_pt / 2);
   }

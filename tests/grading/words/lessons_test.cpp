@@ -1,0 +1,164 @@
+// Lessons: their points are those that were lost, each mistake that was cut into a block is the first to be named, at the place where it was made,
+// and doing what a lesson says wins points.
+#include "grading/words/lessons.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/engine/support/basics.h"
+#include "tests/grading/carved.h"
+
+namespace cavum::grading {
+namespace {
+
+using testing::box_hole;
+using testing::Carved;
+using testing::dentin_block;
+using testing::scenario_text;
+
+/// A box of 3 x 2 mm, 2 mm deep, in a block; marked for what is left, what is cut beside and below it, and what is cut elsewhere.
+std::string box_task() { return scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n"); }
+scenarios::RubricSpec box_rubric() {
+  scenarios::RubricSpec rubric;
+  const auto add = [&](const char* metric, double full, double zero, double points) {
+    scenarios::CriterionSpec c;
+    c.id = c.title = c.metric = metric;
+    c.full = full;
+    c.zero = zero;
+    c.points = points;
+    rubric.criteria.push_back(c);
+  };
+  add("target_removed_percent", 95, 30, 30);
+  add("container_sides_mm3", 0.1, 3, 20);
+  add("side_walls_max_over_mm", 0.3, 1, 20);
+  add("floor_max_over_mm", 0.3, 1, 20);
+  add("outside_mm3", 0.1, 2, 10);
+  return rubric;
+}
+
+class Lessons : public ::testing::Test {
+ protected:
+  Lessons() : work_(box_task(), dentin_block(4, 5, 0.1)) {}
+  std::vector<Lesson> of() {
+    result_ = work_.graded();
+    mark(result_, box_rubric());
+    return lessons(work_.input(), result_);
+  }
+  Carved work_;
+  Result result_;
+};
+
+TEST_F(Lessons, PointsAddUpToWhatWasLost) {
+  work_.carve(box_hole(-1.5, 1.0, -1, 1.9, -2.6), 500);
+  work_.carve(box_hole(3.0, 3.6, -1, 1, -1), 900);
+  const auto all = of();
+  double sum = 0, lost = 0;
+  for (const auto& l : all) sum += l.points;
+  for (const auto& c : result_.criteria) lost += c.max - c.points;
+  EXPECT_NEAR(sum, lost, 0.01 * static_cast<double>(all.size() + 1));
+  EXPECT_GT(all.size(), 2u);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GE(all[i - 1].points, all[i].points);
+}
+
+TEST_F(Lessons, NothingLostNothingSaid) {
+  work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  EXPECT_TRUE(of().empty());
+}
+
+TEST_F(Lessons, AnUntouchedToothIsToldToBegin) {
+  const auto all = of();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::left_standing);
+  EXPECT_EQ(all[0].what, "Nothing of the cavity was cut.");
+}
+
+TEST_F(Lessons, WhatWasLeftIsNamedWithItsWall) {
+  work_.carve(box_hole(-0.2, 1.5, -1, 1, -2), 500);  // the distal 1.3 mm stay
+  const auto all = of();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::left_standing);
+  EXPECT_NE(all[0].what.find("the distal wall, up to 1."), std::string::npos) << all[0].what;
+  EXPECT_NE(all[0].instead.find("the distal wall"), std::string::npos) << all[0].instead;
+}
+
+TEST_F(Lessons, AWallThatWasCutTooFarIsNamedWithItsTime) {
+  work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  work_.carve(box_hole(-1.5, 1.5, 1, 1.8, -2), 95'000);
+  const auto all = of();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::beside);
+  EXPECT_NE(all[0].what.find("the buccal wall was cut by up to 0.8"), std::string::npos) << all[0].what;
+  EXPECT_NE(all[0].what.find("from 1:35 on"), std::string::npos) << all[0].what;
+  EXPECT_NEAR(all[0].points, 20 * (0.8 - 0.3) / 0.7 + 20, 4);
+}
+
+TEST_F(Lessons, AFloorThatIsTooDeepIsNamedWithItsPlace) {
+  work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  work_.carve(box_hole(-1.4, -0.7, 0.4, 1, -2.9), 61'000);
+  const auto all = of();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::too_deep);
+  EXPECT_NE(all[0].what.find("up to 0.9"), std::string::npos) << all[0].what;
+  EXPECT_NE(all[0].what.find("deepest distobuccally at 1:01"), std::string::npos) << all[0].what;
+}
+
+TEST_F(Lessons, ACutElsewhereIsNamed) {
+  work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  work_.carve(box_hole(3.0, 3.9, -1, 1, -1), 900);
+  const auto all = of();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::elsewhere);
+}
+
+TEST_F(Lessons, OfTwoMistakesTheDearerComesFirst) {
+  work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  work_.carve(box_hole(-1.5, 1.5, 1, 1.45, -2), 600);      // a little too wide
+  work_.carve(box_hole(-1.4, 1.4, -0.9, 0.9, -2.9), 700);  // far too deep
+  const auto all = of();
+  ASSERT_GE(all.size(), 2u);
+  EXPECT_EQ(all[0].topic, Topic::too_deep);
+  EXPECT_EQ(all[1].topic, Topic::beside);
+}
+
+/// Work with some of three mistakes, and what its lessons say it cost.
+struct Worked {
+  std::vector<Lesson> lessons;
+  double points = 0;
+};
+Worked worked(bool leaves_distal, bool wide, bool deep) {
+  Carved c(box_task(), dentin_block(4, 5, 0.1));
+  c.carve(box_hole(leaves_distal ? -0.6 : -1.5, 1.5, -1, 1, -2), 500);
+  if (wide) c.carve(box_hole(-0.5, 1.5, 1, 1.7, -2), 600);
+  if (deep) c.carve(box_hole(0, 1.4, -0.9, 0.9, -2.7), 700);
+  Result r = c.graded();
+  mark(r, box_rubric());
+  return {lessons(c.input(), r), r.points};
+}
+
+TEST(LessonsObeyed, EachWinsThePointsItSpeaksOf) {
+  const Worked all = worked(true, true, true);
+  ASSERT_EQ(all.lessons.size(), 3u);
+  for (const auto& l : all.lessons) {
+    const Worked obeyed = worked(l.topic != Topic::left_standing, l.topic != Topic::beside, l.topic != Topic::too_deep);
+    EXPECT_NEAR(obeyed.points - all.points, l.points, 0.15 * l.points + 0.3) << topic_name(l.topic);
+    for (const auto& still : obeyed.lessons) EXPECT_NE(still.topic, l.topic) << still.what;
+  }
+}
+
+TEST_F(Lessons, PlacesAreSaidByTheCavity) {
+  const scenarios::ZoneMap& zones = work_.input().zones;
+  const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
+  EXPECT_EQ(side_words(middle, zones), "in the middle");
+  const std::pair<double, const char*> around[] = {{0, "towards mesial"},    {45, "mesiobuccally"},   {90, "towards buccal"},
+                                                   {135, "distobuccally"},   {180, "towards distal"}, {225, "distolingually"},
+                                                   {270, "towards lingual"}, {315, "mesiolingually"}, {20, "towards mesial"},
+                                                   {25, "mesiobuccally"},    {65, "mesiobuccally"},   {70, "towards buccal"}};
+  for (const auto& [deg, words] : around) {
+    const double a = deg * 3.14159265358979 / 180;
+    EXPECT_EQ(side_words(middle + Vec3{std::cos(a), std::sin(a), 0}, zones), words) << deg;
+  }
+}
+
+}  // namespace
+}  // namespace cavum::grading
