@@ -17,7 +17,8 @@ constexpr double k_pit_per_mm = 0.8;           // least curvature of a pit: a di
 constexpr double k_central_mm = 0.03;          // of the central pit
 constexpr double k_fossa_mm = 0.3;             // of the central pit where no ridge tells the table's ends: the central fossa
 constexpr double k_end_share = 0.32;           // of the table's length: an end's pit lies in it
-constexpr double k_from_crest_mm = 0.35;       // a pit or an end of a valley nearer to the crest is a fault of the crest
+constexpr double k_from_crest_mm = 0.2;        // a hollow nearer to the ridge is a fault of its crest
+constexpr double k_knee_from_crest_mm = 0.35;  // a valley that begins on the crest itself has no end to be told
 constexpr double k_usual_from_crest_mm = 1.0;  // a pit
 constexpr double k_pits_apart_mm = 1.0;
 constexpr double k_least_branch_mm = 0.8;
@@ -75,7 +76,7 @@ std::optional<int> knee(const Ground& g, Vec3 crest, const std::vector<int>& way
   const double valley = k_end_bend * usual;
   for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
     if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
-      return std::min(flat_distance(g.map.place(way[i]), g.map.place(way[0])), flat_distance(g.map.place(way[i]), crest)) >= k_from_crest_mm
+      return std::min(flat_distance(g.map.place(way[i]), g.map.place(way[0])), flat_distance(g.map.place(way[i]), crest)) >= k_knee_from_crest_mm
                  ? std::optional(way[i])
                  : std::nullopt;
   return std::nullopt;
