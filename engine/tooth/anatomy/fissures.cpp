@@ -17,7 +17,8 @@ constexpr double k_pit_per_mm = 0.8;           // least curvature of a pit: a di
 constexpr double k_central_mm = 0.03;          // of the central pit
 constexpr double k_fossa_mm = 0.3;             // of the central pit where no ridge tells the table's ends: the central fossa
 constexpr double k_end_share = 0.32;           // of the table's length: an end's pit lies in it
-constexpr double k_from_crest_mm = 0.35;       // a pit or an end of a valley nearer to the crest is a fault of the crest
+constexpr double k_from_crest_mm = 0.2;        // a hollow nearer to the ridge is a fault of its crest
+constexpr double k_knee_from_crest_mm = 0.35;  // a valley that begins on the crest itself has no end to be told
 constexpr double k_usual_from_crest_mm = 1.0;  // a pit
 constexpr double k_pits_apart_mm = 1.0;
 constexpr double k_least_branch_mm = 0.8;
@@ -70,12 +71,14 @@ std::optional<Peak> end_hollow(const Ground& g, Vec3 crest, int end, double leas
 }
 
 /// Where the way from a ridge's crest inwards begins to be a valley as the whole of it is.
-std::optional<int> knee(const Ground& g, const std::vector<int>& way, double usual, int end) {
+std::optional<int> knee(const Ground& g, Vec3 crest, const std::vector<int>& way, double usual, int end) {
   if (usual < k_fissure_per_mm) return std::nullopt;
   const double valley = k_end_bend * usual;
   for (std::size_t i = 0; i + 2 < way.size() && g.at_end(g.map.place(way[i]), end); ++i)
     if (bend_at(way, g.curvature, i) >= valley && bend_at(way, g.curvature, i + 2) >= valley)
-      return flat_distance(g.map.place(way[i]), g.map.place(way[0])) >= k_from_crest_mm ? std::optional(way[i]) : std::nullopt;
+      return std::min(flat_distance(g.map.place(way[i]), g.map.place(way[0])), flat_distance(g.map.place(way[i]), crest)) >= k_knee_from_crest_mm
+                 ? std::optional(way[i])
+                 : std::nullopt;
   return std::nullopt;
 }
 
@@ -83,7 +86,7 @@ std::optional<int> knee(const Ground& g, const std::vector<int>& way, double usu
 std::optional<int> end_pit(const Ground& g, Vec3 crest, const std::vector<int>& way, int end) {
   if (way.size() < 12) return std::nullopt;
   const double usual = median_bend(way, g.curvature, way.size() / 4, way.size() - way.size() / 4);
-  const auto bend = knee(g, way, usual, end);
+  const auto bend = knee(g, crest, way, usual, end);
   const auto hollow = end_hollow(g, crest, end, std::max(k_pit_per_mm, k_pit_bend * usual));
   // what holds water is the pit; a fissure of even depth has its lowest place anywhere, and its end tells the pit better
   if (hollow && (!bend || hollow->prominence_mm >= k_deep_pit_mm)) return hollow->cell;

@@ -197,7 +197,10 @@ Hollows find_hollows(IVec3 size, const Mask& hard, const Mask& outside, const st
   for (std::uint32_t b = 1; b < count; ++b)
     if (found.outer_faces[b] * 5 < found.hard_faces[b] && (found.pulp == 0 || found.bodies.voxels[b] > found.bodies.voxels[found.pulp]))
       found.pulp = b;
-  if (found.pulp == 0) throw Error(where, "no pulp found: every hollow is open to the outside", "check --dentin-threshold");
+  if (found.pulp == 0)
+    throw Error(where, "no pulp found: every hollow is open to the outside",
+                "check --dentin-threshold; of a scan that ends above the roots' tips the canals are open below: bring more of the root, or mark the "
+                "pulp in a label map (--map)");
   return found;
 }
 
