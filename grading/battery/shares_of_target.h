@@ -9,7 +9,7 @@
 namespace cavum::grading {
 
 /// Value of `along(place)` beyond which a share (0..1) of the leaves lies; of all, or of one tissue's. Half a leaf between leaves. Leaves at one
-/// value go together: of the two ends of their layer the one nearer to the share, so that the upper 85 % of a shallow target are not 88.
+/// value go together, and no more lie beyond than the share: the upper 85 % of a shallow target must not be 88.
 template <class Along>
 [[nodiscard]] double beyond_which(const TargetField& field, double share, const Along& along, int tissue = -1) {
   std::vector<double> at;
@@ -21,7 +21,7 @@ template <class Along>
   std::nth_element(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(rank), at.end());
   const double value = at[rank];
   const auto beyond = [&](double v) { return static_cast<double>(std::count_if(at.begin(), at.end(), [v](double a) { return a > v; })); };
-  return wanted - beyond(value + half) < beyond(value - half) - wanted ? value + half : value - half;
+  return beyond(value - half) < wanted + 1 ? value - half : value + half;
 }
 
 }  // namespace cavum::grading

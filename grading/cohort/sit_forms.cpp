@@ -12,23 +12,22 @@
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "engine/base/scratch_folder.h"
-#include "grading/close_exam.h"
+#include "grading/grade.h"
+#include "grading/session_input.h"
 #include "scenarios/candidates/simulated_exam.h"
 
 namespace cavum::cohort {
 namespace {
 
-grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint64_t seed, const std::string& session) {
+/// The session is not sealed: nobody keeps it.
+grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint64_t seed, const std::string& session,
+                          grading::ExamGrounds& grounds) {
   auto hands = scenarios::make_simulated_candidate(form, fmt::format("student-{}", level), seed, OmniModel{});
-  grading::Result result;
-  {
-    const auto exam = scenarios::Exam::start(form, session, hands.start_mm());
-    scenarios::run_exam(*exam, hands);
-    result = grading::grade_and_close(*exam).result;
-  }
-  std::error_code ignored;
-  std::filesystem::remove(session, ignored);
-  return result;
+  const auto exam = scenarios::Exam::start(form, session, hands.start_mm());
+  scenarios::run_exam(*exam, hands);
+  exam->recorder().flush();
+  const auto graded = grading::load_for_grading(SessionReader(exam->recorder().image(), session), exam->tooth_now(), grounds);
+  return grading::grade(graded->input(), graded->rubric);
 }
 
 std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<std::string>& files, FormsSat& sat) {
@@ -72,10 +71,14 @@ FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& do
   int ended = 0;
   std::exception_ptr failed;
   const auto work = [&] {
+    grading::ExamGrounds grounds;  // of this thread
     for (std::size_t i = next++; i < n * k; i = next++) {
-      const std::size_t student = i / k, form = i % k;
+      const std::size_t form = i / n, student = i % n;
+      const std::string session = scratch.file(fmt::format("{}.cavum", i));
       try {
-        const auto r = result_of(*forms[form], sat.level[student], sat.seed[student], scratch.file(fmt::format("{}.cavum", i)));
+        const auto r = result_of(*forms[form], sat.level[student], sat.seed[student], session, grounds);
+        std::error_code ignored;
+        std::filesystem::remove(session, ignored);
         const std::lock_guard lock(one);
         sat.percent[student][form] = r.max_points > 0 ? 100.0 * r.points / r.max_points : 0.0;
         sat.passed[form] += r.verdict == grading::Verdict::pass ? 1 : 0;

@@ -200,7 +200,7 @@ void for_each_reached(const FreeRoom& room, const ReachMap& map, const ContactTo
 }  // namespace
 
 ReachMap without_skimming(const FreeRoom& room, ReachMap map, const ContactTool& tool) {
-  constexpr double k_skims_mm = 0.5;
+  constexpr double k_skims_mm = 1.0;
   std::vector<float> deepest(room.target.size(), static_cast<float>(ReachMap::k_unreachable));
   for_each_reached(room, map, tool, [&](std::size_t column, std::size_t voxel) {
     deepest[voxel] = std::min(deepest[voxel], static_cast<float>(map.lowest_mm[column]));

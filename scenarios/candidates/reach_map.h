@@ -44,7 +44,7 @@ struct FreeRoom {
 /// For one point alone.
 [[nodiscard]] ReachMap reach_map(const ZoneMap& zones, const Tooth& tooth, const ContactTool& tool, const MarginSpec& margin);
 
-/// The same map without places where the point would stand high on sound tooth and remove nothing that it does not remove from places at least half a
+/// The same map without places where the point would stand high on sound tooth and remove nothing that it does not remove from places at least a
 /// millimetre deeper: on a slope beside the cavity it slips.
 [[nodiscard]] ReachMap without_skimming(const FreeRoom& room, ReachMap reach, const ContactTool& tool);
 

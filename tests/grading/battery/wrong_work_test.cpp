@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "grading/battery/shares_of_target.h"
 #include "scenarios/zones/placed.h"
 #include "tests/scenarios/test_crowns.h"
+#include "tests/scenarios/test_teeth.h"
 
 namespace cavum::grading {
 namespace {
@@ -45,6 +47,21 @@ TEST(WrongWork, OfAStumpTooWideIsItsWallsAlone) {
   EXPECT_GT(wide->cut({3.7, 0, -6.0}), 0);  // below the finish line
   EXPECT_EQ(crown.find("opens_the_middle_65_percent"), nullptr);
   EXPECT_EQ(crown.find("shank_at_the_entrance"), nullptr);
+}
+
+TEST(WrongWork, AShareOfAShallowTargetIsNoMoreThanThat) {
+  // 1.0 mm deep in leaves of 0.1 mm: ten layers of equal size
+  const Tooth tooth = testing::dentin_block(4, 4, 0.1);
+  const auto scenario =
+      scenarios::parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [2, 2, 2]\n"), "s.toml");
+  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth);
+  const TargetField field(tooth, zones);
+  const auto all = static_cast<double>(field.leaves().size());
+  for (const auto& [share, layers] : {std::pair{0.52, 5.0}, {0.68, 6.0}, {0.85, 8.0}, {0.97, 9.0}, {0.02, 0.0}, {1.0, 10.0}}) {
+    const double from = beyond_which(field, share, [](Vec3 q) { return q.z; });
+    const auto above = std::count_if(field.leaves().begin(), field.leaves().end(), [&](const TargetLeaf& leaf) { return leaf.at.z > from; });
+    EXPECT_NEAR(static_cast<double>(above) / all, 0.1 * layers, 1e-9) << share;
+  }
 }
 
 TEST(WrongWork, FromASideIsShiftedTowardsOcclusalAndGingiva) {

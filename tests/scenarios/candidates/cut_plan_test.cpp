@@ -87,6 +87,24 @@ TEST(CutPlan, WithAWiderMarginGoesThatFarBeyondTheSidesOrTheFloorAndNotTheOther)
   EXPECT_LT(p.furthest_mm(plan_cut(deep, p.tooth, PlanOptions{}), deep.tool, false), 0.1);
 }
 
+TEST(CutPlan, LeavesOutPlacesThatStandHighAndRemoveNothingOfTheirOwn) {
+  // columns of 0.25 mm in a row, the target three millimetres deep under all of them but the last
+  FreeRoom room;
+  room.map.nx = 12, room.map.ny = 1, room.map.step_mm = 0.25, room.map.bottom_mm = 0, room.map.top_mm = 3;
+  room.step_mm = 0.1;
+  room.target.assign(12 * 30, 1);
+  ReachMap map = room.map;
+  map.lowest_mm = {0, 0, 0, 0, 0, 2.0, 0.9, ReachMap::k_unreachable, ReachMap::k_unreachable, ReachMap::k_unreachable, ReachMap::k_unreachable, 2.5};
+  const ContactTool tool = cylinder();  // reaches two columns to either side
+  for (std::size_t k = 0; k < 30; ++k)
+    for (const std::size_t c : {7, 8}) room.target[12 * k + c] = 0;
+  const ReachMap kept = without_skimming(room, map, tool);
+  for (std::size_t c = 0; c < 5; ++c) EXPECT_EQ(kept.lowest_mm[c], 0) << c;
+  EXPECT_EQ(kept.lowest_mm[5], ReachMap::k_unreachable) << "what it reaches the fourth and the sixth do, deeper by a millimetre and more";
+  EXPECT_EQ(kept.lowest_mm[6], 0.9) << "less than a millimetre higher";
+  EXPECT_EQ(kept.lowest_mm[11], 2.5) << "high, but nothing else reaches what lies there";
+}
+
 TEST(CutPlan, ForTheMiddleKeepsThatShareOfLengthAndWidth) {
   const Planned p(scenario_text(k_upright));
   const ReachMap all = p.reach(k_expert_margin), half = middle_of(all, 50);
