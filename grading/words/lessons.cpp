@@ -65,8 +65,18 @@ Shares by_ends(const Result& r, std::size_t first) {
   return s;
 }
 
+/// Whether the furthest overcut of the walls that a measure looks at is no wall of the cavity, but a cut elsewhere.
+bool is_cut_elsewhere(const GradeInput& in, const Result& r, const scenarios::Measure& m) {
+  const WallMeasures* worst = nullptr;
+  for (std::size_t w = m.first_wall; w < std::min(m.first_wall + m.walls, scenarios::k_walls); ++w)
+    if (worst == nullptr || r.shape.wall[w].max_over_mm > worst->max_over_mm) worst = &r.shape.wall[w];
+  if (worst == nullptr || worst->worst_over.tick < 0) return false;
+  const Zone zone = in.zones.zone(in.before.octree.leaf_at(worst->worst_over.site_mm));
+  return zone == Zone::none || zone == Zone::protected_;
+}
+
 /// What a criterion's value is charged for.
-Shares charged_for(const Result& r, const scenarios::Measure& m) {
+Shares charged_for(const GradeInput& in, const Result& r, const scenarios::Measure& m) {
   if (m.name == "overhang_mm3") return {{Topic::roof, 1}};
   if (m.name == "canals_covered_percent") return {{Topic::canals, 1}};
   if (m.name == "taper_deg" || m.name == "taper_error_deg") return {{Topic::taper, 1}};
@@ -77,15 +87,17 @@ Shares charged_for(const Result& r, const scenarios::Measure& m) {
   if (m.name.starts_with("outline_length")) return by_ends(r, 0);
   if (m.name.starts_with("outline_width")) return by_ends(r, 2);
   if (m.name.starts_with("depth_")) return {{r.shape.depth_mm.value_or(0) > r.shape.target_depth_mm ? Topic::too_deep : Topic::left_standing, 1}};
+  if (m.family != nullptr && m.key() == scenarios::k_wall_family && m.figure != scenarios::WallFigure::max_under && is_cut_elsewhere(in, r, m))
+    return {{Topic::elsewhere, 1}};
   if (m.name.starts_with("force_")) return {{Topic::force, 1}};
   return by_volume(r, m.counts);
 }
 
-Shares shares_of(const Result& r, const CriterionResult& c) {
+Shares shares_of(const GradeInput& in, const Result& r, const CriterionResult& c) {
   const double lost = c.max - c.points;
   // care that counts in part only: what is missing of it is missing work
   const double by_value = c.value && c.work_share > 0 ? c.max - c.points / c.work_share : 0;
-  Shares charged = charged_for(r, scenarios::known_measure(c.metric)), out;
+  Shares charged = charged_for(in, r, scenarios::known_measure(c.metric)), out;
   double sum = 0;
   for (const auto& [topic, part] : charged) sum += part;
   if (charged.empty()) charged[Topic::other] = 0;
@@ -310,7 +322,7 @@ std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {
   std::map<Topic, Lesson> by_topic;
   for (const auto& c : result.criteria) {
     if (!c.judged || (!(c.max - c.points > 0) && !c.critical_failed)) continue;
-    const Shares shares = shares_of(result, c);
+    const Shares shares = shares_of(input, result, c);
     const auto main = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     for (const auto& [topic, points] : shares) {
       by_topic[topic].points += points;

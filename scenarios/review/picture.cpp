@@ -118,15 +118,16 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
     x += size_of(svg, "width='") + 14;
     width = std::max(width, x);
   }
-  const std::string legend = legend_svg(false, strong);
+  const std::string legend = legend_svg(tooth, false, strong);
   const double title_px = 9.0 * static_cast<double>(scenario.title.size() + tooth.name.size() + 2);
   width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
-  const double height = row_y + row_height + 40;
+  const double height = row_y + row_height + 18 + size_of(legend, "height='");
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' font-family='sans-serif'>\n"
       "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>{}</text>\n{}<g transform='translate(10 "
       "{})'>{}</g>\n</svg>\n",
-      svg_number(width), svg_number(height), xml_text(fmt::format("{}: {}", scenario.title, tooth.name)), body, svg_number(height - 30), legend);
+      svg_number(width), svg_number(height), xml_text(fmt::format("{}: {}", scenario.title, tooth.name)), body,
+      svg_number(height - 8 - size_of(legend, "height='")), legend);
 }
 
 }  // namespace cavum::scenarios

@@ -42,8 +42,9 @@ struct PictureSpec {
 /// The colour of a tissue in these pictures, "#rrggbb".
 [[nodiscard]] std::string tissue_colour(std::uint8_t tissue, bool high_contrast = false);
 
-/// The key to the colours, an `<svg>` element. `with_removed` adds what a graded section shows.
-[[nodiscard]] std::string legend_svg(bool with_removed, bool high_contrast = false);
+/// The key to the colours, an `<svg>` element, with what stands beside the tooth where anything does. `with_removed` adds what a graded section
+/// shows.
+[[nodiscard]] std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false);
 /// The key to the colours of PictureSpec::heat_percent, an `<svg>` element.
 [[nodiscard]] std::string heat_legend_svg();
 

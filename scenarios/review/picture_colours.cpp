@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <vector>
 
 #include "engine/base/text.h"
+#include "engine/tooth/beside.h"
 #include "scenarios/review/picture.h"
 
 namespace cavum::scenarios {
@@ -39,19 +41,28 @@ struct KeyEntry {
   bool is_line;
 };
 
-std::string key_svg(const std::vector<KeyEntry>& entries) {
+/// In rows; the entries of `second` begin another one.
+std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}) {
+  constexpr double k_row_px = 22;
   std::string items;
-  double x = 4;
-  for (const auto& e : entries) {
-    if (e.is_line)
-      items += fmt::format("<path d='M{} 11h16' stroke='{}' stroke-width='2'/>", svg_number(x), e.colour);
-    else
-      items += fmt::format("<rect x='{}' y='4' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x), e.colour);
-    items += fmt::format("<text x='{}' y='15' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), e.text);
-    x += 34 + 6.6 * static_cast<double>(e.text.size());
+  double width = 0, y = 0;
+  for (const auto* row : {&first, &second}) {
+    if (row->empty()) continue;
+    double x = 4;
+    for (const auto& e : *row) {
+      if (e.is_line)
+        items += fmt::format("<path d='M{} {}h16' stroke='{}' stroke-width='2'/>", svg_number(x), svg_number(y + 11), e.colour);
+      else
+        items += fmt::format("<rect x='{}' y='{}' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x),
+                             svg_number(y + 4), e.colour);
+      items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), e.text);
+      x += 34 + 6.6 * static_cast<double>(e.text.size());
+    }
+    width = std::max(width, x);
+    y += k_row_px;
   }
-  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='22' viewBox='0 0 {} 22' font-family='sans-serif'>{}</svg>\n",
-                     svg_number(x), svg_number(x), items);
+  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>{}</svg>\n",
+                     svg_number(width), svg_number(y), svg_number(width), svg_number(y), items);
 }
 
 }  // namespace
@@ -120,7 +131,7 @@ std::string heat_legend_svg() {
   return key_svg(entries);
 }
 
-std::string legend_svg(bool with_removed, bool high_contrast) {
+std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast) {
   const Palette& colours = palette_of(high_contrast);
   std::vector<KeyEntry> entries{{colours.enamel, "enamel", false},
                                 {colours.dentin, "dentin", false},
@@ -135,7 +146,13 @@ std::string legend_svg(bool with_removed, bool high_contrast) {
     entries.push_back({colours.leeway, "removed, leeway", false});
     entries.push_back({colours.overcut, "removed, damage", false});
   }
-  return key_svg(entries);
+  std::vector<KeyEntry> beside;
+  for (const Tissue& t : tooth.tissues)
+    if (t.name == k_gum)
+      beside.push_back({tissue_colour(colours, t.id), "gum", false});
+    else if (is_of_neighbour(t.name))
+      beside.push_back({tissue_colour(colours, t.id), "neighbour's " + t.name.substr(k_neighbour_prefix.size()), false});
+  return key_svg(entries, beside);
 }
 
 }  // namespace cavum::scenarios

@@ -45,7 +45,7 @@ class Library : public ::testing::TestWithParam<std::string> {
     options.device = "simulated Omni";
     return scenarios::prepare_exam(file(), options);
   }
-  /// Recorded and read back, with zones and tooth of the setup.
+  /// Recorded and read back.
   [[nodiscard]] grading::Result taken_by(const std::string& who, const scenarios::ExamSetup& setup) const {
     const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000;
     scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, who, seed, OmniModel{});
@@ -53,14 +53,10 @@ class Library : public ::testing::TestWithParam<std::string> {
     const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
     scenarios::run_exam(*exam, candidate);
     exam->recorder().flush();
-    const SessionReader reader(session);
-    const auto inputs = reader.inputs();
-    const auto records = reader.records();
-    const auto removed = reader.removed();
-    const auto events = reader.events();
-    const Tooth after = exam->tooth_now();
-    grading::Result r =
-        grading::grade({setup.scenario, setup.tooth, setup.zones, after.octree, inputs, records, removed, events}, setup.scenario.rubric);
+    const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now());
+    grading::GradeInput input = graded->input();
+    input.again = nullptr;  // how much force a perforation took away is not asked here
+    grading::Result r = grading::grade(input, graded->rubric);
     exam->close(grading::to_json(r).dump());
     return r;
   }

@@ -181,7 +181,7 @@ void add_pictures(Document& d, const ReportSource& s) {
   Pictures sections{{}, 2, true};
   for (auto& p : section_pictures(s.result, s.input)) sections.list.push_back({std::move(p.svg), std::move(p.title), true});
   d.blocks.push_back(std::move(sections));
-  d.blocks.push_back(Pictures{{{scenarios::legend_svg(true, strong), ""}}});
+  d.blocks.push_back(Pictures{{{scenarios::legend_svg(s.input.seen_before(), true, strong), ""}}});
 }
 
 void add_course(Document& d, const ReportSource& s) {

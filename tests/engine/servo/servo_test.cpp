@@ -171,6 +171,31 @@ TEST(Servo, ForceStaysContinuousAcrossTheBorderOfTwoTissues) {
   EXPECT_LE(worst, 0.005);
 }
 
+TEST(Servo, GumIsFeltSofterThanAnyHardTissueAndANeighbourLikeTheToothItself) {
+  struct Felt {
+    double pressed_n, held_n;
+  };
+  for (const char* set : {"consistent", "paper", "clinical"}) {
+    // a resting point pressed 0.3 mm in at 1 mm/s, and held there for a second
+    const auto felt = [&](const std::string& tissue) {
+      Rig rig(make_block({2.4, 2.4, 2.0}, {{tissue, 2.0}}, 0.05), {diamond_point("round-1.0")}, shipped_model(set), {0, 0, 0.05});
+      EXPECT_NEAR(length(rig.tick({0, 0, 0.05}, 0).rendered_force_n), 0, 1e-6) << "nothing is touched yet";
+      Felt f{length(rig.travel({0, 0, 0.05}, {0, 0, -0.3}, 1.0).rendered_force_n), 0};
+      for (int i = 0; i < 1000; ++i) f.held_n = length(rig.tick({0, 0, -0.3}, 0).rendered_force_n);
+      return f;
+    };
+    const Felt gum = felt("gingiva"), lesion = felt("lesion"), dentin = felt("dentin");
+    for (const auto& [name, f] : {std::pair("gum", gum), std::pair("softened dentin", lesion), std::pair("dentin", dentin)})
+      std::printf("%s: %s, 0.3 mm in: %.3f N pressed at 1 mm/s, %.3f N held\n", set, name, f.pressed_n, f.held_n);
+    EXPECT_GT(gum.held_n, 0.03) << "its touch is felt";
+    EXPECT_LT(gum.held_n, 0.9 * lesion.held_n);
+    EXPECT_LT(gum.held_n, 0.4 * dentin.held_n);
+    EXPECT_LT(gum.pressed_n, lesion.pressed_n);
+    EXPECT_LT(gum.pressed_n, 0.6 * dentin.pressed_n) << "also with the paper's dampers";
+    for (const char* hard : {"dentin", "enamel"}) EXPECT_DOUBLE_EQ(felt(std::string("neighbour_") + hard).held_n, felt(hard).held_n);
+  }
+}
+
 TEST(Servo, NoticesTellWhatWentWrong) {
   const Tooth tooth = four_layers();
   const auto pressed = [&] {

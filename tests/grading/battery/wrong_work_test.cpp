@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "grading/battery/shares_of_target.h"
 #include "scenarios/zones/placed.h"
@@ -78,6 +79,34 @@ TEST(WrongWork, FromASideIsShiftedTowardsOcclusalAndGingiva) {
   EXPECT_GT(down->cut({0, 3.5, -3.4}), 0);
   EXPECT_LT(down->cut({0, 3.5, -5.6}), 0);
   EXPECT_EQ(cavity.find("shifted_1_mm_buccal"), nullptr);
+}
+
+TEST(WrongWork, TheContactThatIsLeftIsWhereTheNeighbourBulges) {
+  // a block that ends at x = 3, and a neighbour who bulges towards it at z = -3: the target comes nearest to him far above that
+  const auto own = [](Vec3 p) { return std::max({std::fabs(p.x) - 3, std::fabs(p.y) - 3, p.z, -6 - p.z}); };
+  const auto his = [](Vec3 p) { return std::max({3.1 + 0.4 * std::fabs(p.z + 3) - p.x, p.x - 5, std::fabs(p.y) - 3, p.z, -6 - p.z}); };
+  Tooth tooth = testing::make_tooth(
+      {-3.5, -3.5, -6.5}, {5.5, 3.5, 0.5}, 0.1,
+      [&](Vec3 p) -> std::uint8_t {
+        if (own(p) < 0) return k_enamel;
+        return his(p) < 0 ? k_neighbour_enamel : std::uint8_t{k_air};
+      },
+      [&](Vec3 p) { return std::min(own(p), his(p)); });
+  tooth.tissues.push_back({k_neighbour_enamel, "neighbour_enamel", true});
+  tooth.octree = Octree(tooth.octree.to_grid(), tooth.tissues);
+  const scenarios::Scenario scenario =
+      scenarios::parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [2, 0, -2.5]\nsize_mm = [1.8, 3, 3]\n"
+                                                       "[[zones.target]]\nshape = \"box\"\nat_mm = [2.9, 0, 0]\nsize_mm = [2, 3, 2]\n"),
+                                "s.toml");
+  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth);
+  const Task task = make_task(scenario, tooth, zones);
+  const TargetField field(tooth, zones);
+  const auto works = wrong_works(task, field);
+  const auto left = std::find_if(works.begin(), works.end(), [](const WrongWork& w) { return w.name == "leaves_the_contact"; });
+  ASSERT_NE(left, works.end());
+  EXPECT_LT(left->cut({2.0, 0, -3}), 0) << "the target";
+  EXPECT_GT(left->cut({2.6, 0, -3}), 0) << "0.8 mm before the bulge";
+  EXPECT_GT(left->cut({2.6, 0, -0.3}), 0) << "the wall stands upright to its top";
 }
 
 }  // namespace

@@ -11,12 +11,13 @@
 #include "engine/tooth/octree_edit.h"
 #include "grading/grade.h"
 #include "grading/result/result_json.h"
-#include "tests/grading/carved.h"
+#include "tests/grading/carved_beside.h"
 
 namespace cavum::grading {
 namespace {
 
 using testing::Carved;
+using testing::CarvedBeside;
 using testing::make_tooth;
 using testing::scenario_text;
 
@@ -46,17 +47,6 @@ std::string box_at_contact(double below_mm, double half_mm = 0.8) {
       "[[rubric.criteria]]\nid = \"clear\"\nmetric = \"proximal_clearance_mm\"\nfull = 0.3\nzero = 0.05\npoints = 10\n"
       "[[rubric.criteria]]\nid = \"nick\"\nmetric = \"neighbour_nick_depth_mm\"\nfull = 0\nzero = 0.3\npoints = 10\ncritical_above = 0.3\n");
 }
-
-/// Work on a tooth that does not stand alone.
-struct CarvedBeside : Carved {
-  CarvedBeside(const std::string& scenario_toml, Tooth tooth) : Carved(scenario_toml, std::move(tooth)), apart(take_apart(before)) {}
-  [[nodiscard]] Result graded() const {
-    const WorkApart own = take_apart(*apart, after, removed);
-    const GradeBeside beside{*apart, before, after, removed};
-    return grade({scenario, apart->own, zones, own.after, inputs, records, own.removed, events, -1, nullptr, nullptr, &beside}, scenario.rubric);
-  }
-  std::shared_ptr<const ToothApart> apart;
-};
 
 TEST(BesideMeasures, ABallOutOfABallIsAsDeepAndWideAsTheirLens) {
   for (const double radius : {0.5, 0.8}) {

@@ -74,11 +74,11 @@ TEST_F(Lessons, AnUntouchedToothIsToldToBegin) {
 }
 
 TEST_F(Lessons, WhatWasLeftIsNamedWithItsWall) {
-  work_.carve(box_hole(-0.2, 1.5, -1, 1, -2), 500);  // the distal 1.3 mm stay
+  work_.carve(box_hole(-0.7, 1.5, -1, 1, -2), 500);  // the distal 0.8 mm stay
   const auto all = of();
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].topic, Topic::left_standing);
-  EXPECT_NE(all[0].what.find("the distal wall, up to 1."), std::string::npos) << all[0].what;
+  EXPECT_NE(all[0].what.find("the distal wall, up to 0.8"), std::string::npos) << all[0].what;
   EXPECT_NE(all[0].instead.find("the distal wall"), std::string::npos) << all[0].instead;
 }
 

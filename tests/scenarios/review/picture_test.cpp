@@ -126,5 +126,19 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
   }
 }
 
+TEST(Picture, TheKeyNamesWhatStandsBesideTheToothWhereAnythingDoes) {
+  Tooth tooth = testing::dentin_block(2, 2, 0.2);
+  const std::string alone = legend_svg(tooth, true);
+  EXPECT_EQ(alone.find("gum"), std::string::npos);
+  EXPECT_EQ(alone.find("neighbour"), std::string::npos);
+  tooth.tissues.push_back({k_neighbour_enamel, "neighbour_enamel", true});
+  tooth.tissues.push_back({k_gingiva, "gingiva", true});
+  const std::string beside = legend_svg(tooth, true);
+  EXPECT_NE(beside.find(">gum<"), std::string::npos);
+  EXPECT_NE(beside.find(">neighbour's enamel<"), std::string::npos);
+  EXPECT_NE(beside.find(tissue_colour(k_gingiva)), std::string::npos) << "in the colour of the sections";
+  EXPECT_GT(height_px(beside), height_px(alone)) << "in a row of its own";
+}
+
 }  // namespace
 }  // namespace cavum::scenarios

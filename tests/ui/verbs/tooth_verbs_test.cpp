@@ -43,6 +43,41 @@ TEST_F(ToothVerbs, LandmarksThatCannotBePutAreRefused) {
   }
 }
 
+TEST_F(ToothVerbs, ANeighbourAndGumAreSetBesideATooth) {
+  for (const char* seed : {"", " --seed 4"})
+    ASSERT_EQ(run("tooth make premolar --leaf-mm 0.2 --out " + path(*seed == 0 ? "p.cvt" : "n.cvt") + seed).exit_code, 0);
+  const std::string verb = "tooth neighbour " + path("p.cvt");
+  const auto row = run_json(verb + " --mesial " + path("n.cvt") + " --gum --out " + path("row.cvt"));
+  EXPECT_EQ(row.at("out"), path("row.cvt"));
+  EXPECT_TRUE(row.at("contact").at("distal").is_null());
+  const auto& contact = row.at("contact").at("mesial");
+  EXPECT_LT(contact.at("gap_mm"), 0.1) << "they touch";
+  const Tooth alone = load_tooth_file(path("p.cvt")), set = load_tooth_file(path("row.cvt"));
+  const Vec3 at{contact.at("at_mm")[0], contact.at("at_mm")[1], contact.at("at_mm")[2]};
+  const auto tissue_towards = [&](double x) { return set.tissue_name(set.octree.tissue_at(at + Vec3{x, 0, 0})); };
+  EXPECT_EQ(tissue_towards(-0.4), "enamel");
+  EXPECT_EQ(tissue_towards(0.4), "neighbour_enamel");
+  for (const auto& t : alone.tissues) EXPECT_EQ(set.octree.count_leaves()[t.id], alone.octree.count_leaves()[t.id]) << "the tooth itself: " << t.name;
+  for (const char* name : {"neighbour_enamel", "neighbour_dentin", "gingiva"})
+    EXPECT_GT(set.octree.count_leaves()[set.tissue_id(name)], 100u) << name;
+  EXPECT_EQ(run_json("tooth landmarks " + path("row.cvt")).at("points_mm"), run_json("tooth landmarks " + path("p.cvt")).at("points_mm"));
+
+  const auto between = run_json(verb + " --mesial " + path("n.cvt") + " --distal " + path("n.cvt") + " --contact-mm 0.2 --out " + path("two.cvt"));
+  EXPECT_LT(between.at("contact").at("distal").at("at_mm")[0], between.at("contact").at("mesial").at("at_mm")[0]);
+  for (const char* side : {"mesial", "distal"}) EXPECT_NEAR(between.at("contact").at(side).at("gap_mm").get<double>(), 0.2, 0.05) << side;
+  const std::string printed = run(verb + " --mesial " + path("n.cvt") + " --out " + path("row.cvt")).out;
+  EXPECT_NE(printed.find("mesial  touches at ["), std::string::npos) << printed;
+  EXPECT_EQ(printed.find("gingiva"), std::string::npos) << "no gum unless it is asked for";
+
+  const std::string out = " --out " + path("x.cvt");
+  for (const std::string& bad : {out, " --mesial " + path("none.cvt") + out, " --mesial " + path("n.cvt") + " --contact-mm 5" + out,
+                                 " --mesial " + path("n.cvt") + " --out " + path("n.cvt"), " --gum --out " + path("p.cvt")}) {
+    EXPECT_EQ(run(verb + bad).exit_code, 2) << bad;
+    EXPECT_FALSE(std::filesystem::exists(path("x.cvt"))) << bad;
+  }
+  EXPECT_EQ(tooth_hash(load_tooth_file(path("p.cvt"))), tooth_hash(alone));
+}
+
 TEST_F(ToothVerbs, ImportSaysWhichToothItIsAndRefusesAnother) {
   if (run("tooth import --enamel x --dentin x --pulp x --out y").err.find("no import") != std::string::npos) GTEST_SKIP() << "built without import";
   make();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -22,7 +23,7 @@ struct Colour {
   double r, g, b;
 };
 constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76},
-    k_cut_through{0.15, 0.15, 0.15};
+    k_cut_through{0.15, 0.15, 0.15}, k_neighbour{0.70, 0.77, 0.86}, k_gum_colour{0.91, 0.66, 0.68}, k_cut_beside{0.60, 0.10, 0.45};
 
 Colour mix(Colour a, Colour b, double share) { return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share}; }
 Colour of_deviation(double mm) { return mix(k_planned, mm < 0 ? k_left : k_beyond, std::min(1.0, std::fabs(mm) / k_colours_end_mm)); }
@@ -75,10 +76,19 @@ Bytes png_of(cairo_surface_t* surface) {
 /// The tooth before and after, column by column.
 struct Columns {
   explicit Columns(const grading::GradeInput& graded)
-      : input(graded), size(graded.before.octree.size()), was(tops(graded.before.octree)), is(tops(graded.after)) {}
+      : input(graded), size(graded.before.octree.size()), was(tops(graded.before.octree)), is(tops(graded.after)) {
+    if (graded.beside == nullptr) return;
+    all_was = tops(graded.seen_before().octree);
+    all_is = tops(graded.seen_after());
+    cut_beside.assign(was.size(), false);
+    for (const auto& r : graded.all_removed())
+      if (graded.beside->apart.beside[r.leaf.tissue]) cut_beside[index(r.leaf.x, r.leaf.y)] = true;
+  }
   const grading::GradeInput& input;
   IVec3 size;
   std::vector<int> was, is;
+  std::vector<int> all_was, all_is;  ///< with what stands beside the tooth; empty where nothing does
+  std::vector<bool> cut_beside;      ///< some of that went, anywhere in the column
   /// Columns beyond the tooth's are those at its edge.
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(std::clamp(y, 0, size.y - 1)) * static_cast<std::size_t>(size.x) +
@@ -97,21 +107,34 @@ Colour colour_of_top(const Columns& columns, int x, int y) {
   return top < was ? of_deviation(through_mm(columns.input, x, y, top, was)) : k_tooth;
 }
 
-/// Light from the upper left: slopes that face away from it are darker.
-Colour lit(Colour c, const Columns& columns, int x, int y) {
+/// Light from the upper left: slopes that face away from it are darker. `tops`: of what is seen.
+Colour lit(Colour c, const Columns& columns, const std::vector<int>& tops, int x, int y) {
   const auto height = [&](int dx, int dy) {
-    const int z = columns.is[columns.index(x + dx, y + dy)];
-    return z < 0 ? columns.is[columns.index(x, y)] : z;
+    const int z = tops[columns.index(x + dx, y + dy)];
+    return z < 0 ? tops[columns.index(x, y)] : z;
   };
   const double slope = (height(2, -2) - height(-2, 2)) / 8.0;
   const double light = std::clamp(1.0 + 0.22 * std::clamp(slope, -2.0, 1.0), 0.55, 1.12);
   return {std::min(1.0, c.r * light), std::min(1.0, c.g * light), std::min(1.0, c.b * light)};
 }
 
+/// Where what stands beside the tooth is seen, or some of it was cut.
+std::optional<Colour> colour_beside(const Columns& columns, int x, int y) {
+  if (columns.all_was.empty()) return std::nullopt;
+  const std::size_t i = columns.index(x, y);
+  const auto& apart = columns.input.beside->apart;
+  const std::uint8_t top = columns.all_was[i] < 0 ? std::uint8_t{k_air} : columns.input.seen_before().octree.tissue({x, y, columns.all_was[i]});
+  if (columns.cut_beside[i]) return k_cut_beside;
+  if (!apart.beside[top]) return std::nullopt;
+  return lit(apart.of_gum[top] ? k_gum_colour : k_neighbour, columns, columns.all_is, x, y);
+}
+
 /// ARGB; 0 where there was no tooth.
 std::uint32_t pixel_at(const Columns& columns, int x, int y) {
-  if (columns.was[columns.index(x, y)] < 0) return 0;
-  const Colour c = columns.is[columns.index(x, y)] < 0 ? k_cut_through : lit(colour_of_top(columns, x, y), columns, x, y);
+  const std::size_t i = columns.index(x, y);
+  const auto beside = colour_beside(columns, x, y);
+  if (!beside && columns.was[i] < 0) return 0;
+  const Colour c = beside ? *beside : columns.is[i] < 0 ? k_cut_through : lit(colour_of_top(columns, x, y), columns, columns.is, x, y);
   const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(v * 255)); };
   return 0xff000000u | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
 }
@@ -158,6 +181,31 @@ std::string key_svg(double left, double top, double mm_px) {
   return svg;
 }
 
+constexpr double k_line_px = 26;  // of the second part of the key
+
+/// What stands beside the tooth, below the bar of colours; as many lines as there is of it.
+std::vector<std::string> key_beside(const grading::GradeInput& input, double left, double top) {
+  std::vector<std::pair<Colour, const char*>> entries;
+  if (input.beside != nullptr) {
+    const auto counts = input.seen_before().octree.count_leaves();
+    const auto any = [&](const TissueSet& set) {
+      for (std::size_t t = 0; t < set.size(); ++t)
+        if (set[t] && counts[t] > 0) return true;
+      return false;
+    };
+    if (any(input.beside->apart.of_neighbours)) entries.emplace_back(k_neighbour, "neighbouring tooth");
+    if (any(input.beside->apart.of_gum)) entries.emplace_back(k_gum_colour, "gum");
+    if (!entries.empty()) entries.emplace_back(k_cut_beside, "cut of these");
+  }
+  std::vector<std::string> lines;
+  for (const auto& [colour, words] : entries) {
+    const double y = top + static_cast<double>(lines.size()) * k_line_px;
+    lines.push_back(fmt::format("<rect x='{}' y='{}' width='{}' height='16' fill='{}' stroke='#666666'/>{}\n", fixed(left, 0), fixed(y, 0),
+                                fixed(k_bar_px, 0), hex(colour), text_at(left + k_bar_px + 8, y + 13, words)));
+  }
+  return lines;
+}
+
 }  // namespace
 
 Picture picture_from_above(const grading::GradeInput& input) {
@@ -165,7 +213,11 @@ Picture picture_from_above(const grading::GradeInput& input) {
   const IVec3 n = columns.size;
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
   constexpr double k_font_px = 16;
-  const double all_width = width + k_key_px, all_height = k_top_px + std::max(height, k_bar_height_px + 60);
+  constexpr double k_below_bar_px = k_bar_height_px + 60;
+  const auto beside = key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px);
+  const double all_width = width + k_key_px,
+               all_height =
+                   k_top_px + std::max(height, k_below_bar_px + (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())));
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif' font-size='{}' "
       "fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n{}{}\n",
@@ -173,8 +225,11 @@ Picture picture_from_above(const grading::GradeInput& input) {
       text_at(width - 4, 17, "mesial &#8594;", "end"));
   svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
                      fixed(width, 1), fixed(height, 1), base64(columns_png(columns)));
-  svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n</svg>\n";
-  return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut"};
+  svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n";
+  for (const auto& line : beside) svg += line;
+  svg += "</svg>\n";
+  return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut" +
+                   std::string(beside.empty() ? "" : "; what stands beside it, and what was cut of that, in colours of their own")};
 }
 
 }  // namespace cavum::report

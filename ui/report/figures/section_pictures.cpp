@@ -68,6 +68,16 @@ scenarios::View other(scenarios::View v) {
   return v == scenarios::View::mesio_distal ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;
 }
 
+/// Where a neighbour was nicked, and where a contact that was to be opened is narrowest.
+void add_beside(const grading::BesideMeasures& m, std::vector<Wish>& list) {
+  constexpr double k_narrow_mm = 0.2;
+  if (m.nick_depth_mm > 0)
+    for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::horizontal})
+      list.push_back({v, m.deepest.site_mm, fmt::format("neighbouring tooth cut, {} mm deep here", fixed(m.nick_depth_mm, 2))});
+  if (m.clearance_mm && *m.clearance_mm < k_narrow_mm)
+    list.push_back({scenarios::View::mesio_distal, m.clearance_from_mm, fmt::format("{} mm from the neighbour here", fixed(*m.clearance_mm, 2))});
+}
+
 std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& input) {
   const Vec3 low = input.zones.target_low_mm(), high = input.zones.target_high_mm(), middle = (low + high) * 0.5, extent = high - low;
   const std::string through = "through the middle of the target";
@@ -89,6 +99,7 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
       if (e.fault && list.size() < 5)
         for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
           list.push_back({v, e.site_mm, "breakthrough in the force here"});
+  add_beside(r.beside, list);
   if (over) {
     list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named("overcut", *over)});
     list.push_back({other(view_of(over->wall, r.shape.facing)), halfway(*over, r.shape.facing, -1), named("overcut", *over)});
@@ -159,7 +170,7 @@ std::string sections_svg(const grading::Result& r, const grading::GradeInput& in
     return fmt::format("<g transform='translate({} {})'>{}</g>\n", fixed(x, 0), fixed(y, 2), content);
   };
   const auto pictures = three_sections(r, input);
-  const std::string legend = scenarios::legend_svg(true, input.scenario.accommodations.high_contrast);
+  const std::string legend = scenarios::legend_svg(input.seen_before(), true, input.scenario.accommodations.high_contrast);
   double height = 0, x = k_margin_px;
   for (const auto& p : pictures) height = std::max(height, svg_px(p, "height='"));
   std::string body;
@@ -167,13 +178,14 @@ std::string sections_svg(const grading::Result& r, const grading::GradeInput& in
     body += group(x, k_text_px + height - svg_px(p, "height='"), p);
     x += std::ceil(svg_px(p, "width='")) + k_margin_px;
   }
-  const double width = std::max(x, svg_px(legend, "width='") + 2 * k_margin_px), all = height + 2 * k_text_px + k_margin_px;
+  const double width = std::max(x, svg_px(legend, "width='") + 2 * k_margin_px), legend_px = svg_px(legend, "height='") + 8,
+               all = height + k_text_px + legend_px + k_margin_px;
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<rect width='100%' "
       "height='100%' fill='#ffffff'/>\n<text x='10' y='20' font-size='15'>{}</text>\n{}{}</svg>\n",
       fixed(width, 0), fixed(all, 0), fixed(width, 0), fixed(all, 0),
       xml_text(fmt::format("{}: {} % of the target removed", r.scenario_title, fixed(r.volumes.target_removed_percent, 1))), body,
-      group(k_margin_px, all - k_text_px, legend));
+      group(k_margin_px, all - legend_px, legend));
 }
 
 }  // namespace cavum::report

@@ -58,3 +58,26 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
   key.append(caption, end("over", `+ ${words.over}`), row, end("under", `− ${words.under}`));
   return key;
 }
+
+/** Words for a tissue's name: "neighbour's enamel", "gum". */
+export function tissue_words(name: string): string {
+  if (name === "gingiva") return "gum";
+  return name.startsWith("neighbour_") ? `neighbour's ${name.slice("neighbour_".length)}` : name.replaceAll("_", " ");
+}
+export const is_beside = (name: string): boolean => name === "gingiva" || name.startsWith("neighbour_");
+
+/** The key to the tissues' own colours. */
+export function tissue_key(tissues: readonly { name: string; colour: string }[]): HTMLElement {
+  const key = document.createElement("ul");
+  key.className = "tissues";
+  key.setAttribute("aria-label", "Colours of tissues");
+  for (const t of tissues) {
+    const item = document.createElement("li");
+    const colour = document.createElement("span");
+    colour.className = "swatch tissue";
+    colour.style.backgroundColor = t.colour;
+    item.append(colour, tissue_words(t.name));
+    key.append(item);
+  }
+  return key;
+}

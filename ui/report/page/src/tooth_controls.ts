@@ -1,7 +1,7 @@
 // The controls of the 3D view: views, colouring, the target's outline, the cut-away plane, the key to the colours, and the value under the pointer.
 import { time_text } from "./clock.ts";
 import type { ReportData, Vec3 } from "./data.ts";
-import { distance_text, key_element } from "./deviation.ts";
+import { distance_text, is_beside, key_element, tissue_key, tissue_words } from "./deviation.ts";
 import { button, checkbox, dropdown, make, radios } from "./dom.ts";
 import { Compass } from "./compass.ts";
 import { k_views } from "./orbit.ts";
@@ -66,9 +66,15 @@ export class ToothControls {
       const untouched = make("p", { class: "untouched" }, make("span", { class: "swatch untouched" }), "target left standing, surface untouched");
       key.append(untouched);
     }
+    // the deviation is drawn over paler tissues: what stands beside the tooth is told in either colouring
+    const there = [...new Set(this.field.tissue)].sort((a, b) => a - b).map((id) => data.tissues[id]).filter((t) => t && t.name !== "air");
+    const tissues = tissue_key(there), beside = tissue_key(there.filter((t) => is_beside(t.name)));
+    tissues.hidden = true;
     const colouring = radios("Colour by", "colouring", [["deviation", heat ? "the class" : "deviation"], ["tissue", "tissue"]], "deviation", (v) => {
       view.set_colouring(v === "deviation");
       key.hidden = v !== "deviation";
+      tissues.hidden = v === "deviation";
+      beside.hidden = v !== "deviation";
     });
     const show = make("fieldset", { class: "choices" }, make("legend", {}, "Show"), checkbox("target outline", false, (on) => view.set_target(on)));
     if (options.with_instrument) show.append(checkbox("instrument", true, (on) => view.set_instrument(on)));
@@ -78,7 +84,7 @@ export class ToothControls {
       view.set_heat_depth(0.1);
       panel.append(depths);
     }
-    panel.append(key);
+    panel.append(key, tissues, beside);
 
     const compass = new Compass();
     this.frame.append(compass.element);
@@ -152,8 +158,13 @@ export class ToothControls {
       return;
     }
     const parts = [];
+<<<<<<< HEAD
     const tissue = this.data.tissues[reading.tissue]?.name ?? "";
     if (this.data.kind !== "class" && reading.distance_mm !== null) {
+=======
+    const tissue = tissue_words(this.data.tissues[reading.tissue]?.name ?? "");
+    if (this.data.kind === "session" && reading.distance_mm !== null) {
+>>>>>>> b6c1b939fa8ef4605ef807b334ddd6347bf09183
       if (reading.cut) parts.push(distance_text(reading.distance_mm, this.options.whole));
       else if (reading.distance_mm < -this.options.edges[0] * this.options.whole && !reading.section) parts.push(`target, ${Math.abs(reading.distance_mm).toFixed(2)} mm to its walls or floor, untouched`);
       else parts.push(`${Math.abs(reading.distance_mm).toFixed(2)} mm ${reading.distance_mm < 0 ? "inside" : "outside"} the target${reading.section ? "" : ", untouched"}`);

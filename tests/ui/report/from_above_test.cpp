@@ -1,0 +1,66 @@
+// The report's pictures of a tooth that has something beside it.
+#include "ui/report/figures/from_above.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/tooth/make/set_beside.h"
+#include "tests/grading/carved_beside.h"
+#include "ui/report/figures/section_pictures.h"
+
+namespace cavum::report {
+namespace {
+
+using testing::CarvedBeside;
+
+Tooth two_balls() {
+  const auto field = [](Vec3 p) { return length(p) - 3; };
+  const Tooth ball = testing::make_tooth(
+      {-3.3, -3.3, -3.3}, {3.3, 3.3, 3.3}, 0.1, [&](Vec3 p) { return field(p) < 0 ? k_enamel : k_air; }, field);
+  BesideSpec spec;
+  spec.mesial.tooth = &ball;
+  return set_beside(ball, spec, "here").tooth;
+}
+const std::string k_task = testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [2.7, 0, 2.2]\nsize_mm = [2, 1.6, 6]\n");
+
+std::string from_above(const CarvedBeside& c) {
+  return c.with_input([](const grading::GradeInput& input) { return picture_from_above(input).svg; });
+}
+
+TEST(BesideInPictures, FromAboveShowsTheNeighbourAndWhatWasCutOfIt) {
+  CarvedBeside c(k_task, two_balls());
+  const std::string untouched = from_above(c);
+  EXPECT_NE(untouched.find(">neighbouring tooth<"), std::string::npos);
+  EXPECT_NE(untouched.find(">cut of these<"), std::string::npos);
+  EXPECT_EQ(untouched.find(">gum<"), std::string::npos) << "there is none";
+  c.carve([](Vec3 p) { return length(p - Vec3{3, 0, 0}) - 0.6; }, 5, {2, -2, -2}, {5, 2, 2});
+  EXPECT_NE(from_above(c), untouched) << "a nick below the bulge of both is shown";
+
+  testing::Carved alone(k_task, testing::make_tooth(
+                                    {-3.3, -3.3, -3.3}, {3.3, 3.3, 3.3}, 0.1, [](Vec3 p) { return length(p) < 3 ? k_enamel : k_air; },
+                                    [](Vec3 p) { return length(p) - 3; }));
+  const grading::GradeInput input{alone.scenario, alone.before, alone.zones, alone.after, alone.inputs, alone.records, alone.removed, alone.events};
+  EXPECT_EQ(picture_from_above(input).svg.find("neighbour"), std::string::npos);
+}
+
+TEST(BesideInPictures, SectionsLeadThroughTheDeepestPlaceOfANick) {
+  CarvedBeside c(k_task, two_balls());
+  const auto titles = [&] {
+    std::string all;
+    const grading::Result r = c.graded();
+    c.with_input([&](const grading::GradeInput& input) {
+      for (const auto& p : section_pictures(r, input)) all += p.title + "\n";
+      return 0;
+    });
+    return all;
+  };
+  EXPECT_EQ(titles().find("neighbouring tooth cut"), std::string::npos);
+  EXPECT_NE(titles().find("0.00 mm from the neighbour here"), std::string::npos) << "the contact still stands: " << titles();
+  c.carve([](Vec3 p) { return length(p - Vec3{3, 0.5, 0.4}) - 0.6; }, 5, {2, -2, -2}, {5, 2, 2});
+  // its middle lies 0.07 mm outside the neighbour, a ball around (6, 0, 0)
+  EXPECT_NE(titles().find("neighbouring tooth cut, 0.53 mm deep here"), std::string::npos) << titles();
+}
+
+}  // namespace
+}  // namespace cavum::report
