@@ -158,13 +158,8 @@ export class ToothControls {
       return;
     }
     const parts = [];
-<<<<<<< HEAD
-    const tissue = this.data.tissues[reading.tissue]?.name ?? "";
-    if (this.data.kind !== "class" && reading.distance_mm !== null) {
-=======
     const tissue = tissue_words(this.data.tissues[reading.tissue]?.name ?? "");
-    if (this.data.kind === "session" && reading.distance_mm !== null) {
->>>>>>> b6c1b939fa8ef4605ef807b334ddd6347bf09183
+    if (this.data.kind !== "class" && reading.distance_mm !== null) {
       if (reading.cut) parts.push(distance_text(reading.distance_mm, this.options.whole));
       else if (reading.distance_mm < -this.options.edges[0] * this.options.whole && !reading.section) parts.push(`target, ${Math.abs(reading.distance_mm).toFixed(2)} mm to its walls or floor, untouched`);
       else parts.push(`${Math.abs(reading.distance_mm).toFixed(2)} mm ${reading.distance_mm < 0 ? "inside" : "outside"} the target${reading.section ? "" : ", untouched"}`);
