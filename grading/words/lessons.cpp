@@ -72,7 +72,9 @@ bool is_cut_elsewhere(const GradeInput& in, const Result& r, const scenarios::Me
     if (worst == nullptr || r.shape.wall[w].max_over_mm > worst->max_over_mm) worst = &r.shape.wall[w];
   if (worst == nullptr || worst->worst_over.tick < 0) return false;
   const Zone zone = in.zones.zone(in.before.octree.leaf_at(worst->worst_over.site_mm));
-  return zone == Zone::none || zone == Zone::protected_;
+  const auto removed = [&r](Zone z) { return r.volumes.zone[at(z)].removed.mm3; };
+  return (zone == Zone::none || zone == Zone::protected_) &&
+         r.volumes.outside().mm3 > removed(Zone::container_sides) + removed(Zone::container_bottom);
 }
 
 /// What a criterion's value is charged for.

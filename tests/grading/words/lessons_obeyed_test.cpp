@@ -88,8 +88,12 @@ double points_without(const Sat& s, Topic mistake) {
         return floor ? std::max(cavity, target) : cavity;
       case Topic::elsewhere:
         return zone == scenarios::Zone::none || zone == scenarios::Zone::protected_ ? 1.0 : cavity;
-      default:
+      case Topic::left_standing:
+      case Topic::roof:
+      case Topic::canals:
         return std::min(cavity, target);
+      default:  // as it is
+        return cavity;
     }
   };
   Octree after = before;
