@@ -155,7 +155,7 @@ void landmark_list(const AuthorContext& c) {
   AuthorState& s = c.state;
   const Theme& t = c.screen.theme;
   if (c.landmarks.empty()) quiet_text(t, "No landmark was found on this tooth.");
-  const float rows = std::min(16.0F, static_cast<float>(c.landmarks.size()) + 0.5F);
+  const float rows = std::min(12.5F, static_cast<float>(c.landmarks.size()) + 0.5F);
   ImGui::BeginChild("landmarks", {0, rows * ImGui::GetTextLineHeightWithSpacing()}, false);
   for (std::size_t i = 0; i < c.landmarks.size(); ++i) {
     const AuthorLandmark& mark = c.landmarks[i];
