@@ -272,8 +272,7 @@ namespace {
 ReachMap careless_map(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const ContactTool& point) {
   const CarelessSpec& c = scenario.careless;
   const MarginSpec margin{k_expert_margin.sides_mm + c.sides_mm, k_expert_margin.bottom_mm + c.bottom_mm};
-  const FreeRoom room = free_room(zones, tooth, margin);
-  return middle_of(without_skimming(room, reach_map(room, zones, tooth, point), point), c.opening_percent);
+  return middle_of(reach_map(zones, tooth, point, margin), c.opening_percent);
 }
 
 }  // namespace
