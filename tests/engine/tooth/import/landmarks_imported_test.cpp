@@ -161,6 +161,30 @@ TEST(LandmarksTurned, ARoughPremolarKeepsBothEndsOfItsTable) {
   EXPECT_LT(fine_tooth(k_fine_premolar).landmarks.distal_ridge.lowest_mm->x, -1.4);
 }
 
+// The buccal cusps are worn down to a plateau above the groove: no cusp tells that side any more, and the groove is where it was.
+TEST(LandmarksWorn, ACrownWithoutBuccalCuspsKeepsItsGrooveAndRidges) {
+  constexpr double k_coarse_mm = 0.2, k_plateau_mm = 2.12;
+  const Surfaces whole(make_molar(shape_of<MolarShape>(k_coarse_mm)));
+  const Surfaces worn = whole.changed([&](Vec3 v) {
+    if (v.y > 0 && v.z > k_plateau_mm) v.z = k_plateau_mm + 0.03 * (v.z - k_plateau_mm);
+    return v;
+  });
+  const auto found = [&](const Surfaces& s) { return find_landmarks(import_meshes(s.write(fresh_folder()), upright(k_coarse_mm)).tooth); };
+  const Landmarks before = found(whole), after = found(worn);
+  for (const auto& c : after.cusps) EXPECT_TRUE(c.tip_mm.y < 0 || c.prominence_mm < 0.15) << c.name << ' ' << c.prominence_mm;
+  ASSERT_GT(after.central_fissure_mm.size(), 15u);
+  ASSERT_GT(before.central_fissure_mm.size(), 15u);
+  ASSERT_TRUE(after.mesial_ridge.lowest_mm && after.distal_ridge.lowest_mm);
+  EXPECT_GT(after.mesial_ridge.lowest_mm->x, 3.4);
+  EXPECT_LT(after.distal_ridge.lowest_mm->x, -3.4);
+  for (const Vec3 p : after.central_fissure_mm) {
+    if (std::fabs(p.x) > 2.5) continue;  // at its ends the ridges' slopes were worn, too
+    double nearest = 1e9;
+    for (const Vec3 q : before.central_fissure_mm) nearest = std::min(nearest, length({p.x - q.x, p.y - q.y, 0}));
+    EXPECT_LT(nearest, 0.3) << p.x << ' ' << p.y;
+  }
+}
+
 // Marks that a person set on pictures of the relief, before the program had said anything about fissures, pits and ridges (docs/anatomy.md).
 TEST(LandmarksOfRealTeeth, LieWhereTheyWereMarkedByEye) {
   if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
