@@ -45,9 +45,10 @@ double largest_ratio(const Estimate& e) {
   return most;
 }
 
-/// Wild bootstrap: each candidate's row, centred, keeps or changes its sign. The share `k_sure` of the largest ratios of all columns: intervals that
-/// hold in all columns at once, whatever the spread of each candidate and form (Wu, Annals of Statistics 14 (1986) 1261; Westfall and Young 1993).
-double critical_ratio(Matrix rows, Random& random) {
+/// Wild bootstrap: each candidate's row, centred, keeps or changes its sign. Gives the largest ratios of all columns: their share `k_sure` is half an
+/// interval that holds in all columns at once, whatever the spread of each candidate and form (Wu, Annals of Statistics 14 (1986) 1261; Westfall and
+/// Young 1993). Marks shuffled within each candidate would be exact only for forms that scatter alike.
+std::vector<double> chance_ratios(Matrix rows, Random& random) {
   const Estimate own = columns(rows);
   for (auto& row : rows)
     for (std::size_t f = 0; f < row.size(); ++f) row[f] -= own.value[f];
@@ -60,30 +61,10 @@ double critical_ratio(Matrix rows, Random& random) {
     }
     largest.push_back(largest_ratio(columns(drawn)));
   }
-  return quantile(std::move(largest), k_sure);
+  return largest;
 }
 
-double spread_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v * v;
-  return sum;
-}
-
-/// Marks shuffled within each candidate: on forms of equal difficulty each order is as likely (Pitman, Biometrika 29 (1938) 322).
-double chance_of(const Matrix& rest, Random& random) {
-  const double found = spread_of(columns(rest).value);
-  Matrix shuffled = rest;
-  int as_much = 0;
-  for (int d = 0; d < k_draws; ++d) {
-    std::vector<double> means(rest[0].size());
-    for (auto& row : shuffled) {
-      for (std::size_t i = row.size(); i-- > 1;) std::swap(row[i], row[random.below(i + 1)]);
-      for (std::size_t f = 0; f < row.size(); ++f) means[f] += row[f] / static_cast<double>(rest.size());
-    }
-    as_much += spread_of(means) >= found * (1 - 1e-12) ? 1 : 0;
-  }
-  return (as_much + 1.0) / (k_draws + 1.0);
-}
+double critical_ratio(const Matrix& rows, Random& random) { return quantile(chance_ratios(rows, random), k_sure); }
 
 FormVerdict verdict_of(const FormDifficulty& f, double limit) {
   if (f.low > limit) return FormVerdict::too_easy;
@@ -124,8 +105,11 @@ FormsJudged judge_forms(const Matrix& marks, std::span<const double> skill, doub
   out.limit = limit;
   const Matrix rest = without_candidates(marks);
   const Estimate all = columns(marks), easier = columns(rest);
-  out.critical = critical_ratio(rest, random);
-  out.chance = chance_of(rest, random);
+  const std::vector<double> by_chance = chance_ratios(rest, random);
+  out.critical = quantile(by_chance, k_sure);
+  const double found = largest_ratio(easier);
+  const auto as_much = std::count_if(by_chance.begin(), by_chance.end(), [&](double r) { return r >= found * (1 - 1e-12); });
+  out.chance = (static_cast<double>(as_much) + 1.0) / (k_draws + 1.0);
 
   std::vector<std::size_t> by_skill(marks.size());
   std::iota(by_skill.begin(), by_skill.end(), std::size_t{0});

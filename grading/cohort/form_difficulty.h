@@ -38,7 +38,7 @@ struct FormsJudged {
   std::size_t candidates = 0;
   double limit = 0.0;     ///< percent of the points: what counts as too easy or too hard
   double spread = 0.0;    ///< standard deviation between forms beyond chance, percent; 0 where chance alone gives as much
-  double chance = 1.0;    ///< that forms of equal difficulty differ as much: marks shuffled within each candidate
+  double chance = 1.0;    ///< that of forms of equal difficulty one differs as much from the others, in its standard errors
   double critical = 0.0;  ///< half an interval, in standard errors
 };
 
