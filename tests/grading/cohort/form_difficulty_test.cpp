@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
@@ -80,7 +81,7 @@ Rates rates_of(const KnownForms& forms, std::size_t n, double limit, int classes
   return r;
 }
 
-constexpr int k_classes = 1000;
+const int k_classes = std::getenv("CAVUM_DEEP") != nullptr ? 1000 : 150;
 // three standard errors of a share of 5 % in so many classes
 const double k_chance_of_rates = 3 * std::sqrt(0.05 * 0.95 / k_classes);
 
