@@ -41,7 +41,7 @@ std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& sce
     }
   }
   kept.asked = ++asked_;
-  const auto ground = kept.ground;
+  auto ground = kept.ground;
   if (by_content_.size() > k_kept)
     by_content_.erase(
         std::min_element(by_content_.begin(), by_content_.end(), [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; }));

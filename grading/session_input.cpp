@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "engine/base/error.h"
+#include "engine/servo/servo.h"
 #include "engine/session/chain_check.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"

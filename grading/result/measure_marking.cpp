@@ -410,6 +410,7 @@ double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w, scenario
 bool not_shown(const Result& r, const scenarios::Measure& measure) {
   if (!r.not_shown) return false;
   if (measure.of_exam || measure.name == "soft_tissue_outside_mm3") return true;
+  if (measure.needs == scenarios::Needs::neighbour || measure.needs == scenarios::Needs::gum) return true;  // a tooth is scanned alone
   return std::any_of(r.tissues.begin(), r.tissues.end(), [&](const Tissue& t) { return t.name == measure.tissue && r.not_shown->tissue[t.id]; });
 }
 

@@ -1,6 +1,7 @@
 """Format 5: openings, what is erased and what comes back, accommodations beside the ticket."""
 import json
 import os
+import re
 import shutil
 
 import ledger_format as lf
@@ -15,8 +16,18 @@ def traces(s, needle, folders=("L", "home")):
     found = []
     for top in folders:
         for folder, _, files in os.walk(s.p(top)):
-            found += [f for f in files if needle in open(f"{folder}/{f}", "rb").read()]
+            found += [f for f in files if stands_in(needle, open(f"{folder}/{f}", "rb").read())]
     return found
+
+
+def stands_in(needle, data):
+    """Whether the bytes stand there as themselves: four digits within the hex or base64 of a hash are chance."""
+    for found in re.finditer(re.escape(needle), data):
+        run = re.search(rb"[0-9A-Za-z+/=_-]*$", data[max(0, found.start() - 64):found.start()])[0] + needle
+        run += re.match(rb"[0-9A-Za-z+/=_-]*", data[found.end():found.end() + 64])[0]
+        if len(run) < 40:
+            return True
+    return False
 
 
 def erase(s, *what, session="14"):

@@ -86,7 +86,12 @@ grading::Result Sitting::marked_by(const scenarios::RubricSpec& rubric) const {
     const auto& e = state_->events[i];
     events.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, task_.scenario, task_.tooth)});
   }
-  return grading::grade({task_.scenario, task_.tooth, task_.zones, after_, inputs_, records_, removed_, events}, rubric);
+  if (!task_.apart) return grading::grade({task_.scenario, task_.tooth, task_.zones, after_, inputs_, records_, removed_, events}, rubric);
+  const grading::WorkApart own = take_apart(*task_.apart, after_, removed_);
+  const grading::GradeBeside beside{*task_.apart, task_.tooth, after_, removed_};
+  grading::GradeInput input{task_.scenario, task_.apart->own, task_.zones, own.after, inputs_, records_, own.removed, events};
+  input.beside = &beside;
+  return grading::grade(input, rubric);
 }
 
 Seen seen(const Sitting& s) {

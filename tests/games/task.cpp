@@ -58,6 +58,7 @@ Task laid(const std::string& name, scenarios::Scenario scenario, Tooth tooth) {
   t.scenario = std::move(scenario);
   t.tooth = std::move(tooth);
   t.tooth.octree.reserve_edits(80000);
+  t.apart = grading::take_apart(t.tooth);
   t.zones = scenarios::build_zones(t.scenario, t.tooth);
   t.low_mm = t.zones.target_low_mm();
   t.high_mm = t.zones.target_high_mm();

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "grading/measures/apart.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
@@ -17,6 +19,7 @@ struct Task {
   std::string name;
   scenarios::Scenario scenario;
   Tooth tooth;
+  std::shared_ptr<const grading::ToothApart> apart;  ///< null: nothing stands beside the tooth
   scenarios::ZoneMap zones;
   Vec3 low_mm, high_mm;       ///< box of the target
   Vec3 middle_mm;             ///< mean of the target's leaves

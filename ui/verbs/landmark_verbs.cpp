@@ -107,6 +107,21 @@ NamedPoint parse_placed(const std::string& text) {
   return {name, parse_vec(text.substr(equals + 1), "--set " + name)};
 }
 
+/// A point that a person puts lies on the tooth or close to it.
+void require_near(const Tooth& tooth, const NamedPoint& point) {
+  constexpr double k_near_mm = 1.0;
+  const Octree& tree = tooth.octree;
+  const IVec3 low = tree.leaf_at(point.at_mm - Vec3{k_near_mm, k_near_mm, k_near_mm}),
+              high = tree.leaf_at(point.at_mm + Vec3{k_near_mm, k_near_mm, k_near_mm});
+  const IVec3 n = tree.size();
+  for (int z = std::max(0, low.z); z <= std::min(high.z, n.z - 1); ++z)
+    for (int y = std::max(0, low.y); y <= std::min(high.y, n.y - 1); ++y)
+      for (int x = std::max(0, low.x); x <= std::min(high.x, n.x - 1); ++x)
+        if (tree.tissue({x, y, z}) != k_air && length(tree.centre_mm({x, y, z}) - point.at_mm) <= k_near_mm) return;
+  throw Error("--set " + point.name, fmt::format("lies more than {} mm from the tooth", fixed(k_near_mm, 0)),
+              "give a place on it, mm of the tooth frame");
+}
+
 struct LandmarkArgs {
   std::string file, picture, out_tooth;
   std::vector<std::string> set, unset;
@@ -126,6 +141,7 @@ void run_landmarks(const LandmarkArgs& a) {
       throw Error("--unset", fmt::format("nobody put a point '{}'", name), "name one that is marked as put by a person");
   for (const auto& text : a.set) {
     const NamedPoint point = parse_placed(text);
+    require_near(tooth, point);
     std::erase_if(placed, [&](const NamedPoint& p) { return p.name == point.name; });
     placed.push_back(point);
   }

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/tooth/beside.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "grading/result/result_json.h"
 #include "grading/scan/grade_scan.h"
@@ -74,11 +75,12 @@ void run_scan_grade(const ScanArguments& o) {
   const double unit_mm = mm_per_unit(o.units);
   const auto begun = std::chrono::steady_clock::now();
   const scenarios::Scenario scenario = scenarios::load_scenario(o.scenario);
-  const Tooth tooth = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(scenario) : o.tooth);
-  scenarios::require_tissues(scenario, tooth);
+  const Tooth with_beside = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(scenario) : o.tooth);
+  scenarios::require_tissues(scenario, with_beside);
   const scenarios::RubricSpec rubric = o.rubric.empty() ? scenario.rubric : scenarios::parse_rubric(read_text_file(o.rubric), o.rubric);
-  if (!o.rubric.empty()) scenarios::require_none(scenarios::not_in_this_exam(rubric, scenario, tooth));
-  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth);
+  if (!o.rubric.empty()) scenarios::require_none(scenarios::not_in_this_exam(rubric, scenario, with_beside));
+  const scenarios::ZoneMap zones = scenarios::build_zones(scenario, with_beside);
+  const Tooth tooth = has_beside(with_beside) ? own_tooth(with_beside) : with_beside;  // a tooth is scanned alone
   const grading::GradedScan g = grading::grade_scan(o.scan, unit_mm, scenario, rubric, tooth, zones);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   Json marked = grading::to_json(g.result);

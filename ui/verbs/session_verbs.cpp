@@ -12,6 +12,7 @@
 #include "engine/scan/printable.h"
 #include "engine/servo/servo_config.h"
 #include "engine/session/session_reader.h"
+#include "grading/measures/apart.h"
 #include "ui/parts/own_places.h"
 #include "ui/verbs/verbs.h"
 
@@ -39,8 +40,12 @@ void export_surface(const ExportArguments& o) {
   session.require_readable();
   if (!session.closed())
     throw Error(o.session, "this exam was not closed, and has no final tooth", "close it with `cavum exam --resume --end --out " + o.session + "`");
-  const Tooth before = load_tooth(session.setup().tooth, o.session + ": tooth"),
-              after = load_tooth(session.final_tooth(), o.session + ": final tooth");
+  Tooth before = load_tooth(session.setup().tooth, o.session + ": tooth"), after = load_tooth(session.final_tooth(), o.session + ": final tooth");
+  if (const auto apart = grading::take_apart(before)) {
+    after.octree = grading::take_apart(*apart, after.octree, {}).after;
+    before = apart->own;
+    std::cout << "of the tooth alone: what stands beside it is left out\n";
+  }
   const Printable p = printable_surface(after, tissues_around_tooth(before));
   write_mesh_file(p.mesh, o.stl);
   std::cout << p.mesh.triangles.size() << " triangles around " << fixed(p.volume_mm3, 3) << " mm3 in " << o.stl << ", mm, tooth frame\n";

@@ -72,7 +72,8 @@ std::pair<double, double> median_interval(std::vector<double> v) {
   std::sort(v.begin(), v.end());
   const auto n = static_cast<double>(v.size());
   double term = std::pow(0.5, n), sum = term;
-  std::size_t k = 0;  // values left out at either end
+  if (sum > k_bad_luck) return {-1e9, 1e9};  // of so few all lie on one side of the true median more often than that
+  std::size_t k = 0;                         // values left out at either end
   while (2 * k + 3 <= v.size()) {
     term *= (n - static_cast<double>(k)) / static_cast<double>(k + 1);
     if (sum + term > k_bad_luck) break;

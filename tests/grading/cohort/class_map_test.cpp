@@ -83,7 +83,7 @@ TEST(ClassMap, TheBoxMayGrowInAnyOrder) {
 TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   const School school;
   std::vector<std::string> sat;
-  for (const char* skill : {"expert", "student-20", "student-60"}) {
+  for (const char* skill : {"expert", "perforator", "student-20"}) {
     sat.push_back(school.sit(school.ticket(skill), skill));
     ledger::Ledger ledger = school.ledger();
     ASSERT_TRUE(ledger::file_session(ledger, sat.back(), {.simulated = true}).seq) << skill;
