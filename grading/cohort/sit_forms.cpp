@@ -30,6 +30,13 @@ grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint
   return grading::grade(graded->input(), graded->rubric);
 }
 
+/// One task on another tooth has a target of the same bodies, whatever their sizes.
+bool is_one_task(const scenarios::Scenario& a, const scenarios::Scenario& b) {
+  return std::equal(
+      a.zones.target.begin(), a.zones.target.end(), b.zones.target.begin(), b.zones.target.end(),
+      [](const scenarios::ShapeSpec& x, const scenarios::ShapeSpec& y) { return x.kind == y.kind && x.outline.kind == y.outline.kind; });
+}
+
 std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<std::string>& files, FormsSat& sat) {
   std::vector<std::unique_ptr<scenarios::ExamSetup>> forms;
   for (const auto& file : files) {
@@ -44,6 +51,9 @@ std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<st
     if (!first && s.rubric.pass_percent != sat.pass_percent)
       throw Error(file, fmt::format("its pass mark is {} %, that of {} is {} %", s.rubric.pass_percent, sat.ids[0], sat.pass_percent),
                   "forms of one exam have one pass mark");
+    if (!first && !is_one_task(s, forms.front()->scenario))
+      throw Error(file, fmt::format("its target is made of other bodies than that of {}", sat.ids[0]),
+                  "forms of one exam are one task on several teeth");
     sat.pass_percent = s.rubric.pass_percent;
     sat.borderline_percent = first ? s.rubric.borderline_percent : std::min(sat.borderline_percent, s.rubric.borderline_percent);
     sat.ids.push_back(s.id);
