@@ -182,6 +182,16 @@ std::vector<TaskChoice> lesion(const Tooth&, const Landmarks&) {
        pulp_guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
 }
 
+/// Of a tooth's lesion, how much must go: as much of it as in the lesion task that ships.
+std::string lesion_criteria(const Tooth& tooth) {
+  constexpr double k_full = 0.87, k_zero = 0.58;
+  const double mm3 = static_cast<double>(tooth.octree.count_leaves()[tooth.tissue_id("lesion")]) * tooth.octree.leaf_volume_mm3();
+  return fmt::format(
+      "\n[[rubric.criteria]]\nid = \"lesion\"\ntitle = \"Soft dentin removed\"\nmetric = \"touched_lesion_mm3\"\nfull = {}                   # of {} "
+      "mm3\nzero = {}\npoints = 30\ncritical_below = {}         # with so much of it left the lesion goes on\n",
+      fixed(k_full * mm3, 2), fixed(mm3, 2), fixed(k_zero * mm3, 2), fixed(k_zero * mm3, 2));
+}
+
 constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
 
 const std::vector<ToothTask>& tasks() {
@@ -287,7 +297,8 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                 "see `cavum tooth landmarks`, or choose another of " + words);
 
   WrittenTask best;
-  const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + beside_criteria(tooth, asked->opens);
+  const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + (task == "lesion" ? lesion_criteria(tooth) : std::string()) +
+                               beside_criteria(tooth, asked->opens);
   std::string refused;
   std::size_t fewest = k_none, tried = 0;
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
