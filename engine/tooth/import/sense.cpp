@@ -137,7 +137,18 @@ void sense_line(const Landmarks& l, bool mesial_given, const SenseOptions& optio
 }
 
 void sense_sides(const Landmarks& l, bool says_lingual, ToothSense& sense) {
-  if (l.tooth_class.kind != ToothClass::premolar || l.cusps.size() != 2) return;
+  if (l.tooth_class.kind != ToothClass::premolar) return;
+  if (l.cusps.size() == 1) {  // the lingual one of lower premolars may be too low to stand out, the buccal one never is
+    constexpr double k_off_axis_mm = 0.4;
+    const double y = l.cusps[0].tip_mm.y - l.long_axis.through_mm.y;
+    if (std::fabs(y) > k_off_axis_mm && (y < 0) != says_lingual)
+      sense.warnings.push_back(
+          fmt::format("+y should be {}, but the only cusp that stands out lies {:.1f} mm to the other side: the frame may be turned or "
+                      "mirrored; check --patient-frame, --mesial-axis and --mirror",
+                      says_lingual ? "lingual" : "buccal", std::fabs(y)));
+    return;
+  }
+  if (l.cusps.size() != 2) return;
   const double higher = l.cusps[0].tip_mm.z - l.cusps[1].tip_mm.z;
   if (std::fabs(higher) < k_higher_mm) return;
   sense.guesses.push_back(
