@@ -3,12 +3,12 @@ import os
 
 import ledger_format as lf
 from attacks_insider import KEYHOLDER, insider
-from kinds import ACCEPTED, FOUND, NOBODY, UNSTATED, attack
+from kinds import FOUND, NOBODY, UNSTATED, attack
 from school import as_hand
 from session_format import Session, pack, unpack
 
 
-@attack("insider", ACCEPTED, "a gap is owned up to, the time is in remarks: as after any crash (the page says: nobody)")
+@attack("insider", FOUND, "the sealed result says nothing of the interruption; one that did would pass: as after any crash (the page says: nobody)", "sealed result")
 def forged_gap(s):
     """A pause of 31.2 s with a made-up `gap` event at the same station: an interruption that no crash explains."""
     def change(r):
