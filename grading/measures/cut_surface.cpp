@@ -101,7 +101,8 @@ WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std
   return surface;
 }
 
-/// The removed hard leaf that lies furthest beyond the target, towards each wall.
+/// The removed hard leaf that lies furthest beyond the target, towards each wall; where the next one belongs to another wall and is gone as well,
+/// the face between them.
 std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   std::array<Sample, scenarios::k_walls> furthest{};
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
@@ -109,7 +110,11 @@ std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input,
     const scenarios::Wall towards = input.zones.wall(leaf);
     if (!input.before.octree.is_solid(r.leaf.tissue) || towards == scenarios::Wall::opening) return;
     Sample& best = furthest[static_cast<std::size_t>(towards)];
-    if (const double beyond = input.zones.distance_mm(leaf); beyond > best.deviation_mm) best = {beyond, r.tick, input.zones.centre_mm(leaf)};
+    double beyond = input.zones.distance_mm(leaf);
+    for (const IVec3 step : scenarios::k_six_neighbours)
+      if (const IVec3 next = leaf + step; input.zones.wall(next) != towards && removed.has(next))
+        beyond = std::max(beyond, 0.5 * (input.zones.distance_mm(leaf) + input.zones.distance_mm(next)));
+    if (beyond > best.deviation_mm) best = {beyond, r.tick, input.zones.centre_mm(leaf)};
   });
   return furthest;
 }

@@ -27,6 +27,13 @@ struct Share {
 /// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
 constexpr double k_whole = 0.5, k_by_parts = 0.03, k_two_borders = 0.25;
 
+/// The leaf lies where what is beyond the target's bottom meets what is beyond its sides: leaves go whole to one or the other.
+bool divided(const scenarios::ZoneMap& zones, IVec3 leaf) {
+  const bool bottom = zones.wall(leaf) == scenarios::Wall::floor;
+  return std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                     [&](IVec3 step) { return (zones.wall(leaf + step) == scenarios::Wall::floor) != bottom; });
+}
+
 /// Of what a zone has in a leaf: `share` of it, of `total` that is gone.
 double unsure_of(bool whole, double share, double total) {
   if (whole) return k_whole;
@@ -90,7 +97,8 @@ struct Count {
   double leaves = 0, unsure = 0;
 };
 
-/// Gives each zone what of a leaf was removed in it, and what of that is not known where it lies at a border, in leaves; returns the sum.
+/// Gives each zone what of a leaf was removed in it, what of that is not known where it lies at a border, and what may as well belong to the sides
+/// in place of the bottom or the other way round, in leaves; returns the sum.
 template <class Give>
 double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std::uint8_t held, const Give& give) {
   const scenarios::ZoneMap& zones = input.zones;
@@ -98,8 +106,8 @@ double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std:
   const double total = sum(gone);
   if (!(total > 0)) return 0;
   const scenarios::Zone own = zones.zone(leaf);
-  const auto part = [&](scenarios::Zone z, double share) {
-    if (share > 0) give(z, share, shares.unsure(share, total));
+  const auto part = [&](scenarios::Zone z, double share, bool may_be_others = false) {
+    if (share > 0) give(z, share, shares.unsure(share, total), may_be_others ? share : 0.0);
   };
   if (shares.late() || !zones.in_box(leaf)) {
     part(own, total);
@@ -117,8 +125,9 @@ double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std:
   const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
   const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
   const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
-  part(bottom ? scenarios::Zone::leeway_bottom : scenarios::Zone::leeway_sides, leeway - target);
-  part(bottom ? scenarios::Zone::container_bottom : scenarios::Zone::container_sides, container - leeway);
+  const bool other = container > target && divided(zones, leaf);
+  part(bottom ? scenarios::Zone::leeway_bottom : scenarios::Zone::leeway_sides, leeway - target, other);
+  part(bottom ? scenarios::Zone::container_bottom : scenarios::Zone::container_sides, container - leeway, other);
   part(scenarios::Zone::none, total - container);
   return total;
 }
@@ -190,10 +199,11 @@ RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, s
     const std::int64_t when = tick_of(removed, leaf, tick);
     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
     if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == scenarios::Zone::target) last = {tick, zones.centre_mm(leaf)};
-    const double total = share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure) {
+    const double total = share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure, double others) {
       const auto i = static_cast<std::size_t>(z);
       count.zone[i].leaves += share;
       count.zone[i].unsure += edge || share < 1 ? unsure : 0.0;
+      v.zone[i].bottom_or_sides_mm3 += others * zones.leaf_volume_mm3();
       v.zone[i].by_wall_mm3[wall] += share * zones.leaf_volume_mm3();
       Trace& first = v.zone[i].first;
       if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
@@ -287,9 +297,9 @@ void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, 
   for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
     const bool edge = beside_what_stayed(removed, leaf, tick);
     const std::int64_t when = tick_of(removed, leaf, tick);
-    share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure) {
+    share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure, double others) {
       const double leaf_mm3 = input.zones.leaf_volume_mm3();
-      visit({leaf, held, when, z, share * leaf_mm3, edge || share < 1 ? unsure * leaf_mm3 : 0.0});
+      visit({leaf, held, when, z, share * leaf_mm3, edge || share < 1 ? unsure * leaf_mm3 : 0.0, others * leaf_mm3});
     });
   });
 }

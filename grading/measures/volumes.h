@@ -21,7 +21,8 @@ struct RemovedShare {
   std::int64_t tick = 0;  ///< of a leaf that is gone in part only: when the last leaf beside it went
   scenarios::Zone zone = scenarios::Zone::none;
   double mm3 = 0.0;
-  double bound_mm3 = 0.0;  ///< of it is uncertain: it lies at a border
+  double bound_mm3 = 0.0;            ///< of it is uncertain: it lies at a border
+  double bottom_or_sides_mm3 = 0.0;  ///< of it lies where bottom and sides meet, and may as well belong to the other
 };
 /// Something else begins beside a removed leaf: tissue that stayed, or another zone.
 [[nodiscard]] bool on_border(const scenarios::ZoneMap& zones, const RemovedMap& removed, IVec3 leaf);

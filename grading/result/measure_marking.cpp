@@ -16,7 +16,8 @@ MetricValue exactly(double v) { return {v, 0.0}; }
 MetricValue in_zones(const Result& r, const Asked& a) {
   MetricValue sum{0.0, 0.0};
   for (const scenarios::Zone z : a.marking->zones) {
-    const BoundedVolume& v = r.volumes.zone[static_cast<std::size_t>(z)].removed;
+    const ZoneVolume& zone = r.volumes.zone[static_cast<std::size_t>(z)];
+    const BoundedVolume v = a.marking->zones.size() == 1 ? zone.alone() : zone.removed;
     *sum.value += v.mm3;
     sum.bound += v.bound_mm3;
   }

@@ -28,7 +28,7 @@ struct MeasureMarking {
   MetricValue (*value)(const Result& result, const Asked& asked) = nullptr;
   /// In one line, and where it began; an empty one where the figure says all there is. Called when there is a value.
   Loss (*reason)(const Result& result, const Asked& asked) = nullptr;
-  /// It is of what was removed in these zones.
+  /// It is of what was removed in these zones; where it is several, bottom and sides are among them or neither is.
   std::vector<scenarios::Zone> zones{};
   /// JSON pointers into the result; one that ends in / goes on with the measure's name. Null: it has no place of its own.
   const char* json = nullptr;

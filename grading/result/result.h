@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 5;
+inline constexpr int k_grading_version = 6;
 
 /// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.
 inline constexpr std::int64_t k_untimed_tick = 0x7fffffff;
@@ -36,8 +36,11 @@ struct BoundedVolume {
 /// What was removed in one zone.
 struct ZoneVolume {
   BoundedVolume removed;
+  double bottom_or_sides_mm3 = 0.0;                          ///< of it lies where bottom and sides meet and may as well belong to the other
   std::array<double, scenarios::k_walls + 1> by_wall_mm3{};  ///< by the target's nearest wall
   Trace first;                                               ///< first leaf removed there, all of it or a part
+  /// As a figure of its own, not in a sum of bottom and sides.
+  [[nodiscard]] BoundedVolume alone() const noexcept { return {removed.mm3, removed.bound_mm3 + bottom_or_sides_mm3}; }
 };
 
 struct VolumeMeasures {

@@ -280,7 +280,7 @@ std::string criteria_text(const Result& r) {
 }
 
 std::string volumes_text(const Result& r) {
-  const auto zone = [&](scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; };
+  const auto zone = [&](scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].alone(); };
   const auto volume = [&](const std::string& name, const BoundedVolume& v) {
     return fmt::format("  {}{} ± {} mm3\n", padded(name, 22), fixed(v.mm3, 2), fixed(v.bound_mm3, 2));
   };

@@ -89,7 +89,9 @@ void LossFinder::removed_moments(std::vector<WhyItem> items) {
 std::vector<WhyItem> LossFinder::in_zones(const std::vector<scenarios::Zone>& zones) const {
   std::vector<RemovedShare> shares;
   for_each_removed_share(in_, RemovedMap(in_.removed, end_ - 1), end_ - 1, [&](const RemovedShare& s) {
-    if (std::find(zones.begin(), zones.end(), s.zone) != zones.end()) shares.push_back(s);
+    if (std::find(zones.begin(), zones.end(), s.zone) == zones.end()) return;
+    shares.push_back(s);
+    if (zones.size() == 1) shares.back().bound_mm3 += s.bottom_or_sides_mm3;
   });
   return removal_moments(in_.zones, std::move(shares));
 }

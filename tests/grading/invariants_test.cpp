@@ -111,7 +111,7 @@ std::vector<Figure> turnable(const Result& r) {
                            {"depth", r.shape.depth_mm.value_or(-1), r.shape.bound_mm},
                            {"pulp", r.volumes.tissue[k_pulp].mm3, r.volumes.tissue[k_pulp].bound_mm3 + k_grazed_mm3}};
   for (std::size_t z = 0; z < scenarios::k_zones; ++z)
-    list.push_back({scenarios::zone_name(static_cast<scenarios::Zone>(z)), r.volumes.zone[z].removed.mm3, r.volumes.zone[z].removed.bound_mm3, 1.0});
+    list.push_back({scenarios::zone_name(static_cast<scenarios::Zone>(z)), r.volumes.zone[z].alone().mm3, r.volumes.zone[z].alone().bound_mm3, 1.0});
   double over = 0, under = 0;
   for (const auto& w : r.shape.wall) {
     over = std::max(over, w.max_over_mm);

@@ -34,7 +34,7 @@ void add_volumes(Document& d, const grading::Result& r) {
   volume("removed in all", r.volumes.removed);
   const auto zone = [&](const std::string& name, scenarios::Zone z) {
     const grading::ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
-    volume(name, v.removed, v.removed.mm3 > 0 ? v.first : grading::Trace{});
+    volume(name, v.alone(), v.removed.mm3 > 0 ? v.first : grading::Trace{});
   };
   for (const scenarios::Zone z :
        {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
