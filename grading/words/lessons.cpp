@@ -165,6 +165,7 @@ class Teller {
     const scenarios::Wall of = static_cast<scenarios::Wall>(w);
     const double thick = r_.shape.wall[w].max_under_mm;
     l.where = r_.volumes.target_last[w];
+    if (thick > 0) l.look_mm = r_.shape.wall[w].worst_under.site_mm;
     l.what = fmt::format("{} of the cavity was left standing, most of it at {}{}.", mm3(r_.volumes.missed.mm3), wall(w),
                          thick > 0 ? fmt::format(", up to {} thick", mm(thick)) : "");
     if (of == scenarios::Wall::floor)
@@ -175,6 +176,7 @@ class Teller {
   void roof(Lesson& l) const {
     const Vec3 p = r_.access.overhang_pieces.empty() ? r_.access.overhang_middle_mm : r_.access.overhang_pieces[0].middle_mm;
     l.where.site_mm = p;
+    l.look_mm = p;
     l.what =
         fmt::format("{} of roof was left over the pulp chamber, most of it {}.", mm3(r_.access.overhang ? r_.access.overhang->mm3 : 0), there(p));
     l.instead = fmt::format("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
@@ -182,6 +184,7 @@ class Teller {
   void canals(Lesson& l) const {
     const Vec3 p = r_.access.canals_covered_mm;
     l.where.site_mm = p;
+    l.look_mm = p;
     l.what = fmt::format("Hard tissue stands over {} % of the canals' mouths, most of it {}.", fixed(r_.access.canals_covered_percent.value_or(0), 0),
                          there(p));
     l.instead = fmt::format("Take the shelf of dentin away {}, until an instrument goes straight in without bending at the entrance.", there(p));
@@ -192,6 +195,7 @@ class Teller {
     if (w == at(scenarios::Wall::floor)) w = worst_side();
     const WallMeasures& m = r_.shape.wall[w];
     l.where = m.worst_over;
+    if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
     const Trace& first = out.removed.mm3 > 0 ? out.first : near.first;
     l.what = fmt::format("The cavity became too wide: {} was cut by up to {} beyond its outline{}.", wall(w), mm(std::max(0.0, m.max_over_mm)),
                          from(first));
@@ -201,6 +205,7 @@ class Teller {
   void too_deep(Lesson& l) const {
     const WallMeasures& m = r_.shape.wall[at(scenarios::Wall::floor)];
     l.where = m.worst_over;
+    if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
     l.what = fmt::format("The floor is up to {} too deep{}{}.", mm(std::max(0.0, m.max_over_mm)),
                          m.worst_over.tick >= 0 ? ", deepest " + there(m.worst_over.site_mm) : "", when_at(m.worst_over));
     l.instead = "Slow down for the last half millimetre, press lightly, and measure the depth before each further layer.";
@@ -209,12 +214,14 @@ class Teller {
     const ZoneVolume &none = r_.volumes.zone[at(Zone::none)], &guarded = r_.volumes.zone[at(Zone::protected_)];
     const bool is_guarded = guarded.removed.mm3 > none.removed.mm3;
     l.where = is_guarded ? guarded.first : none.first;
+    if (l.where.tick >= 0) l.look_mm = l.where.site_mm;
     l.what = fmt::format("{} was cut {}{}.", mm3(r_.volumes.outside().mm3), is_guarded ? "of what must stay" : "far from the cavity", from(l.where));
     l.instead = "Take the foot off the pedal before the point leaves the cavity, and lift it clear before you move on.";
   }
   void opened(Lesson& l) const {
     const PerforationTruth& p = r_.perforation.fault;
     l.where = p.first;
+    if (p.perforated) l.look_mm = p.first.site_mm;
     l.what = fmt::format("The {} was opened {}{}.", p.tissue, there(p.first.site_mm), when_at(p.first));
     l.instead = "Near it press lightly and look after each stroke; when the resistance gives way, stop at once.";
   }
@@ -226,11 +233,13 @@ class Teller {
   }
   void neighbour(Lesson& l) const {
     l.where = r_.beside.first_nick;
+    if (r_.beside.nick_depth_mm > 0) l.look_mm = r_.beside.deepest.site_mm;
     l.what = fmt::format("The neighbouring tooth was cut, {} deep{}.", mm(r_.beside.nick_depth_mm), when_at(l.where));
     l.instead = "Leave a thin shell of enamel in front of the neighbour until the box is finished, and break it out last.";
   }
   void contact(Lesson& l) const {
     l.where.site_mm = r_.beside.clearance_from_mm;
+    l.look_mm = r_.beside.clearance_from_mm;
     l.what = fmt::format("The box comes clear of the neighbour by {} only.", mm(r_.beside.clearance_mm.value_or(0)));
     l.instead = "Carry the margins of the box on until the neighbour can be passed all round, at its floor as well.";
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,12 @@ enum class Topic : std::uint8_t {
 
 struct Lesson {
   Topic topic = Topic::other;
-  double points = 0.0;      ///< lost by this mistake, of all criteria together
-  bool fails_exam = false;  ///< a critical limit was passed by it
-  std::string what;         ///< one sentence: what happened and where
-  std::string instead;      ///< one or two: what to do differently
-  Trace where;              ///< to look at; tick -1: no moment of its own
+  double points = 0.0;               ///< lost by this mistake, of all criteria together
+  bool fails_exam = false;           ///< a critical limit was passed by it
+  std::string what;                  ///< one sentence: what happened and where
+  std::string instead;               ///< one or two: what to do differently
+  Trace where;                       ///< to look at; tick -1: no moment of its own
+  std::optional<Vec3> look_mm = {};  ///< of a mistake that shows in the tooth: a section through here shows it
 };
 
 /// Those that fail the exam by themselves first, then by points. Their points add up to what all judged criteria lost, each of more than 0.005 points

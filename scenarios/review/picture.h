@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/tooth/tooth.h"
 #include "scenarios/zones/zone_map.h"
@@ -31,6 +33,7 @@ struct PictureSpec {
   /// grey and the leaves in the colours of heat_legend_svg, and from above each column shows its most frequent overcut, else what was left most
   /// often.
   std::function<double(IVec3 leaf)> heat_percent = {};
+  std::optional<Vec3> ring_mm = {};  ///< a place to look at: a ring around it
 };
 
 /// One picture, a complete `<svg>` element. `after` may be null (nothing was removed yet); then only the zones show.
@@ -45,6 +48,8 @@ struct PictureSpec {
 /// The key to the colours, an `<svg>` element, with what stands beside the tooth where anything does. `with_removed` adds what a graded section
 /// shows.
 [[nodiscard]] std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false);
+/// The same in up to four `<svg>` elements: tissues, lines, what was removed, what stands beside.
+[[nodiscard]] std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false);
 /// The key to the colours of PictureSpec::heat_percent, an `<svg>` element.
 [[nodiscard]] std::string heat_legend_svg();
 

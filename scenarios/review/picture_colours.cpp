@@ -41,8 +41,10 @@ struct KeyEntry {
   bool is_line;
 };
 
-/// In rows; the entries of `second` begin another one.
-std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}) {
+constexpr double k_of_a_telephone_px = 330;
+
+/// In rows, none wider than `most_px`; the entries of `second` begin another one.
+std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}, double most_px = 1e9) {
   constexpr double k_row_px = 22;
   std::string items;
   double width = 0, y = 0;
@@ -50,15 +52,20 @@ std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEnt
     if (row->empty()) continue;
     double x = 4;
     for (const auto& e : *row) {
+      const double wide = 34 + 6.6 * static_cast<double>(e.text.size());
+      if (x > 4 && x + wide > most_px) {
+        x = 4;
+        y += k_row_px;
+      }
       if (e.is_line)
         items += fmt::format("<path d='M{} {}h16' stroke='{}' stroke-width='2'/>", svg_number(x), svg_number(y + 11), e.colour);
       else
         items += fmt::format("<rect x='{}' y='{}' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x),
                              svg_number(y + 4), e.colour);
       items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), e.text);
-      x += 34 + 6.6 * static_cast<double>(e.text.size());
+      x += wide;
+      width = std::max(width, x);
     }
-    width = std::max(width, x);
     y += k_row_px;
   }
   return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>{}</svg>\n",
@@ -131,28 +138,48 @@ std::string heat_legend_svg() {
   return key_svg(entries);
 }
 
-std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast) {
-  const Palette& colours = palette_of(high_contrast);
-  std::vector<KeyEntry> entries{{colours.enamel, "enamel", false},
-                                {colours.dentin, "dentin", false},
-                                {colours.pulp, "pulp", false},
-                                {colours.periodontium, "periodontium", false},
-                                {colours.target_line, "target", true},
-                                {colours.leeway_line, "leeway", true},
-                                {colours.container_line, "container", true}};
-  if (!with_removed) entries.push_back({colours.guard_line, "protected", true});
-  if (with_removed) {
-    entries.push_back({colours.removed, "removed, target", false});
-    entries.push_back({colours.leeway, "removed, leeway", false});
-    entries.push_back({colours.overcut, "removed, damage", false});
-  }
-  std::vector<KeyEntry> beside;
+namespace {
+
+/// What a key names, in its parts.
+struct Key {
+  std::vector<KeyEntry> tissues, lines, removed, beside;
+};
+Key key_of(const Tooth& tooth, bool with_removed, const Palette& colours) {
+  Key key{{{colours.enamel, "enamel", false},
+           {colours.dentin, "dentin", false},
+           {colours.pulp, "pulp", false},
+           {colours.periodontium, "periodontium", false}},
+          {{colours.target_line, "target", true}, {colours.leeway_line, "leeway", true}, {colours.container_line, "container", true}},
+          {},
+          {}};
+  if (!with_removed) key.lines.push_back({colours.guard_line, "protected", true});
+  if (with_removed)
+    key.removed = {
+        {colours.removed, "removed, target", false}, {colours.leeway, "removed, leeway", false}, {colours.overcut, "removed, damage", false}};
   for (const Tissue& t : tooth.tissues)
     if (t.name == k_gum)
-      beside.push_back({tissue_colour(colours, t.id), "gum", false});
+      key.beside.push_back({tissue_colour(colours, t.id), "gum", false});
     else if (is_of_neighbour(t.name))
-      beside.push_back({tissue_colour(colours, t.id), "neighbour's " + t.name.substr(k_neighbour_prefix.size()), false});
-  return key_svg(entries, beside);
+      key.beside.push_back({tissue_colour(colours, t.id), "neighbour's " + t.name.substr(k_neighbour_prefix.size()), false});
+  return key;
+}
+
+}  // namespace
+
+std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast) {
+  const Key key = key_of(tooth, with_removed, palette_of(high_contrast));
+  std::vector<KeyEntry> first = key.tissues;
+  first.insert(first.end(), key.lines.begin(), key.lines.end());
+  first.insert(first.end(), key.removed.begin(), key.removed.end());
+  return key_svg(first, key.beside);
+}
+
+std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast) {
+  const Key key = key_of(tooth, with_removed, palette_of(high_contrast));
+  std::vector<std::string> parts;
+  for (const auto* part : {&key.tissues, &key.lines, &key.removed, &key.beside})
+    if (!part->empty()) parts.push_back(key_svg(*part, {}, k_of_a_telephone_px));
+  return parts;
 }
 
 }  // namespace cavum::scenarios

@@ -29,7 +29,7 @@ std::string points_of(const std::optional<double>& points, const std::optional<d
 }
 
 /// How far from the pass mark, in points.
-std::vector<std::string> margin(const grading::Result& r) {
+std::vector<std::string> margin(const grading::Result& r, ReportReader reader) {
   std::vector<std::string> lines;
   if (r.compensatory) {
     const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
@@ -46,7 +46,7 @@ std::vector<std::string> margin(const grading::Result& r) {
     lines.push_back(fmt::format("each criterion must reach {} % by itself{}", plain_number(r.pass_percent),
                                 lowest != nullptr ? fmt::format("; the lowest, {}, reaches {} %", lowest->title, fixed(percent(*lowest), 1)) : ""));
   }
-  lines.push_back(fmt::format("± {} if every figure were off by its whole bound", fixed(r.points_bound, 1)));
+  if (reader == ReportReader::instructor) lines.push_back(fmt::format("± {} if every figure were off by its whole bound", fixed(r.points_bound, 1)));
   return lines;
 }
 
@@ -62,11 +62,11 @@ std::string limits_text(const scenarios::CriterionSpec& c, const std::string& un
 }
 
 /// A criterion's value as its table shows it.
-std::string shown_value(const grading::CriterionResult& c) {
+std::string shown_value(const grading::CriterionResult& c, bool with_bound = true) {
   if (!c.value) return k_dash;
   const scenarios::Measure measure = scenarios::known_measure(c.metric);
-  if (measure.reads != scenarios::Reads::figure) return grading::value_text(measure, *c.value, c.bound, 2);
-  return with_unit(fixed(*c.value, 2) + (c.bound > 0 ? " ± " + fixed(c.bound, 2) : ""), c.unit);
+  if (measure.reads != scenarios::Reads::figure) return grading::value_text(measure, *c.value, with_bound ? c.bound : 0, 2);
+  return with_unit(fixed(*c.value, 2) + (c.bound > 0 && with_bound ? " ± " + fixed(c.bound, 2) : ""), c.unit);
 }
 
 /// What a reader of the criteria would else have to guess.
@@ -101,6 +101,28 @@ void add_criteria(Document& d, const ReportSource& s) {
   for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
 }
 
+/// What a student reads first of the criteria: no bounds, places and ticks.
+void add_marks(Document& d, const ReportSource& s) {
+  d.blocks.push_back(Heading{"Marks"});
+  ReportTable t{{{"What was looked at", false, 2.6}, {"Yours", true, 1.6}, {"Asked", false, 3.6}, {"Points", true, 1.4}}, {}, "Marks"};
+  for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
+    const grading::CriterionResult& c = s.result.criteria[i];
+    t.rows.push_back({{{c.title},
+                       {shown_value(c, false)},
+                       {i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : ""},
+                       {c.judged ? fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)) : "not judged"}},
+                      c.judged && c.max - c.points > 1e-9});
+  }
+  d.blocks.push_back(std::move(t));
+}
+
+Pictures key_to_sections(const ReportSource& s) {
+  Pictures key{{}, 3};
+  for (auto& svg : scenarios::legend_parts_svg(s.input.seen_before(), true, s.input.scenario.accommodations.high_contrast))
+    key.list.push_back({std::move(svg), ""});
+  return key;
+}
+
 /// The three mistakes that cost most, in words of the clinic.
 void add_lessons(Document& d, const ReportSource& s) {
   constexpr std::size_t k_most = 3;
@@ -111,9 +133,13 @@ void add_lessons(Document& d, const ReportSource& s) {
     if (list.items.size() == k_most) break;
     LessonList::Item item{fmt::format("{} points{}", fixed(l.points, 1), l.fails_exam ? "; this alone fails the exam" : ""), l.what, l.instead};
     if (l.where.timed()) item.jump = Jump{l.where.t_s(), l.where.site_mm};
+    if (l.look_mm)
+      if (auto p = section_of_mistake(s.input, *l.look_mm)) item.picture = Picture{std::move(p->svg), std::move(p->title), true};
     list.items.push_back(std::move(item));
   }
+  const bool drawn = std::any_of(list.items.begin(), list.items.end(), [](const LessonList::Item& i) { return i.picture.has_value(); });
   d.blocks.push_back(std::move(list));
+  if (drawn) d.blocks.push_back(key_to_sections(s));
 }
 
 /// Why the verdict is what it is, for a student: a failed limit by its title and figures, without places in mm and ticks.
@@ -123,7 +149,7 @@ std::vector<std::string> reasons_for(const ReportSource& s) {
   for (std::size_t i = 0; i < s.result.criteria.size() && i < s.rubric.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     if (!c.critical_failed) continue;
-    out.push_back(fmt::format("{}: {} ({}); this alone fails the exam", c.title, shown_value(c), limits_text(s.rubric.criteria[i], c.unit)));
+    out.push_back(fmt::format("{}: {} ({}); this alone fails the exam", c.title, shown_value(c, false), limits_text(s.rubric.criteria[i], c.unit)));
   }
   for (const auto& reason : s.result.verdict_reasons)
     if (!reason.starts_with(grading::k_critical_reason)) out.push_back(reason);
@@ -169,19 +195,26 @@ void add_moments(Document& d, const ReportSource& s) {
 }
 
 void add_pictures(Document& d, const ReportSource& s) {
-  const bool strong = s.input.scenario.accommodations.high_contrast;
   d.blocks.push_back(Heading{"The tooth"});
   d.blocks.push_back(LiveFigure{"tooth-3d",
                                 "The tooth in three dimensions",
                                 s.scan ? "The tooth in three dimensions needs a browser with scripts and WebGL."
                                        : "The tooth in three dimensions, and the motion through it, need a browser with scripts and WebGL.",
                                 {}});
-  d.blocks.push_back(Pictures{{picture_from_above(s.input)}});
+  Pictures above{{picture_from_above(s.input)}};
+  if (s.reader == ReportReader::student) {
+    above.list.push_back(picture_as_planned(s.input));
+    above.columns = 2;
+  }
+  d.blocks.push_back(std::move(above));
+}
+
+void add_sections(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{"Sections: removed against target"});
   Pictures sections{{}, 2, true};
   for (auto& p : section_pictures(s.result, s.input)) sections.list.push_back({std::move(p.svg), std::move(p.title), true});
   d.blocks.push_back(std::move(sections));
-  d.blocks.push_back(Pictures{{{scenarios::legend_svg(s.input.seen_before(), true, strong), ""}}});
+  d.blocks.push_back(key_to_sections(s));
 }
 
 void add_course(Document& d, const ReportSource& s) {
@@ -294,7 +327,7 @@ Document report_document(const ReportSource& s) {
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", "Regrade", Paragraph::Kind::note});
   add_filing_notes(d, s);
   d.blocks.push_back(VerdictBox{grading::verdict_name(r.verdict), fmt::format("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)),
-                                margin(r), reasons_for(s)});
+                                margin(r, s.reader), reasons_for(s)});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
@@ -304,16 +337,31 @@ Document report_document(const ReportSource& s) {
                   "Perforation", Paragraph::Kind::note});
   add_lessons(d, s);
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, "Note"});
-  add_criteria(d, s);
+  const bool student = s.reader == ReportReader::student;
+  if (student)
+    add_marks(d, s);
+  else
+    add_criteria(d, s);
   add_pictures(d, s);
+  if (student && !s.scan) add_attempts(d, s);
+  if (student) {
+    d.blocks.push_back(Fold{"Every figure: with its bound, its place and its time"});
+    add_criteria(d, s);
+  }
+  add_sections(d, s);
   if (s.scan) {
     add_scan_parts(d, s);
+    if (student) d.blocks.push_back(FoldEnd{});
     return d;
   }
   add_course(d, s);
   add_moments(d, s);
-  if (s.reader == ReportReader::instructor) add_instructor_parts(d, s);
-  add_attempts(d, s);
+  if (student)
+    d.blocks.push_back(FoldEnd{});
+  else {
+    add_instructor_parts(d, s);
+    add_attempts(d, s);
+  }
   add_integrity(d, s);
   return d;
 }

@@ -101,6 +101,9 @@ TEST_F(Lessons, AFloorThatIsTooDeepIsNamedWithItsPlace) {
   EXPECT_EQ(all[0].topic, Topic::too_deep);
   EXPECT_NE(all[0].what.find("up to 0.9"), std::string::npos) << all[0].what;
   EXPECT_NE(all[0].what.find("deepest distobuccally at 1:01"), std::string::npos) << all[0].what;
+  ASSERT_TRUE(all[0].look_mm);
+  EXPECT_LT(std::fabs(all[0].look_mm->x + 1.05), 0.45);
+  EXPECT_NEAR(all[0].look_mm->z, -2.9, 0.15);
 }
 
 TEST_F(Lessons, ACutElsewhereIsNamed) {

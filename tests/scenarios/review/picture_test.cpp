@@ -138,6 +138,14 @@ TEST(Picture, TheKeyNamesWhatStandsBesideTheToothWhereAnythingDoes) {
   EXPECT_NE(beside.find(">neighbour's enamel<"), std::string::npos);
   EXPECT_NE(beside.find(tissue_colour(k_gingiva)), std::string::npos) << "in the colour of the sections";
   EXPECT_GT(height_px(beside), height_px(alone)) << "in a row of its own";
+  const auto parts = legend_parts_svg(tooth, true);
+  ASSERT_EQ(parts.size(), 4u);
+  EXPECT_NE(parts[3].find(">neighbour's enamel<"), std::string::npos);
+  for (const auto& part : parts) {
+    double width = 0;
+    ASSERT_EQ(std::sscanf(part.c_str() + part.find("width='"), "width='%lf", &width), 1);
+    EXPECT_LE(width, 330) << "a telephone's width";
+  }
 }
 
 }  // namespace

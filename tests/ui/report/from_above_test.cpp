@@ -28,6 +28,12 @@ std::string from_above(const CarvedBeside& c) {
   return c.with_input([](const grading::GradeInput& input) { return picture_from_above(input).svg; });
 }
 
+int times_of(const std::string& text, const std::string& what) {
+  int n = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
 TEST(BesideInPictures, FromAboveShowsTheNeighbourAndWhatWasCutOfIt) {
   CarvedBeside c(k_task, two_balls());
   const std::string untouched = from_above(c);
@@ -60,6 +66,42 @@ TEST(BesideInPictures, SectionsLeadThroughTheDeepestPlaceOfANick) {
   c.carve([](Vec3 p) { return length(p - Vec3{3, 0.5, 0.4}) - 0.6; }, 5, {2, -2, -2}, {5, 2, 2});
   // its middle lies 0.07 mm outside the neighbour, a ball around (6, 0, 0)
   EXPECT_NE(titles().find("neighbouring tooth cut, 0.53 mm deep here"), std::string::npos) << titles();
+}
+
+/// A box of 3 x 2 x 2 mm in a block.
+class MistakePictures : public ::testing::Test {
+ protected:
+  MistakePictures()
+      : work_(testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n"),
+              testing::dentin_block(4, 5, 0.1)) {}
+  [[nodiscard]] std::string image(Picture (*draw)(const grading::GradeInput&)) const {
+    const std::string svg = draw(work_.input()).svg;
+    const auto from = svg.find("base64,");
+    return svg.substr(from, svg.find('\'', from) - from);
+  }
+  testing::Carved work_;
+};
+
+TEST_F(MistakePictures, WhoCutsTheTargetAndNothingElseSeesThePlan) {
+  EXPECT_NE(image(picture_from_above), image(picture_as_planned));
+  work_.carve(testing::box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  EXPECT_EQ(image(picture_from_above), image(picture_as_planned));
+  work_.carve(testing::box_hole(-1.5, 1.5, 1, 1.4, -2), 600);
+  EXPECT_NE(image(picture_from_above), image(picture_as_planned));
+}
+
+TEST_F(MistakePictures, ASectionThroughAMistakeLiesWhereMostOfItShowsAndRingsIt) {
+  work_.carve(testing::box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  EXPECT_FALSE(section_of_mistake(work_.input(), {0, 0, -2}).has_value()) << "nothing is wrong";
+  work_.carve(testing::box_hole(-1.5, 1.5, 1, 1.5, -2), 600);  // the buccal wall, 3 mm wide, 2 mm high, 0.5 mm deep
+  const auto across = section_of_mistake(work_.input(), {0, 1.45, -1});
+  ASSERT_TRUE(across.has_value());
+  EXPECT_EQ(across->view, scenarios::View::mesio_distal) << "3 x 2 mm of it lie in the plane of the wall";
+  const auto deep = section_of_mistake(work_.input(), {0, 1.95, -1});
+  ASSERT_TRUE(deep.has_value());
+  EXPECT_NE(deep->view, scenarios::View::mesio_distal) << "beyond the wall that plane shows none of it";
+  EXPECT_EQ(times_of(deep->svg, "<circle"), 2);
+  EXPECT_EQ(section_of_mistake(work_.input(), {-3, -3, -1}).has_value(), false) << "far from it";
 }
 
 }  // namespace

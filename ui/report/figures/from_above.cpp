@@ -73,14 +73,31 @@ Bytes png_of(cairo_surface_t* surface) {
   return bytes;
 }
 
+/// z of the highest solid leaf of each column, had the target been taken out and nothing else.
+std::vector<int> planned_tops(const grading::GradeInput& input, const std::vector<int>& was) {
+  std::vector<int> top = was;
+  const IVec3 n = input.before.octree.size();
+  const Octree& before = input.before.octree;
+  for (int y = 0; y < n.y; ++y)
+    for (int x = 0; x < n.x; ++x) {
+      int& z = top[static_cast<std::size_t>(y) * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(x)];
+      while (z >= 0 && (!before.is_solid(before.tissue({x, y, z})) || input.zones.zone({x, y, z}) == scenarios::Zone::target)) --z;
+    }
+  return top;
+}
+
 /// The tooth before and after, column by column.
 struct Columns {
-  explicit Columns(const grading::GradeInput& graded)
-      : input(graded), size(graded.before.octree.size()), was(tops(graded.before.octree)), is(tops(graded.after)) {
+  Columns(const grading::GradeInput& graded, bool as_planned)
+      : input(graded),
+        size(graded.before.octree.size()),
+        was(tops(graded.before.octree)),
+        is(as_planned ? planned_tops(graded, was) : tops(graded.after)) {
     if (graded.beside == nullptr) return;
     all_was = tops(graded.seen_before().octree);
-    all_is = tops(graded.seen_after());
+    all_is = as_planned ? all_was : tops(graded.seen_after());
     cut_beside.assign(was.size(), false);
+    if (as_planned) return;
     for (const auto& r : graded.all_removed())
       if (graded.beside->apart.beside[r.leaf.tissue]) cut_beside[index(r.leaf.x, r.leaf.y)] = true;
   }
@@ -206,18 +223,18 @@ std::vector<std::string> key_beside(const grading::GradeInput& input, double lef
   return lines;
 }
 
-}  // namespace
-
-Picture picture_from_above(const grading::GradeInput& input) {
-  const Columns columns(input);
+/// With the key to its colours, or its place left empty.
+std::string picture_svg(const Columns& columns, bool with_key, bool& beside_shown) {
+  const grading::GradeInput& input = columns.input;
   const IVec3 n = columns.size;
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
   constexpr double k_font_px = 16;
   constexpr double k_below_bar_px = k_bar_height_px + 60;
-  const auto beside = key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px);
+  const auto beside = with_key ? key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px) : std::vector<std::string>{};
+  beside_shown = !beside.empty();
   const double all_width = width + k_key_px,
-               all_height =
-                   k_top_px + std::max(height, k_below_bar_px + (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())));
+               key_height = k_below_bar_px + (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())),
+               all_height = k_top_px + std::max(height, key_height);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif' font-size='{}' "
       "fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n{}{}\n",
@@ -225,11 +242,23 @@ Picture picture_from_above(const grading::GradeInput& input) {
       text_at(width - 4, 17, "mesial &#8594;", "end"));
   svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
                      fixed(width, 1), fixed(height, 1), base64(columns_png(columns)));
-  svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n";
+  if (with_key) svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n";
   for (const auto& line : beside) svg += line;
-  svg += "</svg>\n";
-  return {svg, "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut" +
-                   std::string(beside.empty() ? "" : "; what stands beside it, and what was cut of that, in colours of their own")};
+  return svg + "</svg>\n";
+}
+
+}  // namespace
+
+Picture picture_from_above(const grading::GradeInput& input) {
+  bool beside = false;
+  std::string svg = picture_svg(Columns(input, false), true, beside);
+  return {std::move(svg), "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut" +
+                              std::string(beside ? "; what stands beside it, and what was cut of that, in colours of their own" : "")};
+}
+
+Picture picture_as_planned(const grading::GradeInput& input) {
+  bool beside = false;
+  return {picture_svg(Columns(input, true), false, beside), "From above, as planned: the target taken out and nothing else"};
 }
 
 }  // namespace cavum::report

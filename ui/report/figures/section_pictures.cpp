@@ -164,6 +164,33 @@ std::vector<SectionPicture> section_pictures(const grading::Result& r, const gra
   return pictures;
 }
 
+std::optional<SectionPicture> section_of_mistake(const grading::GradeInput& input, Vec3 place_mm) {
+  constexpr double k_near_mm = 1.5, k_small_px_per_mm = 20;
+  const Octree &before = input.seen_before().octree, &after = input.seen_after();
+  const IVec3 at = before.leaf_at(place_mm);
+  const int near = static_cast<int>(std::ceil(k_near_mm / before.leaf_mm()));
+  const auto wrong = [&](IVec3 leaf) {
+    const bool was = before.is_solid(before.tissue(leaf)), is = after.is_solid(after.tissue(leaf));
+    return was && is == (input.zones.zone(leaf) == scenarios::Zone::target);
+  };
+  constexpr std::array k_views{scenarios::View::mesio_distal, scenarios::View::bucco_lingual, scenarios::View::horizontal};
+  std::array<int, 3> found{};
+  for (int u = -near; u <= near; ++u)
+    for (int v = -near; v <= near; ++v) {
+      found[0] += wrong(at + IVec3{u, 0, v}) ? 1 : 0;
+      found[1] += wrong(at + IVec3{0, u, v}) ? 1 : 0;
+      found[2] += wrong(at + IVec3{u, v, 0}) ? 1 : 0;
+    }
+  const auto most = static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin());
+  if (found[most] == 0) return std::nullopt;
+  constexpr std::array k_titles{"Section from mesial to distal", "Section from buccal to lingual", "Section across"};
+  SectionPicture p{k_views[most], at_of(k_views[most], place_mm), k_titles[most], ""};
+  scenarios::PictureSpec spec{p.view, p.at_mm, k_small_px_per_mm, p.title, input.scenario.accommodations.high_contrast};
+  spec.ring_mm = place_mm;
+  p.svg = scenarios::section_svg(input.seen_before(), &after, input.zones, spec);
+  return p;
+}
+
 std::string sections_svg(const grading::Result& r, const grading::GradeInput& input) {
   constexpr double k_margin_px = 10, k_text_px = 30;
   const auto group = [](double x, double y, const std::string& content) {

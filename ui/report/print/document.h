@@ -82,11 +82,18 @@ struct LessonList {
     std::string weight;  ///< "9.0 points"
     std::string what, instead;
     std::optional<Jump> jump = {};
+    std::optional<Picture> picture = {};
   };
   std::vector<Item> items;
 };
 
-using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure, LessonList>;
+/// What follows, up to its end, is folded away on a screen until it is asked for. On paper it stands under its title.
+struct Fold {
+  std::string title;
+};
+struct FoldEnd {};
+
+using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure, LessonList, Fold, FoldEnd>;
 
 struct Document {
   std::string title;

@@ -63,7 +63,7 @@ class Writer {
     h_ += "</ul></div>\n";
   }
   void operator()(const Pictures& b) {
-    h_ += b.sections ? "<div class='sections'>\n" : "<div class='pictures'>\n";
+    h_ += b.sections ? "<div class='sections'>\n" : b.columns == 2 ? "<div class='pictures pair'>\n" : "<div class='pictures'>\n";
     for (const auto& p : b.list)
       h_ += p.title.empty() ? p.svg : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", p.svg, xml_text(p.title));
     h_ += "</div>\n";
@@ -75,15 +75,19 @@ class Writer {
   void operator()(const LessonList& b) {
     h_ += "<ol class='lessons'>\n";
     for (const auto& i : b.items) {
-      h_ += fmt::format("<li><p><b>{}</b> {}</p><p class='small'>{}", xml_text(i.what), xml_text(i.instead), xml_text(i.weight));
+      h_ += fmt::format("<li><div><div><p><b>{}</b> {}</p><p class='small'>{}", xml_text(i.what), xml_text(i.instead), xml_text(i.weight));
       if (i.jump) {
         h_ += " · ";
         button(*i.jump, "show it");
       }
-      h_ += "</p></li>\n";
+      h_ += "</p></div>";
+      if (i.picture) h_ += fmt::format("<figure>{}</figure>", i.picture->svg);
+      h_ += "</div></li>\n";
     }
     h_ += "</ol>\n";
   }
+  void operator()(const Fold& b) { h_ += fmt::format("<details><summary>{}</summary>\n", xml_text(b.title)); }
+  void operator()(const FoldEnd&) { h_ += "</details>\n"; }
 
  private:
   void button(const Jump& to, const std::string& text) {

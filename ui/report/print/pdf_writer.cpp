@@ -77,7 +77,13 @@ class Printer {
       s_.space(k_gap_pt / 2);
     }
     s_.space(k_gap_pt / 2);
+    Pictures pictures{{}, 3};
+    for (std::size_t i = 0; i < b.items.size(); ++i)
+      if (b.items[i].picture) pictures.list.push_back({b.items[i].picture->svg, fmt::format("To {}", i + 1), true});
+    if (!pictures.list.empty()) (*this)(pictures);
   }
+  void operator()(const Fold& b) { (*this)(Heading{b.title}); }
+  void operator()(const FoldEnd&) {}
   void operator()(const VerdictBox& b) {
     const double left = 0.36 * s_.width_pt(), inner = 8;
     const PdfColour colour = verdict_colour(b.verdict);
