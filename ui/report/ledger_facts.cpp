@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -14,6 +15,32 @@ namespace cavum::report {
 using nlohmann::json;
 
 namespace {
+
+/// Per cent of the scale that a session reached, where that counts for a comparison of attempts.
+std::optional<double> percent_of(const ledger::FiledSession& s, ReportReader reader) {
+  const json& result = reader == ReportReader::student ? s.shown : s.result;
+  if (s.doubtful() || !result.is_object() || !result.contains("score") || !result["score"].is_object()) return std::nullopt;
+  const double max = result["score"].value("max", 0.0);
+  return max > 0 ? std::optional(100 * result["score"].value("points", 0.0) / max) : std::nullopt;
+}
+
+/// How much marks vary from attempt to attempt in the class, and what that leaves of this candidate's. Simulated candidates and people are compared
+/// with their like alone.
+void add_progress(ReportFiling& f, const ledger::Registry& registry, const ledger::FiledSession& session, ReportReader reader) {
+  std::map<std::string, std::vector<double>> marks;
+  std::vector<double> own;
+  for (const auto& s : registry.sessions) {
+    if (s.scenario_id != session.scenario_id || s.simulated.empty() != session.simulated.empty()) continue;
+    const auto percent = percent_of(s, reader);
+    if (!percent) continue;
+    marks[s.candidate].push_back(*percent);
+    if (s.candidate == session.candidate && s.seq <= session.seq) own.push_back(*percent);
+  }
+  std::vector<std::vector<double>> of_class;
+  for (auto& [candidate, of_one] : marks) of_class.push_back(std::move(of_one));
+  f.scatter = cohort::attempt_scatter(of_class);
+  if (f.scatter) f.progress = cohort::progress(own, *f.scatter);
+}
 
 /// What a session was filed with, and that another ending of it was.
 std::vector<std::string> doubts_of(const ledger::FiledSession& s) {
@@ -88,6 +115,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
     }
     f.attempts.push_back(std::move(a));
   }
+  add_progress(f, ledger.registry, session, reader);
   return f;
 }
 

@@ -232,6 +232,22 @@ void add_course(Document& d, const ReportSource& s) {
   d.blocks.push_back(std::move(t));
 }
 
+/// Whether the marks changed by more than they do by themselves.
+std::string progress_words(const ReportFiling& f) {
+  if (!f.scatter)
+    return fmt::format("How much marks vary from one attempt to the next is not known yet: that takes {} further attempts of {} candidates or more.",
+                       cohort::k_least_steps, cohort::k_least_repeaters);
+  if (!f.progress) return "This is the first attempt that counts.";
+  const cohort::Progress& p = *f.progress;
+  const std::string by_chance = fmt::format("up to {} % may be chance, as {} steps of {} candidates from one attempt to the next show",
+                                            fixed(p.bound_percent, 0), f.scatter->steps, f.scatter->candidates);
+  if (!p.told())
+    return fmt::format("Over {} attempts no change can be told from chance: {}{} %, and {}.", p.attempts, p.change_percent < 0 ? "" : "+",
+                       fixed(p.change_percent, 0), by_chance);
+  return fmt::format("Over {} attempts the mark {} by {} %: more than chance explains ({}).", p.attempts, p.change_percent > 0 ? "rose" : "fell",
+                     fixed(std::fabs(p.change_percent), 0), by_chance);
+}
+
 void add_attempts(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{"Attempts over time"});
   if (!s.filing) {
@@ -255,6 +271,7 @@ void add_attempts(Document& d, const ReportSource& s) {
                       !a.doubt.empty()});
   }
   d.blocks.push_back(Pictures{{attempts_chart(shown, s.result.pass_percent)}});
+  d.blocks.push_back(Paragraph{progress_words(*s.filing), ""});
   d.blocks.push_back(std::move(t));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "grading/cohort/progress.h"
 #include "grading/grade.h"
 #include "grading/result/compare.h"
 #include "grading/scan/grade_scan.h"
@@ -50,11 +51,13 @@ struct ReportFiling {
   std::uint64_t entry = 0, entries = 0;  ///< its number, and how many the root below is of
   std::string ledger, school, public_key, root, date;
   bool released = false;
-  std::vector<std::string> findings;     ///< in words: what it was filed with, and that it is contested
-  std::optional<ReportRegrade> regrade;  ///< that gave the result of this report
-  std::string not_filed;                 ///< the result of this report is not the one that the ledger holds: how it differs
-  std::optional<std::string> name;       ///< of the candidate: only when asked for, and released
-  std::vector<ReportAttempt> attempts;   ///< of this candidate at this exam, the oldest first
+  std::vector<std::string> findings;                   ///< in words: what it was filed with, and that it is contested
+  std::optional<ReportRegrade> regrade;                ///< that gave the result of this report
+  std::string not_filed;                               ///< the result of this report is not the one that the ledger holds: how it differs
+  std::optional<std::string> name;                     ///< of the candidate: only when asked for, and released
+  std::vector<ReportAttempt> attempts;                 ///< of this candidate at this exam, the oldest first
+  std::optional<cohort::AttemptScatter> scatter = {};  ///< of the class at this exam; none where too few sat it twice
+  std::optional<cohort::Progress> progress = {};       ///< up to this attempt
 };
 
 /// A scan of a prepared tooth, where that was marked and no recording.

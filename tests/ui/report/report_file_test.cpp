@@ -174,6 +174,37 @@ TEST_F(ReportFile, EveryWordOfTheDocumentIsInBothFiles) {
   }
 }
 
+TEST_F(ReportFile, AChangeOverAttemptsIsToldOnlyBeyondWhatMarksVaryByThemselves) {
+  const auto session = grading::load_for_grading(sit("novice"));
+  const grading::GradeInput input = session->input();
+  const grading::Result result = grading::grade(input, session->rubric);
+  ReportSource source = report_source(result, input, session->facts, session->rubric);
+  const auto words = [&](const std::vector<double>& marks, bool class_known) {
+    source.filing = ReportFiling{};
+    for (const double percent : marks) {
+      ReportAttempt attempt;
+      attempt.verdict = "pass";
+      attempt.points = percent;
+      attempt.max = 100;
+      attempt.released = true;
+      source.filing->attempts.push_back(attempt);
+    }
+    if (class_known) {
+      source.filing->scatter = cohort::AttemptScatter{5.0, 12.0, 30, 21};
+      source.filing->progress = cohort::progress(marks, *source.filing->scatter);
+    }
+    std::string all;
+    for (const auto& b : report_document(source).blocks)
+      if (const auto* p = std::get_if<Paragraph>(&b)) all += p->text + "\n";
+    return all;
+  };
+  EXPECT_NE(words({60, 90}, false).find("is not known yet: that takes 8 further attempts of 5 candidates"), std::string::npos);
+  EXPECT_NE(words({60}, true).find("the first attempt that counts"), std::string::npos);
+  EXPECT_NE(words({60, 65}, true).find("Over 2 attempts no change can be told from chance: +5 %"), std::string::npos);
+  EXPECT_NE(words({60, 80, 90}, true).find("Over 3 attempts the mark rose by 30 %: more than chance explains"), std::string::npos);
+  EXPECT_NE(words({90, 60}, true).find("the mark fell by 30 %"), std::string::npos);
+}
+
 /// What a student reads before unfolding the figures: no coordinates, no ticks, no ±.
 TEST_F(ReportFile, AStudentReadsNoCoordinatesTicksOrBoundsUnlessAsked) {
   const std::string session = sit("novice");
