@@ -25,37 +25,59 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
     : reader_(path),
       setup_(scenarios::prepare_exam(sound(reader_).setup())),
       simulation_(make_simulation(reader_.setup(), path)),
-      runner_(setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names, setup_->session.exam_rules),
+      runner_(make_runner()),
       inputs_(reader_.inputs()),
       events_(reader_.events()),
+      ended_by_hand_(std::any_of(events_.begin(), events_.end(),
+                                 [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); })),
       between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {
-  snapshots_.resize(static_cast<std::size_t>(ticks() / between_ + 1));
-  snapshots_[0] = std::make_unique<Moment>();
-  snapshots_[0]->servo = simulation_.state;
-  snapshots_[0]->input.tip_nm = reader_.setup().first_tip_nm;
-  snapshots_[0]->output.proxy_mm = reader_.setup().first_tip_mm();
-  now_ = std::make_unique<Moment>(*snapshots_[0]);
+  Moment first;
+  first.servo = simulation_.state;
+  first.input.tip_nm = reader_.setup().first_tip_nm;
+  first.output.proxy_mm = reader_.setup().first_tip_mm();
+  now_ = std::make_unique<Moment>(first);
+  snapshots_.push_back(std::make_shared<const Moment>(std::move(first)));
+  filler_ = std::jthread([this](const std::stop_token& stop) { fill(stop); });
+}
+
+void ReplayPlayer::fill(const std::stop_token& stop) {
+  Moment moment = *snapshots_.front();  // before any other is there
+  scenarios::Runner runner = make_runner();
+  while (moment.servo.tick < ticks() && !stop.stop_requested()) {
+    take_tick(moment, runner);
+    if (moment.servo.tick % between_ != 0) continue;
+    auto snapshot = std::make_shared<const Moment>(moment);
+    const std::scoped_lock lock(mutex_);
+    snapshots_.push_back(std::move(snapshot));
+  }
+}
+
+std::shared_ptr<const ReplayPlayer::Moment> ReplayPlayer::snapshot_before(std::int64_t tick) {
+  const std::scoped_lock lock(mutex_);
+  return snapshots_[std::min(static_cast<std::size_t>(tick / between_), snapshots_.size() - 1)];
+}
+
+std::int64_t ReplayPlayer::reached() {
+  const std::scoped_lock lock(mutex_);
+  const auto last = static_cast<std::int64_t>(snapshots_.size() - 1) * between_;
+  return last + between_ > ticks() ? ticks() : last;
 }
 
 void ReplayPlayer::seek(std::int64_t tick) {
   goal_ = std::clamp<std::int64_t>(tick, 0, ticks());
-  std::size_t nearest = static_cast<std::size_t>(goal_ / between_);
-  while (!snapshots_[nearest]) --nearest;
-  const Moment& from = *snapshots_[nearest];
-  if (goal_ < now_->servo.tick || from.servo.tick > now_->servo.tick) now_ = std::make_unique<Moment>(from);
+  const auto from = snapshot_before(goal_);
+  if (goal_ < now_->servo.tick || from->servo.tick > now_->servo.tick) now_ = std::make_unique<Moment>(*from);
 }
 
-void ReplayPlayer::take_tick() {
-  const auto at = static_cast<std::size_t>(now_->servo.tick);
-  now_->input = inputs_[at];
-  now_->output = step(simulation_.model, now_->servo, now_->input);
-  runner_.advance(now_->runner, now_->input, now_->output, now_->servo.removed);
-  const std::int64_t tick = now_->servo.tick;
-  // what the candidate or the supervisor ended is no input of a tick
-  const auto ended = [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); };
-  if (tick == ticks() && std::any_of(events_.begin(), events_.end(), ended)) runner_.end(now_->runner);
-  auto& snapshot = snapshots_[static_cast<std::size_t>(tick / between_)];
-  if (tick % between_ == 0 && !snapshot) snapshot = std::make_unique<Moment>(*now_);
+scenarios::Runner ReplayPlayer::make_runner() const {
+  return {setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names, setup_->session.exam_rules};
+}
+
+void ReplayPlayer::take_tick(Moment& moment, scenarios::Runner& runner) const {
+  moment.input = inputs_[static_cast<std::size_t>(moment.servo.tick)];
+  moment.output = step(simulation_.model, moment.servo, moment.input);
+  runner.advance(moment.runner, moment.input, moment.output, moment.servo.removed);
+  if (moment.servo.tick == ticks() && ended_by_hand_) runner.end(moment.runner);
 }
 
 bool ReplayPlayer::work(double budget_s) {
@@ -63,7 +85,8 @@ bool ReplayPlayer::work(double budget_s) {
   const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget_s));
   constexpr int k_between_looks = 64;
   while (now_->servo.tick < goal_) {
-    for (int i = 0; i < k_between_looks && now_->servo.tick < goal_; ++i) take_tick();
+    seek(goal_);  // the snapshots may have come nearer
+    for (int i = 0; i < k_between_looks && now_->servo.tick < goal_; ++i) take_tick(*now_, runner_);
     if (Clock::now() > until) break;
   }
   return now_->servo.tick == goal_;

@@ -1,9 +1,12 @@
-// A recorded exam, taken again from its inputs and shown at any moment: forwards as fast as the computer can, backwards from snapshots kept on the
-// way. Nothing in it is a film; what it shows is what the same physics makes of the same inputs.
+// A recorded exam, taken again from its inputs and shown at any moment. A thread of its own takes the whole exam once, as fast as the computer can,
+// and leaves snapshots on the way; from the nearest of them any moment is near. Nothing in it is a film; what it shows is what the same physics makes
+// of the same inputs.
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "engine/session/session_reader.h"
@@ -27,6 +30,9 @@ class ReplayPlayer {
   void seek(std::int64_t tick);
   /// Goes there for `budget_s` at most; true when it is there.
   bool work(double budget_s);
+  /// How far the snapshots reach, ticks: up to there every moment is at most `between()` ticks from one.
+  [[nodiscard]] std::int64_t reached();
+  [[nodiscard]] std::int64_t between() const noexcept { return between_; }
 
   [[nodiscard]] std::int64_t tick() const noexcept { return now_->servo.tick; }
   [[nodiscard]] const Octree& tooth() const noexcept { return now_->servo.tooth; }
@@ -45,7 +51,12 @@ class ReplayPlayer {
     TickInput input;
     TickOutput output;
   };
-  void take_tick();
+  /// A runner is of one thread.
+  void take_tick(Moment& moment, scenarios::Runner& runner) const;
+  [[nodiscard]] scenarios::Runner make_runner() const;
+  void fill(const std::stop_token& stop);
+  /// The last one at or before a tick.
+  [[nodiscard]] std::shared_ptr<const Moment> snapshot_before(std::int64_t tick);
 
   SessionReader reader_;
   std::unique_ptr<scenarios::ExamSetup> setup_;
@@ -53,9 +64,12 @@ class ReplayPlayer {
   scenarios::Runner runner_;
   std::vector<TickInput> inputs_;
   std::vector<SessionEvent> events_;
-  std::vector<std::unique_ptr<Moment>> snapshots_;  // every `between_` ticks; null until passed
+  bool ended_by_hand_ = false;  // what the candidate or the supervisor ended is no input of a tick
   std::int64_t between_ = 1, goal_ = 0;
   std::unique_ptr<Moment> now_;
+  std::mutex mutex_;                                      // of what stands below it
+  std::vector<std::shared_ptr<const Moment>> snapshots_;  // every `between_` ticks, as far as they reach
+  std::jthread filler_;                                   // last: it ends before anything it uses
 };
 
 }  // namespace cavum::station

@@ -193,6 +193,14 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
   go(0);
   EXPECT_EQ(player.runner().ticks, 0);
   EXPECT_EQ(player.tooth().count_leaves(), setup->tooth.octree.count_leaves());
+  // once the snapshots reach the end, no moment is further from one than they lie apart
+  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (player.reached() < player.ticks() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_EQ(player.reached(), player.ticks());
+  const std::int64_t late = player.ticks() - 1;
+  player.seek(0);
+  player.seek(late);
+  EXPECT_GE(player.tick(), late - player.between()) << "it begins at the nearest snapshot";
   player.seek(player.ticks() + 1000);  // beyond the end is the end
   while (!player.work(0.05)) continue;
   EXPECT_EQ(player.tick(), player.ticks());
