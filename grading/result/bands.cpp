@@ -40,7 +40,7 @@ std::vector<std::string> count_bands(Result& r) {
     int count = 0;
     for (const auto& c : r.criteria) {
       if (!c.band || *c.band < i) continue;
-      which += (count == 0 ? "" : ", ") + c.id;
+      which += (count == 0 ? "" : ", ") + c.title;
       ++count;
     }
     if (count > *r.bands[i].most)

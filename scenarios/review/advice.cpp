@@ -55,7 +55,7 @@ class Adviser {
   void target();
   void leeway();
   void walls();
-  void time(std::optional<double>& expert_s);
+  void time(ExpertsPart& expert);
   void steps();
   void criteria();
   [[nodiscard]] std::vector<Problem> take() { return std::move(problems_); }
@@ -189,7 +189,7 @@ void Adviser::walls() {
   }
 }
 
-void Adviser::time(std::optional<double>& expert_s) {
+void Adviser::time(ExpertsPart& expert) {
   if (zones_.leaf_mm() > k_coarse_leaf_mm)
     warn("tooth",
          fmt::format("the tooth's leaves are {} mm wide: zones, reach and figures are known to half of that only", plain_number(zones_.leaf_mm())),
@@ -213,6 +213,7 @@ void Adviser::time(std::optional<double>& expert_s) {
   }
   double best = 0;
   for (const double share : covers) best = std::max(best, share);
+  expert.reach = best;
   const auto percent = [](double share) { return fixed(100 * share, 0) + " %"; };
   for (std::size_t i = 0; i < tray.size(); ++i)
     if (covers[i] < k_useless_share)
@@ -223,9 +224,9 @@ void Adviser::time(std::optional<double>& expert_s) {
          "allow one that fits, or make the target wider");
   if (chosen.index == tray.size()) return;
   const auto way = plan_work(chosen, tooth_, tray, s_.perforation.aims);
-  expert_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
-  if (*expert_s > limit_s_)
-    warn("time_limit_s", fmt::format("the built-in expert needs about {} s, and the limit is {} s", fixed(*expert_s, 0), plain_number(limit_s_)),
+  expert.time_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
+  if (*expert.time_s > limit_s_)
+    warn("time_limit_s", fmt::format("the built-in expert needs about {} s, and the limit is {} s", fixed(*expert.time_s, 0), plain_number(limit_s_)),
          "allow more time, or see what `cavum scenario solve` reaches");
 }
 
@@ -398,12 +399,12 @@ std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, 
 }
 
 std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
-                            std::optional<double>& expert_s) {
+                            ExpertsPart& expert) {
   Adviser a(scenario, tooth, zones, points);
   a.target();
   a.leeway();
   a.walls();
-  a.time(expert_s);
+  a.time(expert);
   a.steps();
   a.criteria();
   std::vector<Problem> problems = a.take();

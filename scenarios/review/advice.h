@@ -11,10 +11,15 @@
 
 namespace cavum::scenarios {
 
-/// Everything to warn of, in no order. `points` are the allowed ones, in the scenario's order. `expert_s` becomes the time that the
-/// built-in expert will need, about, when it can do the task at all.
+/// What the built-in expert can do of a task.
+struct ExpertsPart {
+  std::optional<double> time_s;  ///< that it needs, about; none where it cannot do the task at all
+  double reach = 0.0;            ///< share of the target that the best allowed point removes within its margins, 0..1
+};
+
+/// Everything to warn of, in no order. `points` are the allowed ones, in the scenario's order.
 [[nodiscard]] std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
-                                          std::optional<double>& expert_s);
+                                          ExpertsPart& expert);
 
 /// What of it speaks of the rubric, when another one than the scenario's own is to mark an exam.
 [[nodiscard]] std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, const Tooth& tooth, const ZoneMap& zones);

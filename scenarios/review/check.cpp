@@ -91,7 +91,7 @@ std::optional<Tooth> own_tooth_of(const Scenario& s, std::vector<Problem>& probl
 template <class ToothOf>
 CheckedScenario check_with(const std::string& text, const std::string& path, const ToothOf& tooth_of) {
   ReadScenario read = read_scenario(text, path);
-  CheckedScenario checked{.problems = std::move(read.problems), .expert_s = {}};
+  CheckedScenario checked{.problems = std::move(read.problems), .expert = {}};
   std::vector<Problem>& problems = checked.problems;
   SurfaceFiles files;
   for (auto& p : read_surfaces(read.scenario, files)) problems.push_back(std::move(p));
@@ -104,7 +104,7 @@ CheckedScenario check_with(const std::string& text, const std::string& path, con
     if (checked.sound()) {
       try {
         ZoneMap zones = build_zones(s, *tooth);
-        for (auto& p : advise(s, *tooth, zones, points, checked.expert_s)) problems.push_back(std::move(p));
+        for (auto& p : advise(s, *tooth, zones, points, checked.expert)) problems.push_back(std::move(p));
         if (checked.sound()) checked.laid = std::make_shared<const LaidScenario>(LaidScenario{s, std::move(*tooth), std::move(zones)});
       } catch (const Error& e) {
         problems.push_back(problem_of(e, s, "zones"));

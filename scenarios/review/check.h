@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenarios/file/parse.h"
+#include "scenarios/review/advice.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::scenarios {
@@ -21,7 +22,7 @@ struct LaidScenario {
 
 struct CheckedScenario {
   std::vector<Problem> problems;                  ///< mistakes and warnings, in the order of the file
-  std::optional<double> expert_s;                 ///< what the built-in expert needs, about; none with mistakes
+  ExpertsPart expert;                             ///< what the built-in expert can do of it; nothing with mistakes
   std::shared_ptr<const LaidScenario> laid = {};  ///< what was checked; none with mistakes, or without its tooth
   [[nodiscard]] bool sound() const;               ///< no mistakes; warnings may be
 };

@@ -32,6 +32,8 @@ constexpr double k_least_walls_mm3 = 0.6;    // twice what the template's criter
 
 /// Looked at once one is sound, in the hope of one without a warning.
 constexpr std::size_t k_most_tried = 4, k_none = 1000;
+// The last step of a task asks for 87 % of the cavity, and the expert removes some 3 % less than that reach.
+constexpr double k_least_reach = 0.895;
 
 struct ToothTask {
   const char *word, *title, *points;
@@ -301,6 +303,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                                beside_criteria(tooth, asked->opens);
   std::string refused;
   std::size_t fewest = k_none, tried = 0;
+  double reaches = 0;
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
     TaskText text{.id = id_of(tooth_file, task),
                   .title = asked->title,
@@ -318,8 +321,10 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .criteria = criteria,
                   .walls_limit_of = asked->walls_share == 0.25 ? "a quarter of the cavity" : "a tenth of what is taken off"};
     CheckedScenario checked = check_whole(scenario_text(text), path);
-    if (checked.sound()) {
-      text.time_limit_s = time_limit_s(checked.expert_s);
+    if (checked.sound() && checked.expert.reach < k_least_reach) {
+      reaches = std::max(reaches, checked.expert.reach);
+    } else if (checked.sound()) {
+      text.time_limit_s = time_limit_s(checked.expert.time_s);
       text.walls_limit_mm3 = wall_limit_mm3(scenario_text(text), path, tooth, asked->walls_share);
       const std::string written = scenario_text(text);
       checked = check_whole(written, path);
@@ -331,6 +336,11 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     if (fewest == 0 || (fewest < k_none && ++tried >= k_most_tried)) return best;
     if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
   }
+  if (fewest == k_none && reaches > 0)
+    throw Error("--task " + task,
+                fmt::format("in '{}' no point of its tray reaches more than {} % of the cavity, which is too narrow for them", tooth.name,
+                            fixed(100 * reaches, 0)),
+                "choose another task or tooth");
   if (fewest == k_none)
     throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
   return best;

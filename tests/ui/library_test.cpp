@@ -67,9 +67,9 @@ TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   const std::string text = read_text_file(file());
   const scenarios::CheckedScenario checked = scenarios::check_whole(text, file());
   for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
-  ASSERT_TRUE(checked.expert_s);
+  ASSERT_TRUE(checked.expert.time_s);
   const scenarios::Scenario s = scenarios::parse_scenario(text, file());
-  EXPECT_LT(2 * *checked.expert_s, s.time_limit_s);
+  EXPECT_LT(2 * *checked.expert.time_s, s.time_limit_s);
   EXPECT_EQ(s.id, GetParam());
   double points = 0;
   for (const auto& c : s.rubric.criteria) points += c.points;

@@ -152,7 +152,7 @@ void AuthorWorker::find(const AuthorTask& task) {
     scenarios::CheckedScenario checked =
         tooth ? scenarios::check_whole_on(*tooth, task.text, task.path) : scenarios::check_whole(task.text, task.path);
     f.problems = std::move(checked.problems);
-    f.expert_s = checked.expert_s;
+    f.expert_s = checked.expert.time_s;
   } catch (const std::exception& e) {
     f.problems = {{task.path, without_advice(e.what()), "mend it in a text editor", 0, 0, false}};
   }

@@ -53,14 +53,17 @@ int check(const ScenarioArguments& o) {
                                {"column", p.column},
                                {"what", p.what},
                                {"what_to_do", p.what_to_do}});
-    j["expert_s"] = checked.expert_s ? nlohmann::ordered_json(std::round(*checked.expert_s)) : nlohmann::ordered_json(nullptr);
+    j["expert_s"] = checked.expert.time_s ? nlohmann::ordered_json(std::round(*checked.expert.time_s)) : nlohmann::ordered_json(nullptr);
+    if (checked.expert.time_s) j["expert_reach_percent"] = std::round(100 * checked.expert.reach);
     print_json(j);
   } else {
     for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
     if (checked.sound()) {
       const auto n = checked.problems.size();
       std::cout << o.scenario << ": " << (n == 0 ? "sound" : fmt::format("no mistakes, {}{}", n, n == 1 ? " warning" : " warnings"));
-      if (checked.expert_s) std::cout << "; the built-in expert needs about " << fixed(*checked.expert_s, 0) << " s";
+      if (checked.expert.time_s)
+        std::cout << "; the built-in expert needs about " << fixed(*checked.expert.time_s, 0) << " s and reaches "
+                  << fixed(100 * checked.expert.reach, 0) << " % of the cavity";
       std::cout << (n == 0 ? "" : "; whether it can be passed: cavum scenario solve " + o.scenario) << "\n";
     }
   }

@@ -15,8 +15,8 @@ TEST_P(Template, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/new.toml", text = scenario_template(GetParam().tooth, GetParam().task);
   const CheckedScenario checked = check_whole(text, path);
   for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
-  ASSERT_TRUE(checked.expert_s);
-  EXPECT_LT(2 * *checked.expert_s, parse_scenario(text, path).time_limit_s);
+  ASSERT_TRUE(checked.expert.time_s);
+  EXPECT_LT(2 * *checked.expert.time_s, parse_scenario(text, path).time_limit_s);
   for (std::size_t from = 0, end = 0; from < text.size(); from = end + 1) {
     end = text.find('\n', from);
     EXPECT_LE(end - from, 150u) << text.substr(from, end - from);

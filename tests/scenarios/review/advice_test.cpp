@@ -15,9 +15,9 @@ namespace {
 std::vector<std::string> warnings(const std::string& target, const Tooth& tooth) {
   const std::string file = std::string(CAVUM_SOURCE_DIR) + "/data/points/round-1.0.toml";
   const Scenario s = parse_scenario(testing::scenario_text(target), "s.toml");
-  std::optional<double> expert_s;
+  ExpertsPart expert;
   std::vector<std::string> said;
-  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert_s)) said.push_back(p.what);
+  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert)) said.push_back(p.what);
   return said;
 }
 
@@ -62,9 +62,9 @@ TEST(Advice, SaysThatNoCriterionMeasuresWhatIsProtected) {
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 22, "metric = \"removed_mm3\"");
   const Scenario s = parse_scenario(text, "s.toml");
-  std::optional<double> expert_s;
+  ExpertsPart expert;
   std::vector<std::string> said;
-  for (const auto& p : advise(s, block, build_zones(s, block), {}, expert_s)) said.push_back(p.what);
+  for (const auto& p : advise(s, block, build_zones(s, block), {}, expert)) said.push_back(p.what);
   EXPECT_TRUE(any_begins(said, for_nothing));
 }
 
@@ -75,8 +75,8 @@ TEST(Advice, SaysThatTheCavityHasNoSuchWall) {
     text.replace(text.find(from), from.size(), std::string("metric = \"") + metric + "\"");
     const Tooth block = testing::dentin_block(3, 4, 0.1);
     const Scenario s = parse_scenario(text, "s.toml");
-    std::optional<double> expert_s;
-    for (const auto& p : advise(s, block, build_zones(s, block), {}, expert_s))
+    ExpertsPart expert;
+    for (const auto& p : advise(s, block, build_zones(s, block), {}, expert))
       if (p.what.starts_with("the cavity has no")) return p.what;
     return std::string();
   };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
+#include "engine/tooth/make/make_premolar.h"
 #include "scenarios/review/check.h"
 #include "tests/engine/support/basics.h"
 
@@ -31,7 +32,9 @@ TEST(ToothTask, WhatIsWrittenIsSoundAndFollowsTheLandmarks) {
                                              std::tuple("upper_incisor.cvt", "dexterity_cross", "heights = \"level\"")}) {
     const Tooth tooth = load_tooth_file(file_of(file));
     const WrittenTask written = write_tooth_task(tooth, find_landmarks(tooth), file_of(file), "here.toml", task);
-    EXPECT_TRUE(check_whole(written.text, "here.toml").sound()) << file << " " << task;
+    const CheckedScenario checked = check_whole(written.text, "here.toml");
+    EXPECT_TRUE(checked.sound()) << file << " " << task;
+    EXPECT_GE(checked.expert.reach, 0.895) << file << " " << task;
     EXPECT_FALSE(written.chosen.empty());
     EXPECT_NE(written.text.find(relation), std::string::npos) << written.text;
   }
@@ -51,6 +54,20 @@ TEST(ToothTask, WhatMakesNoSenseIsRefused) {
   const Tooth incisor = load_tooth_file(file_of("upper_incisor.cvt"));
   EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, find_landmarks(incisor), "i.cvt", "here.toml", "class_1")), Error);
   EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, {}, "i.cvt", "here.toml", "class_9")), Error);
+}
+
+TEST(ToothTask, ATaskThatNoPointReachesEnoughOfIsRefused) {
+  PremolarShape shape;
+  shape.leaf_mm = 0.2;  // margins of two leaves on either side of a groove of 1.2 mm
+  const Tooth tooth = make_premolar(shape);
+  const testing_basics::Folder folder;
+  save_tooth_file(tooth, folder.file("p.cvt"));
+  try {
+    static_cast<void>(write_tooth_task(tooth, find_landmarks(tooth), folder.file("p.cvt"), "here.toml", "dexterity_groove"));
+    FAIL() << "it was written";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("no point of its tray reaches more than"), std::string::npos) << e.what();
+  }
 }
 
 }  // namespace
