@@ -10,7 +10,7 @@ namespace cavum::cohort {
 namespace {
 // A little of the 5 % that are promised is left for marks that are not normal.
 constexpr double k_told_by_chance = 0.04;
-}
+}  // namespace
 
 std::optional<AttemptScatter> attempt_scatter(const std::vector<std::vector<double>>& marks) {
   AttemptScatter s;
