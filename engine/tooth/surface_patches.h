@@ -48,6 +48,8 @@ class SurfacePatches {
 
   /// Patches are numbered from 0; most are empty. References hold until the next update.
   [[nodiscard]] std::size_t count() const noexcept { return patches_.size(); }
+  /// Patches along x, y, z; x counts fastest. Patch (i, j, k) begins at the middle of leaf 16 (i, j, k) - 1.
+  [[nodiscard]] IVec3 size() const noexcept { return size_; }
   [[nodiscard]] const SurfacePatch& patch(std::size_t number) const { return patches_.at(number); }
   [[nodiscard]] std::size_t triangle_count() const noexcept;
   [[nodiscard]] std::size_t memory_bytes() const noexcept;

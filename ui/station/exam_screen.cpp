@@ -198,7 +198,7 @@ void exam_screen(const ScreenContext& c) {
   c.scene->tooth().update();
   s.view.tool = {view.output.proxy_mm, view.input.pose().rotation};
   s.view.point = view.ticks > 0 ? view.input.point : -1;
-  s.view.cutting = view.output.cutting;
+  turn_point(s.view, view.output.rpm, c.frame_s);
 
   top_bar(c, view, l);
   side_panel(c, view, l);

@@ -11,10 +11,13 @@ struct Ring {
   float r = 0, z = 0;  // mm
   float normal_r = 1, normal_z = 0;
   std::array<std::uint8_t, 4> colour{};
-  bool grain = false;  // diamond: each vertex a little lighter or darker
+  bool grain = false;  // diamond: each vertex a little lighter or darker, in bands that wind round
 };
 
-constexpr int k_sides = 40;
+constexpr int k_sides = 36, k_bands = 6;
+constexpr float k_two_pi = 2.0F * std::numbers::pi_v<float>;
+constexpr std::array<std::uint8_t, 4> k_diamond{172, 172, 176, 60}, k_steel{196, 202, 208, 255}, k_metal{205, 210, 216, 255},
+    k_dark{96, 104, 114, 200};
 
 /// Small number in place of a random one, the same every time.
 int grain_of(unsigned i) {
@@ -22,22 +25,30 @@ int grain_of(unsigned i) {
   i *= 9U;
   i ^= i >> 4U;
   i *= 0x27d4eb2dU;
-  return static_cast<int>((i >> 15U) % 46U) - 23;
+  return static_cast<int>((i >> 15U) % 40U) - 20;
 }
 
+GpuVertex corner_of(const Ring& ring, int side, unsigned number, const glm::mat4& place) {
+  const float a = k_two_pi * static_cast<float>(side) / k_sides;
+  auto colour = ring.colour;
+  float lean = 0.0F;  // of the normal, towards the next side
+  if (ring.grain) {
+    constexpr float k_pitch_per_mm = 1.1F, k_lean = 0.45F, k_contrast = 34.0F;
+    const float phase = k_bands * a + k_pitch_per_mm * k_two_pi * ring.z;
+    lean = k_lean * std::cos(phase);
+    const int lighter = grain_of(number) + static_cast<int>(k_contrast * std::sin(phase));
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<std::uint8_t>(glm::clamp(colour[c] + lighter, 0, 255));
+  }
+  const glm::vec3 out(std::cos(a), std::sin(a), 0), on(-std::sin(a), std::cos(a), 0);
+  const glm::vec3 n = glm::normalize(ring.normal_r * out + lean * std::fabs(ring.normal_r) * on + glm::vec3(0, 0, ring.normal_z + 1e-6F));
+  return gpu_vertex(glm::vec3(place * glm::vec4(ring.r * out + glm::vec3(0, 0, ring.z), 1.0F)), glm::vec3(place * glm::vec4(n, 0.0F)), colour);
+}
+
+/// A body of revolution; rings of radius 0 close it.
 void revolve(const std::vector<Ring>& rings, const glm::mat4& place, MeshData& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Ring& ring : rings)
-    for (int s = 0; s < k_sides; ++s) {
-      const float a = 2.0F * std::numbers::pi_v<float> * static_cast<float>(s) / k_sides;
-      auto colour = ring.colour;
-      if (ring.grain)
-        for (std::size_t c = 0; c < 3; ++c)
-          colour[c] = static_cast<std::uint8_t>(glm::clamp(colour[c] + grain_of(static_cast<unsigned>(mesh.vertices.size())), 0, 255));
-      const glm::vec4 at = place * glm::vec4(ring.r * std::cos(a), ring.r * std::sin(a), ring.z, 1.0F);
-      const glm::vec4 n = place * glm::vec4(ring.normal_r * std::cos(a), ring.normal_r * std::sin(a), ring.normal_z, 0.0F);
-      mesh.vertices.push_back(gpu_vertex(glm::vec3(at), glm::vec3(n), colour));
-    }
+    for (int s = 0; s < k_sides; ++s) mesh.vertices.push_back(corner_of(ring, s, static_cast<unsigned>(mesh.vertices.size()), place));
   for (std::uint32_t r = 0; r + 1 < rings.size(); ++r)
     for (std::uint32_t s = 0; s < k_sides; ++s) {
       const std::uint32_t t = (s + 1) % k_sides, low = first + r * k_sides, high = low + k_sides;
@@ -45,39 +56,80 @@ void revolve(const std::vector<Ring>& rings, const glm::mat4& place, MeshData& m
     }
 }
 
+/// Closes it across, facing down or up.
+void close(std::vector<Ring>& rings, bool below) {
+  Ring edge = below ? rings.front() : rings.back(), middle = edge;
+  edge.normal_r = middle.normal_r = 0;
+  edge.normal_z = middle.normal_z = below ? -1.0F : 1.0F;
+  middle.r = 0;
+  if (below)
+    rings.insert(rings.begin(), {middle, edge});
+  else
+    rings.insert(rings.end(), {edge, middle});
+}
+
+/// Of a little neck above the coated part the head is drawn with.
+constexpr float k_neck_mm = 0.7F;
+constexpr double k_fine_mm = 0.12, k_coarse_mm = 0.5;  // from ring to ring, of head and shank
+
+/// The profile from one height to another.
+std::vector<Ring> rings_of(const DiamondPoint& point, float from_mm, float to_mm, double step_mm) {
+  std::vector<Ring> rings;
+  for (const auto& p : point.profile.walk(step_mm, point.profile.length_mm())) {
+    const auto z = static_cast<float>(p.at.z_mm);
+    if (z < from_mm || z > to_mm) continue;
+    const bool coated = p.at.z_mm <= point.cutting_length_mm;
+    rings.push_back({static_cast<float>(p.at.r_mm), z, static_cast<float>(p.normal.r_mm), static_cast<float>(p.normal.z_mm),
+                     coated ? k_diamond : k_steel, coated});
+  }
+  return rings;
+}
+
 }  // namespace
 
-MeshData diamond_point_mesh(const DiamondPoint& point) {
-  constexpr std::array<std::uint8_t, 4> k_diamond{150, 152, 156, 255}, k_steel{196, 202, 208, 255};
+MeshData diamond_head_mesh(const DiamondPoint& point) {
+  std::vector<Ring> rings = rings_of(point, -1.0F, static_cast<float>(point.cutting_length_mm) + k_neck_mm, k_fine_mm);
+  MeshData mesh;
+  if (rings.empty()) return mesh;
+  close(rings, true);
+  close(rings, false);
+  revolve(rings, glm::mat4(1.0F), mesh);
+  return mesh;
+}
+
+MeshData shank_mesh(const DiamondPoint& point) {
   constexpr float k_shank_ends_mm = 13.0F;
-  std::vector<Ring> rings;
-  for (const auto& p : point.profile.walk(0.06, point.profile.length_mm())) {
-    const bool coated = p.at.z_mm <= point.cutting_length_mm;
-    rings.push_back({static_cast<float>(p.at.r_mm), static_cast<float>(p.at.z_mm), static_cast<float>(p.normal.r_mm),
-                     static_cast<float>(p.normal.z_mm), coated ? k_diamond : k_steel, coated});
-  }
-  if (!rings.empty() && rings.back().z < k_shank_ends_mm) {
-    Ring end = rings.back();
+  const float from_mm = static_cast<float>(point.cutting_length_mm) + k_neck_mm;
+  std::vector<Ring> rings = rings_of(point, from_mm, k_shank_ends_mm, k_coarse_mm);
+  if (rings.empty()) rings = rings_of(point, -1.0F, k_shank_ends_mm, k_coarse_mm);
+  MeshData mesh;
+  if (rings.empty()) return mesh;
+  Ring end = rings.back();
+  if (end.z < k_shank_ends_mm) {
     end.normal_r = 1;
     end.normal_z = 0;
+    end.grain = false;
+    end.colour = k_steel;
+    end.z = std::max(end.z, from_mm);
+    rings = rings.size() > 1 && rings.front().z >= from_mm ? rings : std::vector<Ring>{};
     rings.push_back(end);
     end.z = k_shank_ends_mm;
     rings.push_back(end);
   }
-  MeshData mesh;
+  close(rings, true);
+  close(rings, false);
   revolve(rings, glm::mat4(1.0F), mesh);
   return mesh;
 }
 
 MeshData handpiece_mesh() {
-  constexpr std::array<std::uint8_t, 4> k_metal{205, 210, 216, 255}, k_dark{96, 104, 114, 255};
   MeshData mesh;
   // the head around the turbine: flat below, rounded above
   std::vector<Ring> head;
   const auto edge = [&head](float r, float z, float nr, float nz, const std::array<std::uint8_t, 4>& colour) {
     head.push_back({r, z, nr, nz, colour, false});
   };
-  edge(0.8F, 11.0F, 0, -1, k_dark);
+  edge(0.0F, 11.0F, 0, -1, k_dark);
   edge(3.6F, 11.0F, 0, -1, k_dark);
   edge(3.9F, 11.2F, 0.7F, -0.7F, k_metal);
   edge(4.5F, 12.4F, 1, 0, k_metal);
@@ -91,11 +143,13 @@ MeshData handpiece_mesh() {
   // the neck, leaning back
   glm::mat4 lean = glm::translate(glm::mat4(1.0F), glm::vec3(0, -2.0F, 16.5F));
   lean = glm::rotate(lean, glm::radians(68.0F), glm::vec3(1, 0, 0));
-  revolve({{3.2F, 0.0F, 1, 0, k_metal, false},
-           {2.9F, 14.0F, 1, 0, k_metal, false},
-           {3.6F, 26.0F, 1, -0.1F, k_metal, false},
-           {4.4F, 40.0F, 1, 0, k_metal, false}},
-          lean, mesh);
+  std::vector<Ring> neck{{2.6F, 0.0F, 1, 0, k_metal, false},
+                         {2.9F, 14.0F, 1, 0, k_metal, false},
+                         {3.6F, 26.0F, 1, -0.1F, k_metal, false},
+                         {4.4F, 40.0F, 1, 0, k_metal, false}};
+  close(neck, true);
+  close(neck, false);
+  revolve(neck, lean, mesh);
   return mesh;
 }
 

@@ -1,4 +1,5 @@
-// The diamond point as one sees it, turned from its profile, and the head of the handpiece that holds it.
+// The diamond point as one sees it, turned from its profile, and the handpiece that holds it: closed bodies of metal. The opacity of a corner says
+// how polished it is, 255 = steel.
 #pragma once
 
 #include "engine/instrument/diamond_point.h"
@@ -6,8 +7,11 @@
 
 namespace cavum::station {
 
-/// In the tool's frame, mm: tip at the origin, +z towards the handle.
-[[nodiscard]] MeshData diamond_point_mesh(const DiamondPoint& point);
+/// In the tool's frame, mm: tip at the origin, +z towards the handle. The coated head, with bands of grit that wind round it so that one sees it
+/// turn, and a little of the neck.
+[[nodiscard]] MeshData diamond_head_mesh(const DiamondPoint& point);
+/// What is above, up to where the handpiece holds it.
+[[nodiscard]] MeshData shank_mesh(const DiamondPoint& point);
 /// Its head begins 11 mm above the tip; its neck leans back towards -y.
 [[nodiscard]] MeshData handpiece_mesh();
 

@@ -128,6 +128,7 @@ void replay_screen(const ScreenContext& c) {
     c.scene->tooth().update();
     s.view.tool = {player.output().proxy_mm, player.input().pose().rotation};
     s.view.point = player.input().point;
+    if (s.playing) turn_point(s.view, player.output().rpm, c.frame_s);
   }
 
   const ImVec2 screen = ImGui::GetIO().DisplaySize;

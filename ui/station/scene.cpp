@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
@@ -11,81 +12,16 @@
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
 #include "ui/station/instrument_mesh.h"
+#include "ui/station/shaders.h"
 
 namespace cavum::station {
 namespace {
 
 constexpr int k_colours = 16;  // tissues with a colour of their own; further ones share the last
-
-constexpr const char* k_tissue_vertex = R"(#version 330 core
-layout(location = 0) in vec3 at;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec2 tissue;
-uniform mat4 model, look, projection;
-uniform vec3 colours[16];
-uniform float opacity;
-out vec3 eye_at, eye_normal;
-out vec4 colour;
-out float gloss;
-void main() {
-  vec4 p = look * model * vec4(at, 1.0);
-  eye_at = p.xyz;
-  eye_normal = mat3(look) * mat3(model) * normal;
-  int inner = int(min(tissue.x, 15.0) + 0.5), outer = int(min(tissue.y, 15.0) + 0.5);
-  vec3 c = colours[inner];
-  if (outer == 3) c = mix(c, colours[3], 0.55);
-  colour = vec4(c, opacity);
-  gloss = inner == 1 ? 1.0 : 0.3;
-  gl_Position = projection * p;
-})";
-
-constexpr const char* k_plain_vertex = R"(#version 330 core
-layout(location = 0) in vec3 at;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 shade;
-uniform mat4 model, look, projection;
-uniform float opacity;
-out vec3 eye_at, eye_normal;
-out vec4 colour;
-out float gloss;
-void main() {
-  vec4 p = look * model * vec4(at, 1.0);
-  eye_at = p.xyz;
-  eye_normal = mat3(look) * mat3(model) * normal;
-  colour = vec4(shade.rgb, shade.a * opacity);
-  gloss = 0.8;
-  gl_Position = projection * p;
-})";
-
-// A lamp beside the eye, a key light from the upper left, the sky above; farther places sink into the background.
-constexpr const char* k_fragment = R"(#version 330 core
-in vec3 eye_at, eye_normal;
-in vec4 colour;
-in float gloss;
-uniform vec3 background;
-uniform float near_mm, far_mm, flat_light, glass;
-out vec4 pixel;
-void main() {
-  vec3 n = normalize(eye_normal);
-  vec3 to_eye = normalize(-eye_at);
-  if (dot(n, to_eye) < 0.0) n = -n;
-  vec3 key = normalize(vec3(-0.55, 0.75, 0.62));
-  float head = max(dot(n, to_eye), 0.0);
-  float side = max(dot(n, key), 0.0);
-  float sky = 0.5 + 0.5 * n.y;
-  float lit = mix(0.17 + 0.42 * head + 0.27 * side + 0.10 * sky, 0.55 + 0.45 * head, flat_light);
-  vec3 halfway = normalize(key + to_eye);
-  float shine = gloss * (0.20 * pow(max(dot(n, halfway), 0.0), 60.0) + 0.06 * pow(head, 120.0));
-  float rim = gloss * 0.16 * pow(1.0 - head, 3.0);
-  vec3 c = colour.rgb * lit + vec3(shine) + rim * vec3(0.72, 0.82, 0.95);
-  float depth = clamp((-eye_at.z - near_mm) / (far_mm - near_mm), 0.0, 1.0);
-  float edge = 1.0 - head;  // glass is seen at its edges
-  float opacity = mix(colour.a, colour.a * (0.30 + 1.5 * edge), glass);
-  pixel = vec4(mix(c, background, 0.62 * depth), min(opacity, 1.0));
-})";
+constexpr glm::vec3 k_night(0.085F, 0.105F, 0.130F);
 
 bool same(const SceneView& a, const SceneView& b) {
-  const auto facts = [](const SceneView& v) { return std::tie(v.camera, v.point, v.handpiece, v.clear, v.stereo, v.high_contrast); };
+  const auto facts = [](const SceneView& v) { return std::tie(v.camera, v.point, v.spin_rad, v.handpiece, v.clear, v.stereo, v.high_contrast); };
   return facts(a) == facts(b) && a.tool.tip_mm == b.tool.tip_mm && a.tool.rotation == b.tool.rotation;
 }
 
@@ -104,23 +40,52 @@ glm::mat4 to_glm(const Pose& pose) {
   return m;
 }
 
-/// The head would hide the work from whoever looks along the handpiece.
-float handpiece_opacity(const SceneView& view, int eye) {
+/// How far one looks along the instrument, 0..1.
+float along_tool(const SceneView& view, int eye) {
   const glm::vec3 sight_line = glm::normalize(view.camera.target_mm - view.camera.position_mm(eye));
-  const float along = std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2]))));
-  return 0.24F * (1.0F - glm::smoothstep(0.55F, 0.85F, along));
+  return std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2]))));
 }
+/// The handpiece would hide the work from whoever looks along it, and so would the shank; the head of the point stays.
+float handpiece_opacity(const SceneView& view, int eye) { return 1.0F - glm::smoothstep(0.40F, 0.72F, along_tool(view, eye)); }
+float shank_opacity(const SceneView& view, int eye) { return 1.0F - 0.86F * glm::smoothstep(0.80F, 0.94F, along_tool(view, eye)); }
 
-std::vector<GpuMesh> meshes_of(const std::vector<DiamondPoint>& tray) {
+template <class Make>
+std::vector<GpuMesh> meshes_of(const std::vector<DiamondPoint>& tray, const Make& make) {
   std::vector<GpuMesh> meshes(tray.size());
   for (std::size_t i = 0; i < tray.size(); ++i) {
-    const MeshData data = diamond_point_mesh(tray[i]);
+    const MeshData data = make(tray[i]);
     meshes[i].put(data.vertices, data.indices);
   }
   return meshes;
 }
 
+// The instrument's distance as a table: to the tooth's shader it is what tells how near the head is.
+constexpr int k_radii = 96, k_heights = 256;
+constexpr float k_widest_mm = 3.0F, k_lowest_mm = -1.5F, k_highest_mm = 8.5F;
+constexpr glm::vec3 k_tool_table(1.0F / k_widest_mm, 1.0F / (k_highest_mm - k_lowest_mm), -k_lowest_mm / (k_highest_mm - k_lowest_mm));
+
+Table2D distances_of(const DiamondPoint& point) {
+  std::vector<float> mm;
+  for (int j = 0; j < k_heights; ++j)
+    for (int i = 0; i < k_radii; ++i)
+      mm.push_back(
+          static_cast<float>(point.profile.distance_mm({(i + 0.5) / k_radii * static_cast<double>(k_widest_mm), 0,
+                                                        k_lowest_mm + (j + 0.5) / k_heights * static_cast<double>(k_highest_mm - k_lowest_mm)})));
+  Table2D table;
+  table.put(k_radii, k_heights, 1, mm);
+  return table;
+}
+
+/// A renderer on the processor leaves a core to the servo and shows ten pictures a second at least; a graphics card has more to spare.
+constexpr double k_budget_by_processor_ms = 60.0, k_budget_ms = 12.0;
+constexpr std::size_t k_level_by_processor = 3;
+
 }  // namespace
+
+void turn_point(SceneView& view, double rpm, double frame_s) {
+  constexpr double k_two_pi = 6.283185307179586, k_seen_rad = 0.3;  // a third of the way from one band of the head to the next
+  view.spin_rad = static_cast<float>(std::fmod(view.spin_rad + std::min(k_seen_rad, rpm / 60.0 * k_two_pi * frame_s), k_two_pi));
+}
 
 MeshData target_mesh(const scenarios::ZoneMap& zones) {
   constexpr std::array<std::uint8_t, 4> k_colour{60, 190, 235, 255};
@@ -142,12 +107,24 @@ MeshData target_mesh(const scenarios::ZoneMap& zones) {
   return smooth_shaded(mesh, k_colour);
 }
 
+Scene::Programs::Programs(const Effects& effects) {
+  const std::string defines = "TAPS=" + std::to_string(effects.shadow_taps) + (effects.reflections ? " REFLECTIONS" : "");
+  tooth = std::make_unique<ShaderProgram>(tooth_vertex(), tooth_fragment(), defines);
+  touched_tooth = std::make_unique<ShaderProgram>(tooth_vertex(), tooth_fragment(), defines + " TOOL");
+  metal = std::make_unique<ShaderProgram>(metal_vertex(), metal_fragment(), defines);
+}
+
 Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const scenarios::ZoneMap* target)
     : tooth_(tooth),
       tissues_(tissues),
-      points_(meshes_of(tray)),
-      tissue_program_(k_tissue_vertex, k_fragment),
-      plain_program_(k_plain_vertex, k_fragment) {
+      heads_(meshes_of(tray, diamond_head_mesh)),
+      shanks_(meshes_of(tray, shank_mesh)),
+      depth_program_(depth_vertex(), depth_fragment()),
+      plain_program_(plain_vertex(), plain_fragment()),
+      glass_program_(glass_vertex(), plain_fragment()),
+      smooth_program_(WholePicture::vertex_shader, smooth_fragment()),
+      governor_(drawn_by_processor() ? EffectGovernor(k_budget_by_processor_ms, k_level_by_processor) : EffectGovernor(k_budget_ms, 0)) {
+  for (const DiamondPoint& point : tray) distances_.push_back(distances_of(point));
   const MeshData handpiece = handpiece_mesh();
   handpiece_.put(handpiece.vertices, handpiece.indices);
   if (target != nullptr) {
@@ -177,121 +154,273 @@ std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
   }
   for (const Tissue& t : tissues_)
     if (t.name == "lesion" && t.id < k_colours) table[t.id] = high_contrast ? glm::vec3(0.45F, 0.25F, 0.05F) : glm::vec3(0.58F, 0.40F, 0.22F);
+  for (glm::vec3& c : table) c *= c;  // light adds up in linear colours
   return table;
 }
 
-void Scene::light(const ShaderProgram& program, const SceneView& view, const Lens& lens) const {
+const Scene::Programs& Scene::programs(const Effects& effects) {
+  auto& made = programs_[{effects.shadow_taps, effects.reflections}];
+  if (!made) made = std::make_unique<Programs>(effects);
+  return *made;
+}
+
+glm::mat4 Scene::tool_matrix(const SceneView& view) { return glm::rotate(to_glm(view.tool), view.spin_rad, glm::vec3(0, 0, 1)); }
+
+void Scene::light(const ShaderProgram& program, const SceneView& view, const ToothDrawing::Sight& sight) const {
   program.use();
-  program.set("look", lens.look);
-  program.set("projection", lens.projection);
-  program.set("model", glm::mat4(1.0F));
+  program.set("to_picture", sight.to_picture);
+  program.set("eye_mm", sight.eye_mm);
+  program.set("lamp", lamp_.towards);
+  program.set("lamp_colour", glm::vec3(0.66F, 0.63F, 0.58F));
+  program.set("to_lamp", lamp_.to_lamp);
+  program.set("to_room", lamp_.to_room);
+  program.set("falling", std::span(room_.falling()));
+  const glm::vec3 background = background_of(view);
+  program.set("background", background * background);
+  constexpr float k_fade_mm = 44.0F;
+  program.set("far_mm", glm::vec2(view.camera.distance_mm + 2.0F, 1.0F / k_fade_mm));
+  program.set("shadow_px", 1.0F / static_cast<float>(std::max(1, shadow_.edge())));
+  program.set_texture("room", 0, GL_TEXTURE_2D, room_.mirrored().texture());
   program.set("opacity", 1.0F);
-  program.set("background", view.high_contrast ? glm::vec3(0) : glm::vec3(0.085F, 0.105F, 0.130F));
-  program.set("near_mm", view.camera.distance_mm);
-  program.set("far_mm", view.camera.distance_mm + 34.0F);
   program.set("flat_light", 0.0F);
   program.set("glass", 0.0F);
 }
 
-void Scene::draw_point(const SceneView& view) {
-  plain_program_.set("model", to_glm(view.tool));
-  points_[static_cast<std::size_t>(view.point)].draw();
+glm::vec3 Scene::background_of(const SceneView& view) { return view.high_contrast ? glm::vec3(0) : k_night; }
+
+bool Scene::has_tool(const SceneView& view) const { return view.point >= 0 && static_cast<std::size_t>(view.point) < heads_.size(); }
+
+void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
+  lamp_ = lamp_of(view.camera, effects.shadow_edge);
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5F, 2.0F);
+  depth_program_.use();
+  depth_program_.set("to_lamp", lamp_.to_lamp);
+  // of the tooth only when it or the lamp moved
+  const ShadowOf now{tooth_.version(), view.camera.turn_deg, view.camera.target_mm};
+  const bool fresh = resting_shadow_.resize(effects.shadow_edge);
+  if (fresh || !(now == resting_)) {
+    resting_ = now;
+    resting_shadow_.begin();
+    depth_program_.set("model", glm::mat4(1.0F));
+    constexpr float k_sun_mm = 1000.0F;
+    tooth_.draw_hard_tissue({view.camera.target_mm + k_sun_mm * lamp_.towards, lamp_.to_lamp}, count_);
+  }
+  shadow_.resize(effects.shadow_edge);
+  shadow_.begin_with(resting_shadow_);
+  if (has_tool(view)) {
+    depth_program_.set("model", tool_matrix(view));
+    heads_[static_cast<std::size_t>(view.point)].draw(count_);
+    shanks_[static_cast<std::size_t>(view.point)].draw(count_);
+  }
+  DepthMap::end();
+  glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void Scene::draw_clear_tissue(const SceneView& view, const Lens& lens) {
+void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs) {
+  const auto palette = colours(view.high_contrast);
+  const auto prepare = [&](const ShaderProgram& program) {
+    light(program, view, sight);
+    program.set("colours", std::span(palette));
+    program.set("plain", view.high_contrast ? 1.0F : 0.0F);
+    constexpr float k_texels = 1.6F;
+    program.set("away_mm", k_texels * lamp_.texel_mm);
+    program.set_texture("shadow", 1, GL_TEXTURE_2D, shadow_.texture());
+  };
+  if (!has_tool(view)) {
+    prepare(*programs.tooth);
+    tooth_.draw_hard_tissue(sight, count_);
+    tooth_.draw_open_pulp(sight, count_);
+    return;
+  }
+  const ShaderProgram& touched = *programs.touched_tooth;
+  prepare(touched);
+  touched.set("to_tool", glm::inverse(to_glm(view.tool)));
+  touched.set("tool_table", k_tool_table);
+  touched.set_texture("tool_mm", 2, GL_TEXTURE_2D, distances_[static_cast<std::size_t>(view.point)].texture());
+  // the tip's ball, and as far as its touch is seen
+  constexpr float k_half_mm = 3.0F, k_around_mm = 4.5F;
+  const glm::vec3 middle = glm::vec3(to_glm(view.tool) * glm::vec4(0, 0, k_half_mm, 1));
+  tooth_.draw_hard_tissue(sight, count_, {middle, k_around_mm, true});
+  tooth_.draw_open_pulp(sight, count_);
+  prepare(*programs.tooth);
+  tooth_.draw_hard_tissue(sight, count_, {middle, k_around_mm, false});
+}
+
+void Scene::draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs) {
+  const auto palette = colours(view.high_contrast);
+  light(*programs.tooth, view, sight);
+  programs.tooth->set("colours", std::span(palette));
+  programs.tooth->set("plain", 1.0F);
+  programs.tooth->set_texture("shadow", 1, GL_TEXTURE_2D, no_shadow_.texture());
+  tooth_.draw_pulp(sight, count_);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  light(plain_program_, view, lens);
+  light(plain_program_, view, sight);
   plain_program_.set("opacity", 0.45F);
   plain_program_.set("flat_light", 1.0F);
-  target_.draw();
+  target_.draw(count_);
   glDepthMask(GL_TRUE);
   // the nearest surface alone, so that walls behind walls do not add up to white
-  tissue_program_.use();
+  light(glass_program_, view, sight);
+  glass_program_.set("colours", std::span(palette));
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  tooth_.draw_hard_tissue(lens.sight);
+  tooth_.draw_hard_tissue(sight, count_);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_LEQUAL);
-  tissue_program_.set("opacity", 0.55F);
-  tissue_program_.set("glass", 1.0F);
-  tissue_program_.set("flat_light", 0.6F);
-  tooth_.draw_hard_tissue(lens.sight);
+  glass_program_.set("opacity", 0.55F);
+  glass_program_.set("glass", 1.0F);
+  glass_program_.set("flat_light", 0.6F);
+  tooth_.draw_hard_tissue(sight, count_);
   glDepthFunc(GL_LESS);
 }
 
-void Scene::draw_bodies(const SceneView& view, const Lens& lens) {
+void Scene::draw_bodies(const SceneView& view, const ToothDrawing::Sight& sight) {
   // over all tissue, so that their colours stay what the key says
-  light(plain_program_, view, lens);
+  light(plain_program_, view, sight);
   plain_program_.set("glass", 0.5F);
   plain_program_.set("flat_light", 1.0F);
+  glEnable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
-  for (const GpuMesh& body : bodies_) body.draw();
+  for (const GpuMesh& body : bodies_) body.draw(count_);
   glEnable(GL_DEPTH_TEST);
 }
 
-void Scene::draw_handpiece(const SceneView& view, const Lens& lens, float opacity) {
+void Scene::draw_metal(const GpuMesh& mesh, const ShaderProgram& metal, float opacity) {
+  if (opacity < 0.02F) return;
+  if (opacity > 0.98F) return mesh.draw(count_);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  light(plain_program_, view, lens);
-  plain_program_.set("model", to_glm(view.tool));
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  handpiece_.draw();
+  mesh.draw(count_);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_LEQUAL);
-  plain_program_.set("opacity", opacity);
-  handpiece_.draw();
+  metal.set("opacity", opacity);
+  mesh.draw(count_);
+  metal.set("opacity", 1.0F);
   glDepthFunc(GL_LESS);
+  glDisable(GL_BLEND);
 }
 
-void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int height) {
+void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int height, const Programs& programs) {
   glViewport(x, 0, width, height);
-  const glm::mat4 look = view.camera.view(eye), projection = view.camera.projection(static_cast<float>(width) / static_cast<float>(height));
-  const Lens lens{look, projection, {view.camera.position_mm(eye), projection * look}};
+  const glm::mat4 to_picture = view.camera.projection(static_cast<float>(width) / static_cast<float>(height)) * view.camera.view(eye);
+  const ToothDrawing::Sight sight{view.camera.position_mm(eye), to_picture};
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glEnable(GL_CULL_FACE);
   glFrontFace(view.camera.mirror ? GL_CW : GL_CCW);
 
-  light(plain_program_, view, lens);
-  const bool tool = view.point >= 0 && static_cast<std::size_t>(view.point) < points_.size();
-  if (tool) draw_point(view);
-  light(tissue_program_, view, lens);
-  tissue_program_.set("colours", colours(view.high_contrast));
-  tooth_.draw_pulp(lens.sight);
-  if (view.clear) {
-    draw_clear_tissue(view, lens);
-    draw_bodies(view, lens);
-  } else {
-    tooth_.draw_hard_tissue(lens.sight);
+  const bool tool = has_tool(view);
+  const auto metal = [&](const glm::mat4& model) {
+    light(*programs.metal, view, sight);
+    programs.metal->set("model", model);
+    programs.metal->set_texture("shadow", 1, GL_TEXTURE_2D, view.clear ? no_shadow_.texture() : resting_shadow_.texture());
+  };
+  if (tool) {
+    metal(tool_matrix(view));
+    heads_[static_cast<std::size_t>(view.point)].draw(count_);
   }
-  const float opacity = tool && view.handpiece ? handpiece_opacity(view, eye) : 0.0F;
-  if (opacity > 0.01F) draw_handpiece(view, lens, opacity);
+  if (view.clear) {
+    draw_clear_tissue(view, sight, programs);
+    draw_bodies(view, sight);
+  } else {
+    draw_tooth(view, sight, programs);
+  }
+  if (tool) {
+    metal(to_glm(view.tool));
+    draw_metal(shanks_[static_cast<std::size_t>(view.point)], *programs.metal, shank_opacity(view, eye));
+    if (view.handpiece) draw_metal(handpiece_, *programs.metal, handpiece_opacity(view, eye));
+  }
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 
-unsigned Scene::picture(const SceneView& view, int width, int height, int samples) {
+glm::ivec4 Scene::rectangle_drawn(const SceneView& view, int width, int height) const {
+  const glm::ivec4 whole(0, 0, width, height);
+  const bool tool = has_tool(view);
+  if (view.stereo || view.clear || (tool && view.handpiece && handpiece_opacity(view, 0) > 0)) return whole;
+  const glm::mat4 to_picture = view.camera.projection(static_cast<float>(width) / static_cast<float>(height)) * view.camera.view(0);
+  glm::vec2 low(1.0F), high(-1.0F);
+  bool behind = false;
+  const auto hold = [&](const glm::mat4& model, const std::array<glm::vec3, 2>& box) {
+    for (int i = 0; i < 8; ++i) {
+      const glm::vec3 corner(box[i & 1].x, box[i >> 1 & 1].y, box[i >> 2].z);
+      const glm::vec4 p = to_picture * model * glm::vec4(corner, 1.0F);
+      behind = behind || p.w < 1.0F;
+      low = glm::min(low, glm::vec2(p) / p.w);
+      high = glm::max(high, glm::vec2(p) / p.w);
+    }
+  };
+  hold(glm::mat4(1.0F), tooth_.box_mm());
+  constexpr float k_widest = 1.5F, k_longest = 13.2F;
+  if (tool) hold(to_glm(view.tool), {glm::vec3(-k_widest, -k_widest, -0.2F), glm::vec3(k_widest, k_widest, k_longest)});
+  if (behind) return whole;
+  const glm::vec2 size(width, height), from = glm::clamp(0.5F + 0.5F * low, 0.0F, 1.0F) * size,
+                                       to = glm::clamp(0.5F + 0.5F * high, 0.0F, 1.0F) * size;
+  return {static_cast<int>(from.x), static_cast<int>(from.y), static_cast<int>(std::ceil(to.x)), static_cast<int>(std::ceil(to.y))};
+}
+
+void Scene::smooth_edges(const SceneView& view) {
+  smoothed_.resize(target_picture_.width(), target_picture_.height(), 1);
+  smoothed_.begin(background_of(view));
+  const glm::ivec4 rectangle = rectangle_drawn(view, smoothed_.width(), smoothed_.height());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(rectangle.x, rectangle.y, std::max(0, rectangle.z - rectangle.x), std::max(0, rectangle.w - rectangle.y));
+  smooth_program_.use();
+  smooth_program_.set_texture("drawn", 0, GL_TEXTURE_2D, target_picture_.texture());
+  smooth_program_.set("pixel_size", glm::vec2(1.0F / static_cast<float>(smoothed_.width()), 1.0F / static_cast<float>(smoothed_.height())));
+  whole_picture_.draw(count_);
+  glDisable(GL_SCISSOR_TEST);
+  smoothed_.end();
+}
+
+unsigned Scene::picture(const SceneView& view, int width, int height) {
   width = std::max(width, 16);
   height = std::max(height, 16);
-  const bool current = drawn_ > 0 && same(view, shown_) && shown_version_ == tooth_.version() && target_picture_.width() == width &&
-                       target_picture_.height() == height && shown_samples_ == samples;
-  if (current) return target_picture_.texture();
-  target_picture_.resize(width, height, samples);
-  target_picture_.begin(view.high_contrast ? glm::vec3(0) : glm::vec3(0.085F, 0.105F, 0.130F));
+  const std::size_t level = effects_level();
+  const Effects& effects = k_effects[level];
+  const bool current =
+      drawn_ > 0 && same(view, shown_) && shown_version_ == tooth_.version() && shown_size_ == glm::ivec2(width, height) && shown_level_ == level;
+  if (current) return shown_texture_;
+  const auto began = std::chrono::steady_clock::now();
+  count_ = {};
+  const auto scaled = [&effects](int pixels) { return static_cast<int>(std::lround(effects.scale * static_cast<float>(pixels))); };
+  const int wide = scaled(width), high = scaled(height);
+  const Programs& made = programs(effects);
+  if (no_shadow_.resize(1)) no_shadow_.begin();
+  if (view.clear)
+    lamp_ = lamp_of(view.camera, effects.shadow_edge);
+  else
+    cast_shadows(view, effects);
+  target_picture_.resize(wide, high, effects.samples);
+  target_picture_.begin(background_of(view));
   if (view.stereo) {
-    draw_eye(view, -1, 0, width / 2, height);
-    draw_eye(view, 1, width - width / 2, width / 2, height);
+    draw_eye(view, -1, 0, wide / 2, high, made);
+    draw_eye(view, 1, wide - wide / 2, wide / 2, high, made);
   } else {
-    draw_eye(view, 0, 0, width, height);
+    draw_eye(view, 0, 0, wide, high, made);
   }
   target_picture_.end();
+  shown_texture_ = target_picture_.texture();
+  if (effects.smooth_edges) {
+    smooth_edges(view);
+    shown_texture_ = smoothed_.texture();
+  }
+  glFinish();  // what it took is measured
+  last_ms_ = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  governor_.took(last_ms_);
   shown_ = view;
   shown_version_ = tooth_.version();
-  shown_samples_ = samples;
+  shown_size_ = {width, height};
+  shown_level_ = level;
   ++drawn_;
-  return target_picture_.texture();
+  return shown_texture_;
 }
 
 }  // namespace cavum::station

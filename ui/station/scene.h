@@ -1,15 +1,20 @@
-// The picture of the work: tooth, diamond point and handpiece, lit by a lamp beside the eye and one from the upper left. In practice the tooth is
-// as clear as water, with the pulp and what is to be removed in colour within; an exam shows none of that.
+// The picture of the work: tooth, diamond point and handpiece, lit by a lamp over the mouth, whose shadows show how far the head is from what it will
+// touch, and by the room. A soft dark ring says that it touches. In practice the tooth is as clear as water, with the pulp and what is to be removed
+// in colour within; an exam shows none of that. How much is done for a picture follows what the last ones took.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/base/pose.h"
 #include "engine/instrument/diamond_point.h"
 #include "scenarios/zones/zone_map.h"
 #include "ui/station/camera.h"
+#include "ui/station/effects.h"
 #include "ui/station/gpu.h"
+#include "ui/station/light.h"
 #include "ui/station/tooth_drawing.h"
 
 namespace cavum::station {
@@ -19,12 +24,15 @@ struct SceneView {
   Camera camera;
   Pose tool;              ///< tip as the tooth allows it
   int point = -1;         ///< of the tray; -1 = no instrument
-  bool cutting = false;   ///< for now drawn like a point at rest
-  bool handpiece = true;  ///< its head, half transparent
+  float spin_rad = 0;     ///< how far the running point has turned, as shown
+  bool handpiece = true;  ///< shown; it fades where one looks along it
   bool clear = false;     ///< practice: look through the tooth
   bool stereo = false;    ///< one picture for each eye, side by side
   bool high_contrast = false;
 };
+
+/// The running point turns as far as an eye can follow from one picture to the next.
+void turn_point(SceneView& view, double rpm, double frame_s);
 
 class Scene {
  public:
@@ -34,35 +42,70 @@ class Scene {
   [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
   /// Bodies seen through clear tissue, one over the other in this order, in the colours and opacities of their corners.
   void show_bodies(std::vector<GpuMesh> bodies);
-  /// A texture of this size with the picture; drawn again only when something differs. `samples` a pixel.
-  [[nodiscard]] unsigned picture(const SceneView& view, int width, int height, int samples);
+  /// A texture with the picture for this size; drawn again only when something differs.
+  [[nodiscard]] unsigned picture(const SceneView& view, int width, int height);
   /// Pictures drawn so far.
   [[nodiscard]] std::uint64_t drawn() const noexcept { return drawn_; }
+  /// What the last drawn picture took.
+  [[nodiscard]] const DrawCount& counted() const noexcept { return count_; }
+  [[nodiscard]] double last_ms() const noexcept { return last_ms_; }
+  /// Of `k_effects`: as the computer keeps up with, or as set.
+  [[nodiscard]] std::size_t effects_level() const noexcept { return fixed_level_.value_or(governor_.level()); }
+  void fix_effects(std::optional<std::size_t> level) { fixed_level_ = level; }
 
  private:
-  /// How one eye looks.
-  struct Lens {
-    glm::mat4 look, projection;
-    ToothDrawing::Sight sight;
+  /// Those of a level of effects.
+  struct Programs {
+    explicit Programs(const Effects& effects);
+    std::unique_ptr<ShaderProgram> tooth, touched_tooth, metal;
   };
-  void draw_eye(const SceneView& view, int eye, int x, int width, int height);
-  void draw_point(const SceneView& view);
+  /// What the shadow of the tooth alone depends on.
+  struct ShadowOf {
+    std::uint64_t version = 0;
+    float turn_deg = 0;
+    glm::vec3 target_mm{0};
+    friend bool operator==(const ShadowOf&, const ShadowOf&) = default;
+  };
+  void cast_shadows(const SceneView& view, const Effects& effects);
+  void draw_eye(const SceneView& view, int eye, int x, int width, int height, const Programs& programs);
+  void draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
   /// The target through hard tissue that is clear as glass.
-  void draw_clear_tissue(const SceneView& view, const Lens& lens);
-  void draw_bodies(const SceneView& view, const Lens& lens);
-  void draw_handpiece(const SceneView& view, const Lens& lens, float opacity);
-  void light(const ShaderProgram& program, const SceneView& view, const Lens& lens) const;
+  void draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
+  void draw_bodies(const SceneView& view, const ToothDrawing::Sight& sight);
+  void draw_metal(const GpuMesh& mesh, const ShaderProgram& metal, float opacity);
+  /// Where something is drawn, pixels: from x, y to x, y.
+  [[nodiscard]] glm::ivec4 rectangle_drawn(const SceneView& view, int width, int height) const;
+  void smooth_edges(const SceneView& view);
+  void light(const ShaderProgram& program, const SceneView& view, const ToothDrawing::Sight& sight) const;
+  [[nodiscard]] const Programs& programs(const Effects& effects);
+  [[nodiscard]] bool has_tool(const SceneView& view) const;
+  [[nodiscard]] static glm::mat4 tool_matrix(const SceneView& view);
+  [[nodiscard]] static glm::vec3 background_of(const SceneView& view);
+  /// Linear.
   [[nodiscard]] std::vector<glm::vec3> colours(bool high_contrast) const;
 
   ToothDrawing tooth_;
   std::vector<Tissue> tissues_;
-  std::vector<GpuMesh> points_, bodies_;
+  std::vector<GpuMesh> heads_, shanks_, bodies_;
+  std::vector<Table2D> distances_;  // of the points
   GpuMesh handpiece_, target_;
-  ShaderProgram tissue_program_, plain_program_;
-  RenderTarget target_picture_;
+  ShaderProgram depth_program_, plain_program_, glass_program_, smooth_program_;
+  std::map<std::pair<int, bool>, std::unique_ptr<Programs>> programs_;  // by taps and reflections
+  EffectGovernor governor_;
+  std::optional<std::size_t> fixed_level_;
+  Room room_;
+  Lamp lamp_;
+  DepthMap resting_shadow_, shadow_, no_shadow_;  // of the tooth alone; with the instrument; of nothing
+  ShadowOf resting_;
+  RenderTarget target_picture_, smoothed_;
+  WholePicture whole_picture_;
   SceneView shown_;
   std::uint64_t shown_version_ = 0;
-  int shown_samples_ = 0;
+  glm::ivec2 shown_size_{0};
+  std::size_t shown_level_ = 0;
+  unsigned shown_texture_ = 0;
+  DrawCount count_;
+  double last_ms_ = 0;
   std::uint64_t drawn_ = 0;
 };
 

@@ -19,7 +19,6 @@ struct ScreenContext {
   Scene* scene = nullptr;                  ///< null before there is a tooth
   ReplayPlayer* replay = nullptr;          ///< only on the replay's screen
   double frame_s = 0.0;                    ///< since the frame before
-  int samples = 1;                         ///< of a pixel of the tooth's picture
   bool practice = false;
 };
 

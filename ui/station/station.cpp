@@ -176,16 +176,7 @@ class Station {
   }
 
   void show(double frame_s) {
-    const ScreenContext context{theme_,
-                                state_,
-                                scenario_,
-                                shelf_,
-                                sitting_.get(),
-                                scene_.get(),
-                                replay_.get(),
-                                frame_s,
-                                window_.software() ? 1 : 4,
-                                options_.sitting.practice};
+    const ScreenContext context{theme_, state_, scenario_, shelf_, sitting_.get(), scene_.get(), replay_.get(), frame_s, options_.sitting.practice};
     switch (state_.screen) {
       case Screen::sign_in:
         return sign_in_screen(context);
@@ -361,6 +352,7 @@ class Station {
 
   void make_scene(const scenarios::ExamSetup& setup, bool practice) {
     scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.points, practice ? &setup.zones : nullptr);
+    scene_->fix_effects(options_.effects);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
     state_.view.camera.distance_mm = 36.0F;

@@ -2,6 +2,7 @@
 // thread shows and asks; the exam itself runs in the servo's and the recorder's threads, whatever becomes of the window.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "ui/station/sitting.h"
@@ -16,6 +17,7 @@ struct StationOptions {
   int width = 1280, height = 800;
   double text_scale = 1.0;
   bool left_handed = false, high_contrast = false;
+  std::optional<std::size_t> effects;  ///< of the picture, 0 (richest) to 5; else as the computer keeps up with
 };
 
 /// Opens the window and returns when it is closed: 0, or 1 when an exam is left open, which a line on standard error names. Throws Error when there

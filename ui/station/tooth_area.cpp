@@ -41,7 +41,7 @@ bool tooth_area(const ScreenContext& c, ImVec2 size) {
   if (!ImGui::GetIO().WantTextInput && !ImGui::GetIO().KeyCtrl) keys(s, c.frame_s, !mouse_is_stylus && !s.own_arrows);
   s.view.high_contrast = s.high_contrast;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const unsigned picture = c.scene->picture(s.view, static_cast<int>(size.x), static_cast<int>(size.y), c.samples);
+  const unsigned picture = c.scene->picture(s.view, static_cast<int>(size.x), static_cast<int>(size.y));
   // Dear ImGui takes the number of a texture as if it were an address
   // NOLINTNEXTLINE(performance-no-int-to-ptr)
   ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture)), size, {0, 1}, {1, 0});

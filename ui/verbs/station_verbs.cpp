@@ -131,6 +131,7 @@ void add_window(CLI::App* station, station::StationOptions& s) {
   station->add_flag("--left-handed", s.left_handed, "layout for the left hand; can be chosen at sign-in, too");
   station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
   station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(between(0.8, 1.8))->capture_default_str();
+  station->add_option("--effects", s.effects, "of the picture, 0 (richest) to 5; without it, as the computer keeps up with")->check(CLI::Range(0, 5));
   station->add_option("--width", s.width, "of the window, pixels")->check(CLI::Range(640, 7680))->capture_default_str();
   station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
 }

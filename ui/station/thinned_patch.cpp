@@ -1,0 +1,127 @@
+#include "ui/station/thinned_patch.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/base/error.h"
+
+namespace cavum::station {
+namespace {
+
+constexpr std::int64_t k_in_leaf = 4096;  // steps of a leaf: whole numbers add up alike in any order
+constexpr std::uint16_t k_new_cell = 0xffff;
+
+/// What became one vertex.
+struct Joined {
+  std::array<std::int64_t, 3> at{}, normal{};
+  std::int64_t count = 0;
+  std::uint8_t tissue = 0, beside = 0;
+  bool whole = false;  // one vertex, as it was
+  PatchVertex kept;
+};
+
+/// A vertex as seen from its patch.
+struct Seen {
+  std::array<std::int64_t, 3> at{};  // of the tooth, in steps
+  std::array<int, 3> side{};         // -1, 1 on the patch's border, else 0
+  std::array<int, 3> cell{};
+};
+
+Seen seen(const PatchVertex& v, const PatchPlace& place, int cell_leaves) {
+  // a vertex beside the border is a hundredth of a leaf away from it at least
+  constexpr std::int64_t k_on_border = k_in_leaf / 512;
+  constexpr std::int64_t k_patch = SurfacePatches::k_edge * k_in_leaf;
+  const std::array<double, 3> origin{place.origin_mm.x, place.origin_mm.y, place.origin_mm.z};
+  const std::array<int, 3> number{place.number.x, place.number.y, place.number.z};
+  const int cells = SurfacePatches::k_edge / cell_leaves;
+  Seen s;
+  for (std::size_t i = 0; i < 3; ++i) {
+    s.at[i] = std::llround((static_cast<double>(v.position_mm[i]) - origin[i]) / place.leaf_mm * static_cast<double>(k_in_leaf));
+    const std::int64_t in_patch = s.at[i] - (number[i] * k_patch - k_in_leaf / 2);  // its first point is the middle of a leaf
+    s.side[i] = in_patch < k_on_border ? -1 : in_patch > k_patch - k_on_border ? 1 : 0;
+    const auto inner = std::clamp<std::int64_t>(in_patch / (cell_leaves * k_in_leaf), 0, cells - 1);
+    s.cell[i] = s.side[i] == 0 ? static_cast<int>(inner) : s.side[i] < 0 ? cells : cells + 1;
+  }
+  return s;
+}
+
+/// Some patch that shares the vertex stays as it is.
+bool at_whole_patch(const Seen& s, std::uint32_t whole) {
+  if (whole == 0) return false;
+  for (int z = 0; z <= std::abs(s.side[2]); ++z)
+    for (int y = 0; y <= std::abs(s.side[1]); ++y)
+      for (int x = 0; x <= std::abs(s.side[0]); ++x)
+        if ((whole & PatchPlace::beside(x * s.side[0], y * s.side[1], z * s.side[2])) != 0) return true;
+  return false;
+}
+
+/// Which way it faces, 0..5: the two walls of a fissure stay apart.
+int facing(const PatchVertex& v) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(v.normal[static_cast<std::size_t>(i)]) > std::abs(v.normal[static_cast<std::size_t>(axis)])) axis = i;
+  return 2 * axis + (v.normal[static_cast<std::size_t>(axis)] < 0 ? 1 : 0);
+}
+
+PatchVertex vertex_of(const Joined& j, const PatchPlace& place) {
+  if (j.whole) return j.kept;
+  const std::array<double, 3> origin{place.origin_mm.x, place.origin_mm.y, place.origin_mm.z};
+  PatchVertex v;
+  v.tissue = j.tissue;
+  v.beside = j.beside;
+  double squared = 0;
+  for (const std::int64_t n : j.normal) squared += static_cast<double>(n) * static_cast<double>(n);
+  const double size = std::max(1.0, std::sqrt(squared));
+  for (std::size_t i = 0; i < 3; ++i) {
+    v.position_mm[i] = static_cast<float>(origin[i] + static_cast<double>(j.at[i]) / static_cast<double>(j.count * k_in_leaf) * place.leaf_mm);
+    v.normal[i] = static_cast<std::int16_t>(std::lround(32767.0 * static_cast<double>(j.normal[i]) / size));
+  }
+  return v;
+}
+
+}  // namespace
+
+SurfacePatch thinned(const SurfacePatch& patch, const PatchPlace& place, int cell_leaves) {
+  if (cell_leaves < 1 || SurfacePatches::k_edge % cell_leaves != 0)
+    throw Error("thinned patch", fmt::format("cells of {} leaves do not fit a patch", cell_leaves), "take 1, 2, 4, 8 or 16");
+  const int along = SurfacePatches::k_edge / cell_leaves + 2;
+  std::vector<std::uint16_t> of_cell(static_cast<std::size_t>(6 * along * along * along), k_new_cell), of_vertex;
+  std::vector<Joined> joined;
+  of_vertex.reserve(patch.vertices.size());
+  for (const PatchVertex& v : patch.vertices) {
+    const Seen s = seen(v, place, cell_leaves);
+    if (at_whole_patch(s, place.whole)) {
+      of_vertex.push_back(static_cast<std::uint16_t>(joined.size()));
+      joined.emplace_back();
+      joined.back().whole = true;
+      joined.back().kept = v;
+      continue;
+    }
+    auto& number = of_cell[static_cast<std::size_t>(facing(v) + 6 * (s.cell[0] + along * (s.cell[1] + along * s.cell[2])))];
+    if (number == k_new_cell) {
+      number = static_cast<std::uint16_t>(joined.size());
+      joined.emplace_back();
+      joined.back().tissue = v.tissue;
+      joined.back().beside = v.beside;
+    }
+    of_vertex.push_back(number);
+    Joined& j = joined[number];
+    ++j.count;
+    for (std::size_t i = 0; i < 3; ++i) {
+      j.at[i] += s.at[i];
+      j.normal[i] += v.normal[i];
+    }
+  }
+  SurfacePatch made;
+  for (const Joined& j : joined) made.vertices.push_back(vertex_of(j, place));
+  for (const auto& t : patch.triangles) {
+    const std::array<std::uint16_t, 3> n{of_vertex[t[0]], of_vertex[t[1]], of_vertex[t[2]]};
+    if (n[0] != n[1] && n[1] != n[2] && n[2] != n[0]) made.triangles.push_back(n);
+  }
+  return made;
+}
+
+}  // namespace cavum::station
